@@ -99,7 +99,7 @@ struct Snapshot {
   std::vector<Vec3f> previous;               ///< X_prev of the last detection
   std::vector<float> bounds;                 ///< b_v of the last detection
   float query_radius = 0;                    ///< r_q of the last detection
-  /// of lists that grow, in the contestant's own order: no position depends on them, but which step is repeated does
+  /// of lists that grow, in the contestant's own order: they decide which step is repeated, and no position
   std::vector<std::int64_t> capacities{};
   /// of a solver whose state is in double: what positions and velocities are rounded from; else none
   std::vector<Vec3> exact_positions{}, exact_velocities{};

@@ -27,10 +27,12 @@
 #include <stdint.h>
 
 /* Of this interface. A library built for a newer one is refused by name; so is one that is older than the oldest whose
- * structures have this layout. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`; 5 and
- * 6 have no half-spaces in truncate and no ogc_plane.) */
+ * structures have this layout, and one with a stage of scenes (rest_state, sweep, step) that is older than the oldest
+ * whose scenes have it. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`. 7 has solids,
+ * ogc_plane, and half-spaces in ogc_truncate_in.) */
 #define OGC_PLUGIN_VERSION 7
 #define OGC_PLUGIN_OLDEST_VERSION 5
+#define OGC_PLUGIN_OLDEST_SCENE_VERSION 7
 
 #define OGC_HOST_MEMORY 0
 #define OGC_DEVICE_MEMORY 1
@@ -144,6 +146,7 @@ typedef struct ogc_detect_in {
   const ogc_vec3* positions;   /* [vertex_count] */
   float contact_radius;        /* r */
   float query_radius;          /* r_q >= r */
+  const uint8_t* inside_solid; /* [vertex_count] 1: inside a solid, takes no part; since version 7 */
 } ogc_detect_in;
 
 typedef struct ogc_vertex_facet_contact {
@@ -185,11 +188,12 @@ typedef struct ogc_bound_in {
   ogc_topology topology;
   const float *d_min_vertex, *d_min_edge, *d_min_triangle; /* [vertex_count], [edge_count], [triangle_count] */
   float bound_relaxation;                                  /* gamma_p */
+  const uint8_t* inside_solid;                             /* [vertex_count] as in ogc_detect_in */
 } ogc_bound_in;
 
 typedef struct ogc_bound_out {
   float* bound; /* [vertex_count] never above gamma_p times the smallest distance of the vertex, its edges and its
-                   triangles */
+                   triangles; of a vertex inside a solid, which nothing bounds, the largest finite number */
 } ogc_bound_out;
 
 OGC_PLUGIN_EXPORT int ogc_bound(const ogc_bound_in* in, ogc_bound_out* out);
@@ -204,6 +208,7 @@ typedef struct ogc_plane_in {
   const uint8_t* is_fixed;     /* [vertex_count] 1: never moves, and bears no plane */
   float query_radius;          /* r_q */
   float bound_relaxation;      /* gamma_p */
+  const uint8_t* inside_solid; /* [vertex_count] as in ogc_detect_in */
 } ogc_plane_in;
 
 /* Values of `kind` of a pair: `first` is a vertex and `second` a triangle, or both are edges, first < second. */
@@ -280,7 +285,7 @@ typedef struct ogc_truncate_out {
 
 OGC_PLUGIN_EXPORT int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out);
 
-/* ---- membrane, bending, …: force and block of one vertex of one stencil ------------------------------------------ */
+/* ---- membrane, bending, tetrahedron, …: force and block of one vertex of one stencil ----------------------------- */
 
 enum { OGC_MEMBRANE_NONE, OGC_ST_VENANT_KIRCHHOFF, OGC_STABLE_NEO_HOOKEAN };
 enum { OGC_BENDING_NONE, OGC_DISCRETE_HINGE, OGC_ISOMETRIC_QUADRATIC };
@@ -326,6 +331,21 @@ typedef struct ogc_spring_in {
   const ogc_spring_case* cases; /* [n] */
 } ogc_spring_in;
 
+typedef struct ogc_tetrahedron_case {
+  ogc_vec3 corner[4], start[4]; /* asked about corner 0; at rest det(x1 - x0, x2 - x0, x3 - x0) > 0 */
+  float weight[3];              /* V grad N_k . grad N_0 of corners 1, 2, 3 */
+  float inverse;                /* 1 / (6 V) */
+  float gradient[3][3];         /* of N_1, N_2, N_3; that of N_0 is minus their sum; of the damping */
+  float volume;                 /* V of the damping */
+  float lame_lambda, lame_mu, damping;
+  int64_t damping_form;
+} ogc_tetrahedron_case;
+
+typedef struct ogc_tetrahedron_in {
+  int64_t n;
+  const ogc_tetrahedron_case* cases; /* [n] */
+} ogc_tetrahedron_in;
+
 typedef struct ogc_force_out {
   ogc_vec3* force;   /* [n] minus the energy's derivative */
   float (*block)[6]; /* [n] xx, xy, xz, yy, yz, zz */
@@ -334,6 +354,8 @@ typedef struct ogc_force_out {
 OGC_PLUGIN_EXPORT int ogc_membrane(const ogc_membrane_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_bending(const ogc_bending_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_spring(const ogc_spring_in* in, ogc_force_out* out);
+/* A library that has it is asked about scenes with solids, too. */
+OGC_PLUGIN_EXPORT int ogc_tetrahedron(const ogc_tetrahedron_in* in, ogc_force_out* out);
 
 /* The faces that meet in a contact, and their vertices: first side | second side. */
 enum {
@@ -425,13 +447,15 @@ typedef struct ogc_hinge {
   int32_t edge, triangles[2], opposite[2];
 } ogc_hinge;
 
-/* A range of vertices and triangles with one material. */
+/* A range of vertices, triangles and tetrahedra with one material. The triangles of a body with tetrahedra are their
+ * boundary: they meet other surfaces, but have neither mass nor energies of their own. */
 typedef struct ogc_body {
-  int32_t first_vertex, vertex_count, first_triangle, triangle_count;
+  int32_t first_vertex, vertex_count, first_triangle, triangle_count, first_tetrahedron, tetrahedron_count;
   int32_t fixed;             /* 1: never moves, has no energies */
   int32_t membrane, bending; /* OGC_MEMBRANE_NONE, …, OGC_BENDING_NONE, … */
   float density, lame_lambda, lame_mu, membrane_damping, bending_stiffness, bending_damping, contact_stiffness,
       friction;
+  float solid_density, solid_lambda, solid_mu, solid_damping; /* of the volume */
 } ogc_body;
 
 typedef struct ogc_scene_spring {
@@ -449,24 +473,27 @@ typedef struct ogc_settings {
 
 typedef struct ogc_scene {
   ogc_topology topology;
-  int32_t hinge_count, body_count, spring_count;
+  int32_t hinge_count, body_count, spring_count, tetrahedron_count;
   const ogc_hinge* hinges;         /* [hinge_count] */
-  const ogc_body* bodies;          /* [body_count] cover all vertices and triangles, in order */
+  const ogc_body* bodies;          /* [body_count] cover all vertices, triangles and tetrahedra, in order */
   const ogc_scene_spring* springs; /* [spring_count] */
   const ogc_vec3* rest_positions;  /* [vertex_count] */
   const int32_t* rigid_groups;     /* [vertex_count] -1: free; 0: fixed; k >= 1: prescribed, by the k-th motion */
   ogc_rows excluded_partners;      /* as in ogc_detect_in */
+  const int32_t (*tetrahedra)[4];  /* [tetrahedron_count] of positive volume at rest */
+  const uint8_t* inside_solid;     /* [vertex_count] as in ogc_detect_in */
   ogc_settings settings;
   ogc_vec3 gravity;
+  const void* reserved[8]; /* null: for rods, volumes and pairs of bodies */
 } ogc_scene;
 
 /* ---- rest_state: what is computed once of the rest shape --------------------------------------------------------- */
 
 /* The rest state as sweep reads it; lists in the order of the topology, without fixed bodies and without models `none`.
- */
+ * The triangles of solids are not in it, and their tetrahedra are in the order of the scene's. */
 typedef struct ogc_rest {
   const float* mass; /* [vertex_count] */
-  int32_t triangle_count, hinge_count;
+  int32_t triangle_count, hinge_count, tetrahedron_count;
   const int32_t (*corner)[3];                /* [triangle_count] */
   const int32_t* triangle_body;              /* [triangle_count] */
   const float* area;                         /* [triangle_count] */
@@ -477,13 +504,19 @@ typedef struct ogc_rest {
   const float (*weight)[3];                  /* [hinge_count] isometric quadratic: of x1, o0, o1; otherwise 0 */
   const float* edge_length_squared;          /* [edge_count] */
   const float *meeting_stiffness,
-      *meeting_friction; /* [body_count * body_count] of bodies a and b at a * body_count + b */
+      *meeting_friction;            /* [body_count * body_count] of bodies a and b at a * body_count + b */
+  const int32_t (*solid_corner)[4]; /* [tetrahedron_count] */
+  const int32_t* solid_body;        /* [tetrahedron_count] */
+  const float *volume, *inverse;    /* [tetrahedron_count] V and 1 / (6 V) */
+  const float (*solid_weight)[6];   /* [tetrahedron_count] V grad N_k . grad N_l of the pairs 01, 02, 03, 12, 13, 23 */
+  const float (*solid_gradient)[3][3]; /* [tetrahedron_count] of N_1, N_2, N_3 */
+  const void* reserved[8];             /* null */
 } ogc_rest;
 
 /* Likewise, to be written. A list has room for its capacity; set its count, as with contacts. */
 typedef struct ogc_rest_state_out {
   float* mass;
-  int64_t triangle_capacity, triangle_count, hinge_capacity, hinge_count;
+  int64_t triangle_capacity, triangle_count, hinge_capacity, hinge_count, tetrahedron_capacity, tetrahedron_count;
   int32_t (*corner)[3];
   int32_t* triangle_body;
   float* area;
@@ -494,6 +527,12 @@ typedef struct ogc_rest_state_out {
   float (*weight)[3];
   float* edge_length_squared;
   float *meeting_stiffness, *meeting_friction;
+  int32_t (*solid_corner)[4];
+  int32_t* solid_body;
+  float *volume, *inverse;
+  float (*solid_weight)[6];
+  float (*solid_gradient)[3][3];
+  void* reserved[8]; /* null */
 } ogc_rest_state_out;
 
 OGC_PLUGIN_EXPORT int ogc_rest_state(const ogc_scene* in, ogc_rest_state_out* out);

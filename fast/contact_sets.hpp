@@ -1,6 +1,6 @@
-// Contact sets, smallest distances and conservative bounds for somebody else's solver: give positions, get everything
-// that Offset Geometric Contact needs for one step. Lists grow by themselves; no contact is ever dropped; the same
-// positions give the same bits.
+// Contact sets, smallest distances and conservative bounds for a solver outside of this project: it gives positions and
+// gets everything that Offset Geometric Contact needs for one step. Lists grow by themselves; no contact is ever
+// dropped; the same positions give the same bits.
 //
 //   ogc::fast::ContactFinder finder(vertex_count, triangles, loose_edges);
 //   const ogc::fast::ContactSets sets = finder.find(positions, {.contact_radius = 0.005f, .query_radius = 0.01f});
@@ -39,7 +39,9 @@ struct ContactSets {
 class ContactEngine {
  public:
   virtual ~ContactEngine() = default;
+  /// As ContactFinder::find, of checked input.
   virtual ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) = 0;
+  /// As ContactFinder::find_resident, of a checked query.
   virtual ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) = 0;
 };
 

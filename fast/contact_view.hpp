@@ -7,16 +7,17 @@ namespace ogc::fast {
 
 /// (v, a): corner[1] = corner[2] = -1 where a is a vertex, corner[2] = -1 where it is an edge.
 struct alignas(16) VertexFacetRecord {
-  int vertex;
-  int corner[3];
+  int vertex;     ///< v
+  int corner[3];  ///< vertices of a, those of a triangle in the order of the mesh
 };
 
 /// {p, q}: first[1] = -1 where p is a vertex, likewise second. `first_edge`, `second_edge`: see
 /// compare/stages/detect_edge_edge.hpp; where both are interiors they are p and q themselves (rest lengths for the
 /// mollifier).
 struct alignas(8) EdgeEdgeRecord {
-  int first[2];
-  int second[2];
+  int first[2];   ///< vertices of p, those of an edge smaller first
+  int second[2];  ///< vertices of q, likewise
+  /// the edges that generate the contact: one that is p or ends at p, one that is q or ends at q
   int first_edge, second_edge;
 };
 
@@ -29,14 +30,15 @@ struct Incidence {
 
 /// Records stand in canonical order (compare/stages), so numbers and sums do not depend on the order of atomics.
 struct ContactView {
+  /// All on the backend. After a detection that overflowed nothing here is of use.
   const VertexFacetRecord* vertex_facet = nullptr;
   const EdgeEdgeRecord* edge_edge = nullptr;
-  const int* vertex_facet_count = nullptr;  ///< on the device
-  const int* edge_edge_count = nullptr;
-  const int* incidence_offsets = nullptr;  ///< vertex_count + 1
-  const Incidence* incidences = nullptr;
-  const float* bound = nullptr;         ///< b_v, Eq. 21 [m]
-  const float* d_min_vertex = nullptr;  ///< [m]
+  const int* vertex_facet_count = nullptr;  ///< of the records; the host does not know it
+  const int* edge_edge_count = nullptr;     ///< likewise
+  const int* incidence_offsets = nullptr;   ///< vertex_count + 1
+  const Incidence* incidences = nullptr;    ///< row of vertex v: from incidence_offsets[v]
+  const float* bound = nullptr;             ///< b_v, Eq. 21 [m]
+  const float* d_min_vertex = nullptr;  ///< Eq. 22 by vertex [m], at most r_q; with planes of all pairs of the vertex
 };
 
 }  // namespace ogc::fast

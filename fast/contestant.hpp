@@ -8,10 +8,11 @@
 
 namespace ogc::fast {
 
+/// What computes: the host's threads, or one CUDA device.
 enum class Backend { cpu, cuda };
 
-/// How the launches on a device are cut. No answer depends on it, which tests of determinism try out: with it one
-/// device launches as another would.
+/// How launches are divided into blocks. No answer depends on it; tests of determinism let one device launch as another
+/// would.
 struct LaunchShape {
   int block_threads = 128;  ///< of launches that are one thread an item, or searches of a warp: 32, 64, 96 or 128
   int multiprocessors = 0;  ///< that a launch reckons with; 0: those of the device
@@ -23,24 +24,26 @@ compare::Contestant contestant(Backend backend, const LaunchShape& shape = {});
 
 /// Whether the program was built with the backend, and whether it can run here; the reason where it can't.
 struct BackendInfo {
-  bool built = false, usable = false;
-  std::string description;  ///< "2 threads", "NVIDIA H200, CUDA 13.0", or why not
+  bool built = false, usable = false;  ///< compiled in; and found on this machine
+  std::string description;             ///< "2 threads", "NVIDIA H200, CUDA 13.0", or why not
 };
+/// Of this program on this machine.
 BackendInfo backend_info(Backend backend);
 
-/// What one iteration of the sweep has to do on a scene, whatever the machine: operations counted in the kernels'
-/// source, bytes if each array is moved once (fast/work.cpp says how both are counted).
+/// The work of one iteration of the sweep on any machine: operations counted in the kernels' source, bytes if each
+/// array is moved once (fast/work.cpp says how).
 struct SweepWork {
   int vertices = 0, colours = 0;  ///< free vertices
   double flop = 0, bytes = 0;     ///< without contacts
   /// of a contact more, all of whose vertices are free
   double flop_vertex_facet = 0, flop_edge_edge = 0, bytes_contact = 0;
 };
+/// Of a scene at rest.
 SweepWork sweep_work(const compare::Scene& scene);
 
-/// What the searches of one detection have to do at a state, counted by carrying them out on the host, one after the
-/// other, with the functors of both backends. A device that shares them out finds some distances later, so its searches
-/// open a few nodes more. Refit, lists and bounds are not in it.
+/// The work of the searches of one detection, counted while the host carries them out one after the other with the
+/// functors of both backends. Parallel searches learn some distances later and open a few nodes more. Refit, lists and
+/// bounds are not counted.
 struct SearchWork {
   double nodes = 0;       ///< of four boxes, opened
   double candidates = 0;  ///< primitives that searches were offered

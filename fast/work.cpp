@@ -1,8 +1,8 @@
 // The work of an iteration, counted from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path
-// of default models counts one, comparisons, negations and the additions that join lanes count none; of branches the
-// longest that generic input takes. Bytes: the sizes of the very structs that are read, each once an iteration, however
-// often a cache serves them: what no order of work can avoid. Searches of the trees depend on the state: there nodes,
-// candidates and distances are counted while a detection runs.
+// of default models counts one, comparisons, negations and the additions that join team lanes count none; of branches
+// the longest that generic input takes. Bytes: the sizes of the very structs that are read, each once an iteration,
+// however often a cache serves them: what no order of work can avoid. Searches of the trees depend on the state: there
+// nodes, candidates and distances are counted while a detection runs.
 #include "fast/contestant.hpp"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 #include "fast/cpu/backend.hpp"
 #include "fast/kernels/sweep.hpp"
+#include "fast/probes/contact_engine.hpp"
 #include "fast/stages/colouring.hpp"
-#include "fast/stages/contact_engine.hpp"
 #include "fast/stages/rest_state.hpp"
 
 namespace ogc::fast {
@@ -20,11 +20,11 @@ namespace {
 
 // Parts that recur: a difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3, add_outer 15.
 
-/// fast/kernels/membrane.hpp: differences 6, F 18, ∇N_a 2, G 20, S 10, its rate 3 + 10, pulls 14, force 9 + 6, F∇N_a 9,
-/// weights 7, blocks 17 + 30, geometric 9 + 4.
+/// fast/kernels/models/st_venant_kirchhoff.hpp: differences 6, F 18, ∇N_a 2, G 20, S 10, its rate 3 + 10, pulls 14,
+/// force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
 constexpr double membrane_flop = 174;
-/// fast/kernels/bending.hpp: differences 9, normals 18, squares 25, their limits 4, length 1, projections 12, angle's
-/// arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block 17.
+/// fast/kernels/models/discrete_hinge.hpp: differences 9, normals 18, squares 25, their limits 4, length 1, projections
+/// 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block 17.
 constexpr double hinge_flop = 141;
 /// fast/kernels/contact_force.hpp and friction_force.hpp, what every kind does: separation 24, normal and distance 10,
 /// activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11, force 7, blocks 22.
@@ -37,10 +37,10 @@ constexpr double on_segments_flop = 70;
 /// inertia 12, its inverse 1, solve 28, new position 3, truncation that is not needed 10.
 constexpr double vertex_flop = 54;
 
-/// Vertices of a contact of each sort, where its points lie inside: each updates itself from it.
+/// Vertices of a contact of each kind, where its points lie inside: each updates itself from it.
 constexpr double contact_vertices = 4;
 
-/// squared_gaps of four lanes: six differences, three products and two sums each.
+/// squared_gaps of four children: six differences, three products and two sums each.
 constexpr double node_flop = 44;
 /// separation of two edges 96 in single precision; their distance: differences 9, normal 9, squares 16, size 8, limits
 /// 3, dots 15, feet 6, from four ends 95; what is_pair and meet add 6.
@@ -49,8 +49,8 @@ constexpr double edge_distance_flop = 96 + 161 + 6;
 /// 69, from three edges 67; 6 more.
 constexpr double facet_distance_flop = 158 + 192 + 6;
 /// Ends of a candidate edge, and its two positions where the distance is taken; likewise of a facet.
-constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(Place);
-constexpr double facet_bytes = sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(Place);
+constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(PaddedVec);
+constexpr double facet_bytes = sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(PaddedVec);
 
 struct SearchCount {
   std::int64_t nodes = 0, candidates = 0, distances = 0;
@@ -123,9 +123,9 @@ SweepWork sweep_work(const compare::Scene& scene) {
   work.colours = colour_vertices(rest).count;
   const double vertices = work.vertices;
   work.flop = vertices * vertex_flop + triangles * membrane_flop + hinges * hinge_flop;
-  // x as a place, y, X_prev, b_v read; x written as a place, and tight.
-  work.bytes = vertices *
-                   (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(Place) + 3 * sizeof(Vec) + sizeof(float)) +
+  // x padded, y, X_prev, b_v read; x written padded, and tight.
+  work.bytes = vertices * (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(PaddedVec) + 3 * sizeof(Vec) +
+                           sizeof(float)) +
                triangles * sizeof(MembraneIncidence) + hinges * sizeof(HingeIncidence);
   if (damped)
     work.bytes += static_cast<double>(rest.triangles.size() * sizeof(Symmetric2) + rest.hinges.size() * sizeof(float));

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every document that the repository cites is in it, with the section that is cited.
+"""Every document that the repository cites is in it, with the section that is cited; so is every source file.
 
     tests/citations.py SOURCE_DIR     one line for each citation that leads nowhere; exit status 1 where there is any
     tests/citations.py --self-test    only whether planted citations are found
@@ -12,6 +12,9 @@ cites it, then from the root, then, if one document alone has it, anywhere.
 A section is the number of a heading ("## 4. Energies", "### 4.2 Contact"), or of a row of a table that begins with it
 ("| §5.1.3 | ..."), as the rows of deviations.md do. A title is a heading, or words in bold at the start of a paragraph;
 its beginning is enough.
+
+A source file is cited by its path from the root, in documents and in sources; one named in capitals stands for many
+(compare/stages/STAGE.hpp).
 """
 
 import re
@@ -25,6 +28,9 @@ HISTORY = {"CHANGELOG.md"}  # says what was
 WRITTEN = {"counts.md": "the part judge of paper_figures.workflow.runner",
            "table1_paper.md": "python3 -m paper_figures.figures.table1"}
 SKIPPED = {".png", ".gif", ".mp4", ".gz", ".csv", ".h5", ".json", ".obj", ".ply", ".pdf", ".npz"}
+
+CITING = (".md", ".h", ".hpp", ".cpp", ".cu", ".cuh")  # where source files are cited
+SOURCE_FILE = re.compile(r"(?<![\w/.-])(([a-z_]+)/(?:\w+/)*(\w+)\.(?:hpp|cpp|cuh?|py))\b")
 
 COMMENT = re.compile(r"\n[ \t]*(?://[/<!]*|#+(?![#\w])|\*(?!\*))?[ \t]*")  # a citation may go on in the next line
 NAME = r"(?<![\w/.$-])((?:\.{1,2}/)*(?:[\w-]+/)*[\w-]+\.md)\b(?!\.)"
@@ -62,11 +68,21 @@ class House:
         if name.endswith(".md"):
             found += self.of_links(name, text)
             text = LINK.sub(lambda link: self.as_citation(name, link[1]), text)
+        if name.endswith(CITING):
+            found += self.of_source_files(name, text)
         flat, starts = self.flattened(text)
         for match in CITATION.finditer(flat):
             fault = self.fault(name, match[1], match[2])
             if fault:
                 found.append(f"{name}:{self.line(starts, match.start())}: {fault}")
+        return found
+
+    def of_source_files(self, name, text):
+        found = []
+        for match in SOURCE_FILE.finditer(text):
+            is_ours = any(file.startswith(match[2] + "/") for file in self.files)
+            if is_ours and not match[3].isupper() and match[1] not in self.files:
+                found.append(f"{name}:{text.count(chr(10), 0, match.start()) + 1}: there is no file {match[1]}")
         return found
 
     def as_citation(self, name, target):
@@ -190,6 +206,9 @@ PLANTED = (
     ("fast/kernels/a.hpp", "// Of a contact\n// (method.md §9).\n", 2, "compare/method.md has no section 9"),
     ("fast/kernels/a.hpp", "// The rule of method.md\n// §4.3.\n", 1, "compare/method.md has no section 4.3"),
     ("fast/kernels/a.hpp", "// (method.md §4, §6)\n", 1, "compare/method.md has no section 6"),
+    ("fast/kernels/a.hpp", "// As in fast/kernels/a.hpp,\n// and fast/kernels/b.hpp.\n", 2,
+     "there is no file fast/kernels/b.hpp"),
+    ("README.md", "Each fast/NAME.hpp, other/c.cpp and `fast/a.cpp`.\n", 1, "there is no file fast/a.cpp"),
     ("fast/a.py", "# method.md, 7. And so on.\n", 1, "compare/method.md has no section 7"),
     ("fast/a.py", '# method.md, "Forces".\n', 1, 'compare/method.md has no section "Forces"'),
     ("fast/a.py", "x = 'see nothing.md'\n", 1, "there is no document nothing.md"),

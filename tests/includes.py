@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the shape of the house: who includes whom, no cycles, no folders that include each other, short files, no
-paths of a machine.
+"""Checks the shape of the house: who includes whom, no cycles, no folders that include each other, short files, small
+folders, no paths of a machine.
 
 The tables below are the include rules of CONTRIBUTING.md; a room is named by its folder, the longest that fits. Usage:
 
@@ -12,11 +12,15 @@ The tables below are the include rules of CONTRIBUTING.md; a room is named by it
 import re
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 SOURCE_SUFFIXES = {".hpp", ".h", ".cpp", ".cu", ".cuh"}
 LINE_LIMITED_SUFFIXES = SOURCE_SUFFIXES | {".py", ".sh", ".cmake", ".txt"}
 LONGEST_FILE = 800
+LARGEST_FOLDER = 40
+# Folders that may be larger: what a figure's runs left is read by programs, by name.
+DATA = ("paper_figures/results",)
 
 PROBLEM = ("compare/problem/", "compare/stages/")
 FILES = PROBLEM + ("compare/files/", "compare/record/")
@@ -59,7 +63,7 @@ FOREIGN = {
     "immintrin.h": ("reference", "fast/cpu"),
     "emmintrin.h": ("fast/cpu",),
     "suitesparse/": ("reference",),
-    "assimp/": ("compare/files/assimp_mesh.cpp",),
+    "assimp/": ("compare/files/meshes/assimp_mesh.cpp",),
     "nlohmann/": ("compare/files", "compare/record", "compare/judge", "experiments"),
     "hdf5": ("compare/files", "compare/record"),
     "H5": ("compare/files", "compare/record"),
@@ -114,8 +118,10 @@ class House:
         self.root = Path(root)
         self.findings = []
         self.includes = {}  # file -> [(line number, included file)], project includes that exist
-        for path in sorted(self.files()):
+        files = sorted(self.files())
+        for path in files:
             self.read(path)
+        self.check_folder_sizes(files)
         self.check_cycles()
         self.check_folder_pairs()
 
@@ -174,6 +180,12 @@ class House:
             self.report(file, number, f"<{included}> is neither standard nor in the table of tests/includes.py")
         elif not any(below(file, allowed) for allowed in FOREIGN[header]):
             self.report(file, number, f"<{included}> is allowed only in {', '.join(FOREIGN[header]) or 'tests'}")
+
+    def check_folder_sizes(self, files):
+        names = (folder(path.relative_to(self.root).as_posix()) for path in files)
+        for name, count in sorted(Counter(names).items()):
+            if count > LARGEST_FOLDER and not below(name, *DATA):
+                self.report(name, 1, f"has {count} files; group them in folders, {LARGEST_FOLDER} is the limit")
 
     def check_cycles(self):
         """Depth first; an edge to a file that is still open closes a cycle."""
@@ -244,6 +256,8 @@ SOUND = {
                            '"reference/contestant.hpp"\n',
     "experiments/program/commands/contacts.cpp": '#include "fast/contact_sets.hpp"\n',
     "tests/fast/all.cpp": '#include <catch2/catch.hpp>\n#include "fast/contact_sets.hpp"\n',
+    **{f"paper_figures/results/twist/{i}.csv": "" for i in range(LARGEST_FOLDER + 1)},
+    **{f"reference/energies/{i}.hpp": "" for i in range(LARGEST_FOLDER)},
     "README.md": "See https://example.org/work/page and ../work/notes.\n",
 }
 
@@ -279,7 +293,7 @@ PLANTED = {
                      "fast/x.cpp:1"),
     "assimp outside of its file": (
         {"compare/files/x.cpp": "#include <assimp/scene.h>\n"},
-        "is allowed only in compare/files/assimp_mesh.cpp", "compare/files/x.cpp:1",
+        "is allowed only in compare/files/meshes/assimp_mesh.cpp", "compare/files/x.cpp:1",
     ),
     "JSON in problem": ({"compare/problem/x.cpp": "#  include <nlohmann/json.hpp>\n"}, "is allowed only in",
                         "compare/problem/x.cpp:1"),
@@ -317,6 +331,7 @@ PLANTED = {
         "compare/stages/x.hpp:1",
     ),
     "a long file": ({"fast/x.cpp": "\n" * (LONGEST_FILE + 1)}, "has 801 lines", "fast/x.cpp:801"),
+    "a large folder": ({f"plots/{i}.py": "" for i in range(LARGEST_FOLDER + 1)}, "has 41 files; group them", "plots:1"),
     "a path of a machine": ({"README.md": "first\nrun /" + "home/me/ogc\n"}, "absolute path of a machine",
                             "README.md:2"),
     "a path in a script": ({".ci/run": "cd '/" + "root/ogc'\n"}, "absolute path of a machine", ".ci/run:1"),

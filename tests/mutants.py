@@ -33,7 +33,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-NOT_MATHEMATICS = {"fast/kernels/qualifiers.hpp", "fast/kernels/atomic.hpp"}
+NOT_MATHEMATICS = {"fast/kernels/arithmetic/qualifiers.hpp", "fast/kernels/arithmetic/atomic.hpp"}
 
 
 def files(*patterns):
@@ -42,12 +42,13 @@ def files(*patterns):
 
 # Of each set: the files that are rewritten, and what is compiled over them.
 SETS = {
-    "kernels": ([name for name in files("fast/kernels/*.hpp") if name not in NOT_MATHEMATICS],
-                ["fast/stages/rest_state.cpp", *files("tests/fast/kernels/*.cpp"), "tests/fast/stages/detection.cpp",
+    "kernels": ([name for name in files("fast/kernels/**/*.hpp") if name not in NOT_MATHEMATICS],
+                ["fast/stages/rest_state.cpp", *files("tests/fast/kernels/**/*.cpp"), "tests/fast/stages/detection.cpp",
                  "tests/fast/stages/skin.cpp"]),
-    "stages": (files("fast/stages/*.?pp", "fast/cpu/*.?pp"),
-               files("fast/stages/*.cpp", "fast/cpu/*.cpp", "fast/*.cpp", "tests/fast/stages/*.cpp",
-                     "tests/fast/cpu/*.cpp", "tests/fast/*.cpp")),
+    "stages": (files("fast/stages/*.?pp", "fast/probes/*.?pp", "fast/cpu/*.?pp"),
+               files("fast/stages/*.cpp", "fast/probes/*.cpp", "fast/cpu/*.cpp", "fast/*.cpp",
+                     "tests/fast/stages/*.cpp", "tests/fast/probes/*.cpp", "tests/fast/cpu/*.cpp",
+                     "tests/fast/*.cpp")),
 }
 FOR_AVX2 = "fast/cpu/packed_sweep.cpp"  # compiled a second time
 STAGES = ("closest_face closest_points activation truncate membrane bending spring tetrahedron bound plane block "
@@ -241,7 +242,7 @@ def compile_rewritten(names, folder, options, log):
 
 def exclude(errors, mutants, excluded):
     """Leaves out one kind of mutants of each line that the compiler names; whether there is any."""
-    place = r"(fast/(?:kernels|stages|cpu)/\w+\.[ch]pp):(\d+)"
+    place = r"(fast/(?:kernels|stages|probes|cpu)/(?:\w+/)?\w+\.[ch]pp):(\d+)"
     found = re.findall(place + r":\d+: (?:fatal )?error", errors) + re.findall(place + r":\d+:   required from", errors)
     present = {(m.file, m.line, m.kind) for m in mutants} - excluded
     before = len(excluded)

@@ -17,18 +17,25 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+FAST_KERNELS = "fast/cpu/pack_kernels.cpp"  # compiles the sweep with every model
+
 # Enumeration, its header, and what must handle each of its values.
 DISPATCHES = (
     ("Stage", "compare/judge/cases/stage.hpp", ("compare/judge/cases/stage.cpp",)),
     ("MembraneModel", "compare/problem/scene.hpp",
-     ("reference/energies/membrane.cpp", "reference/solvers/vertex_system.cpp", "reference/solvers/potential.cpp")),
+     ("reference/energies/membrane.cpp", "reference/solvers/vertex_system.cpp", "reference/solvers/potential.cpp",
+      FAST_KERNELS)),
     ("BendingModel", "compare/problem/scene.hpp",
-     ("reference/energies/bending.cpp", "reference/energies/rest_state.cpp", "reference/solvers/vertex_system.cpp")),
+     ("reference/energies/bending.cpp", "reference/energies/rest_state.cpp", "reference/solvers/vertex_system.cpp",
+      FAST_KERNELS)),
     ("ContactActivation", "compare/problem/settings.hpp",
-     ("reference/energies/activation.cpp", "reference/energies/meeting.cpp", "reference/solvers/potential.cpp")),
+     ("reference/energies/activation.cpp", "reference/energies/meeting.cpp", "reference/solvers/potential.cpp",
+      FAST_KERNELS)),
     ("DampingForm", "compare/problem/settings.hpp",
      ("reference/energies/membrane.cpp", "reference/energies/bending.cpp", "reference/energies/spring.cpp",
-      "reference/solvers/potential.cpp")),
+      "reference/solvers/potential.cpp", FAST_KERNELS)),
+    ("Bounds", "compare/problem/settings.hpp",
+     ("reference/solvers/feasible_regions.cpp", "fast/cpu/simulation.cpp", "experiments/program/audits/auditor.cpp")),
     ("Solver", "experiments/program/runs/solvers.hpp", ("experiments/program/runs/solvers.cpp",)),
 )
 UNHANDLED = re.compile(r"enumeration value .planted. not handled in switch")
@@ -87,12 +94,12 @@ def faults(source, build, dispatch):
 
 
 SELF_TEST = {
-    "room/sorts.hpp": "enum class Sort { one, two };\n",
-    "src/handled.cpp": '#include "room/sorts.hpp"\nint f(Sort s) {\n  switch (s) {\n    case Sort::one: return 1;\n'
-                   "    case Sort::two: break;\n  }\n  return 0;\n}\n",
-    "src/default.cpp": '#include "room/sorts.hpp"\nint f(Sort s) {\n  switch (s) {\n    case Sort::one: return 1;\n'
+    "room/kinds.hpp": "enum class Kind { one, two };\n",
+    "src/handled.cpp": '#include "room/kinds.hpp"\nint f(Kind s) {\n  switch (s) {\n    case Kind::one: return 1;\n'
+                   "    case Kind::two: break;\n  }\n  return 0;\n}\n",
+    "src/default.cpp": '#include "room/kinds.hpp"\nint f(Kind s) {\n  switch (s) {\n    case Kind::one: return 1;\n'
                    "    default: return 0;\n  }\n}\n",
-    "src/broken.cpp": '#include "room/sorts.hpp"\nint f(Sort s) { return s; }\n',
+    "src/broken.cpp": '#include "room/kinds.hpp"\nint f(Kind s) { return s; }\n',
 }
 
 
@@ -107,9 +114,9 @@ def self_test(compiler):
             entries.append({"file": str(place / name), "directory": str(place), "command": command})
         (place / "compile_commands.json").write_text(json.dumps(entries))
         wrong = []
-        for name, expected in (("src/handled.cpp", ""), ("src/default.cpp", "compiles with a Sort"),
+        for name, expected in (("src/handled.cpp", ""), ("src/default.cpp", "compiles with a Kind"),
                                ("src/broken.cpp", "does not compile with a copy"), ("src/gone.cpp", "is not compiled")):
-            found = faults(place, place, ("Sort", "room/sorts.hpp", name))
+            found = faults(place, place, ("Kind", "room/kinds.hpp", name))
             if bool(found) != bool(expected) or not all(expected in sentence for sentence in found):
                 wrong.append(f"self-test: {name}: {found}")
         return wrong

@@ -28,7 +28,7 @@ std::string shown_path(const std::filesystem::path& path) {
   return shown(text) + text.substr(tail);
 }
 
-/// Whether another path or right would do.
+/// Whether the user can mend it, by another path or other rights.
 bool is_input(std::error_code error) {
   constexpr std::array reasons{std::errc::no_such_file_or_directory,
                                std::errc::not_a_directory,

@@ -8,9 +8,9 @@
 
 namespace ogc::compare {
 
-/// Throws what the reason `error` of a failure at `path` makes of it: InputError where another path or right would do
-/// (no such folder, a file in its place, a loop of links, a name that is too long, no permission), ResourceError where
-/// the disk does not take it. "PATH: can't ACTION (REASON): REMEDY".
+/// Throws the error that fits the reason `error` of a failure at `path`: InputError where another path or right would
+/// do (no such folder, a file in its place, a loop of links, a name that is too long, no permission), ResourceError
+/// where the disk does not take it. "PATH: can't ACTION (REASON): REMEDY".
 [[noreturn]] void refuse_path(const std::filesystem::path& path, const std::string& action, std::error_code error);
 
 /// Throws InputError that names the path where no content can be read: missing, a folder, a pipe or a device, which

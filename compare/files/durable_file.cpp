@@ -45,7 +45,7 @@ int write_bytes_of(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// The same, synced.
+/// Writes all bytes and syncs; 0, or the error that stopped it.
 int write_and_sync(int descriptor, std::string_view bytes) {
   const int error = write_bytes_of(descriptor, bytes);
   return error != 0 || ::fsync(descriptor) == 0 ? error : errno;
@@ -72,7 +72,7 @@ void write_new(const std::filesystem::path& path, const std::filesystem::path& n
   refuse(named, action, error);
 }
 
-/// False where another process has it; a file system without locks has no process to tell of.
+/// False where another process holds the lock. A file system without locks tells of none.
 bool take_lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
 
 [[noreturn]] void refuse_locked(const std::filesystem::path& path) {

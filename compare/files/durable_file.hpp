@@ -24,8 +24,9 @@ void write_and_reserve(const std::filesystem::path& path, std::string_view bytes
 /// Throws ResourceError.
 void reserve(const std::filesystem::path& path, std::size_t from, std::size_t to);
 
-/// Writes all of `bytes` under the partial name, where a killed program leaves them, but not a power cut: commit_group
-/// syncs. Throws ResourceError with the path where the disk does not take it; then the partial name is not left.
+/// Writes all of `bytes` under the partial name. They survive a killed program at once, a power cut when commit_group
+/// has synced them. Throws ResourceError with the path where the disk does not take it; then the partial name is not
+/// left.
 void write_partial(const std::filesystem::path& path, std::string_view bytes);
 
 /// Syncs the file system of `folder` once, with all that was written there, whoever wrote it; then the files of that
@@ -56,8 +57,8 @@ class LineAppender {
   ~LineAppender();
   LineAppender(const LineAppender&) = delete;
   LineAppender& operator=(const LineAppender&) = delete;
-  /// Appends lines, each with its line end; a killed program leaves them, a power cut what was synced. Where the disk
-  /// does not take them the file keeps its former length, and ResourceError is thrown.
+  /// Appends lines, each with its line end. They survive a killed program; a power cut leaves those that were synced.
+  /// Where the disk does not take them the file keeps its former length, and ResourceError is thrown.
   void append(std::string_view lines);
 
  private:

@@ -51,7 +51,7 @@ std::size_t rows_in_chunk(std::size_t part) {
 /// Chunked and compressed where that pays.
 Hdf5Handle creation_list(const std::vector<hsize_t>& shape, std::size_t part) {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  // The same content is the same file, whenever it is written.
+  // Without times the same content makes the same file, whenever it is written.
   H5Pset_obj_track_times(list.id(), false);
   std::vector<hsize_t> chunk = shape;
   chunk[0] = rows_in_chunk(part);
@@ -68,7 +68,7 @@ Hdf5Handle scalar_or_row(std::size_t count) {
   return {count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &length, nullptr), H5Sclose};
 }
 
-/// Of a text of so many bytes.
+/// HDF5's type of a text of `size` bytes.
 Hdf5Handle text_type(std::size_t size) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   if (H5Tset_size(type.id(), size) < 0 || H5Tset_strpad(type.id(), H5T_STR_NULLPAD) < 0) type.release();

@@ -60,7 +60,7 @@ class Hdf5File {
   /// Fills rows from `first_row` on.
   template <class T>
   void write_rows(const std::string& name, std::size_t first_row, std::span<const T> values);
-  /// Both in one.
+  /// Makes the dataset and fills it.
   template <class T>
   void write(const std::string& name, std::span<const T> values, std::size_t columns = 0);
 
@@ -81,6 +81,7 @@ class Hdf5File {
   /// A text, not empty, as one string of fixed length.
   void write_text(const std::string& name, std::string_view text);
 
+  /// All values of a dataset, row after row, converted to T.
   template <class T>
   std::vector<T> read(const std::string& name) const;
   std::string read_text(const std::string& name) const;  ///< a dataset of text of fixed length

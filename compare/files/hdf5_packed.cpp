@@ -1,4 +1,4 @@
-// Chunks that were packed on other threads go into HDF5 as they are, and come out so.
+// Writes and reads chunks as other threads packed them, past HDF5's own filters.
 #include <hdf5.h>
 
 #include <array>
@@ -41,7 +41,7 @@ bool is_packed_so(hid_t list, int rank, std::size_t columns, std::size_t chunk_r
   return filter(0) == H5Z_FILTER_SHUFFLE && filter(1) == H5Z_FILTER_DEFLATE;
 }
 
-/// Chunks from row `first_row` on; false where HDF5 reports an error.
+/// Writes the chunks from row `first_row` on; false where HDF5 reports an error.
 bool write_chunks(hid_t dataset, std::size_t first_row, const PackedArray& array) {
   for (std::size_t i = 0; i < array.chunks.size(); ++i) {
     const PackedChunk& chunk = array.chunks[i];
@@ -53,7 +53,7 @@ bool write_chunks(hid_t dataset, std::size_t first_row, const PackedArray& array
   return true;
 }
 
-/// False where a chunk is missing or went through one filter alone.
+/// Reads all chunks; false where one is missing or went through one filter alone.
 bool read_chunks(hid_t dataset, PackedArray& array) {
   for (std::size_t row = 0; row < array.rows; row += array.chunk_rows) {
     const Extents offset{row, 0};
@@ -122,7 +122,7 @@ void Hdf5File::append_packed(const std::string& name, const PackedArray& array) 
   if (!dataset.release() || !written) refuse_write(name);
 }
 
-// As in largest_size: 256 B a chunk for its place in the index.
+// As in largest_size: 256 B a chunk for its entry in the index.
 std::size_t Hdf5File::growth(const PackedArray& array) { return array.byte_count() + 256 * array.chunks.size(); }
 
 void Hdf5File::reserve(std::size_t from, std::size_t to) const { compare::reserve(path_, from, to); }

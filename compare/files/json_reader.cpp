@@ -12,7 +12,7 @@
 namespace ogc::compare {
 
 Json parse_json(std::string_view text, const std::string& file) {
-  // Far above what any format of ours has; whoever walks over a value does so by recursion.
+  // Far above what our formats need; visiting a value recurses, so its depth must have a limit.
   constexpr int most_levels = 64;
   std::vector<std::set<std::string>> open_objects;
   const auto refuse_repeated_keys = [&](int level, Json::parse_event_t event, Json& parsed) {
@@ -30,7 +30,7 @@ Json parse_json(std::string_view text, const std::string& file) {
   try {
     return Json::parse(text, refuse_repeated_keys);
   } catch (const Json::exception& error) {
-    constexpr std::size_t most_shown = 200;  // it repeats a number of any length
+    constexpr std::size_t most_shown = 200;  // the library repeats a number of any length
     throw InputError(file + ": no valid JSON: " + shown(error.what(), most_shown));
   }
 }

@@ -12,7 +12,7 @@ constexpr int level = 1;
 
 std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// As HDF5's filter does it.
+/// The bytes as HDF5's shuffle filter orders them: the first bytes of all values, then all second ones, …
 std::string shuffled(std::string_view bytes) {
   constexpr std::size_t size = sizeof(float);
   const std::size_t count = bytes.size() / size;

@@ -30,7 +30,7 @@ struct PackedChunk {
 /// An array as an HDF5 dataset stores it.
 struct PackedArray {
   std::size_t rows = 0, columns = 0;  ///< columns 0: one-dimensional
-  std::size_t chunk_rows = 0;         ///< of each chunk; what the last one has too many is filled up with zeros
+  std::size_t chunk_rows = 0;         ///< of each chunk; zeros fill the last one
   std::vector<PackedChunk> chunks;    ///< one after another
   std::size_t byte_count() const;     ///< of all chunks
 };

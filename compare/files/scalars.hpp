@@ -9,12 +9,16 @@
 
 namespace ogc::compare {
 
+/// The types of numbers in other programs' files.
 enum class ScalarType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-inline constexpr std::array<std::size_t, 10> scalar_sizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+inline constexpr std::array<std::size_t, 10> scalar_sizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};  ///< by ScalarType [bytes]
+/// Bytes of one number.
 inline std::size_t size_of(ScalarType type) { return scalar_sizes[static_cast<std::size_t>(type)]; }
+/// Whether the numbers are floating-point ones.
 inline bool is_floating(ScalarType type) { return type == ScalarType::float32 || type == ScalarType::float64; }
 
+/// The number of this type at `bytes`, whose byte order is `order`.
 template <class Number>
 Number number_at(const char* bytes, std::endian order) {
   std::array<char, sizeof(Number)> raw;

@@ -21,10 +21,12 @@ struct Intersection {
   friend auto operator<=>(const Intersection&, const Intersection&) = default;
 };
 
+/// How much of its findings an audit lists.
 struct AuditOptions {
   std::size_t limit = 1000;  ///< list at most so many; the count goes on
 };
 
+/// What an audit found.
 struct AuditResult {
   std::vector<Intersection> intersections;  ///< ascending
   std::size_t count = 0;                    ///< of all intersections

@@ -15,10 +15,10 @@ namespace ogc::compare {
 
 /// Closed box [low, high] [m]; a new one is empty.
 struct Box {
-  std::array<double, 3> low{1e308, 1e308, 1e308}, high{-1e308, -1e308, -1e308};
-  void add(const Vec3& point);
-  void add(const Box& box);
-  bool meets(const Box& other) const;  ///< closed boxes
+  std::array<double, 3> low{1e308, 1e308, 1e308}, high{-1e308, -1e308, -1e308};  ///< corners [m]
+  void add(const Vec3& point);                                                   ///< grows to hold the point
+  void add(const Box& box);                                                      ///< grows to hold the box
+  bool meets(const Box& other) const;                                            ///< closed boxes
 };
 
 /// Box of the given points.

@@ -1,4 +1,4 @@
-// Which pairs the oracle asks about, and of which states.
+// Which pairs the oracle leaves out, and which states it refuses.
 #pragma once
 
 #include <span>

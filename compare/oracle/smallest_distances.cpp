@@ -1,6 +1,6 @@
-// Culling by boxes of the distance found so far, intervals next, and exact numbers for what may be nearer or as near:
-// of the pairs of a regular stack, that is most. Threads share the distance, and nothing but the order in which pairs
-// are left out depends on them: the nearest pair and its name do not.
+// Boxes cull by the smallest distance found so far, intervals cull next, and exact numbers compare what may be nearer
+// or as near: in a regular stack most pairs. Threads share that distance. It decides how early a pair is culled, and
+// neither the nearest pair nor its name.
 #include "compare/oracle/smallest_distances.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Certainly further apart than the root of `limit`.
+/// Whether two primitives are certainly farther apart than √limit.
 template <std::size_t A, std::size_t B>
 bool certainly_beyond(const std::array<Vec3, A>& first, const std::array<Vec3, B>& second, double limit) {
   const CGAL::Protect_FPU_rounding<true> upward;

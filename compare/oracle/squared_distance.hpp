@@ -19,6 +19,8 @@ namespace ogc::compare {
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
+/// Whether the number can have this sign: of an exact number, whether it has it; of an interval, whether it holds such
+/// a number.
 inline bool may_be_positive(const Exact& x) { return static_cast<int>(x.sign()) > 0; }
 inline bool may_be_negative(const Exact& x) { return static_cast<int>(x.sign()) < 0; }
 inline bool may_be_zero_or_more(const Exact& x) { return static_cast<int>(x.sign()) >= 0; }
@@ -29,6 +31,7 @@ inline bool may_be_zero_or_more(const Interval& x) { return x.sup() >= 0; }
 /// The least quotient, exactly.
 struct LeastSquare {
   Exact numerator{0}, denominator{0};  ///< denominator 0: nothing was offered yet
+  /// Keeps n/d where it is less than the quotient so far; d > 0.
   void offer(const Exact& n, const Exact& d) {
     if (!denominator.is_zero() && !(n * denominator < numerator * d)) return;
     numerator = n;
@@ -39,13 +42,16 @@ struct LeastSquare {
 /// A number that is not above the least quotient.
 struct SquareBelow {
   double value = std::numeric_limits<double>::infinity();  ///< a lower bound of the smallest quotient
+  /// Keeps a lower bound of n/d where it is less than the value so far; 0 where d may be 0.
   void offer(const Interval& n, const Interval& d) { value = std::min(value, d.inf() > 0 ? (n / d).inf() : 0.0); }
 };
 
+/// A vector over a number type.
 template <class N>
 struct DistanceVector {
   N x, y, z;  ///< coordinates
 };
+/// a − b, a·b and a × b; K points as vectors over N.
 template <class N>
 DistanceVector<N> minus(const DistanceVector<N>& a, const DistanceVector<N>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -65,7 +71,7 @@ std::array<DistanceVector<N>, K> widen(const std::array<Vec3, K>& points) {
   return wide;
 }
 
-/// Of a point and the closed segment ab, which may be a point.
+/// Offers the squared distance of a point and the closed segment ab, which may be a point.
 template <class N, class Least>
 void offer_point_segment(const DistanceVector<N>& p, const DistanceVector<N>& a, const DistanceVector<N>& b,
                          Least& least) {
@@ -78,7 +84,7 @@ void offer_point_segment(const DistanceVector<N>& p, const DistanceVector<N>& a,
   least.offer(dot(area, area), length);
 }
 
-/// Of a point and a closed triangle, which may be collapsed.
+/// Offers the squared distance of a point and a closed triangle, which may be collapsed.
 template <class N, class Least>
 void offer_distance(const std::array<DistanceVector<N>, 1>& point, const std::array<DistanceVector<N>, 3>& corners,
                     Least& least) {
@@ -98,7 +104,7 @@ void offer_distance(const std::array<DistanceVector<N>, 1>& point, const std::ar
   for (std::size_t k = 0; k < 3; ++k) offer_point_segment(point[0], corners[k], corners[(k + 1) % 3], least);
 }
 
-/// Of two closed segments, each of which may be a point.
+/// Offers the squared distance of two closed segments, each of which may be a point.
 template <class N, class Least>
 void offer_distance(const std::array<DistanceVector<N>, 2>& first, const std::array<DistanceVector<N>, 2>& second,
                     Least& least) {

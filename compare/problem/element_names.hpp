@@ -33,7 +33,7 @@ struct MeshSource {
 /// Of each body of a scene in turn; where it is null, or there are fewer, the mesh of the body comes from no file.
 using MeshSources = std::vector<std::shared_ptr<const MeshSource>>;
 
-/// Names by number in the mesh or scene. An element that no part covers has its number alone.
+/// Names by number in the mesh or scene. An element that no body covers has its number alone.
 class ElementNames {
  public:
   ElementNames() = default;
@@ -43,7 +43,7 @@ class ElementNames {
   /// (…; sheet.obj, line 7; …)".
   explicit ElementNames(const Scene& scene, const MeshSources& sources = {});
 
-  std::string vertex(Index v) const;  ///< "vertex 3", with its place in the file
+  std::string vertex(Index v) const;  ///< "vertex 3", with its line in the file
   /// "vertices 3, 4"; empty where the file gives vertices no numbers.
   std::string vertices(std::span<const Index> list) const;
   std::string triangle(Index t, const Triangle& corners) const;
@@ -54,16 +54,16 @@ class ElementNames {
   std::string tetrahedron(Index t, const Tetrahedron& corners) const;
 
  private:
-  struct Part {
-    std::string body;                          ///< empty: a mesh that stands alone
+  struct NamedBody {
+    std::string name;                          ///< empty: a mesh that stands alone
     Index first_vertex = 0, last_vertex = -1;  ///< none where last is before first
     Index first_triangle = 0, first_edge = 0, first_tetrahedron = 0;
     std::shared_ptr<const MeshSource> source;
   };
-  const Part& part_of(Index vertex) const;
-  const Part& part_of_triangle(Index t) const;
-  std::string name(const std::string& kind, const Part& part, const std::vector<std::string>& details) const;
-  std::vector<Part> parts_;  ///< by first vertex and first triangle
+  const NamedBody& body_at(Index vertex) const;
+  const NamedBody& body_of_triangle(Index t) const;
+  std::string name(const std::string& kind, const NamedBody& body, const std::vector<std::string>& details) const;
+  std::vector<NamedBody> bodies_;  ///< by first vertex and first triangle
 };
 
 }  // namespace ogc::compare

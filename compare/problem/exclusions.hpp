@@ -1,5 +1,5 @@
-// Which pairs of faces are no pairs (method.md §2.3): neither contacts, nor part of d_min, nor of an audit. Who asks,
-// decides; here are the facts.
+// Which pairs of faces are excluded (method.md §2.3): they are no contacts, do not enter d_min, and no audit looks at
+// them. The rules stand here as data; detections and audits apply them.
 #pragma once
 
 #include <span>
@@ -9,6 +9,7 @@
 
 namespace ogc::compare {
 
+/// Which pairs of a mesh or scene are left out.
 struct Exclusions {
   /// By vertex; may be empty. A pair whose vertices all carry one number ≥ 0 is left out.
   std::vector<Index> groups;

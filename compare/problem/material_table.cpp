@@ -34,6 +34,17 @@ constexpr std::array<std::string_view, 3> bending_names{"none", "discrete_hinge"
 
 std::span<const MaterialInfo> material_table() { return table; }
 
+Elasticity elasticity_of(const Material& material) {
+  const double mu = material.solid_mu, lambda = material.solid_lambda;
+  return {mu * (3 * lambda + 2 * mu) / (lambda + mu), lambda / (2 * (lambda + mu))};
+}
+
+void set_elasticity(Material& material, const Elasticity& elasticity) {
+  const auto [young, poisson] = elasticity;
+  material.solid_mu = young / (2 * (1 + poisson));
+  material.solid_lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+}
+
 std::span<const std::string_view> membrane_model_names() { return membrane_names; }
 
 std::span<const std::string_view> bending_model_names() { return bending_names; }

@@ -20,6 +20,20 @@ struct MaterialInfo {
 /// single precision.
 std::span<const MaterialInfo> material_table();
 
+/// What stands for the Lamé constants of a solid, in files and settings.
+struct Elasticity {
+  double young = 0;    ///< Young's modulus E [Pa]
+  double poisson = 0;  ///< Poisson's ratio ν [1]
+};
+
+/// Ranges of E and ν, so that the Lamé constants are in theirs.
+inline constexpr double least_young = 0x1p-28, most_young = 0x1p30, most_poisson = 0.4999;
+
+/// E and ν of a solid.
+Elasticity elasticity_of(const Material& material);
+/// μ = E/(2(1 + ν)), λ = Eν/((1 + ν)(1 − 2ν)).
+void set_elasticity(Material& material, const Elasticity& elasticity);
+
 /// Name of a model in scene files: "none", "st_venant_kirchhoff", "stable_neo_hookean".
 std::string_view name_of(MembraneModel model);
 /// Name of a model in scene files: "none", "discrete_hinge", "isometric_quadratic".

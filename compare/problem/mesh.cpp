@@ -63,7 +63,7 @@ void check_indices(Index vertex_count, std::span<const Triangle> triangles, std:
   for (std::size_t e = 0; e < loose_edges.size(); ++e) check_face("loose edge", e, loose_edges[e], vertex_count);
 }
 
-// Row v: the larger ends of the edges whose smaller end is v. The offsets are those of the edge numbers.
+// Row v: the larger ends of the edges whose smaller end is v; its offset is the number of its first edge.
 CompressedRows larger_ends(Index vertex_count, std::span<const Triangle> triangles, std::span<const Edge> loose_edges) {
   return sorted_without_repetition(gather(at(vertex_count), [&](const auto& emit) {
     const auto emit_edge = [&](Index a, Index b) { emit(std::min(a, b), std::max(a, b)); };

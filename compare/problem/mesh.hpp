@@ -22,10 +22,10 @@ struct CompressedRows {
 /// What a mesh file gives: positions [m], triangles, edges that belong to no triangle (yarn), and tetrahedra. In a
 /// scene the boundary of the tetrahedra stands among the triangles (compare/problem/tetrahedra.hpp).
 struct Mesh {
-  std::vector<Vec3> positions;      ///< by vertex [m]
-  std::vector<Triangle> triangles;  ///< by numbers of vertices
-  std::vector<Edge> loose_edges;    ///< edges of no triangle
-  std::vector<Tetrahedron> tetrahedra{};
+  std::vector<Vec3> positions;            ///< by vertex [m]
+  std::vector<Triangle> triangles;        ///< by numbers of vertices
+  std::vector<Edge> loose_edges;          ///< edges of no triangle
+  std::vector<Tetrahedron> tetrahedra{};  ///< by numbers of vertices
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 

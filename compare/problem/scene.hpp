@@ -40,13 +40,13 @@ struct Material {
 /// energies. The triangles of a body with tetrahedra are their boundary (compare/problem/tetrahedra.hpp): they meet
 /// other surfaces, but have neither mass nor energies of their own.
 struct Body {
-  std::string name;                              ///< for messages and files
-  Index first_vertex = 0, vertex_count = 0;      ///< its vertices are consecutive
-  Index first_triangle = 0, triangle_count = 0;  ///< its triangles are consecutive
-  bool fixed = false;                            ///< an obstacle that never moves
-  Material material;                             ///< of all of it
-  Index first_tetrahedron = 0, tetrahedron_count = 0;
-  bool is_solid() const { return tetrahedron_count > 0; }
+  std::string name;                                        ///< for messages and files
+  Index first_vertex = 0, vertex_count = 0;                ///< its vertices are consecutive
+  Index first_triangle = 0, triangle_count = 0;            ///< its triangles are consecutive
+  bool fixed = false;                                      ///< an obstacle that never moves
+  Material material;                                       ///< of all of it
+  Index first_tetrahedron = 0, tetrahedron_count = 0;      ///< its tetrahedra are consecutive
+  bool is_solid() const { return tetrahedron_count > 0; }  ///< whether it has tetrahedra
   friend bool operator==(const Body&, const Body&) = default;
 };
 
@@ -87,6 +87,7 @@ struct Spring {
   friend bool operator==(const Spring&, const Spring&) = default;
 };
 
+/// A problem as every contestant gets it.
 struct Scene {
   std::string name;                       ///< for messages and files
   Mesh mesh;                              ///< start positions X⁰ [m] of all bodies

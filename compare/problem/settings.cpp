@@ -74,7 +74,7 @@ struct Table {
   }
 };
 
-/// Made when it is first asked for: declarations of other files may come before the objects of this one.
+/// Made at its first use, as declarations of other files may be constructed before the objects of this one.
 Table& known() {
   static Table table;
   return table;

@@ -28,6 +28,7 @@ enum class Bounds : std::int64_t { ball, planes, off };
 std::span<const std::string_view> activation_names();
 std::span<const std::string_view> damping_form_names();
 
+/// The settings of a scene; `setting_table` has their units, ranges and defaults.
 struct Settings {
   double time_step = 0.01;          ///< h [s]
   std::int64_t steps = 100;         ///< steps of the run
@@ -48,7 +49,7 @@ struct Settings {
   /// `per_vertex`, the authors' form, brakes translation, too
   DampingForm damping = DampingForm::strain;
   std::int64_t seed = 0;  ///< of whatever the scene draws at random
-  /// Declared by contestants, where not the default: numbers, of a choice the place of its name. By set_setting.
+  /// Declared by contestants, where not the default: numbers, of a choice the index of its name. By set_setting.
   std::map<std::string, double, std::less<>> declared;
   friend bool operator==(const Settings&, const Settings&) = default;
 };
@@ -58,14 +59,15 @@ enum class SettingKind : std::uint8_t { real, whole, choice };
 
 /// In place of a field: a setting that a contestant declares.
 struct DeclaredSetting {
-  SettingKind kind = SettingKind::real;
-  double standard = 0;  ///< default; of a choice the place of its name
+  SettingKind kind = SettingKind::real;  ///< of its value
+  double standard = 0;                   ///< default; of a choice the index of its name
 };
 
 /// One row of the table of settings.
 struct SettingInfo {
   std::string_view name, unit, meaning;  ///< "contact_radius", "m", one line
   double minimum, maximum;               ///< inclusive
+  /// where the value is kept
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
                Bounds Settings::*, DeclaredSetting>
       field;
@@ -83,13 +85,14 @@ class SettingsDeclaration {
   SettingsDeclaration(std::string_view contestant, std::span<const SettingInfo> rows);
 };
 
+/// The kind of the row's value.
 SettingKind kind_of(const SettingInfo& info);
 
 /// Sets `name` from text. Throws InputError that names the setting, its unit and its range (and the nearest known name
 /// for an unknown one).
 void set_setting(Settings& settings, std::string_view name, std::string_view value);
 
-/// Sets a number, or a choice by the place of its name, without a check of its range (validate.hpp). Throws InputError
+/// Sets a number, or a choice by the index of its name, without a check of its range (validate.hpp). Throws InputError
 /// for an unknown name.
 void set_setting(Settings& settings, std::string_view name, double value);
 void set_setting(Settings& settings, const SettingInfo& info, double value);
@@ -103,7 +106,7 @@ bool in_range(const SettingInfo& info, double value);
 /// The value as a user would type it: the name of a choice, otherwise the shortest decimal text.
 std::string setting_text(const Settings& settings, const SettingInfo& info);
 
-/// Value of the row's setting as a double; of a choice its number.
+/// Value of the row's setting as a double; of a choice the index of its name.
 double get_setting(const Settings& settings, const SettingInfo& info);
 
 /// Value of a setting as a double. Throws InputError for an unknown name.

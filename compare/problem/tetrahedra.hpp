@@ -16,9 +16,9 @@ Triangle opposite_face(const Tetrahedron& tetrahedron, std::size_t k);
 /// A face of a tetrahedron. `vertices` ascending; `even`: an even permutation of them is the outward orientation.
 /// Equal faces stand next to each other in order.
 struct TetrahedronFace {
-  Triangle vertices{};
-  Index tetrahedron = -1, corner = -1;
-  bool even = false;
+  Triangle vertices{};                  ///< ascending
+  Index tetrahedron = -1, corner = -1;  ///< whose face it is, and the corner opposite it
+  bool even = false;                    ///< see above
   friend auto operator<=>(const TetrahedronFace&, const TetrahedronFace&) = default;
 };
 

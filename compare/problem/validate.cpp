@@ -7,7 +7,7 @@
 #include <span>
 
 #include "compare/problem/material_table.hpp"
-#include "compare/problem/problem_sort.hpp"
+#include "compare/problem/problem_kind.hpp"
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/tetrahedra.hpp"
 #include "compare/problem/text.hpp"
@@ -90,7 +90,7 @@ bool check_cover(std::vector<Problem>& problems, const Scene& scene) {
 }
 
 void check_ownership(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
-  ProblemSort foreign(problems, limit, "has vertices of another body", "give each body faces on its own vertices");
+  ProblemKind foreign(problems, limit, "has vertices of another body", "give each body faces on its own vertices");
   const std::vector<Index> owner = body_of_vertex(scene);
   const auto owner_of = [&](Index v) { return owner[static_cast<std::size_t>(v)]; };
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -148,7 +148,7 @@ void check_keyframes(std::vector<Problem>& problems, const PrescribedMotion& mot
                             std::to_string(frames.times.size()) + " keyframes of " +
                             std::to_string(motion.vertices.size()) + " vertices",
                         "give one for each vertex in each keyframe"});
-  // false where NaN stands first
+  // std::max returns a NaN that comes first, and NaN <= x is false; is_finite finds the others
   const auto usable = [](const Vec3f& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= most_length;
   };
@@ -156,9 +156,9 @@ void check_keyframes(std::vector<Problem>& problems, const PrescribedMotion& mot
     return is_finite(Vec3{p.x, p.y, p.z}) && usable(p);
   });
   if (bad != frames.positions.end() && !motion.vertices.empty()) {
-    const auto place = static_cast<std::size_t>(bad - frames.positions.begin());
-    problems.push_back({where + ", keyframe " + std::to_string(place / motion.vertices.size()) + ", " +
-                            names.vertex(motion.vertices[place % motion.vertices.size()]),
+    const auto index = static_cast<std::size_t>(bad - frames.positions.begin());
+    problems.push_back({where + ", keyframe " + std::to_string(index / motion.vertices.size()) + ", " +
+                            names.vertex(motion.vertices[index % motion.vertices.size()]),
                         "position is not finite or beyond 2²⁰ m", "give three finite numbers [m]"});
   }
   if (motion.angular_velocity != 0 || motion.velocity != Vec3{})
@@ -186,9 +186,9 @@ void check_motion_numbers(std::vector<Problem>& problems, const PrescribedMotion
 void check_motions(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, bool covered,
                    std::size_t limit) {
   const std::string last = std::to_string(scene.mesh.positions.size() - 1);
-  ProblemSort unknown(problems, limit, "names a vertex that does not exist", "vertices are numbered from 0 to " + last);
-  ProblemSort fixed(problems, limit, "moves a vertex of a fixed body", "leave the vertex out or make the body free");
-  ProblemSort twice(problems, limit, "moves a vertex that is prescribed already",
+  ProblemKind unknown(problems, limit, "names a vertex that does not exist", "vertices are numbered from 0 to " + last);
+  ProblemKind fixed(problems, limit, "moves a vertex of a fixed body", "leave the vertex out or make the body free");
+  ProblemKind twice(problems, limit, "moves a vertex that is prescribed already",
                     "list each vertex once, in one motion");
   const std::vector<Index> body = covered ? body_of_vertex(scene) : std::vector<Index>{};
   std::vector<bool> prescribed(scene.mesh.positions.size());
@@ -208,7 +208,7 @@ void check_motions(std::vector<Problem>& problems, const Scene& scene, const Ele
   }
 }
 
-/// A vertex that there may not be.
+/// What a message calls a vertex whose number may be invalid.
 std::string point_name(const Scene& scene, const ElementNames& names, Index v) {
   const bool exists = v >= 0 && static_cast<std::size_t>(v) < scene.mesh.positions.size();
   return exists ? names.vertex(v) : "vertex " + std::to_string(v) + " of the scene, which does not exist";
@@ -216,14 +216,14 @@ std::string point_name(const Scene& scene, const ElementNames& names, Index v) {
 
 /// Ranges as in the table of material constants.
 void check_springs(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
-  ProblemSort unknown(problems, limit, "does not join two vertices", "give two different vertices of the scene");
-  ProblemSort range(problems, limit, "has a number out of range",
+  ProblemKind unknown(problems, limit, "does not join two vertices", "give two different vertices of the scene");
+  ProblemKind range(problems, limit, "has a number out of range",
                     "give a stiffness up to 2⁴⁰ N/m, a rest length of 0 or from 2⁻²⁰ to 2²⁰ m and a damping up to 2⁴⁰ "
                     "s, none below 0");
   const auto count = static_cast<Index>(scene.mesh.positions.size());
   const auto within = [](double x, double most) { return x >= 0 && x <= most; };
-  ProblemSort place(problems, limit, "has no such point on the line of its second and third vertex",
-                    "give a third vertex, another than both, and a ratio from 0 to 1");
+  ProblemKind no_point(problems, limit, "has no such point on the line of its second and third vertex",
+                       "give a third vertex, another than both, and a ratio from 0 to 1");
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& s = scene.springs[i];
     const bool known = std::min(s.first, s.second) >= 0 && std::max(s.first, s.second) < count && s.first != s.second;
@@ -231,9 +231,9 @@ void check_springs(std::vector<Problem>& problems, const Scene& scene, const Ele
       unknown.add(numbered("spring", i), point_name(scene, names, s.first) + ", " + point_name(scene, names, s.second));
     const bool has_third = s.third >= 0 && s.third < count && s.third != s.first && s.third != s.second;
     if (s.third == -1 ? s.ratio != 0 : !(has_third && s.ratio >= 0 && s.ratio <= 1))
-      place.add(numbered("spring", i),
-                (s.third == -1 ? "no third vertex" : "third " + point_name(scene, names, s.third)) + ", ratio " +
-                    shortest(s.ratio));
+      no_point.add(numbered("spring", i),
+                   (s.third == -1 ? "no third vertex" : "third " + point_name(scene, names, s.third)) + ", ratio " +
+                       shortest(s.ratio));
     const bool length_is_legal = s.rest_length == 0 || (s.rest_length >= least_length && s.rest_length <= most_length);
     if (!length_is_legal || !within(s.stiffness, 0x1p40) || !within(s.damping, 0x1p40))
       range.add(numbered("spring", i),
@@ -242,7 +242,7 @@ void check_springs(std::vector<Problem>& problems, const Scene& scene, const Ele
 }
 
 void check_excluded(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
-  ProblemSort unknown(problems, limit, "does not name two vertices", "give two different vertices of the scene");
+  ProblemKind unknown(problems, limit, "does not name two vertices", "give two different vertices of the scene");
   const auto count = static_cast<Index>(scene.mesh.positions.size());
   for (std::size_t i = 0; i < scene.excluded_pairs.size(); ++i) {
     const auto& [a, b] = scene.excluded_pairs[i];
@@ -265,7 +265,7 @@ bool check_lengths(std::vector<Problem>& problems, const Scene& scene) {
 
 void check_velocities(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names,
                       std::size_t limit) {
-  ProblemSort bad(problems, limit, "velocity is not finite or above 2²⁰ m/s", "give three finite numbers [m/s]");
+  ProblemKind bad(problems, limit, "velocity is not finite or above 2²⁰ m/s", "give three finite numbers [m/s]");
   const auto usable = [](const Vec3& v) {
     return is_finite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most_length;
   };

@@ -1,5 +1,4 @@
-// What can be checked of a problem without geometry beyond lengths and areas being non-zero; the oracle asks about
-// intersections.
+// Checks of meshes and scenes that need no geometry but lengths, areas and volumes; the oracle looks for intersections.
 #pragma once
 
 #include <string>
@@ -18,7 +17,7 @@ struct Problem {
 
 /// Index out of range, repeated vertex in a triangle, duplicate face, NaN or infinity, coordinate beyond 2²⁰ m, edge
 /// length that is not within 2⁻²⁰ … 2²⁰ m, zero-length edge, zero-area triangle (decided exactly), isolated vertex,
-/// face of three tetrahedra or of two on one side. At most `limit` entries of each sort are listed, then a count.
+/// face of three tetrahedra or of two on one side. At most `limit` entries of each kind are listed, then a count.
 /// `names`: what its elements are called.
 std::vector<Problem> validate(const Mesh& mesh, std::size_t limit = 10, const ElementNames& names = {});
 

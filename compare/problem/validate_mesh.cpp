@@ -1,4 +1,4 @@
-// Each sort of problem is one loop over one array. Lengths and areas are asked only of usable coordinates, faces only
+// Each kind of problem is one loop over one array. Lengths and areas are asked only of usable coordinates, faces only
 // of valid indices.
 #include "compare/problem/validate_mesh.hpp"
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <span>
 
-#include "compare/problem/problem_sort.hpp"
+#include "compare/problem/problem_kind.hpp"
 #include "compare/problem/tetrahedra.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/zero_area.hpp"
@@ -23,9 +23,9 @@ Edge ordered(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 bool usable_coordinate(double x) { return std::abs(x) <= most_length; }
 
 bool check_coordinates(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind) {
-  ProblemSort not_finite(check.problems, check.limit, kind + "position is not finite",
+  ProblemKind not_finite(check.problems, check.limit, kind + "position is not finite",
                          "give three finite coordinates [m]");
-  ProblemSort out_of_range(check.problems, check.limit, kind + "coordinate is beyond 2²⁰ m",
+  ProblemKind out_of_range(check.problems, check.limit, kind + "coordinate is beyond 2²⁰ m",
                            "scale or move the mesh; coordinates are in metres");
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const auto& [x, y, z] = positions[v];
@@ -53,9 +53,9 @@ std::string loose_edge_name(const MeshCheck& check, std::size_t e) {
 // Each edge is visited once for each triangle that has it; a bad edge is named with the first. Zero is decided exactly;
 // at the ends of the range one rounding of the length does not matter.
 void check_edges(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind) {
-  ProblemSort zero(check.problems, check.limit, kind + "edge of zero length",
+  ProblemKind zero(check.problems, check.limit, kind + "edge of zero length",
                    "merge the two vertices or move them apart");
-  ProblemSort out_of_range(check.problems, check.limit, kind + "edge length is not within 2⁻²⁰ … 2²⁰ m",
+  ProblemKind out_of_range(check.problems, check.limit, kind + "edge length is not within 2⁻²⁰ … 2²⁰ m",
                            "merge the vertices or scale the mesh; coordinates are in metres");
   std::set<Edge> named;
   const auto check_edge = [&](Index a, Index b, const auto& face_name) {
@@ -86,7 +86,7 @@ void check_edges(const MeshCheck& check, const std::vector<Vec3>& positions, con
 }
 
 void check_areas(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind) {
-  ProblemSort zero(check.problems, check.limit, kind + "triangle of zero area",
+  ProblemKind zero(check.problems, check.limit, kind + "triangle of zero area",
                    "remove the triangle or move its vertices");
   for (std::size_t t = 0; t < check.mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = check.mesh.triangles[t];
@@ -98,7 +98,7 @@ void check_areas(const MeshCheck& check, const std::vector<Vec3>& positions, con
 template <std::size_t corners, class Name>
 void check_repeated(const MeshCheck& check, const std::string& kind,
                     const std::vector<std::array<Index, corners>>& faces, const Name& name) {
-  ProblemSort repeated(check.problems, check.limit, "has the same vertices as another " + kind, "keep one of them");
+  ProblemKind repeated(check.problems, check.limit, "has the same vertices as another " + kind, "keep one of them");
   std::vector<std::pair<std::array<Index, corners>, std::size_t>> sorted;
   sorted.reserve(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -114,7 +114,7 @@ void check_repeated(const MeshCheck& check, const std::string& kind,
 
 void check_loose_edges(const MeshCheck& check) {
   if (check.mesh.loose_edges.empty()) return;
-  ProblemSort in_triangle(check.problems, check.limit, "is an edge of a triangle too", "remove the loose edge");
+  ProblemKind in_triangle(check.problems, check.limit, "is an edge of a triangle too", "remove the loose edge");
   std::set<Edge> of_triangles;
   for (const auto& [a, b, c] : check.mesh.triangles) of_triangles.insert({ordered(a, b), ordered(b, c), ordered(c, a)});
   for (std::size_t e = 0; e < check.mesh.loose_edges.size(); ++e) {
@@ -124,7 +124,7 @@ void check_loose_edges(const MeshCheck& check) {
 }
 
 void check_isolated_vertices(const MeshCheck& check) {
-  ProblemSort isolated(check.problems, check.limit, "belongs to no triangle, no edge and no tetrahedron",
+  ProblemKind isolated(check.problems, check.limit, "belongs to no triangle, no edge and no tetrahedron",
                        "remove the vertex");
   std::vector<bool> used(check.mesh.positions.size());
   for (const Triangle& t : check.mesh.triangles) {
@@ -170,9 +170,9 @@ std::string printed(const Vec3& v) { return "(" + shortest(v.x) + ", " + shortes
 
 void check_tetrahedra(const MeshCheck& check) {
   check_repeated(check, "tetrahedron", check.mesh.tetrahedra, tetrahedron_name);
-  ProblemSort shared(check.problems, check.limit, "has a face that two other tetrahedra have",
+  ProblemKind shared(check.problems, check.limit, "has a face that two other tetrahedra have",
                      "of a face there are two tetrahedra at most, one on each side: remove the others");
-  ProblemSort doubled(check.problems, check.limit, "lies on the same side of a face as another tetrahedron",
+  ProblemKind doubled(check.problems, check.limit, "lies on the same side of a face as another tetrahedron",
                       "remove one of them, or reorder the vertices of the one that is inside out");
   const std::vector<TetrahedronFace> faces = sorted_faces(check.mesh.tetrahedra);
   for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
@@ -185,8 +185,8 @@ void check_tetrahedra(const MeshCheck& check) {
 }
 
 void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positions) {
-  ProblemSort flat(check.problems, check.limit, "is flat at rest", "remove the tetrahedron or move its vertices");
-  ProblemSort inverted(check.problems, check.limit, "is inverted at rest",
+  ProblemKind flat(check.problems, check.limit, "is flat at rest", "remove the tetrahedron or move its vertices");
+  ProblemKind inverted(check.problems, check.limit, "is inverted at rest",
                        "exchange two of its vertices, or untangle the mesh");
   for (std::size_t t = 0; t < check.mesh.tetrahedra.size(); ++t) {
     const auto& [a, b, c, d] = check.mesh.tetrahedra[t];
@@ -202,9 +202,9 @@ void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positio
 
 bool check_indices(const MeshCheck& check) {
   const std::size_t count = check.mesh.positions.size();
-  ProblemSort range(check.problems, check.limit, "names a vertex that does not exist",
+  ProblemKind range(check.problems, check.limit, "names a vertex that does not exist",
                     "vertices are numbered from 0 to " + std::to_string(count - 1));
-  ProblemSort repeated(check.problems, check.limit, "has the same vertex twice", "remove it");
+  ProblemKind repeated(check.problems, check.limit, "has the same vertex twice", "remove it");
   const auto check_face = [&](std::span<const Index> corners, const auto& face_name) {
     for (const Index v : corners) {
       if (v < 0 || at(v) >= count) return range.add(face_name(), std::to_string(v));

@@ -11,11 +11,11 @@ namespace ogc::compare {
 inline constexpr double least_length = 0x1p-20;  ///< [m] of an edge (method.md §2.4)
 inline constexpr double most_length = 0x1p20;    ///< [m] of an edge, and of a coordinate
 
-/// What is checked, what its elements are called, and where problems go: at most `limit` of each sort, then a count.
+/// What is checked, what its elements are called, and where problems go: at most `limit` of each kind, then a count.
 struct MeshCheck {
   const Mesh& mesh;                ///< what is looked at
   const ElementNames& names;       ///< what its elements are called
-  std::size_t limit;               ///< of each sort
+  std::size_t limit;               ///< of each kind
   std::vector<Problem>& problems;  ///< where they go
 };
 

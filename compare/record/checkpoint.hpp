@@ -1,6 +1,6 @@
 // checkpoint.h5: where a run can go on to the same bits. One file, replaced as a whole; its digest tells a damaged one.
-// What else a run needs stands in run.json and scene/, whose digest it keeps, so that a scene changed by hand is no
-// surprise later.
+// What else a run needs stands in run.json and scene/; it keeps the digest of the scene, so that a scene edited by hand
+// is refused.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace ogc::compare {
 /// can't go on from such a state, and says so.
 inline constexpr std::int64_t checkpoint_format_version = 3;
 
-/// A state that was judged, where states are judged at all.
+/// The state to go on from; in runs that audit states, an audited one.
 struct Checkpoint {
   /// step, positions, velocities, bounds, capacities; from version 2 on the exact ones, where a solver has them
   Snapshot state;
@@ -29,7 +29,7 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
 /// digest.
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const std::string& scene_digest);
 
-/// Of the files of a run's scene, by name and content. Throws InputError.
+/// The digest of the files of a run's scene, by name and content. Throws InputError.
 std::string scene_digest(const std::filesystem::path& folder);
 
 }  // namespace ogc::compare

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "compare/files/bytes.hpp"
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/record/vtp.hpp"

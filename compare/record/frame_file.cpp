@@ -24,7 +24,7 @@ std::int64_t checksum(const Frame& frame) {
   return sum;
 }
 
-/// Of the frame's format. Throws InputError where a newer program wrote it.
+/// The version of the frame's format. Throws InputError where a newer program wrote it.
 std::int64_t version_of(const Hdf5File& file, const fs::path& path) {
   if (!file.has_attribute("format_version")) return 1;
   const auto version = file.attribute<std::int64_t>("format_version");

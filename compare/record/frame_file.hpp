@@ -39,7 +39,7 @@ std::string frame_name(std::int64_t step);
 
 /// The same memory as rows of three numbers, as files store it.
 std::span<const float> as_floats(std::span<const Vec3f> vectors);
-/// And back.
+/// The vectors of which as_floats makes these floats.
 std::vector<Vec3f> as_vectors(const std::vector<float>& floats);
 
 PackedFrame pack(const Frame& frame);  ///< without loss

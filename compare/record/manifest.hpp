@@ -21,7 +21,7 @@ struct Provenance {
   std::string version, commit, compiler, cuda;   ///< of the program
   bool dirty = false;                            ///< whether the tree had changes beyond the commit
   std::string started, ended, status;            ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
-  std::vector<std::string> warnings;             ///< what can hardly be meant, in words
+  std::vector<std::string> warnings;             ///< about settings that are hardly meant
   std::map<std::string, std::string> extra;      ///< further entries of run.json; "yes" and "no" are truth values there
 };
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "compare/files/bytes.hpp"
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/iterations_csv.hpp"
 #include "compare/record/steps_csv.hpp"
@@ -59,7 +59,7 @@ std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folde
   return frames;
 }
 
-/// What a killed run was writing.
+/// Removes the files that a killed run was still writing.
 void remove_partial_frames(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder / "frames"))
@@ -187,7 +187,7 @@ void RunWriter::write_frame(const PackedFrame& frame) {
   grow_trajectory(frame);
 }
 
-/// A run that goes on has frames that its trajectory has not.
+/// Appends the frame to the trajectory; a resumed run first appends the frames that it has already.
 void RunWriter::grow_trajectory(const PackedFrame& frame) {
   const fs::path path = folder_ / "trajectory.vtkhdf";
   if (!trajectory_) {

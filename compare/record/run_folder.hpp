@@ -1,7 +1,7 @@
 // Run folders: run.json, steps.csv, frames/, trajectory.vtkhdf.
 //
 //   run.json            written last when a run begins, again when it ends: "status" says which
-//   scene/NAME.json     the scene, meshes beside it (compare/files/scene_files.hpp)
+//   scene/NAME.json     the scene, meshes beside it (compare/files/scenes/scene_files.hpp)
 //   steps.csv           compare/record/steps_csv.hpp
 //   frames/frame_000025.h5   the state after step 25 (compare/record/frame_file.hpp)
 //   checkpoint.h5       where the run can go on (compare/record/checkpoint.hpp)

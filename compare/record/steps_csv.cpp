@@ -37,7 +37,7 @@ constexpr std::array<StepColumn, 23> columns{{
     {"status", "bits", &StepMetrics::status},
 }};
 
-/// Behind those, of scenes with tetrahedra.
+/// Behind those; scenes with tetrahedra alone have it.
 constexpr StepColumn solid_column{"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra};
 
 constexpr std::string_view stage_prefix = "stage_", stage_unit = " [ms]";

@@ -17,6 +17,7 @@ namespace ogc::compare {
 /// One column: "name [unit]" in the header.
 struct StepColumn {
   std::string_view name, unit;  ///< of the heading: "wall_ms", "ms"
+  /// the quantity
   std::variant<double StepMetrics::*, std::int64_t StepMetrics::*, std::uint32_t StepMetrics::*> field;
   std::string_view former_name{};  ///< in run format 1, where it is another one; read, never written
 };

@@ -84,7 +84,7 @@ TrajectoryWriter::~TrajectoryWriter() {
   std::filesystem::remove(growing_, ignored);
 }
 
-/// HDF5 1.10 crashes where the disk is full, so that it must never find it so.
+/// HDF5 1.10 crashes on a full disk, so its disk space is reserved before it writes.
 void TrajectoryWriter::reserve(std::size_t more) {
   used_ += more;
   const std::size_t needed = used_ + steps_size(times_.size() + 1);

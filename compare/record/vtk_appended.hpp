@@ -8,11 +8,13 @@
 
 namespace ogc::compare {
 
+/// VTK's name for this machine's byte order.
 inline constexpr const char* vtk_byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 
 /// Collects the arrays behind the XML: each with its length in bytes before it, named in the XML by its offset.
 class AppendedArrays {
  public:
+  /// Adds an array; its element for the XML. `type`, `name`: VTK's type of the numbers, and what viewers call it.
   template <class T>
   std::string array(const char* type, const char* name, std::span<const T> values, int components = 1) {
     std::string tag = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
@@ -23,7 +25,7 @@ class AppendedArrays {
     bytes_.append(reinterpret_cast<const char*>(values.data()), size);
     return tag;
   }
-  const std::string& bytes() const { return bytes_; }
+  const std::string& bytes() const { return bytes_; }  ///< all arrays so far, as they stand behind the XML
 
  private:
   std::string bytes_;

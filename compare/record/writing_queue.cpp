@@ -26,7 +26,7 @@ WritingQueue::~WritingQueue() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-/// For what is true after a failure, too.
+/// Waits for a condition, which must also hold after a failure, and throws the failure then.
 template <class Condition>
 void WritingQueue::wait(std::unique_lock<std::mutex>& lock, Condition condition) {
   const Clock::time_point begin = Clock::now();

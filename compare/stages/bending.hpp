@@ -31,6 +31,7 @@ struct BendingCase {
   DampingForm damping_form = DampingForm::strain;     ///< which damping
 };
 
+/// The question: cases that have nothing to do with each other.
 struct BendingIn {
   std::vector<BendingCase> cases;  ///< each by itself
 };

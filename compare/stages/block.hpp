@@ -12,6 +12,7 @@ namespace ogc::compare {
 /// "Is x in U_a, apart from its distance?": the distance is a decision of its own (d < r, Alg. 1 line 7). A question
 /// names a face of the mesh and what x is.
 struct BlockQuestion {
+  /// What x is, and of which manifold the blocks are.
   enum class Kind : std::uint8_t {
     /// x is vertex `of`; U_a of Eq. 8, 9, 10 for a vertex, edge (between its end planes too) or triangle.
     vertex_in_surface,
@@ -33,6 +34,7 @@ struct BlockIn {
   std::span<const BlockQuestion> questions;  ///< each by itself
 };
 
+/// The answer.
 struct BlockOut {
   std::vector<std::uint8_t> inside;  ///< by question; boundaries open and closed as printed
 };

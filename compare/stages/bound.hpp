@@ -9,12 +9,14 @@
 
 namespace ogc::compare {
 
+/// The question: smallest distances of all faces of a mesh. Views; the owner must outlive the call.
 struct BoundIn {
   const Topology* topology = nullptr;                               ///< of the mesh
   std::span<const float> d_min_vertex, d_min_edge, d_min_triangle;  ///< [m], by vertex, edge, triangle
   float bound_relaxation = 0.45f;                                   ///< γ_p
 };
 
+/// The answer.
 struct BoundOut {
   /// b_v [m], by vertex; never above γ_p · min(…). Of a vertex inside a solid (Topology::on_surface), which nothing
   /// bounds, the largest finite number.

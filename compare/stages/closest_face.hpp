@@ -20,6 +20,7 @@ struct ClosestFaceIn {
   std::vector<std::array<Vec3f, 3>> triangle;  ///< by case and corner [m]
 };
 
+/// The answer; all arrays have length n.
 struct ClosestFaceOut {
   /// on a plane that separates two features the lower-dimensional one wins
   std::vector<TriangleFeature> feature;

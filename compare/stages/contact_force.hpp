@@ -32,9 +32,9 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 /// the shorter one.
 ///
 /// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one:
-/// its foot is not known to first order. Any force and block are accepted there, too, whose moduli are at most −e_k g'
-/// and e_k g'' at the exact distance, which no point of it can exceed, or 2 e_k g'' where others are updated together.
-/// d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
+/// its foot is not known to first order. The judge accepts any force and block there, too, whose moduli are at most
+/// −e_k g' and e_k g'' at the exact distance, the largest that any point of the needle gives, or 2 e_k g'' where others
+/// are updated together. d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
 struct ContactForceCase {
   ContactSides sides = ContactSides::point_point;  ///< what meets
   std::int32_t own = 0;                            ///< which vertex is asked about, 0 … vertex_count(sides) − 1
@@ -46,6 +46,7 @@ struct ContactForceCase {
   std::uint8_t together = 0;  ///< bit k: vertex k is updated together with the own one, whose bit means nothing
 };
 
+/// The question: cases that have nothing to do with each other.
 struct ContactForceIn {
   std::vector<ContactForceCase> cases;  ///< each by itself
 };

@@ -1,6 +1,7 @@
 // What the energies of a sweep share: a question is a stencil and the vertex asked about. Lengths are 0 or at least
-// 2⁻⁵⁰ m (bending: 2⁻³⁰ m, whose fourth power is a normal number; springs and contacts: 2⁻⁶³ m, but the longest one of
-// four vertices that meet 2⁻³⁰ m). The reference gives the energy's derivative and the block of method.md §4.
+// 2⁻⁵⁰ m (bending: 2⁻³⁰ m, whose fourth power is a normal number; springs and contacts: 2⁻⁶³ m, but of four vertices
+// that meet the longest distance is at least 2⁻³⁰ m). The reference gives the energy's derivative and the block of
+// method.md §4.
 #pragma once
 
 #include <array>

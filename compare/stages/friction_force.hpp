@@ -16,6 +16,7 @@ struct FrictionForceCase {
   float slip_limit = 0;        ///< ε_v h [m]
 };
 
+/// The question: cases that have nothing to do with each other.
 struct FrictionForceIn {
   std::vector<FrictionForceCase> cases;  ///< each by itself
 };

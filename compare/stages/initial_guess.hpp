@@ -21,6 +21,7 @@ struct InitialGuessCase {
   std::uint8_t held = 0;
 };
 
+/// The question: cases that have nothing to do with each other.
 struct InitialGuessIn {
   std::vector<InitialGuessCase> cases;  ///< each by itself
 };

@@ -36,6 +36,7 @@ struct MembraneCase {
   DampingForm damping_form = DampingForm::strain;            ///< which damping
 };
 
+/// The question: cases that have nothing to do with each other.
 struct MembraneIn {
   std::vector<MembraneCase> cases;  ///< each by itself
 };

@@ -14,7 +14,7 @@ namespace ogc::compare {
 /// A pair of primitives that share no vertex: a vertex and a triangle, or two edges, the lower-numbered first.
 struct PrimitivePair {
   enum class Kind : std::uint8_t { vertex_triangle, edge_edge };  ///< of what the pair consists
-  Kind kind = Kind::vertex_triangle;
+  Kind kind = Kind::vertex_triangle;                              ///< what `first` and `second` count
   Index first = -1, second = -1;  ///< numbers of the vertex and the triangle, or of the edges
   friend bool operator==(const PrimitivePair&, const PrimitivePair&) = default;
 };

@@ -10,6 +10,7 @@
 
 namespace ogc::compare {
 
+/// A triangle with a membrane energy.
 struct RestTriangle {
   Triangle corner{};  ///< in the order of the mesh
   Index body = -1;    ///< whose material it has
@@ -18,6 +19,7 @@ struct RestTriangle {
   std::array<std::array<float, 2>, 2> gradient{};
 };
 
+/// A hinge with a bending energy.
 struct RestHinge {
   std::array<Index, 4> vertex{};  ///< x0 < x1 of the edge, then Hinge::opposite
   Index body = -1;                ///< whose material it has
@@ -32,8 +34,8 @@ struct RestHinge {
 /// A tetrahedron of a solid. What the elastic energy reads (`weight`, `inverse`) and what else reads F (`gradient`,
 /// `volume`) is rounded each by itself.
 struct RestTetrahedron {
-  Tetrahedron corner{};  ///< in the order of the mesh
-  Index body = -1;
+  Tetrahedron corner{};                            ///< in the order of the mesh
+  Index body = -1;                                 ///< whose material it has
   float volume = 0;                                ///< V [m³]
   float inverse = 0;                               ///< 1/(6V) [1/m³]
   std::array<float, 6> weight{};                   ///< V ∇N_k·∇N_l of the pairs 01, 02, 03, 12, 13, 23 [m]
@@ -68,11 +70,12 @@ struct RestStateOut {
 /// vertex. `gradient` units are of ∇N₁, ∇N₂, those of `weight` of all three; a mass's is the sum of those of its
 /// triangles or tetrahedra; a meeting's is its value.
 struct RestStateTruth {
-  RestStateOut exact;  ///< correctly rounded
-  std::vector<double> mass, mass_scale;
+  RestStateOut exact;                    ///< correctly rounded
+  std::vector<double> mass, mass_scale;  ///< by vertex [kg]
+  /// by triangle [m²]; by edge [m²]
   std::vector<double> area, area_scale, edge_length_squared, edge_length_squared_scale;
-  std::vector<std::array<std::array<double, 2>, 2>> gradient;
-  std::vector<std::array<double, 2>> gradient_scale;
+  std::vector<std::array<std::array<double, 2>, 2>> gradient;  ///< by triangle: ∇N₁, ∇N₂ [1/m]
+  std::vector<std::array<double, 2>> gradient_scale;           ///< by triangle: of ∇N₁, of ∇N₂
   /// where |θ₀| is within its error of π either sign is accepted
   std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;
   std::vector<std::array<double, 3>> weight;

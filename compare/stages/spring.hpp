@@ -26,6 +26,7 @@ struct SpringCase {
   DampingForm damping_form = DampingForm::strain;  ///< which damping
 };
 
+/// The question: cases that have nothing to do with each other.
 struct SpringIn {
   std::vector<SpringCase> cases;  ///< each by itself
 };

@@ -9,12 +9,14 @@
 
 namespace ogc::compare {
 
+/// What a step does next.
 enum class StepEventKind : std::uint8_t {
   detection,  ///< X_prev ← x; contact sets, bounds
   guess,      ///< a round of the guess loop
   sweep,      ///< one iteration
 };
 
+/// One event of a step, and what it left.
 struct StepEvent {
   StepEventKind kind = StepEventKind::detection;  ///< what was done
   std::vector<Vec3f> position;  ///< x after the event [m]; of a detection X_prev as later events read it
@@ -32,6 +34,7 @@ struct StepIn {
   const Topology* topology = nullptr;  ///< of its mesh
 };
 
+/// The answer: the step as the contestant made it, event by event.
 struct StepOut {
   std::vector<Index> colour;              ///< of the sweeps
   RestStateOut rest;                      ///< of the sweeps

@@ -36,6 +36,7 @@ struct SweepIn {
   const VertexPlanes* planes = nullptr;
 };
 
+/// The answer.
 struct SweepOut {
   std::vector<Vec3f> position;  ///< [m]; each lies in its region exactly
   Index cut = 0;                ///< vertices, prescribed ones included, whose proposal lay outside of its region

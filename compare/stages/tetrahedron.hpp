@@ -35,11 +35,12 @@ struct TetrahedronCase {
   float volume = 0;                                ///< V of the damping [m³]; likewise
   float lame_lambda = 0, lame_mu = 0;              ///< [Pa]
   float damping = 0;                               ///< k = k_d/h [1]
-  DampingForm damping_form = DampingForm::strain;
+  DampingForm damping_form = DampingForm::strain;  ///< which damping
 };
 
+/// The question: cases that have nothing to do with each other.
 struct TetrahedronIn {
-  std::vector<TetrahedronCase> cases;
+  std::vector<TetrahedronCase> cases;  ///< each by itself
 };
 
 /// In units of u · scale. On the longest way from an input to the elastic force lie a difference (1), a normal of two

@@ -35,7 +35,7 @@ struct HalfSpacesIn {
   }
 };
 
-/// X_prev and the current position keep each half-space with 2⁻⁵⁰ (Σ|n_k x_k| + |o|) to spare, and the ball.
+/// The question: vertices that have nothing to do with each other. X_prev and the current position keep each half-space with 2⁻⁵⁰ (Σ|n_k x_k| + |o|) to spare, and the ball.
 struct TruncateIn {
   std::vector<Vec3f> previous, position;  ///< X_prev and x [m]
   std::vector<float> bound;               ///< b_v ≥ 0 [m]
@@ -54,6 +54,7 @@ struct TruncateOut {
   std::vector<std::uint8_t> cut;  ///< 1 where x lay outside
 };
 
+/// The exact answer.
 struct TruncateTruth {
   /// grey: the exact margin of the ball lies in the grey zone, or that of a half-space is at most `half_space_slack`
   /// (Σ|n_k x_k| + |o|), and nothing else decides: either flag is accepted

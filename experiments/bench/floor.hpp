@@ -10,11 +10,12 @@
 
 namespace ogc::experiments {
 
+/// What a device can do at most, for the floors of a step.
 struct MachineLimits {
-  double flop_per_second = 0;
+  double flop_per_second = 0;  ///< in single precision
   /// up to so many bytes stay in the cache of the device
   double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;
-  double seconds_between_colours = 0;  ///< a kernel that waits for the one before, in a graph
+  double seconds_between_colours = 0;  ///< from the end of a kernel in a graph to the start of the next
 };
 
 /// H200: 132 multiprocessors × 128 fused multiply-adds × 1.98 GHz; bandwidths and the shortest edge of a graph as
@@ -24,14 +25,15 @@ inline std::optional<MachineLimits> limits_of(const std::string& device) {
   return MachineLimits{132 * 128 * 2 * 1.98e9, 40e6, 7.1e12, 4.4e12, 0.43e-6};
 }
 
-/// Of one iteration of the sweep with so many contacts [s]: the larger of arithmetic and bytes, and an edge a colour.
+/// The floor of one iteration of the sweep [s]: the time of its arithmetic or of its bytes, whichever is larger, and an
+/// edge of the graph for each colour.
 inline double sweep_floor(const MachineLimits& machine, const fast::SweepWork& work, double flop, double bytes) {
   const double rate = bytes <= machine.cache_bytes ? machine.cache_bytes_per_second : machine.memory_bytes_per_second;
   return std::max(flop / machine.flop_per_second, bytes / rate) + work.colours * machine.seconds_between_colours;
 }
 
-/// Of the searches of one detection [s]: the larger of arithmetic and bytes, all of them from the cache. Double
-/// precision, which takes twice as long, counts as single.
+/// The floor of the searches of one detection [s]: the time of their arithmetic or of their bytes, all from the cache,
+/// whichever is larger. Double precision, which takes twice as long, counts as single.
 inline double search_floor(const MachineLimits& machine, const fast::SearchWork& work) {
   return std::max(work.flop / machine.flop_per_second, work.bytes / machine.cache_bytes_per_second);
 }

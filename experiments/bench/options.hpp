@@ -11,17 +11,18 @@
 
 namespace ogc::experiments {
 
+/// What `ogc bench` measures.
 struct BenchOptions {
-  std::vector<fast::Backend> backends;
-  std::string scale = "small";
-  std::int64_t steps = 16;  ///< of a window
-  int repetitions = 4;
-  std::vector<std::string> states;  ///< frames of runs
+  std::vector<fast::Backend> backends;  ///< whose parts are measured
+  std::string scale = "small";          ///< of the scenes
+  std::int64_t steps = 16;              ///< of a window
+  int repetitions = 4;                  ///< of each benchmark in a process
+  std::vector<std::string> states;      ///< frames of runs
 };
 
 /// A scene and where its window begins.
 struct BenchScene {
-  compare::Scene scene;
+  compare::Scene scene;                    ///< rounded
   std::optional<compare::Snapshot> start;  ///< none: the scene's own
 };
 

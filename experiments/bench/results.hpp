@@ -10,7 +10,7 @@
 
 namespace ogc::experiments {
 
-/// One file.
+/// The times of one result file.
 struct BenchResults {
   /// by name [ns]: each process' median; of a single process each repetition
   std::map<std::string, std::vector<double>> times;
@@ -23,21 +23,21 @@ BenchResults read_results(const std::filesystem::path& file);
 /// Its JSON as it stands. Throws likewise.
 Json parse_results(const std::filesystem::path& file);
 
-/// Of one benchmark that both files have.
+/// What became of one benchmark that both files have.
 struct BenchChange {
-  std::string name;
-  std::size_t samples_before = 0, samples_after = 0;
-  double before_ns = 0, after_ns = 0;  ///< medians
-  double ratio = 1;                    ///< after / before (typical_ratio)
-  double probability = 1;              ///< of Mann–Whitney, corrected by Holm over all benchmarks of the comparison
-  enum class Verdict { faster, slower, none_found, too_few } verdict = Verdict::none_found;
+  std::string name;                                   ///< of the benchmark
+  std::size_t samples_before = 0, samples_after = 0;  ///< times in each file
+  double before_ns = 0, after_ns = 0;                 ///< medians
+  double ratio = 1;                                   ///< after / before (typical_ratio)
+  double probability = 1;  ///< of Mann–Whitney, corrected by Holm over all benchmarks of the comparison
+  enum class Verdict { faster, slower, none_found, too_few } verdict = Verdict::none_found;  ///< see compare_results
 };
 
-/// One benchmark in two results.
+/// Two result files, held against each other.
 struct BenchComparison {
-  std::vector<BenchChange> changes;  ///< by name
-  std::vector<std::string> only_before, only_after;
-  std::vector<std::string> differing_context;  ///< "device_cpu: 2 threads, then 16 threads"
+  std::vector<BenchChange> changes;                  ///< by name
+  std::vector<std::string> only_before, only_after;  ///< benchmarks that one file alone has
+  std::vector<std::string> differing_context;        ///< "device_cpu: 2 threads, then 16 threads"
   /// false: one of the files is of a single process, and p knows nothing of what differs between starts
   bool is_of_processes = true;
   /// Whether any benchmark has become slower.

@@ -41,7 +41,7 @@ class Windows {
   std::vector<std::string> stage_names() const { return simulation_->stage_names(); }
   std::string device() const { return simulation_->device(); }
   const fast::SweepWork& work() const { return work_; }
-  /// Of one detection at the state that the windows end in.
+  /// The work of one detection at the state that the windows end in.
   const fast::SearchWork& searches() {
     if (!searches_) {
       const compare::Snapshot end = simulation_->snapshot();
@@ -137,7 +137,7 @@ void count_steps(benchmark::State& state, const Rows& rows) {
   state.counters["repeats"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.repeats); });
 }
 
-/// `stage`: its place among the times of a row; none for the whole step.
+/// `stage`: its index among the times of a row; none for the whole step.
 void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage,
              Counted counted) {
   const Rows& rows = windows.repetition(repetition);

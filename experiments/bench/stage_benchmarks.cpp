@@ -24,7 +24,7 @@ using compare::TestCase;
 
 constexpr std::uint64_t batch = 1u << 14, seed = 1;
 
-/// Of the generators that seek no degeneracy, by their shares.
+/// Cases of the generators that seek no degeneracy, by their shares.
 std::vector<TestCase> generic_cases(Stage stage, std::uint64_t count) {
   double shares = 0;
   for (const compare::Generator& row : generators(stage)) shares += row.generic ? row.share : 0;

@@ -37,6 +37,12 @@ std::vector<Bytes> inputs_of(const Topology& topology) {
   return inputs;
 }
 
+std::vector<std::uint8_t> inside_solid(const Topology& topology) {
+  std::vector<std::uint8_t> inside = topology.inside_solid;
+  inside.resize(static_cast<std::size_t>(topology.vertex_count));
+  return inside;
+}
+
 CompressedRows rows_by_vertex(const CompressedRows* partners, std::size_t count) {
   if (partners != nullptr) return *partners;
   CompressedRows none;

@@ -10,13 +10,16 @@
 
 namespace ogc::experiments {
 
-/// Of a stage whose cases stand alone.
+/// The sizes of a question whose cases stand alone.
 QuestionSizes sizes_of(std::size_t cases);
-/// Of a stage that is asked about a mesh.
+/// The sizes of a question about a mesh.
 QuestionSizes sizes_of(const compare::Topology& topology);
 
 /// The arrays of ogc_topology, in its order.
 std::vector<Bytes> inputs_of(const compare::Topology& topology);
+
+/// By vertex, also where there is no solid.
+std::vector<std::uint8_t> inside_solid(const compare::Topology& topology);
 
 /// A row for each of `count` vertices, all empty where there are none.
 compare::CompressedRows rows_by_vertex(const compare::CompressedRows* partners, std::size_t count);
@@ -25,6 +28,7 @@ compare::CompressedRows rows_by_vertex(const compare::CompressedRows* partners, 
 class Outputs {
  public:
   explicit Outputs(const PluginProcess::Answer& answer) : answer_(answer) {}
+  /// The next outputs, each as a vector of its element.
   template <class... Items>
   void to(Items&... items) {
     (next(items), ...);

@@ -36,15 +36,15 @@ Bytes bytes_of_one(const Item& item) {
 
 /// In front of each block.
 struct BlockHead {
-  std::uint64_t mark = right_mark;
-  std::uint64_t length = 0;  ///< of the block behind the head [bytes]
+  std::uint64_t mark = right_mark;  ///< tells a head from other bytes
+  std::uint64_t length = 0;         ///< of the block behind the head [bytes]
   /// The bytes "gc-block": no length, count or text that a plug-in sends by chance.
   static constexpr std::uint64_t right_mark = 0x6b636f6c622d6367;
 };
 
 /// How long a block may be [bytes].
 struct BlockLength {
-  std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();  ///< inclusive
 };
 /// A block of this length alone.
 constexpr BlockLength exactly(std::uint64_t bytes) { return {bytes, bytes}; }
@@ -80,11 +80,11 @@ class Channel {
   Channel(Channel&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
   Channel& operator=(Channel&& other) noexcept;
 
-  /// The other side reads an end.
+  /// Closes this end; the other side then reads Transfer::end.
   void close();
   /// Whether there is another side.
   bool is_open() const { return descriptor_ >= 0; }
-  /// Of the socket; negative where closed.
+  /// The socket's descriptor; negative where closed.
   int descriptor() const { return descriptor_; }
   Transfer send(Bytes block, const Patience& patience = {});
   /// Waits for a block. Throws MalformedBlock, before it takes memory for it, where its head is none or its length not

@@ -26,6 +26,9 @@ static_assert(sizeof(BendingCase) == sizeof(ogc_bending_case) &&
               offsetof(BendingCase, damping_form) == offsetof(ogc_bending_case, damping_form));
 static_assert(sizeof(SpringCase) == sizeof(ogc_spring_case) &&
               offsetof(SpringCase, damping_form) == offsetof(ogc_spring_case, damping_form));
+static_assert(sizeof(TetrahedronCase) == sizeof(ogc_tetrahedron_case) &&
+              offsetof(TetrahedronCase, gradient) == offsetof(ogc_tetrahedron_case, gradient) &&
+              offsetof(TetrahedronCase, damping_form) == offsetof(ogc_tetrahedron_case, damping_form));
 static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) &&
               offsetof(ContactForceCase, together) == offsetof(ogc_contact_force_case, together));
 static_assert(sizeof(FrictionForceCase) == sizeof(ogc_friction_force_case) &&
@@ -61,6 +64,8 @@ PluginProcess::Answer ask_detection(PluginProcess& plugin, std::string_view stag
   inputs.push_back(bytes_of(partners.offsets));
   inputs.push_back(bytes_of(partners.items));
   inputs.push_back(bytes_of(in.positions));
+  const std::vector<std::uint8_t> inside = inside_solid(*in.topology);
+  inputs.push_back(bytes_of(inside));
   QuestionSizes sizes = sizes_of(*in.topology);
   sizes.first = in.contact_radius;
   sizes.second = in.query_radius;
@@ -89,6 +94,8 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
   std::vector<Bytes> inputs = inputs_of(*in.topology);
   for (const auto& distances : {in.d_min_vertex, in.d_min_edge, in.d_min_triangle})
     inputs.push_back(bytes_of(distances));
+  const std::vector<std::uint8_t> inside = inside_solid(*in.topology);
+  inputs.push_back(bytes_of(inside));
   QuestionSizes sizes = sizes_of(*in.topology);
   sizes.first = in.bound_relaxation;
   const auto answer = plugin.ask("bound", sizes, inputs);
@@ -129,6 +136,8 @@ PlaneOut ask_plane(PluginProcess& plugin, const PlaneIn& in) {
   for (const Bytes& array : {bytes_of(in.exclusions.groups), bytes_of(partners.offsets), bytes_of(partners.items),
                              bytes_of(in.positions), bytes_of(in.is_fixed)})
     inputs.push_back(array);
+  const std::vector<std::uint8_t> inside = inside_solid(*in.topology);
+  inputs.push_back(bytes_of(inside));
   QuestionSizes sizes = sizes_of(*in.topology);
   sizes.first = in.query_radius;
   sizes.second = in.bound_relaxation;
@@ -228,6 +237,7 @@ Contestant plugin_contestant(Plugin plugin) {
   c.membrane = [plugin](const MembraneIn& in) { return ask_force(*plugin, "membrane", in); };
   c.bending = [plugin](const BendingIn& in) { return ask_force(*plugin, "bending", in); };
   c.spring = [plugin](const SpringIn& in) { return ask_force(*plugin, "spring", in); };
+  c.tetrahedron = [plugin](const TetrahedronIn& in) { return ask_force(*plugin, "tetrahedron", in); };
   c.truncate = [plugin](const TruncateIn& in) { return ask_truncate(*plugin, in); };
   c.rest_state = [plugin](const RestStateIn& in) { return ask_rest_state(*plugin, in); };
   c.sweep = [plugin](const SweepIn& in) { return ask_sweep(*plugin, in); };

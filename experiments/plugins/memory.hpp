@@ -29,18 +29,18 @@ class PluginMemory {
   virtual void* output(std::size_t bytes, std::size_t unit) = 0;
   /// Waits until what was begun is done. Throws std::runtime_error where the device reports an error.
   virtual void synchronize() = 0;
-  /// Where the k-th output was overrun.
+  /// On which side of the k-th output bytes were written.
   virtual Damage damage(std::size_t k) = 0;
   /// The first `bytes` of the k-th output.
   virtual std::vector<std::byte> content(std::size_t k, std::size_t bytes) = 0;
-  /// All arrays are gone.
+  /// Frees all arrays.
   virtual void release() = 0;
   /// Whether the process can be asked again after a call that broke the rules: not where it may have written anywhere
   /// in the process, nor where the device has given up.
   virtual bool can_go_on() = 0;
 };
 
-/// The CPU's.
+/// Memory of the CPU.
 std::unique_ptr<PluginMemory> host_memory();
 
 /// Memory of CUDA device 0, through the driver's library, so that no build of `ogc` needs to know it. Throws

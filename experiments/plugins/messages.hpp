@@ -18,15 +18,15 @@ using NextBlock = std::function<std::vector<std::byte>(BlockLength allowed)>;
 
 /// What a worker says of the library that it has loaded.
 struct Greeting {
-  LoadStatus status = LoadStatus::loaded;
-  std::string text;               ///< the plug-in's name, or why it was not loaded
+  LoadStatus status = LoadStatus::loaded;  ///< what became of the library
+  std::string text;                        ///< the plug-in's name, or why it was not loaded
   std::vector<std::uint8_t> has;  ///< of plugin_stages(), where it was loaded: 1 where the library has the stage
 };
 
 /// What a worker says of one question.
 struct WorkerAnswer {
-  CallResult result;
-  std::string why;  ///< where it was not answered
+  CallResult result;  ///< what the call came to
+  std::string why;    ///< where it was not answered
   std::vector<std::vector<std::byte>>
       outputs;  ///< of the stage, in its order, as long as the counts and the question's sizes say
 };

@@ -25,6 +25,7 @@ struct PluginOptions {
 /// What is no failure of the process, but worth saying at the end: by output, how many elements were no number, or were
 /// never written.
 struct PluginNotes {
+  /// by output: elements
   std::map<std::string, std::uint64_t, std::less<>> not_a_number, unwritten;
 };
 
@@ -49,7 +50,7 @@ class PluginProcess {
   /// What a plug-in answered.
   struct Answer {
     std::vector<std::vector<std::byte>> outputs;  ///< of the stage, in its order
-    ListSizes counts{};
+    ListSizes counts{};                           ///< entries of each list
   };
   /// Throws ContestantFailure where there is no answer: what the plug-in did instead.
   Answer ask(std::string_view stage, const QuestionSizes& sizes, std::span<const Bytes> inputs);

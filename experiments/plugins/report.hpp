@@ -13,8 +13,8 @@ namespace ogc::experiments {
 /// What was seen while the plug-in was judged; taken before failing cases are asked again.
 struct PluginSeen {
   std::string name, backend;  ///< of the plug-in, and ours that answered beside it
-  Times ours;
-  PluginNotes notes;
+  Times ours;                 ///< of our contestant
+  PluginNotes notes;          ///< of the plug-in's process
 };
 
 /// A table of times (the plug-in's functions alone; ours with its copies to and from the backend), then a line for each

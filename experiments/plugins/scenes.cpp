@@ -37,6 +37,8 @@ ogc_body body_of(const Body& b) {
           b.vertex_count,
           b.first_triangle,
           b.triangle_count,
+          b.first_tetrahedron,
+          b.tetrahedron_count,
           b.fixed,
           static_cast<std::int32_t>(m.membrane),
           static_cast<std::int32_t>(m.bending),
@@ -47,7 +49,11 @@ ogc_body body_of(const Body& b) {
           single(m.bending_stiffness),
           single(m.bending_damping),
           single(m.contact_stiffness),
-          single(m.friction)};
+          single(m.friction),
+          single(m.solid_density),
+          single(m.solid_lambda),
+          single(m.solid_mu),
+          single(m.solid_damping)};
 }
 
 /// The arrays of ogc_scene.
@@ -59,10 +65,9 @@ class SceneArrays {
         gravity_(to_single({scene.gravity})[0]),
         rest_(to_single(scene.rest_positions)),
         groups_(rigid_groups(scene)),
-        partners_(partner_rows(rest_.size(), scene.excluded_pairs)) {
-    if (!scene.mesh.tetrahedra.empty())
-      throw ContestantFailure("the scene has tetrahedra, which version " + std::to_string(OGC_PLUGIN_VERSION) +
-                              " of compare/plugin.h does not know");
+        partners_(partner_rows(rest_.size(), scene.excluded_pairs)),
+        tetrahedra_(scene.mesh.tetrahedra),
+        inside_solid_(inside_solid(topology)) {
     for (const Body& body : scene.bodies) bodies_.push_back(body_of(body));
     if (partners_.rows() == 0) partners_ = rows_by_vertex(nullptr, rest_.size());
     for (const Spring& s : scene.springs)
@@ -78,6 +83,7 @@ class SceneArrays {
     sizes.hinges = static_cast<std::int32_t>(topology_.hinges.size());
     sizes.bodies = static_cast<std::int32_t>(bodies_.size());
     sizes.springs = static_cast<std::int32_t>(springs_.size());
+    sizes.tetrahedra = static_cast<std::int32_t>(tetrahedra_.size());
     sizes.settings = settings_of(settings_);
     sizes.gravity = {gravity_.x, gravity_.y, gravity_.z};
     return sizes;
@@ -85,8 +91,9 @@ class SceneArrays {
 
   std::vector<Bytes> inputs() const {
     std::vector<Bytes> inputs = inputs_of(topology_);
-    for (const Bytes& array : {bytes_of(topology_.hinges), bytes_of(bodies_), bytes_of(springs_), bytes_of(rest_),
-                               bytes_of(groups_), bytes_of(partners_.offsets), bytes_of(partners_.items)})
+    for (const Bytes& array :
+         {bytes_of(topology_.hinges), bytes_of(bodies_), bytes_of(springs_), bytes_of(rest_), bytes_of(groups_),
+          bytes_of(partners_.offsets), bytes_of(partners_.items), bytes_of(tetrahedra_), bytes_of(inside_solid_)})
       inputs.push_back(array);
     return inputs;
   }
@@ -98,6 +105,8 @@ class SceneArrays {
   std::vector<Vec3f> rest_;
   std::vector<Index> groups_;
   CompressedRows partners_;
+  const std::vector<Tetrahedron>& tetrahedra_;
+  std::vector<std::uint8_t> inside_solid_;
   std::vector<ogc_body> bodies_;
   std::vector<ogc_scene_spring> springs_;
 };
@@ -114,6 +123,11 @@ struct RestArrays {
   std::vector<float> rest_angle, hinge_stiffness;
   std::vector<std::array<float, 3>> weight;
   std::vector<float> edge_length_squared, meeting_stiffness, meeting_friction;
+  std::vector<Tetrahedron> solid_corner;
+  std::vector<Index> solid_body;
+  std::vector<float> volume, inverse;
+  std::vector<std::array<float, 6>> solid_weight;
+  std::vector<std::array<std::array<float, 3>, 3>> solid_gradient;
 
   RestArrays() = default;
   explicit RestArrays(const RestStateOut& rest) : mass(rest.mass), edge_length_squared(rest.edge_length_squared) {
@@ -134,12 +148,21 @@ struct RestArrays {
       meeting_stiffness.push_back(m.stiffness);
       meeting_friction.push_back(m.friction);
     }
+    for (const RestTetrahedron& t : rest.tetrahedra) {
+      solid_corner.push_back(t.corner);
+      solid_body.push_back(t.body);
+      volume.push_back(t.volume);
+      inverse.push_back(t.inverse);
+      solid_weight.push_back(t.weight);
+      solid_gradient.push_back(t.gradient);
+    }
   }
 
   template <class Visit>
   void visit(Visit visit) {
     visit(mass, corner, triangle_body, area, gradient, hinge_vertex, hinge_body, rest_angle, hinge_stiffness, weight,
-          edge_length_squared, meeting_stiffness, meeting_friction);
+          edge_length_squared, meeting_stiffness, meeting_friction, solid_corner, solid_body, volume, inverse,
+          solid_weight, solid_gradient);
   }
 
   RestStateOut rest() const {
@@ -152,6 +175,9 @@ struct RestArrays {
     rest.edge_length_squared = edge_length_squared;
     for (std::size_t i = 0; i < meeting_stiffness.size(); ++i)
       rest.meetings.push_back({meeting_stiffness[i], meeting_friction[i]});
+    for (std::size_t t = 0; t < solid_corner.size(); ++t)
+      rest.tetrahedra.push_back(
+          {solid_corner[t], solid_body[t], volume[t], inverse[t], solid_weight[t], solid_gradient[t]});
     return rest;
   }
 };
@@ -261,6 +287,7 @@ SweepOut ask_sweep(PluginProcess& plugin, const SweepIn& in) {
   QuestionSizes sizes = scene.sizes();
   sizes.rest_triangles = static_cast<std::int32_t>(rest.corner.size());
   sizes.rest_hinges = static_cast<std::int32_t>(rest.hinge_vertex.size());
+  sizes.rest_tetrahedra = static_cast<std::int32_t>(rest.solid_corner.size());
   sizes.vertex_facet = static_cast<std::int64_t>(vertex_facet.size());
   sizes.edge_edge = static_cast<std::int64_t>(edge_edge.size());
   std::vector<Bytes> inputs = scene.inputs();

@@ -44,7 +44,9 @@ int call_closest_points(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
-ogc_detect_in detect_in(CallArrays& a) { return {topology(a), a.in(), rows(a), a.in(), a.sizes.first, a.sizes.second}; }
+ogc_detect_in detect_in(CallArrays& a) {
+  return {topology(a), a.in(), rows(a), a.in(), a.sizes.first, a.sizes.second, a.in()};
+}
 
 constexpr std::array facet_outputs{OutputInfo{"contacts", Element::index, 4, Per::one, List::vertex_facet},
                                    OutputInfo{"d_min_vertex", Element::number, 1, Per::vertex},
@@ -69,7 +71,7 @@ int call_detect_edge_edge(void* function, CallArrays& a) {
 
 constexpr std::array bound_outputs{OutputInfo{"bound", Element::number, 1, Per::vertex}};
 int call_bound(void* function, CallArrays& a) {
-  const ogc_bound_in in{topology(a), a.in(), a.in(), a.in(), a.sizes.first};
+  const ogc_bound_in in{topology(a), a.in(), a.in(), a.in(), a.sizes.first, a.in()};
   ogc_bound_out out{a.out()};
   return call(function, in, out);
 }
@@ -78,7 +80,7 @@ constexpr std::array plane_outputs{OutputInfo{"planes", Element::index, 7, Per::
                                    OutputInfo{"offset", Element::real, 1, Per::one, List::planes},
                                    OutputInfo{"bound", Element::number, 1, Per::vertex}};
 int call_plane(void* function, CallArrays& a) {
-  const ogc_plane_in in{topology(a), a.in(), rows(a), a.in(), a.in(), a.sizes.first, a.sizes.second};
+  const ogc_plane_in in{topology(a), a.in(), rows(a), a.in(), a.in(), a.sizes.first, a.sizes.second, a.in()};
   ogc_plane_out out{a.out(), a.out(), a.capacity(List::planes), -1, a.out()};
   const int status = call(function, in, out);
   a.count(List::planes) = out.count;
@@ -128,10 +130,12 @@ int call_block(void* function, CallArrays& a) {
 }
 
 // Of a scene, after its topology.
-constexpr std::size_t scene_inputs = topology_inputs + 7;
+constexpr std::size_t scene_inputs = topology_inputs + 9;
 ogc_scene scene(CallArrays& a) {
-  return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs, a.in(),           a.in(),
-          a.in(),      a.in(),         a.in(),         rows(a),         a.sizes.settings, a.sizes.gravity};
+  return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs,  a.sizes.tetrahedra,
+          a.in(),      a.in(),         a.in(),         a.in(),           a.in(),
+          rows(a),     a.in(),         a.in(),         a.sizes.settings, a.sizes.gravity,
+          {}};
 }
 
 constexpr std::array rest_outputs{
@@ -148,21 +152,32 @@ constexpr std::array rest_outputs{
     OutputInfo{"edge_length_squared", Element::number, 1, Per::edge},
     OutputInfo{"meeting_stiffness", Element::number, 1, Per::two_bodies},
     OutputInfo{"meeting_friction", Element::number, 1, Per::two_bodies},
+    OutputInfo{"solid_corner", Element::index, 4, Per::one, List::tetrahedra},
+    OutputInfo{"solid_body", Element::index, 1, Per::one, List::tetrahedra},
+    OutputInfo{"volume", Element::number, 1, Per::one, List::tetrahedra},
+    OutputInfo{"inverse", Element::number, 1, Per::one, List::tetrahedra},
+    OutputInfo{"solid_weight", Element::number, 6, Per::one, List::tetrahedra},
+    OutputInfo{"solid_gradient", Element::number, 9, Per::one, List::tetrahedra},
 };
 ogc_rest_state_out rest_out(CallArrays& a) {
   return {a.out(), a.capacity(List::triangles),
           -1,      a.capacity(List::hinges),
+          -1,      a.capacity(List::tetrahedra),
           -1,      a.out(),
           a.out(), a.out(),
           a.out(), a.out(),
           a.out(), a.out(),
           a.out(), a.out(),
           a.out(), a.out(),
-          a.out()};
+          a.out(), a.out(),
+          a.out(), a.out(),
+          a.out(), a.out(),
+          a.out(), {}};
 }
 void take_counts(CallArrays& a, const ogc_rest_state_out& out) {
   a.count(List::triangles) = out.triangle_count;
   a.count(List::hinges) = out.hinge_count;
+  a.count(List::tetrahedra) = out.tetrahedron_count;
 }
 int call_rest_state(void* function, CallArrays& a) {
   const ogc_scene in = scene(a);
@@ -177,6 +192,7 @@ ogc_rest rest(CallArrays& a) {
   return {a.in(),
           a.sizes.rest_triangles,
           a.sizes.rest_hinges,
+          a.sizes.rest_tetrahedra,
           a.in(),
           a.in(),
           a.in(),
@@ -188,7 +204,14 @@ ogc_rest rest(CallArrays& a) {
           a.in(),
           a.in(),
           a.in(),
-          a.in()};
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          a.in(),
+          {}};
 }
 
 constexpr std::array sweep_outputs{OutputInfo{"position", Element::number, 3, Per::vertex},
@@ -267,10 +290,10 @@ constexpr std::array table{
     PluginStage{"closest_face", 2, face_outputs, call_closest_face},
     PluginStage{"closest_points", 2, points_outputs, call_closest_points},
     PluginStage{"block", topology_inputs + 2, block_outputs, call_block},
-    PluginStage{"detect_vertex_facet", topology_inputs + 4, facet_outputs, call_detect_vertex_facet},
-    PluginStage{"detect_edge_edge", topology_inputs + 4, edge_outputs, call_detect_edge_edge},
-    PluginStage{"bound", topology_inputs + 3, bound_outputs, call_bound},
-    PluginStage{"plane", topology_inputs + 5, plane_outputs, call_plane},
+    PluginStage{"detect_vertex_facet", topology_inputs + 5, facet_outputs, call_detect_vertex_facet},
+    PluginStage{"detect_edge_edge", topology_inputs + 5, edge_outputs, call_detect_edge_edge},
+    PluginStage{"bound", topology_inputs + 4, bound_outputs, call_bound},
+    PluginStage{"plane", topology_inputs + 6, plane_outputs, call_plane},
     PluginStage{"initial_guess", 1, guess_outputs, call_initial_guess},
     PluginStage{"activation", 4, activation_outputs, call_activation},
     PluginStage{"contact_force", 1, force_outputs, call_force<ogc_contact_force_in>},
@@ -278,10 +301,11 @@ constexpr std::array table{
     PluginStage{"membrane", 1, force_outputs, call_force<ogc_membrane_in>},
     PluginStage{"bending", 1, force_outputs, call_force<ogc_bending_in>},
     PluginStage{"spring", 1, force_outputs, call_force<ogc_spring_in>},
+    PluginStage{"tetrahedron", 1, force_outputs, call_force<ogc_tetrahedron_in>},
     PluginStage{"truncate", 8, truncate_outputs, call_truncate},
-    PluginStage{"rest_state", scene_inputs, rest_outputs, call_rest_state},
-    PluginStage{"sweep", scene_inputs + rest_inputs + 8, sweep_outputs, call_sweep},
-    PluginStage{"step", scene_inputs + 3, step_outputs, call_step},
+    PluginStage{"rest_state", scene_inputs, rest_outputs, call_rest_state, OGC_PLUGIN_OLDEST_SCENE_VERSION},
+    PluginStage{"sweep", scene_inputs + rest_inputs + 8, sweep_outputs, call_sweep, OGC_PLUGIN_OLDEST_SCENE_VERSION},
+    PluginStage{"step", scene_inputs + 3, step_outputs, call_step, OGC_PLUGIN_OLDEST_SCENE_VERSION},
 };
 
 }  // namespace
@@ -301,18 +325,19 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Contacts, and planes of so many pairs: a guess. Events and detections: all that Algorithm 3 can have, a detection
-// before each round and each iteration.
+// Room for contacts, and for planes of so many pairs, is a guess; for events and detections it holds all that Algorithm
+// 3 can have, with a detection before each round and each iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
-  return {1, contacts, contacts, sizes.triangles, sizes.hinges, 2 * rounds + 1, rounds + 1, 4 * contacts};
+  return {1,          contacts,    contacts, sizes.triangles, sizes.hinges, sizes.tetrahedra, 2 * rounds + 1,
+          rounds + 1, 4 * contacts};
 }
 
-// Of contacts: each vertex with each triangle, each edge with each other one as first and as second, at each detection;
-// and those of the guess above, so that contacts which are listed twice in a small mesh are told as what they are. The
-// Planes: one a vertex of each of these pairs. The
-// products fit into 64 bits: sizes do into 31, and 2^40 ends them.
+// Contacts at most: each vertex with each triangle, each edge with each other one as first and as second, at each
+// detection; and those of the guess above, so that contacts which are listed twice in a small mesh are told as what
+// they are. Planes: one for each vertex of each of these pairs. The products fit into 64 bits: sizes do into 31, and
+// 2^40 ends them.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);
@@ -330,8 +355,8 @@ ListSizes most_entries(const QuestionSizes& sizes) {
 }
 
 std::string_view list_name(List list) {
-  constexpr std::array<std::string_view, list_count> names{"",       "contacts", "contacts",   "triangles",
-                                                           "hinges", "events",   "detections", "planes"};
+  constexpr std::array<std::string_view, list_count> names{
+      "", "contacts", "contacts", "triangles", "hinges", "tetrahedra", "events", "detections", "planes"};
   return names[static_cast<std::size_t>(list)];
 }
 

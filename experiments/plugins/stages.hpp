@@ -14,11 +14,12 @@ namespace ogc::experiments {
 
 /// The sizes and numbers of a question; in host memory always.
 struct QuestionSizes {
-  std::int64_t cases = 0;
-  std::int32_t vertices = 0, edges = 0, triangles = 0;
-  float first = 0, second = 0;
+  std::int64_t cases = 0;                               ///< of a stage whose cases stand alone
+  std::int32_t vertices = 0, edges = 0, triangles = 0;  ///< of a mesh
+  float first = 0, second = 0;  ///< the stage's numbers beside its arrays: r and r_q of a detection
   /// of a scene, and of its rest state
-  std::int32_t hinges = 0, bodies = 0, springs = 0, rest_triangles = 0, rest_hinges = 0;
+  std::int32_t hinges = 0, bodies = 0, springs = 0, tetrahedra = 0;
+  std::int32_t rest_triangles = 0, rest_hinges = 0, rest_tetrahedra = 0;
   std::int64_t vertex_facet = 0, edge_edge = 0;  ///< contacts that are given
   ogc_settings settings{};
   ogc_vec3 gravity{};
@@ -28,17 +29,27 @@ struct QuestionSizes {
 enum class Element : std::uint8_t { number, byte, index, real };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
 /// Outputs whose length the plug-in decides.
-enum class List : std::uint8_t { none, vertex_facet, edge_edge, triangles, hinges, events, detections, planes };
-inline constexpr std::size_t list_count = 8;
-/// Of each list how many entries there are, or room for; 1 of `none`.
+enum class List : std::uint8_t {
+  none,
+  vertex_facet,
+  edge_edge,
+  triangles,
+  hinges,
+  tetrahedra,
+  events,
+  detections,
+  planes
+};
+inline constexpr std::size_t list_count = 9;
+/// For each list its number of entries, or the room for them; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
 /// One array that a stage answers with.
 struct OutputInfo {
-  std::string_view name;
-  Element element;
-  std::size_t elements;  ///< in a group
-  Per per;
+  std::string_view name;   ///< as in compare/plugin.h
+  Element element;         ///< what the array holds
+  std::size_t elements;    ///< in a group
+  Per per;                 ///< of what there is one group each
   List list = List::none;  ///< so many groups for each entry of the list
 };
 
@@ -90,10 +101,11 @@ class CallArrays {
 
 /// One stage of compare/plugin.h.
 struct PluginStage {
-  std::string_view name;  ///< of the stage; its function is ogc_NAME
-  std::size_t inputs;     ///< how many arrays
-  std::span<const OutputInfo> outputs;
+  std::string_view name;                            ///< of the stage; its function is ogc_NAME
+  std::size_t inputs;                               ///< how many arrays
+  std::span<const OutputInfo> outputs;              ///< in the order of the function's arguments
   int (*call)(void* function, CallArrays& arrays);  ///< what the function returned
+  int oldest_version = OGC_PLUGIN_OLDEST_VERSION;   ///< of compare/plugin.h whose structures it takes
 };
 
 /// All of them.

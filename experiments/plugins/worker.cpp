@@ -30,7 +30,7 @@ struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The process that was started, and not a copy of it.
+/// The process that was started; a copy that the plug-in forks has another number.
 const pid_t worker = getpid();
 
 /// Ends a child of the plug-in's that returned from its function: the question was asked of its parent, which answers
@@ -39,7 +39,7 @@ void end_if_copy() {
   if (getpid() != worker) _exit(exit_success);
 }
 
-/// What the plug-in forks or starts has the socket neither to write to nor to hold open.
+/// Closes the socket in processes that the plug-in forks or starts, so that they neither write to it nor hold it open.
 void keep_from_children() {
   fcntl(worker_descriptor, F_SETFD, FD_CLOEXEC);
   pthread_atfork(nullptr, nullptr, [] { close(worker_descriptor); });
@@ -71,8 +71,13 @@ class Library {
       throw Refusal("it asks for memory " + std::to_string(info->memory) +
                     "; known: OGC_HOST_MEMORY (0), OGC_DEVICE_MEMORY (1)");
     name = info->name ? info->name : "";
-    for (const PluginStage& stage : plugin_stages())
+    for (const PluginStage& stage : plugin_stages()) {
       functions.push_back(dlsym(library, ("ogc_" + std::string(stage.name)).c_str()));
+      if (functions.back() && info->version < stage.oldest_version)
+        throw Refusal("it was built for version " + std::to_string(info->version) + " of compare/plugin.h, and ogc_" +
+                      std::string(stage.name) + " takes what version " + std::to_string(stage.oldest_version) +
+                      " gives; build it with this program's header");
+    }
     memory = info->memory == OGC_HOST_MEMORY ? host_memory() : device_memory();
   }
 

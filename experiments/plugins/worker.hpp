@@ -31,8 +31,8 @@ struct CallResult {
 
 /// The question: a stage of plugin_stages(), sizes, time limit; its arrays follow.
 struct CallRequest {
-  std::uint64_t stage = 0;
-  QuestionSizes sizes;
+  std::uint64_t stage = 0;     ///< its position in plugin_stages()
+  QuestionSizes sizes;         ///< of the question
   unsigned limit_seconds = 0;  ///< the worker ends itself soon after, should nobody be left to end it
 };
 

@@ -16,6 +16,7 @@ struct CommandContext {
   std::string command_line;   ///< as typed, for run.json
 };
 
+/// Each adds one subcommand of `ogc` (experiments/program/commands/).
 void add_scenes_command(CLI::App& app, CommandContext& context);
 void add_run_command(CLI::App& app, CommandContext& context);
 void add_ablate_command(CLI::App& app, CommandContext& context);

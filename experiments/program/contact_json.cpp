@@ -71,7 +71,7 @@ class Printer {
   std::string text_, separator_ = "{\n  ";
 };
 
-/// By predicate, for those that were asked.
+/// The counts of each predicate that was asked.
 Json to_json(const reference::FilterCounts& filters) {
   Json json = Json::object();
   for (std::size_t k = 0; k < reference::filtered_predicates; ++k) {
@@ -140,7 +140,8 @@ std::vector<std::string> edge_places(const Topology& topology) {
   return all;
 }
 
-/// As the schema orders them; a valid mesh has no vertex without an edge.
+/// Where each vertex lies in the mesh: the first that fits of the schema's list. A valid mesh has no vertex without an
+/// edge.
 std::vector<std::string> vertex_places(const Topology& topology) {
   const std::vector<std::string> edges = edge_places(topology);
   std::vector<std::string> all;

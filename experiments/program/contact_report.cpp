@@ -97,7 +97,7 @@ std::string name(const Face& face, const Topology& topology, const compare::Elem
   return {};
 }
 
-/// Counts over tenths of r_q, and of those that have nothing within it.
+/// How many distances lie in each tenth of r_q, and how many primitives have nothing within it.
 std::string distribution(const std::vector<float>& distances, float query_radius) {
   constexpr std::size_t parts = 10;
   std::array<std::size_t, parts + 1> counts{};

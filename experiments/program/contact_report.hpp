@@ -25,11 +25,11 @@ struct ExactGeometry {
 
 /// What `ogc contacts` prints.
 struct ContactReport {
-  compare::Topology topology;
-  std::vector<compare::Vec3f> positions;
+  compare::Topology topology;                  ///< of the mesh
+  std::vector<compare::Vec3f> positions;       ///< by vertex [m]
   float contact_radius = 0, query_radius = 0;  ///< r, r_q [m]
-  compare::DetectVertexFacetOut vertex_facet;
-  compare::DetectEdgeEdgeOut edge_edge;
+  compare::DetectVertexFacetOut vertex_facet;  ///< F_OGC and smallest distances
+  compare::DetectEdgeEdgeOut edge_edge;        ///< E_OGC and smallest distances
   /// [m], one each contact: of the vertex and the owner; between the contact points
   std::vector<double> vertex_facet_distance, edge_edge_distance;
   std::vector<float> bound;  ///< b_v, Eq. 21 [m]
@@ -39,7 +39,7 @@ struct ContactReport {
 
 /// Which sets an exact report has besides OGC's. Each looks at all pairs of vertices and triangles.
 struct FurtherSets {
-  bool ipc = false, sdf = false;
+  bool ipc = false, sdf = false;  ///< F_IPC (Eq. 3), F_SDF (Eq. 4)
 };
 
 /// Throws compare::ResourceError where the engine is not available. The mesh must be valid.

@@ -13,11 +13,11 @@ namespace ogc::experiments {
 
 namespace {
 
-// Of a generator.
+// Failing cases that are saved of each generator.
 constexpr std::ptrdiff_t saved_cases = 4;
-// Of all failing cases together, and of one [s].
+// Time for making all failing cases smaller, and for one of them [s].
 constexpr double shrinking_seconds = 30, shrinking_one = 2;
-// More are a list to run, not to read.
+// Cases that are told whole; nobody reads more.
 constexpr std::size_t most_explained = 5;
 
 }  // namespace

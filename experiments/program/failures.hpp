@@ -43,7 +43,7 @@ class Failures {
   /// Holds the failures of each stage to the known wrong forms. `seed`: of the cases that are asked beside them.
   void diagnose(std::vector<compare::StageReport>& reports, std::uint64_t seed);
 
-  const std::vector<compare::Explanation>& explanations() const { return explanations_; }
+  const std::vector<compare::Explanation>& explanations() const { return explanations_; }  ///< of all cases told so far
 
  private:
   compare::TestCase case_again(const compare::CaseName& name);

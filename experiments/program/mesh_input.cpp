@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/scene.hpp"
@@ -15,7 +15,8 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Modellers write a vertex once for each face that bends there: such faces touch and hang together by nothing.
+/// Says how many vertices share a position. Modellers write a vertex once for each face that bends there; such faces
+/// touch, and nothing holds them together.
 std::string repeated_places(const compare::Mesh& mesh) {
   std::vector<std::array<double, 3>> places;
   for (const compare::Vec3& p : mesh.positions) places.push_back({p.x, p.y, p.z});

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/files/polygon_mesh.hpp"
+#include "compare/files/meshes/polygon_mesh.hpp"
 #include "compare/problem/element_names.hpp"
 #include "experiments/program/commands.hpp"
 
@@ -13,16 +13,16 @@ namespace ogc::experiments {
 
 /// A valid mesh and what its elements are called.
 struct MeshInput {
-  compare::Mesh mesh;
-  compare::MeshSource source;
-  compare::ElementNames names;
+  compare::Mesh mesh;           ///< as stages see it
+  compare::MeshSource source;   ///< where its elements stand in the file
+  compare::ElementNames names;  ///< what messages call them
 };
 
 /// Adds --triangulate, --drop-unused (both on unless refused) and --weld. The options must outlive the parsing.
 void add_mesh_options(CLI::App& command, compare::MeshOptions& options);
 
 /// What was taken otherwise than it stands in the file, or should be known of it, a sentence each: what was cut, merged
-/// and left out, vertices at one place, dust and what became of it (`dust_treatment`).
+/// and left out, vertices at one position, dust and what became of it (`dust_treatment`).
 std::vector<std::string> words_about(const compare::LoadedMesh& loaded, const std::string& dust_treatment);
 
 /// Reads a mesh file as stages see it: dust is 0, coordinates are rounded to single precision. Says on standard error

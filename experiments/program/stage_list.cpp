@@ -70,7 +70,7 @@ std::string stage_list_markdown() {
   for (const Stage stage : compare::all_stages) {
     const StageInfo& info = compare::stage_info(stage);
     const std::string name(info.name);
-    // Both backends instantiate one list of probes (fast/stages/probes.hpp), so what the CPU has CUDA has.
+    // Both backends instantiate one list of probes (fast/probes/probes.hpp), so what the CPU has CUDA has.
     const bool is_there = compare::can_judge(stage, fast, authority);
     text += "| " + link(name, "stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " +
             std::string(info.unit) + " | " + link("exact", "../" + std::string(info.reference)) +

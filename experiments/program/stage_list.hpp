@@ -23,6 +23,7 @@ std::string stage_list_text();
 std::vector<compare::DeterminismReport> determinism_of(fast::Backend backend, std::span<const compare::Stage> stages,
                                                        std::uint64_t cases, std::uint64_t seed);
 
+/// The report of `ogc compare --determinism --json`.
 Json determinism_json(std::span<const compare::DeterminismReport> reports);
 
 }  // namespace ogc::experiments

@@ -7,10 +7,10 @@ namespace ogc::experiments {
 
 /// Defaults: the paper's. The contact radius follows the spacing: 5 mm on 70 × 70.
 struct ActivationDropSizes {
-  compare::Index vertices_a_side = 70;
-  int sphere_subdivisions = 3;
-  std::int64_t steps = 40;
-  std::int64_t iterations = 500;  ///< of vbd
+  compare::Index vertices_a_side = 70;  ///< of each cloth
+  int sphere_subdivisions = 3;          ///< of an icosahedron
+  std::int64_t steps = 40;              ///< of the run
+  std::int64_t iterations = 500;        ///< of vbd
 };
 
 /// cloth_on_sphere with the ground: a fixed mesh of 4 m × 4 m at y = −0.272 m, its triangles at most a hundred times as

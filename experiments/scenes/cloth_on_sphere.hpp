@@ -8,10 +8,10 @@ namespace ogc::experiments {
 /// Defaults: the paper's. The contact radius follows the spacing, so that every size has the contact regime of r = 5 mm
 /// on 70 × 70.
 struct ClothOnSphereSizes {
-  compare::Index vertices_a_side = 70;
-  int sphere_subdivisions = 3;
-  std::int64_t steps = 100;
-  double sphere_radius = 0.262;  ///< [m]
+  compare::Index vertices_a_side = 70;  ///< of each cloth
+  int sphere_subdivisions = 3;          ///< of an icosahedron
+  std::int64_t steps = 100;             ///< of the run
+  double sphere_radius = 0.262;         ///< [m]
 };
 
 /// Cloth, sphere and ground of the scenes with a sphere.

@@ -10,10 +10,10 @@ namespace ogc::experiments {
 /// How many cells, [along the body, around a panel], the stand-in's panels have; defaults: about the data set's size.
 /// The contact radius follows the spacing.
 struct DressSizes {
-  std::array<compare::Index, 2> bodice{40, 30}, hips{28, 37}, hem{26, 48};
-  compare::Index strap = 50;      ///< cells along a strap
-  double body_spacing = 0.01487;  ///< edges of the body [m]
-  std::int64_t steps = 968;       ///< 4.84 s
+  std::array<compare::Index, 2> bodice{40, 30}, hips{28, 37}, hem{26, 48};  ///< cells
+  compare::Index strap = 50;                                                ///< cells along a strap
+  double body_spacing = 0.01487;                                            ///< edges of the body [m]
+  std::int64_t steps = 968;                                                 ///< 4.84 s
 };
 
 /// The stand-in: bodice (cylinder), hips and hem (cones), four panels each, and two straps over the shoulders (half

@@ -11,22 +11,23 @@ namespace ogc::experiments {
 
 /// Vertex `first` belongs to the point (1 − ratio) x_second + ratio x_third.
 struct Stitch {
-  compare::Index first = -1, second = -1, third = -1;
-  double ratio = 0;
+  compare::Index first = -1, second = -1, third = -1;  ///< vertices of the garment
+  double ratio = 0;                                    ///< from 0 to 1
 };
 
 /// What the files must hold, so that a file cut off is none; defaults: as published.
 struct DressCounts {
-  std::size_t vertices = 15656, triangles = 29456, panels = 14, stitches = 851;
-  std::size_t body_vertices = 12811, body_triangles = 25472, frames = 121;
+  std::size_t vertices = 15656, triangles = 29456, panels = 14, stitches = 851;  ///< of the garment
+  std::size_t body_vertices = 12811, body_triangles = 25472, frames = 121;       ///< of the body, and its frames
 };
 
+/// The data set as one scene needs it.
 struct DressData {
   std::vector<std::array<double, 2>> pattern;     ///< rest shape by vertex [m]
   compare::Mesh garment;                          ///< at the start [m]
   std::vector<compare::Index> panel_of_triangle;  ///< from 0
-  std::vector<Stitch> stitches;
-  compare::Mesh body;  ///< at the start [m]
+  std::vector<Stitch> stitches;                   ///< of the garment
+  compare::Mesh body;                             ///< at the start [m]
   /// by frame, the body's vertices, moved to where the start has them [m]
   std::vector<std::vector<compare::Vec3>> motion;
 };

@@ -9,12 +9,12 @@ namespace ogc::experiments {
 /// Defaults: the paper's at 246,000 vertices. Heights follow the contact radius; the ground's triangles follow the
 /// cloth's.
 struct FiftyLayersSizes {
-  std::string name = "fifty_layers";
-  compare::Index layers = 50;
-  compare::Index vertices_a_side = 70;
-  double contact_radius = 3e-3;  ///< r [m]
-  double shift = 3e-3;           ///< standard deviation of each layer's shift in x and in z [m]
-  CylinderCells cylinder{};
+  std::string name = "fifty_layers";    ///< of the scene
+  compare::Index layers = 50;           ///< cloths
+  compare::Index vertices_a_side = 70;  ///< of each cloth
+  double contact_radius = 3e-3;         ///< r [m]
+  double shift = 3e-3;                  ///< standard deviation of each layer's shift in x and in z [m]
+  CylinderCells cylinder{};             ///< of the cylinder's mesh
   /// 4 s; until everything rests it takes more, which no setting can say: ogc run --steps
   std::int64_t steps = 4800;
   std::uint64_t seed = 0;  ///< of the shifts

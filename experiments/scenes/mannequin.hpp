@@ -8,9 +8,10 @@ namespace ogc::experiments {
 /// Heights of the shoulders' centre and of the torso's lower end, radii of torso and pelvis (a ball at 0.86 m) [m];
 /// `spacing`: about the length of the surface's edges [m].
 struct MannequinSizes {
+  /// see above [m]
   double shoulders = 1.30, waist = 0.98, torso_radius = 0.142, pelvis_radius = 0.188;
-  double spacing = 0.01487;
-  double seconds = 4.84;  ///< how long it walks
+  double spacing = 0.01487;  ///< see above [m]
+  double seconds = 4.84;     ///< how long it walks
 };
 
 /// Appends it as a body without energies and all of its vertices as one motion, so that capsules that overlap are no

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "compare/problem/material_table.hpp"
 #include "experiments/scenes/solid_box.hpp"
 
 namespace ogc::experiments {
@@ -16,8 +17,7 @@ constexpr double young = 2e4, poisson = 0.4;           ///< [Pa], [1]
 compare::Material soft_solid() {
   compare::Material material;
   material.solid_density = 1000;
-  material.solid_mu = young / (2 * (1 + poisson));
-  material.solid_lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  compare::set_elasticity(material, {young, poisson});
   material.contact_stiffness = 100;
   material.friction = 0.2;
   return material;

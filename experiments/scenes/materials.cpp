@@ -1,5 +1,7 @@
 #include "experiments/scenes/materials.hpp"
 
+#include "compare/problem/material_table.hpp"
+
 namespace ogc::experiments {
 
 compare::Material layer_cloth() {
@@ -19,6 +21,15 @@ compare::Material driven_surface() {
   material.bending = compare::BendingModel::none;
   material.lame_mu = material.lame_lambda = material.bending_stiffness = 0;
   material.contact_stiffness = 100;
+  material.friction = 0.5;
+  return material;
+}
+
+compare::Material soft_rubber() {
+  compare::Material material;
+  material.solid_density = 1000;
+  compare::set_elasticity(material, {1e5, 0.4});
+  material.solid_damping = 2e-3;
   material.friction = 0.5;
   return material;
 }

@@ -7,9 +7,9 @@ namespace ogc::experiments {
 
 /// Defaults: the paper's; a frame is 10 steps. The contact radius follows the spacing: 5 mm on 70 × 70.
 struct OneIterationDropSizes {
-  compare::Index vertices_a_side = 70;
-  int sphere_subdivisions = 3;
-  std::int64_t steps = 800;
+  compare::Index vertices_a_side = 70;  ///< of each cloth
+  int sphere_subdivisions = 3;          ///< of an icosahedron
+  std::int64_t steps = 800;             ///< of the run
 };
 
 /// 1 m × 1 m of cloth at y = 0.30 m above a sphere of radius 0.10 m about (−0.15, 0, 0). One sweep of OGC, one

@@ -15,8 +15,8 @@ enum class Scale { smoke, small, paper };
 
 /// One row of the registry.
 struct SceneInfo {
-  std::string_view name, figure, summary;
-  compare::Scene (*generate)(Scale);
+  std::string_view name, figure, summary;  ///< "twist"; where the paper shows it; one line
+  compare::Scene (*generate)(Scale);       ///< makes the scene
   /// the same of a published data set in this folder, where there is one
   compare::Scene (*generate_of)(Scale, const std::filesystem::path&) = nullptr;
 };

@@ -7,10 +7,10 @@ namespace ogc::experiments {
 
 /// Defaults: the paper's. The contact radius follows the spacing: 2 mm on 70 × 70.
 struct ThreeClothsSizes {
-  compare::Index vertices_a_side = 70;
-  int sphere_subdivisions = 3;
-  std::int64_t steps = 50;
-  std::int64_t iterations = 500;
+  compare::Index vertices_a_side = 70;  ///< of each cloth
+  int sphere_subdivisions = 3;          ///< of an icosahedron
+  std::int64_t steps = 50;              ///< of the run
+  std::int64_t iterations = 500;        ///< sweeps a step
 };
 
 /// The sphere of cloth_on_sphere, three of its cloths at y = 0.30 m and 2 r and 4 r above.

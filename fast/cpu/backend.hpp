@@ -35,10 +35,12 @@ class CpuBuffer {
   CpuBuffer(CpuBuffer&&) noexcept = default;
   CpuBuffer& operator=(CpuBuffer&&) noexcept = default;
 
+  /// Items on the host, size() of them; null until there was one.
   T* data() { return items_.get(); }
   const T* data() const { return items_.get(); }
   std::size_t size() const { return size_; }
 
+  /// Keeps no content and never shrinks; a new allocation is zero.
   void resize(std::size_t n) {
     if (n > capacity_) {
       items_ = std::make_unique<T[]>(n);
@@ -66,9 +68,11 @@ template <class F>
 F on_packs(const F& f) {
   return f;
 }
+/// Sums of default models run in packs.
 inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
+/// Sums of every model, and those of solids, run in packs where these have the models.
 inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
@@ -79,7 +83,7 @@ inline UpdateVertex<GatherPackedEverything> on_packs(const UpdateVertex<GatherEv
   return {f.view, f.first_slot, f.asks_late};
 }
 
-/// Brings to the cache what f(i, team) is going to read where no processor expects it.
+/// Prefetches what f(i, team) is going to read where hardware does not predict it.
 template <class F>
 void look_ahead(const F&, int) {}
 /// Contacts lie vertex by vertex, and a colour takes every fourth to eighth of them.
@@ -92,27 +96,33 @@ void look_ahead(const UpdateVertex<Gather>& f, int i) {
   for (const char* at = begin; at < end; at += line) __builtin_prefetch(at);
 }
 
+/// Loops on the threads of oneTBB, each member as fast/stages/backend.hpp says.
 class CpuBackend {
  public:
   template <class T>
   using Buffer = CpuBuffer<T>;
 
+  /// Ranges of items as tasks; up to 64 items stay in the calling thread.
   template <class F>
   void for_each(int n, F f) {
     for_each_range(n, [&f](int begin, int end) { run_range(f, begin, end); });
   }
 
+  /// The count is read at once: all work enqueued before is done.
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
     for_each(std::min(*n, capacity), f);
   }
 
+  /// One loop after the other.
   template <class F, class G>
   void for_both(int m, F f, const int* n, int capacity, G g) {
     for_each(m, f);
     for_each_counted(n, capacity, g);
   }
 
+  /// A thread runs a whole team as SerialTeam<W>, in packs where `on_packs` knows how. Start has no meaning here: each
+  /// loop has ended before the next begins.
   template <int W, class F>
   void for_each_team(int n, F f, Start) {
     constexpr int ahead = 2;
@@ -124,6 +134,7 @@ class CpuBackend {
     });
   }
 
+  /// One loop over both kinds, so that no thread waits between them.
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
     for_each_range(first.count + second.count, [&first, &second](int begin, int end) {
@@ -133,12 +144,13 @@ class CpuBackend {
     });
   }
 
+  /// In the calling thread.
   void exclusive_scans(const Scan& first, const Scan& second) {
     exclusive_scan(first);
     exclusive_scan(second);
   }
 
-  /// The original place breaks ties: that makes an unstable parallel sort stable.
+  /// The original number breaks ties: that makes an unstable parallel sort stable.
   void sort_pairs(std::uint64_t* keys, int* values, int n) {
     std::vector<Item> items(static_cast<std::size_t>(n));
     for_each(n, [&](int i) { items[static_cast<std::size_t>(i)] = {keys[i], i, values[i]}; });
@@ -149,12 +161,14 @@ class CpuBackend {
     });
   }
 
+  /// The flag is read at once.
   template <class F, class Body>
   void when(F decide, const int* flag, Body body) {
     decide(0);
     if (*flag != 0) body();
   }
 
+  /// The flag is read before each round.
   template <class F, class Body, class G>
   void repeat(F decide, const int* flag, Body body, G decide_again) {
     for (decide(0); *flag != 0; decide_again(0)) body();
@@ -165,6 +179,7 @@ class CpuBackend {
     void clear() {}
   };
 
+  /// Runs the body and measures it each time.
   template <class Body>
   void replay(Recording&, int times, Body body) {
     replay_milliseconds_.clear();
@@ -175,6 +190,7 @@ class CpuBackend {
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
   }
+  /// of the last replay: wall time of each repetition [ms]
   const std::vector<double>& replay_milliseconds() const { return replay_milliseconds_; }
 
   void synchronize() {}
@@ -182,7 +198,7 @@ class CpuBackend {
  private:
   struct Item {
     std::uint64_t key;
-    int place, value;
+    int number, value;
 
     friend auto operator<=>(const Item&, const Item&) = default;
   };
@@ -197,7 +213,7 @@ class CpuBackend {
     scan.out[scan.count] = total;
   }
 
-  /// run(begin, end) for parts of 0 … n.
+  /// run(begin, end) for ranges that make up 0 … n.
   template <class Run>
   static void for_each_range(int n, const Run& run) {
     constexpr int grain = 64;

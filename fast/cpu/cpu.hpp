@@ -10,6 +10,7 @@
 
 namespace ogc::fast {
 
+/// The number of threads.
 BackendInfo cpu_info();
 
 /// All stages on the host's threads.

@@ -1,6 +1,5 @@
-// What a thread finds goes to a list of its own first and from there to the common one, many at a time: one counter
-// that all threads raise for each thing found is what they would wait for, and beside it lie flags that all of them
-// read.
+// A thread keeps what it finds in a list of its own and moves it to the common one many at a time: all threads would
+// wait for one counter that each of them raises for each thing found, and beside it lie flags that all of them read.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +12,10 @@ namespace ogc::fast {
 template <class Item, int room>
 class LocalList {
  public:
+  /// In place of the common list and its counter, for functors that add to these.
   Item* items() { return items_; }
   int* count() { return &count_; }
+  /// Whether so many more fit; asked before they are added, since beyond its room a list only counts.
   bool has_room_for(int more) const { return count_ + more <= room; }
 
   /// Moves all to a common list, which counts also those that find no room; these are left to without_room(item).
@@ -40,6 +41,7 @@ class LocalNotes {
   LocalNotes& operator=(const LocalNotes&) = delete;
   ~LocalNotes() { flush(); }
 
+  /// The common lists with this list of notes.
   ListsView view() {
     ListsView lists = common_;
     lists.noted = list_.items(), lists.noted_count = list_.count(), lists.noted_capacity = room;
@@ -74,11 +76,11 @@ inline void run_range(const CollectContacts& f, int begin, int end) {
   const ListsView& common = f.lists;
   LocalList<EnteredContact, room> list;
   CollectContacts local = f;
-  local.lists.entered = list.items(), local.lists.cursor = list.count(), local.lists.capacity = room;
+  local.lists.entered = list.items(), local.lists.contact_count = list.count(), local.lists.capacity = room;
   const ContactFaces faces{f.edge_edge.surface};
   for (int first = begin; first < end; first += room) {
     for (int i = first; i < std::min(first + room, end); ++i) local(i);
-    list.flush(common.entered, common.capacity, common.cursor, [&](const EnteredContact& contact) {
+    list.flush(common.entered, common.capacity, common.contact_count, [&](const EnteredContact& contact) {
       common.count(contact.bucket, faces.vertices(contact.bucket, contact.second), -1);
     });
   }

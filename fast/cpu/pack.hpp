@@ -2,8 +2,8 @@
 // order as on one float, each rounded alike, so that the same bits come out. g++'s vector types; a few operations have
 // better instructions where there is SSE2 or AVX2.
 //
-// A file that uses packs may be compiled for several machines. Each has a namespace of its own, so that the linker
-// never merges code for a larger one into a program that runs on a smaller one.
+// Files that use packs are compiled for several machines, each in a namespace of its own, so that the linker never
+// merges code with AVX2 into what runs without.
 #pragma once
 
 #include <bit>
@@ -23,18 +23,21 @@
 #define OGC_FOR_PACKS(name) name##_baseline
 #endif
 
-#include "fast/kernels/scalar.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
 
 namespace ogc::fast {
 inline namespace OGC_PACKS {
 
+/// g++'s vector types of N numbers.
 template <int N>
 struct Register;
+/// 16 B: a register of SSE2.
 template <>
 struct Register<4> {
   using Numbers __attribute__((vector_size(16))) = float;
   using Bits __attribute__((vector_size(16))) = std::int32_t;
 };
+/// 32 B: a register of AVX2.
 template <>
 struct Register<8> {
   using Numbers __attribute__((vector_size(32))) = float;
@@ -45,14 +48,14 @@ struct Register<8> {
 template <int N>
 struct PackMaskOf {
   using Bits = typename Register<N>::Bits;  ///< all ones or none
-  Bits bits{};
+  Bits bits{};                              ///< by lane
 
   friend PackMaskOf operator!(PackMaskOf a) { return {~a.bits}; }
   friend PackMaskOf operator&&(PackMaskOf a, PackMaskOf b) { return {a.bits & b.bits}; }
   friend PackMaskOf operator||(PackMaskOf a, PackMaskOf b) { return {a.bits | b.bits}; }
 
-  /// A bit for each place that is true, the first one's lowest.
-  friend unsigned places(PackMaskOf condition) {
+  /// A bit for each lane that is true, the first one's lowest.
+  friend unsigned true_lanes(PackMaskOf condition) {
 #if defined(__AVX2__)
     if constexpr (N == 8) return static_cast<unsigned>(_mm256_movemask_ps(std::bit_cast<__m256>(condition.bits)));
 #endif
@@ -63,27 +66,29 @@ struct PackMaskOf {
     for (int k = 0; k < N; ++k) all |= condition.bits[k] != 0 ? 1U << k : 0U;
     return all;
   }
-  friend bool is_false(PackMaskOf condition) { return places(condition) == 0; }
+  friend bool is_false(PackMaskOf condition) { return true_lanes(condition) == 0; }
 };
 
+/// N floats in one register, each in a lane.
 template <int N>
 struct PackOf {
-  static constexpr int width = N;
+  static constexpr int width = N;  ///< lanes
   using Numbers = typename Register<N>::Numbers;
   using Mask = PackMaskOf<N>;
-  Numbers value{};
+  Numbers value{};  ///< by lane
 
   PackOf() = default;
   PackOf(Numbers packed) : value(packed) {}                    // NOLINT: formulas mix packs with constants
   PackOf(float everywhere) : value(everywhere - Numbers{}) {}  // NOLINT: less +0 keeps even a zero's sign
   explicit PackOf(const float* from) { std::memcpy(&value, from, sizeof value); }
-  /// number(k) at place k.
+  /// number(k) in lane k.
   template <class F>
   static PackOf of_each(F number) {
     return [&]<int... k>(std::integer_sequence<int, k...>) { return PackOf(Numbers{number(k)...}); }
     (std::make_integer_sequence<int, N>());
   }
 
+  /// Lane k to to[k], which needs no alignment.
   void store(float* to) const { std::memcpy(to, &value, sizeof value); }
   float operator[](int k) const { return value[k]; }
 
@@ -143,7 +148,7 @@ using WidePack = PackOf<8>;
 using WidePack = PackOf<4>;
 #endif
 
-/// True in the first `count` places.
+/// True in the first `count` lanes.
 template <class P>
 typename P::Mask first_of(int count) {
   using Bits = typename P::Mask::Bits;
@@ -151,7 +156,7 @@ typename P::Mask first_of(int count) {
   (std::make_integer_sequence<int, P::width>());
 }
 
-/// In each 16 B of the result places p, q, r and s of those 16 B of a; from N on, of b.
+/// In each 16 B of the result lanes p, q, r and s of those 16 B of a; from N on, of b.
 template <int p, int q, int r, int s, int N>
 PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   return [&]<int... k>(std::integer_sequence<int, k...>) {
@@ -164,8 +169,9 @@ PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
 /// Of the four numbers of each 16 B: the first ones of a, b, c and d, then their second ones, and so on.
 template <int N>
 struct ColumnsOf {
-  PackOf<N> x, y, z, w;
+  PackOf<N> x, y, z, w;  ///< x: number 0 of each 16 B of a, b, c and d in this order; y, z and w: numbers 1, 2 and 3
 };
+/// The ColumnsOf of four rows.
 template <int N>
 ColumnsOf<N> transposed(const PackOf<N>& a, const PackOf<N>& b, const PackOf<N>& c, const PackOf<N>& d) {
   const PackOf<N> xy_ab = mixed<0, N, 1, N + 1>(a, b), xy_cd = mixed<0, N, 1, N + 1>(c, d);
@@ -178,14 +184,15 @@ using Columns = ColumnsOf<4>;
 /// Two halves as one; registers all the way, as a pack that is read back from two halves in memory waits for both to
 /// arrive there.
 #if defined(__AVX2__)
+/// `low` in lanes 0 … 3, `high` in lanes 4 … 7.
 inline PackOf<8> halves(Pack low, Pack high) { return PackOf<8>::Numbers(_mm256_set_m128(high.value, low.value)); }
 #endif
 
-/// The x, the y and the z of as many places as P is wide, each of which is read whole.
+/// The x, the y and the z of as many positions as P is wide, each of which is read whole.
 template <class P>
-[[gnu::always_inline]] inline Vector<P> transposed(const Place* const* place) {
-  const auto whole = [place](int k) { return Pack(std::bit_cast<Pack::Numbers>(*place[k])); };
-  const auto column = [&whole](int k) {  // places k, k + 4, …
+[[gnu::always_inline]] inline Vector<P> transposed(const PaddedVec* const* position) {
+  const auto whole = [position](int k) { return Pack(std::bit_cast<Pack::Numbers>(*position[k])); };
+  const auto column = [&whole](int k) {  // positions k, k + 4, …
     if constexpr (P::width == 4)
       return whole(k);
     else
@@ -197,6 +204,7 @@ template <class P>
 
 }  // namespace OGC_PACKS
 
+/// Packs are compared lane by lane.
 template <int N>
 struct MaskOf<PackOf<N>> {
   using type = PackMaskOf<N>;

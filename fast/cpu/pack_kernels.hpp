@@ -5,36 +5,39 @@
 
 namespace ogc::fast {
 
-/// Of a part of so many items that was computed one by one the sums of all lanes; null: of none.
-struct LaneSums {
-  const ForceAndBlock* lane = nullptr;
-  int count = 0;
+/// A part of so many items that was computed one by one: the sums of all team lanes; null: none.
+struct TeamLaneSums {
+  const ForceAndBlock* sums = nullptr;  ///< by team lane, W of them
+  int count = 0;                        ///< items of the part; where they are fewer than W the last sums are 0
 };
 
 /// Parts that are not computed in packs: triangles and hinges where they have sums here, springs, and tetrahedra where
 /// they have.
 struct OtherParts {
-  LaneSums triangles, hinges, springs, tetrahedra;
+  /// null sums: packs compute the part, or there is none
+  TeamLaneSums triangles, hinges, springs, tetrahedra;
 };
 
-/// As GatherDefault with a SerialTeam of so many lanes and, between hinges and contacts, springs and tetrahedra; or as
-/// GatherSolids.
+/// As GatherDefault with a SerialTeam and, between hinges and contacts, springs and tetrahedra; or as GatherSolids.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const OtherParts& other);
-/// One for each number of lanes.
+/// One function for each number W of team lanes.
 struct GatherByLanes {
-  GatherInPacks gather_4, gather_8, gather_16, gather_32;
+  GatherInPacks gather_4, gather_8, gather_16, gather_32;  ///< for W = 4, 8, 16, 32
 
+  /// That of W.
   template <int W>
   GatherInPacks gather() const {
     static_assert(W >= 4);
     return W == 4 ? gather_4 : (W == 8 ? gather_8 : (W == 16 ? gather_16 : gather_32));
   }
 };
+/// Of scenes with surfaces, and of those whose free vertices all belong to solids.
 struct PackKernels {
-  GatherByLanes surfaces, solids;
+  GatherByLanes surfaces, solids;  ///< as GatherDefault, as GatherSolids
 };
 
+/// Compiled without and with AVX2. Where has_avx2() is false the latter must not be called.
 extern const PackKernels pack_kernels_baseline, pack_kernels_avx2;
 
 /// Whether this machine can run those for AVX2.
@@ -42,17 +45,17 @@ bool has_avx2();
 /// The fastest that this machine can run.
 const PackKernels& pack_kernels();
 
-/// Sums of the lanes of a part that is computed item by item.
-template <class Part, int W>
-LaneSums one_by_one(const Part& part, ForceAndBlock (&lane)[W]) {
-  for (int k = 0; k < part.count; ++k) add_item(part, load_item(part, k), lane[k % W]);
-  return {lane, part.count};
+/// Sums of all team lanes of a part that is computed item by item.
+template <class AnyPart, int W>
+TeamLaneSums one_by_one(const AnyPart& part, ForceAndBlock (&sums)[W]) {
+  for (int k = 0; k < part.count; ++k) add_item(part, load_item(part, k), sums[k % W]);
+  return {sums, part.count};
 }
 
 /// As GatherDefault.
 struct GatherPacked {
-  static constexpr int parts = GatherDefault::parts;
-  const PackKernels& kernels = pack_kernels();
+  static constexpr int parts = GatherDefault::parts;  ///< of the sum; devices alone read it
+  const PackKernels& kernels = pack_kernels();        ///< those of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -66,8 +69,8 @@ struct GatherPacked {
 
 /// As GatherSolids: in packs but for tetrahedra that damp, which are computed one by one.
 struct GatherPackedSolids {
-  static constexpr int parts = GatherSolids::parts;
-  const PackKernels& kernels = pack_kernels();
+  static constexpr int parts = GatherSolids::parts;  ///< of the sum; devices alone read it
+  const PackKernels& kernels = pack_kernels();       ///< those of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -89,9 +92,9 @@ struct GatherPackedSolids {
 /// with other models than the default ones, which are computed one by one; as there with other activations.
 template <class Gather>
 struct GatherPackedModels {
-  static constexpr int parts = Gather::parts;
-  static constexpr bool has_solids = std::is_same_v<Gather, GatherEverything>;
-  const PackKernels& kernels = pack_kernels();
+  static constexpr int parts = Gather::parts;                                   ///< of the sum; devices alone read it
+  static constexpr bool has_solids = std::is_same_v<Gather, GatherEverything>;  ///< whether tetrahedra are a part
+  const PackKernels& kernels = pack_kernels();                                  ///< those of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -107,11 +110,10 @@ struct GatherPackedModels {
   ForceAndBlock in_packs(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own) const {
     const SurfaceModels models = view.models[vertex.body];
     const SurfaceMaterial material = view.materials[vertex.body];
-    const bool by_vertex = models.damping == compare::DampingForm::per_vertex;
     const OwnVertex at{own, own - view.start[vertex.vertex]};
     ForceAndBlock triangles[W], hinges[W], springs[W], tetrahedra[W];
     OtherParts other;
-    if (by_vertex || models.membrane == compare::MembraneModel::stable_neo_hookean) {
+    if (!has_default_membrane(models)) {
       const auto add = [&](int i, ForceAndBlock& sum) {
         add_any_membrane(view, view.membrane[i], material, models, at, sum);
       };
@@ -119,7 +121,7 @@ struct GatherPackedModels {
                                        vertex.membrane_count, [&](int k) { return vertex.membrane_begin + k; }, add),
                                    triangles);
     }
-    if (by_vertex || models.bending == compare::BendingModel::isometric_quadratic) {
+    if (!has_default_bending(models)) {
       const auto add = [&](int i, ForceAndBlock& sum) {
         add_any_hinge(view, view.hinges[i], view.isometric != nullptr ? view.isometric[i] : IsometricStencil{},
                       material, models, at, sum);

@@ -18,14 +18,18 @@ ContactWeights weights_of_one(ContactKind kind, const Vec* x);
 
 inline namespace OGC_PACKS {
 
-/// Of ContactActivation::ogc.
-template <int N>
-ActivationSlopeOf<PackOf<N>> activation_slope(ContactActivation kind, PackOf<N> d, float r, PackOf<N> k) {
-  const PackMaskOf<N> logarithmic = d < 0.5F * r;
-  const PackOf<N> slope = logarithmic_stiffness(kind, r, k) / d;
-  return {select(logarithmic, -slope, -k * (r - d)), select(logarithmic, slope / d, k)};
-}
+/// OgcActivation within the radius: both stages are computed, and one is selected.
+struct PackedActivation {
+  /// g' [N] and g'' [N/m] by lane, for distances 0 < d < r [m] and stiffnesses k_c [N/m].
+  template <int N>
+  static ActivationSlopeOf<PackOf<N>> slope(PackOf<N> d, float r, PackOf<N> k) {
+    const PackMaskOf<N> logarithmic = d < 0.5F * r;
+    const PackOf<N> slope = OgcActivation::logarithmic_stiffness(r, k) / d;
+    return {select(logarithmic, -slope, -k * (r - d)), select(logarithmic, slope / d, k)};
+  }
+};
 
+/// friction_slope_over_slip of fast/kernels/friction_force.hpp by lane [1/m].
 template <int N>
 PackOf<N> friction_slope_over_slip(PackOf<N> slip, float limit) {
   return select(slip < limit, (2.0F - slip / limit) / limit, 1.0F / slip);
@@ -33,13 +37,14 @@ PackOf<N> friction_slope_over_slip(PackOf<N> slip, float limit) {
 
 namespace packed {
 
+/// t within [0, 1] by lane; 0 for NaN.
 template <class P>
 P clamp_unit(P t) {
   return select(t > 0.0F, select(t < 1.0F, t, 1.0F), 0.0F);
 }
 
-/// closest_on_segments; `usual`: where the result is that. False for a segment of length zero and for nearly parallel
-/// ones.
+/// closest_on_segments by lane, as weights. `usual`: lanes where this formula holds, that is neither segment has length
+/// zero, and they are not nearly parallel.
 template <class P>
 ContactWeightsOf<P> segment_weights(const Vector<P>* x, typename P::Mask& usual) {
   const Vector<P> first = x[1] - x[0], second = x[3] - x[2], between = x[2] - x[0];
@@ -55,7 +60,8 @@ ContactWeightsOf<P> segment_weights(const Vector<P>* x, typename P::Mask& usual)
   return {{1.0F - p, p, q - 1.0F, -q}};
 }
 
-/// closest_on_triangle; `usual`: where the point is over the interior, and the result is that.
+/// closest_on_triangle by lane, as weights. `usual`: lanes where this formula holds, that is the point lies over the
+/// interior.
 template <class P>
 ContactWeightsOf<P> triangle_weights(const Vector<P>* x, typename P::Mask& usual) {
   const Vector<P> ab = x[2] - x[1], ac = x[3] - x[1], ap = x[0] - x[1], normal = cross(ab, ac);
@@ -65,21 +71,22 @@ ContactWeightsOf<P> triangle_weights(const Vector<P>* x, typename P::Mask& usual
   return {{1.0F, -(a / area), -(b / area), -(c / area)}};
 }
 
-/// Of all that are counted.
+/// Weights of the closest points of the items that are counted, by slot. Those that are not `usual` are computed one by
+/// one.
 template <class P>
 ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vector<P>* x) {
   bool segments = false;
   for (const ContactIncidence* item : items.at) segments |= item->kind == ContactKind::segment_segment;
   typename P::Mask usual;
   ContactWeightsOf<P> weights = segments ? segment_weights<P>(x, usual) : triangle_weights<P>(x, usual);
-  unsigned together = places(usual || !items.counted);
+  unsigned together = true_lanes(usual || !items.counted);
   for (int k = 0; k < P::width; ++k) {
     if (items.at[k]->kind != (segments ? ContactKind::segment_segment : ContactKind::point_triangle))
       together &= ~(1U << k);
   }
-  unsigned alone = ~together & places(items.counted);
+  unsigned alone = ~together & true_lanes(items.counted);
   if (alone == 0) return weights;
-  float at[3][4][P::width], slot[4][P::width];  // [axis][slot][place]
+  float at[3][4][P::width], slot[4][P::width];  // [axis][slot][lane]
   for (int s = 0; s < 4; ++s)
     x[s].x.store(at[0][s]), x[s].y.store(at[1][s]), x[s].z.store(at[2][s]), weights.slot[s].store(slot[s]);
   for (; alone != 0; alone &= alone - 1) {
@@ -93,7 +100,7 @@ ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vecto
   return weights;
 }
 
-/// Of the slot that each item's own vertex has.
+/// By lane: weight of the slot that the item's own vertex has.
 template <class P>
 P own_weight(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights) {
   float slot[4][P::width];
@@ -101,7 +108,7 @@ P own_weight(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>&
   return P::of_each([&](int k) { return slot[items.at[k]->own][k]; });
 }
 
-/// ContactAt::majorant of each.
+/// ContactAt::majorant by lane.
 template <class P>
 P majorants(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights) {
   float slot[4][P::width];
@@ -114,7 +121,7 @@ P majorants(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& 
   });
 }
 
-/// add_friction at items with friction.
+/// add_friction of each item that has friction; the others' sums stay, bit for bit.
 template <class P>
 void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& weights,
               const Vector<P>* x, const Vector<P>& normal, P weight, P majorant, P normal_force,
@@ -123,8 +130,9 @@ void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, co
   const typename P::Mask slips = friction > 0.0F;
   if (is_false(slips)) return;
   const auto moved_by = [&](int s) {
-    return x[s] - items.each_place(
-                      [&](const ContactIncidence& i) -> const Place& { return view.start.at[decoded(i.index[s])]; });
+    return x[s] - items.each_position([&](const ContactIncidence& i) -> const PaddedVec& {
+      return view.start.at[decoded(i.index[s])];
+    });
   };
   const Vector<P> moved[4] = {moved_by(0), moved_by(1), moved_by(2), moved_by(3)};
   const P* w = weights.slot;
@@ -139,19 +147,20 @@ template <class P>
 void add_contacts(const SweepView& view, const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
   using Incidence = ContactIncidence;
   const auto position = [&](int s) {
-    return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[s])]; });
+    return items.each_position(
+        [&](const Incidence& i) -> const PaddedVec& { return view.old[view.number(i.index[s])]; });
   };
   const Vector<P> x[4] = {position(0), position(1), position(2), position(3)};
   const ContactWeightsOf<P> weights = packed::weights(items, x);
   const Vector<P> separation = weighted_sum(weights, x);
   const P squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights);
-  const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && distance < view.radius &&
+  const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && distance < view.contact_radius &&
                                 (weight > 0.0F || weight < 0.0F);
   if (is_false(acts)) return;
   const ContactShapeOf<P> shape{(1.0F / distance) * separation, distance, acts};
   ForceAndBlockOf<P> term;
   const P majorant = majorants(items, weights);
-  const P normal_force = add_contact(ContactActivation::ogc, shape, weight, majorant, view.radius,
+  const P normal_force = add_contact(PackedActivation{}, shape, weight, majorant, view.contact_radius,
                                      items.each([](const Incidence& i) { return i.stiffness; }), term);
   add_slip(view, items, weights, x, shape.normal, weight, majorant, normal_force, term);
   sum += selected<P>(acts, term, {});

@@ -1,4 +1,4 @@
-// The sum over the stencils of a vertex, a pack of a team's lanes at a time. Lanes, their items and the order of every
+// The sum over the stencils of a vertex, a pack of team lanes at a time. Team lanes, their items and the order of every
 // addition are those of SerialTeam, so the bits are, too (tests/fast/stages/sweep.cpp).
 #pragma once
 
@@ -10,7 +10,7 @@ namespace ogc::fast {
 inline namespace OGC_PACKS {
 namespace packed {
 
-/// As many sums as one.
+/// P::width sums as one of packs, sum k in lane k.
 template <class P>
 ForceAndBlockOf<P> together(const ForceAndBlock* a) {
   const auto each = [a](auto number) { return P::of_each([&](int k) { return number(a[k]); }); };
@@ -22,6 +22,7 @@ ForceAndBlockOf<P> together(const ForceAndBlock* a) {
            each([](Sum s) { return s.block.yz; }), each([](Sum s) { return s.block.zz; })}};
 }
 
+/// StVenantKirchhoff of each, added where it is counted.
 template <class P>
 void add_triangles(const SweepView& view, const Items<MembraneIncidence, P>& items, const SurfaceMaterial& material,
                    const Vector<P>& own, ForceAndBlockOf<P>& sum) {
@@ -31,10 +32,10 @@ void add_triangles(const SweepView& view, const Items<MembraneIncidence, P>& ite
                                      {items.each([](const Incidence& i) { return i.stencil.gradient_c[0]; }),
                                       items.each([](const Incidence& i) { return i.stencil.gradient_c[1]; })},
                                      items.each([](const Incidence& i) { return i.stencil.area; })};
-  const Vector<P> b = items.each_place(
-      [&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[0])]; });
-  const Vector<P> c = items.each_place(
-      [&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[1])]; });
+  const Vector<P> b = items.each_position(
+      [&](const Incidence& i) -> const PaddedVec& { return view.old[view.number(i.index[0])]; });
+  const Vector<P> c = items.each_position(
+      [&](const Incidence& i) -> const PaddedVec& { return view.old[view.number(i.index[1])]; });
   Symmetric2Of<P> start;
   if (material.membrane_damping > 0) {
     start = {items.each([&](const Incidence& i) { return view.strain_start[i.triangle].xx; }),
@@ -42,17 +43,19 @@ void add_triangles(const SweepView& view, const Items<MembraneIncidence, P>& ite
              items.each([&](const Incidence& i) { return view.strain_start[i.triangle].yy; })};
   }
   ForceAndBlockOf<P> with = sum;
-  add_membrane(stencil, material, b - own, c - own, start, with);
+  StVenantKirchhoff::add(stencil, material, b - own, c - own, start, with);
   sum = selected<P>(items.counted, with, sum);
 }
 
+/// DiscreteHinge of each, likewise.
 template <class P>
 void add_hinges(const SweepView& view, const Items<HingeIncidence, P>& items, const SurfaceMaterial& material,
                 const Vector<P>& own, ForceAndBlockOf<P>& sum) {
   using Incidence = HingeIncidence;
   const typename P::Mask opposite = items.each([](const Incidence& i) { return i.hinge < 0 ? 1.0F : 0.0F; }) > P{};
   const auto position = [&](int k) {
-    return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[k])]; });
+    return items.each_position(
+        [&](const Incidence& i) -> const PaddedVec& { return view.old[view.number(i.index[k])]; });
   };
   const Vector<P> p[3] = {position(0), position(1), position(2)};
   const HingeShapeOf<P> shape = hinge_shape_seen<P>(opposite, p, own);
@@ -62,11 +65,11 @@ void add_hinges(const SweepView& view, const Items<HingeIncidence, P>& items, co
   const HingeStencilOf<P> stencil{items.each([](const Incidence& i) { return i.stencil.stiffness; }),
                                   items.each([](const Incidence& i) { return i.stencil.rest_angle; })};
   ForceAndBlockOf<P> with = sum;
-  add_hinge(stencil, material.bending_damping, shape.angle, start, hinge_gradient(shape, opposite), with);
+  DiscreteHinge::add(stencil, material.bending_damping, shape.angle, start, hinge_gradient(shape, opposite), with);
   sum = selected<P>(items.counted && shape.defined, with, sum);
 }
 
-/// Without damping.
+/// add_tetrahedron of each, likewise; without damping.
 template <class P>
 void add_tetrahedra(const SweepView& view, const Items<TetrahedronIncidence, P>& items, const SolidMaterial& material,
                     const Vector<P>& own, ForceAndBlockOf<P>& sum) {
@@ -75,20 +78,21 @@ void add_tetrahedra(const SweepView& view, const Items<TetrahedronIncidence, P>&
   const TetrahedronStencilOf<P> stencil{{weight(0), weight(1), weight(2)},
                                         items.each([](const Incidence& i) { return i.stencil.inverse; })};
   const auto corner = [&](int k) {
-    return items.each_place([&](const Incidence& i) -> const Place& { return view.old[view.number(i.index[k])]; });
+    return items.each_position(
+        [&](const Incidence& i) -> const PaddedVec& { return view.old[view.number(i.index[k])]; });
   };
   ForceAndBlockOf<P> with = sum;
   add_tetrahedron(stencil, material, corner(0) - own, corner(1) - own, corner(2) - own, with);
   sum = selected<P>(items.counted, with, sum);
 }
 
-/// The lanes of a team of W, P::width in a pack.
+/// The W lanes of a team, P::width in a pack.
 template <int W, class P>
-struct Lanes {
+struct TeamLanes {
   static_assert(W >= P::width);
-  ForceAndBlockOf<P> packs[W / P::width];
+  ForceAndBlockOf<P> packs[W / P::width];  ///< team lane l in lane l mod P::width of pack l / P::width
 
-  /// A part of so many items; add(items, sum).
+  /// Adds a part of `count` items; add(items, sum) adds P::width of them at a time.
   template <class Item, class Add>
   void add_part(const Item* items, int count, Add add) {
     for (int first = 0; first < W && first < count; first += P::width) {
@@ -98,13 +102,13 @@ struct Lanes {
     }
   }
 
-  /// A part that was computed lane by lane.
-  void add_part(const LaneSums& part) {
+  /// Adds a part that was computed one by one.
+  void add_part(const TeamLaneSums& part) {
     for (int first = 0; first < W && first < part.count; first += P::width)
-      packs[first / P::width] += together<P>(part.lane + first);
+      packs[first / P::width] += together<P>(part.sums + first);
   }
 
-  /// All lanes, by the tree of SerialTeam.
+  /// The sum of all team lanes, by the tree of SerialTeam.
   ForceAndBlock total() {
     for (int s = W / P::width / 2; s > 0; s /= 2) {
       for (int l = 0; l < s; ++l) packs[l] += packs[l + s];
@@ -124,9 +128,9 @@ struct Lanes {
   }
 };
 
-/// Both sorts of contacts.
+/// Adds the contacts of a slot, vertex–facet ones first.
 template <int W, class P>
-void add_contact_parts(const SweepView& view, int slot, Lanes<W, P>& lanes) {
+void add_contact_parts(const SweepView& view, int slot, TeamLanes<W, P>& lanes) {
   const ContactRow row = view.contact_rows[slot];
   const ContactIncidence* contacts = view.contacts + row.begin;
   const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
@@ -136,14 +140,15 @@ void add_contact_parts(const SweepView& view, int slot, Lanes<W, P>& lanes) {
   lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
 }
 
+/// A GatherInPacks of scenes with surfaces.
 template <int W>
 [[gnu::flatten]] ForceAndBlock gather(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                       const OtherParts& other) {
   using P = std::conditional_t<(W >= WidePack::width), WidePack, Pack>;
   const SurfaceMaterial material = view.materials[vertex.body];
   const Vector<P> here = everywhere<P>(own);
-  Lanes<W, P> lanes;
-  if (other.triangles.lane != nullptr) {
+  TeamLanes<W, P> lanes;
+  if (other.triangles.sums != nullptr) {
     lanes.add_part(other.triangles);
   } else {
     lanes.add_part(view.membrane + vertex.membrane_begin, vertex.membrane_count,
@@ -151,7 +156,7 @@ template <int W>
                      add_triangles(view, items, material, here, sum);
                    });
   }
-  if (other.hinges.lane != nullptr) {
+  if (other.hinges.sums != nullptr) {
     lanes.add_part(other.hinges);
   } else {
     lanes.add_part(view.hinges + vertex.hinge_begin, vertex.hinge_count,
@@ -165,12 +170,13 @@ template <int W>
   return lanes.total();
 }
 
+/// A GatherInPacks of solids alone.
 template <int W>
 [[gnu::flatten]] ForceAndBlock gather_solids(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                              const OtherParts& other) {
   using P = std::conditional_t<(W >= WidePack::width), WidePack, Pack>;
-  Lanes<W, P> lanes;
-  if (other.tetrahedra.lane != nullptr) {
+  TeamLanes<W, P> lanes;
+  if (other.tetrahedra.sums != nullptr) {
     lanes.add_part(other.tetrahedra);
   } else {
     const SolidMaterial material = view.solids[vertex.body];

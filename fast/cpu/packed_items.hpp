@@ -1,40 +1,43 @@
-// Items of a part of a vertex' sum, a pack of them at a time, and sums of packs.
+// Items of a part of a vertex' sum, a pack of them at a time, and sums of packs. A number of a pack stands in a lane.
 #pragma once
 
 #include "fast/cpu/pack.hpp"
-#include "fast/kernels/accumulator.hpp"
+#include "fast/kernels/arithmetic/accumulator.hpp"
 
 namespace ogc::fast {
 inline namespace OGC_PACKS {
 namespace packed {
 
-/// The items of a part that as many lanes begin with; places beyond the part repeat its last item, and are not counted.
+/// The items that as many team lanes take next of a part; lanes beyond it repeat its last item, and are not counted.
 template <class Item, class P>
 struct Items {
-  const Item* at[P::width];
-  typename P::Mask counted;
+  const Item* at[P::width];  ///< by lane
+  typename P::Mask counted;  ///< false in lanes beyond the part
 
   Items(const Item* first, int count) : counted(first_of<P>(count)) {
     for (int k = 0; k < P::width; ++k) at[k] = first + (k < count ? k : count - 1);
   }
+  /// number(item) of each.
   template <class F>
   P each(F number) const {
     return P::of_each([&](int k) { return number(*at[k]); });
   }
-  /// place(item): where it is.
+  /// position(item): where it is.
   template <class F>
-  Vector<P> each_place(F place) const {
-    const Place* places[P::width];
-    for (int k = 0; k < P::width; ++k) places[k] = &place(*at[k]);
-    return transposed<P>(places);
+  Vector<P> each_position(F position) const {
+    const PaddedVec* padded[P::width];
+    for (int k = 0; k < P::width; ++k) padded[k] = &position(*at[k]);
+    return transposed<P>(padded);
   }
 };
 
+/// The same vector in each lane.
 template <class P>
 Vector<P> everywhere(const Vec& a) {
   return {a.x, a.y, a.z};
 }
 
+/// a where the condition holds, else b.
 template <class P>
 ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>& a, const ForceAndBlockOf<P>& b) {
   const Symmetric3Of<P>&p = a.block, &q = b.block;

@@ -11,21 +11,23 @@
 namespace ogc::fast::packed {
 
 /// Vertices of four primitives, one of each.
-inline Vector<Pack> gathered(Places positions, int a, int b, int c, int d) {
-  const Place* const place[4] = {&positions.at[a], &positions.at[b], &positions.at[c], &positions.at[d]};
-  return transposed<Pack>(place);
+inline Vector<Pack> gathered(PaddedVecs positions, int a, int b, int c, int d) {
+  const PaddedVec* const vertex[4] = {&positions.at[a], &positions.at[b], &positions.at[c], &positions.at[d]};
+  return transposed<Pack>(vertex);
 }
 
+/// Lower bounds of the distances of an edge and four others, as `separation` gives them [m].
 inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* primitive) {
   const EdgeEnds own = query.surface.edges[search.owner];
   EdgeEnds other[Pack::width];
   for (int k = 0; k < Pack::width; ++k) other[k] = query.surface.edges[primitive[k]];
-  const Places x = query.positions;
+  const PaddedVecs x = query.positions;
   return separation(EndsOf<Pack>{everywhere<Pack>(x[own.a]), everywhere<Pack>(x[own.b])},
                     EndsOf<Pack>{gathered(x, other[0].a, other[1].a, other[2].a, other[3].a),
                                  gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
 }
 
+/// The same of a vertex and four facets.
 inline Pack separations(const DetectVertexFacet& query, const Search& search, const int* primitive) {
   const int* corner[Pack::width];
   for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[primitive[k]].corner;
@@ -38,12 +40,13 @@ inline Pack separations(const DetectVertexFacet& query, const Search& search, co
 /// Candidates that wait for three others.
 template <class Query>
 struct Waiting {
-  const Query& query;
-  LocalNotes& notes;
-  Search& search;
-  int primitive[Pack::width], count = 0;
-  float gap[Pack::width], within[Pack::width];
+  const Query& query;                           ///< notes pairs in `notes`
+  LocalNotes& notes;                            ///< of the thread
+  Search& search;                               ///< that they belong to; its limit falls as distances are taken
+  int primitive[Pack::width], count = 0;        ///< the first `count` wait
+  float gap[Pack::width], within[Pack::width];  ///< squared gaps of boxes, and what candidate_limit says [m²]
 
+  /// One candidate more.
   void take(const Offer& offer) {
     const float limit = query.candidate_limit(search, offer);
     if (limit < 0) return;
@@ -51,6 +54,7 @@ struct Waiting {
     if (++count == Pack::width) look();
   }
 
+  /// Looks at all that wait.
   void look() {
     if (count == 0) return;
     notes.expect(count);
@@ -65,7 +69,8 @@ struct Waiting {
   }
 };
 
-/// Those from begin to end, by one thread. One that keeps pairs within a margin looks at them one by one.
+/// The searches begin … end − 1, by one thread. A search that keeps pairs within a margin looks at its candidates
+/// one by one.
 template <class Query>
 void run_searches(const Searches<Query>& searches, int begin, int end) {
   if (searches.query.is_off()) return;
@@ -78,7 +83,8 @@ void run_searches(const Searches<Query>& searches, int begin, int end) {
       searches.run_alone(i);
       continue;
     }
-    Waiting<Query> waiting{query, notes, search, {}, 0, {}, {}};
+    Waiting<Query> waiting{
+        .query = query, .notes = notes, .search = search, .primitive = {}, .count = 0, .gap = {}, .within = {}};
     for_each_near(searches.tree, search.box, search.from, search.limit,
                   [&](const Offer& offer) { waiting.take(offer); });
     waiting.look();

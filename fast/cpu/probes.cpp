@@ -7,7 +7,7 @@
 #include "fast/cpu/backend.hpp"
 #include "fast/cpu/cpu.hpp"
 #include "fast/cpu/simulation.hpp"
-#include "fast/stages/probes.hpp"
+#include "fast/probes/probes.hpp"
 
 namespace ogc::fast {
 

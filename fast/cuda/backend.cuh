@@ -38,8 +38,8 @@ inline constexpr int cuda_block_size = 128;
 /// costs little.
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
-/// From so many lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms and the order
-/// of their sums are the same; a build that contracts may contract the two kernels differently.
+/// From so many team lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms and the
+/// order of their sums are the same; a build that contracts may contract the two kernels differently.
 inline constexpr int serial_lanes_per_multiprocessor = 350;
 
 /// Up to so many blocks of SerialLaneTeams, which the device holds at once, their warps are strided: where blocks come
@@ -54,6 +54,7 @@ constexpr int resident_blocks() {
   return 0;
 }
 
+/// f(i) for i < n; a thread takes every k-th item, k the number of threads of the launch.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   follow_launch();
@@ -61,6 +62,7 @@ __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n; i += stride) f(i);
 }
 
+/// The same for i < *n, which the device reads, and no more than `capacity`.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
     run_each_counted(const int* n, int capacity, F f) {
@@ -70,6 +72,7 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < count; i += stride) f(i);
 }
 
+/// f(i) for i < m, then g(i) for i < *n and no more than `capacity`, shared out to the threads as one row of items.
 template <class F, class G>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
     run_both(int m, F f, const int* n, int capacity, G g) {
@@ -122,6 +125,7 @@ class CudaRecording {
   std::uint64_t generation_ = 0;
 };
 
+/// One stream of one device, each member as fast/stages/backend.hpp says.
 class CudaBackend {
  public:
   template <class T>
@@ -134,24 +138,29 @@ class CudaBackend {
   CudaBackend& operator=(CudaBackend&&) = delete;
   ~CudaBackend();
 
+  /// A thread an item, as far as the device can hold them; a thread of a larger loop takes several.
   template <class F>
   void for_each(int n, F f) {
     if (n <= 0) return;
     follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
   }
 
+  /// Room for `capacity` items is launched; the device reads how many there are.
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
     if (capacity <= 0) return;
     follow(typeid(F), run_each_counted<F>, blocks(capacity), block_threads_, n, capacity, f);
   }
 
+  /// One launch; both as for_each and for_each_counted.
   template <class F, class G>
   void for_both(int m, F f, const int* n, int capacity, G g) {
     if (m <= 0) return for_each_counted(n, capacity, g);
     follow(typeid(G), run_both<F, G>, blocks(std::int64_t{m} + capacity), block_threads_, m, f, n, capacity, g);
   }
 
+  /// Few team lanes: SpreadTeam; as many as fill the device: SerialLaneTeam. `overlapping` lets the launch begin while
+  /// the one before still runs.
   template <int W, class F>
   void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
@@ -170,6 +179,8 @@ class CudaBackend {
     follows_ = true;
   }
 
+  /// One launch by warps (fast/cuda/search.cuh). Throws compare::ResourceError for a tree of more than
+  /// largest_searched_count primitives.
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
     require_searchable(first.tree);
@@ -183,15 +194,18 @@ class CudaBackend {
            second, second_groups);
   }
 
+  /// One launch where both are short, else CUB's; temporary memory may be allocated.
   void exclusive_scans(const Scan& first, const Scan& second) {
     fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);
     follows_ = true;
   }
+  /// CUB's radix sort; temporary memory may be allocated.
   void sort_pairs(std::uint64_t* keys, int* values, int n) {
     fast::sort_pairs(current_, scratch_, keys, values, n);
     follows_ = false;  // it may end with a copy
   }
 
+  /// In a recording a conditional IF node; elsewhere the host waits for the flag.
   template <class F, class Body>
   void when(F decide, const int* flag, Body body) {
     if (!recording_) {
@@ -206,6 +220,7 @@ class CudaBackend {
     end_condition(outer);
   }
 
+  /// In a recording a conditional WHILE node; elsewhere the host waits for the flag before each round.
   template <class F, class Body, class G>
   void repeat(F decide, const int* flag, Body body, G decide_again) {
     if (!recording_) {
@@ -242,6 +257,7 @@ class CudaBackend {
   /// Device time of each repetition of the last replay [ms]. Host only, after synchronize.
   std::vector<double> replay_milliseconds() const;
 
+  /// Waits for all that was enqueued. Throws where a kernel of it has failed.
   void synchronize() { OGC_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
 
  private:

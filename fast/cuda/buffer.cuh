@@ -1,6 +1,6 @@
-// Resident arrays on the device: plain cudaMalloc, never managed memory. Copies go through the legacy default stream,
-// which waits for a backend's (blocking) stream and is waited for by it, so a copy sees all work enqueued before it;
-// inside a capture such a copy is refused by the runtime, which is what "outside a step" means.
+// Resident arrays on the device: plain cudaMalloc, never managed memory. Copies go through the legacy default stream.
+// It and a backend's (blocking) stream wait for each other, so a copy sees all work enqueued before it. Inside a
+// capture the runtime refuses such a copy; that is what "outside a step" means.
 #pragma once
 
 #include <atomic>
@@ -18,11 +18,13 @@ namespace ogc::fast {
 /// Bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError with the
 /// size asked for, the size free and what to do.
 void* device_allocate(std::size_t bytes);
+/// Null is nothing.
 void device_free(void* memory) noexcept;
 
 /// Counts allocations that moved: a recorded graph holds raw pointers and is stale once this number has changed.
 inline std::atomic<std::uint64_t> buffer_generation{0};
 
+/// A resident array on the device, movable, not copied.
 template <class T>
 class CudaBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -36,6 +38,7 @@ class CudaBuffer {
   }
   ~CudaBuffer() { device_free(items_); }
 
+  /// Items on the device, size() of them; null until there was one.
   T* data() { return items_; }
   const T* data() const { return items_; }
   std::size_t size() const { return size_; }
@@ -60,6 +63,7 @@ class CudaBuffer {
   void download(T* to, std::size_t n) const {
     if (n > 0) OGC_CUDA_CHECK(cudaMemcpy(to, items_, n * sizeof(T), cudaMemcpyDeviceToHost));
   }
+  /// All bytes.
   void fill_zero() {
     if (size_ > 0) OGC_CUDA_CHECK(cudaMemset(items_, 0, size_ * sizeof(T)));
   }

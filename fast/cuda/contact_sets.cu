@@ -1,7 +1,7 @@
 // ContactFinder's engine on the device.
 #include "fast/cuda/backend.cuh"
 #include "fast/cuda/cuda.hpp"
-#include "fast/stages/contact_engine.hpp"
+#include "fast/probes/contact_engine.hpp"
 
 namespace ogc::fast {
 

@@ -1,21 +1,21 @@
-// How a kernel comes after another. In a graph a launch costs its latency each time, and a detection is nine dependent
-// launches of a few microseconds each. So a launch may be brought to the device while the one before it still runs
-// (programmatic dependent launch): `follow_launch` is the first thing that such a kernel does, and it waits there until
-// the one before has ended and what it wrote can be seen. The next launch is let in only after this wait, so that
-// whatever came two launches before has ended too; a kernel that reads ahead of its wait (fast/cuda/team.cuh) relies on
-// that.
+// Programmatic dependent launch. In a graph a launch costs its latency each time, and a detection is nine dependent
+// launches of a few microseconds each. So the device may begin a launch while the one before it still runs: such a
+// kernel calls `follow_launch` first, which waits until the one before has ended and its writes are visible. The kernel
+// lets the next launch in only after this wait, so that the launch two before has ended, too; a kernel that reads ahead
+// of its wait (fast/cuda/team.cuh) relies on that.
 #pragma once
 
 #include <cuda_runtime.h>
 
 namespace ogc::fast {
 
+/// First statement of a kernel: waits for the launch before, then lets the next one in.
 __device__ inline void follow_launch() {
   cudaGridDependencySynchronize();
   cudaTriggerProgrammaticLaunchCompletion();
 }
 
-/// `early`: it need not wait for the end of the launch before it to be brought to the device, because its kernel does.
+/// `early`: the device may begin it before the launch before it has ended, because its kernel waits for that itself.
 template <class... Parameters, class... Arguments>
 void launch_kernel(cudaStream_t stream, bool early, void (*kernel)(Parameters...), int blocks, int threads,
                    const Arguments&... arguments) {

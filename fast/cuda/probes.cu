@@ -1,5 +1,5 @@
 // The stages instantiated for the device, for the judge.
-#include "fast/stages/probes.hpp"
+#include "fast/probes/probes.hpp"
 
 #include <memory>
 

@@ -1,9 +1,9 @@
 // Searches of a tree by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few
 // searches to hide the chain node → child → primitive → arithmetic, and the longest of 32 different searches holds up
 // the others. Here a warp takes a few searches and keeps their open ends in lists of its own in shared memory; in each
-// round all lanes take one item each, of whichever search:
+// round every lane of the warp takes one item, of any of these searches:
 //
-//   nodes       still to be opened: four lanes open one, a box each
+//   nodes       still to be opened: four lanes open one, a child each
 //   candidates  that leaves offered: a lane asks is_pair
 //   pairs       what is left of them: a lane does the arithmetic (meet), which may lower the search's limit
 //
@@ -29,8 +29,9 @@ inline constexpr int largest_searched_count = 4 << 25;
 
 /// A node of the stack: level, search of the group, place in the level.
 struct SearchNode {
-  unsigned bits;
+  unsigned bits;  ///< from the top: level in 4, slot in 3, place in 25
 
+  /// To bits and back: level < max_levels, slot of the search in its group, place < 2²⁵ of the node in its level.
   __device__ static SearchNode of(int level, int slot, int j) {
     return {static_cast<unsigned>(level) << 28 | static_cast<unsigned>(slot) << 25 | static_cast<unsigned>(j)};
   }
@@ -41,18 +42,22 @@ struct SearchNode {
 
 /// A primitive that a leaf offered to a search of the group.
 struct alignas(16) SearchItem {
-  int slot;
+  int slot;  ///< of the search in its group
   Offer offer;
 };
 
 /// Open ends of one warp. A list from which 32 could be taken gets nothing, and no round adds more than 32.
 struct SearchMemory {
+  /// A round that may add 32 items to a list finds at most 31 there; of nodes there is one for each search, and at most
+  /// 32 of each level.
   static constexpr int most_items = 31 + 32, most_nodes = largest_group + 32 * (max_levels - 1);
-  Search searches[largest_group];
+  Search searches[largest_group];  ///< by slot
+  /// stacks; what is_pair lets through goes from the first to the second
   SearchItem candidates[most_items], pairs[most_items];
-  SearchNode nodes[most_nodes];
+  SearchNode nodes[most_nodes];  ///< stack
 };
 
+/// The searches of one warp. Its 32 threads call `run` together.
 template <class Query>
 class WarpSearch {
  public:
@@ -123,20 +128,20 @@ class WarpSearch {
   /// The innermost loop of a detection: no branch in it, and nothing signed, which would cost divisions by 4 and long
   /// addresses more.
   __device__ void open() {
-    const unsigned take = min(8U, node_count_), own = lane_ / 4, child = lane_ % 4;
+    const unsigned take = min(8U, node_count_), own = lane_ / 4, number = lane_ % 4;
     node_count_ -= take;
-    // who has none looks at the last, for nothing
+    // lanes beyond the last node look at that one and drop the result
     const SearchNode node = memory_.nodes[node_count_ + min(own, take - 1)];
-    const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(child);
+    const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(number);
     const Search& search = memory_.searches[slot];
-    const Lane lane = tree_.nodes[static_cast<unsigned>(tree_.start[level] + node.place())].lane[child];
-    const float gap = squared_gap(lane.box(), search.box);
+    const Child child = tree_.nodes[static_cast<unsigned>(tree_.start[level] + node.place())].child[number];
+    const float gap = squared_gap(child.box(), search.box);
     const bool is_leaf = level == 0,
-               is_near = (own < take) & (gap <= larger(search.limit, lane.reach)) & (j >= search.from >> (2 * level));
+               is_near = (own < take) & (gap <= larger(search.limit, child.reach)) & (j >= search.from >> (2 * level));
     const unsigned near = __ballot_sync(everyone_, is_near), leaves = __ballot_sync(everyone_, is_leaf);
     const unsigned rank = __popc(near & (is_leaf ? leaves : ~leaves) & before());
     __syncwarp();
-    if (is_near & is_leaf) memory_.candidates[candidate_count_ + rank] = {slot, {lane.primitive, gap, lane.reach}};
+    if (is_near & is_leaf) memory_.candidates[candidate_count_ + rank] = {slot, {child.primitive, gap, child.reach}};
     if (is_near & !is_leaf) memory_.nodes[node_count_ + rank] = SearchNode::of(level - 1, slot, j);
     candidate_count_ += __popc(near & leaves);
     node_count_ += __popc(near & ~leaves);
@@ -152,12 +157,14 @@ class WarpSearch {
 /// Warps that a kind's searches are shared out to, up to `group` a warp. A warp takes every `warps`-th: long searches
 /// lie side by side, and a warp that got them all would hold up the launch.
 struct SearchGroups {
-  int group, warps;
+  int group, warps;  ///< searches of a warp, at most; warps that have any
 
   SearchGroups(int count, int searches) : group(searches), warps((count + searches - 1) / searches) {}
+  /// Of `block_warps` warps each.
   int blocks(int block_warps) const { return (warps + block_warps - 1) / block_warps; }
 };
 
+/// The searches of warp number `warp` of a kind; none beyond groups.warps, or where the query is off.
 template <class Query>
 __device__ void run_group(const Searches<Query>& searches, const SearchGroups& groups, int warp, SearchMemory& memory) {
   if (warp >= groups.warps || searches.query.is_off()) return;

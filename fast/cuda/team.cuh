@@ -1,21 +1,21 @@
-// Teams of W neighbouring lanes, with the bits of SerialTeam<W>, in two forms.
+// Teams of W team lanes, which are neighbouring threads of a warp, with the bits of SerialTeam<W>, in two forms.
 //
 // SpreadTeam: a block is as many warps as a sum has parts: warp p runs part p of 32/W teams, so that no warp waits for
-// another sort of term and the chain of dependent instructions, which is what a small launch costs, is the longest
-// part's and not all of them. Lanes leave what they have in shared memory, warp 0 adds the parts in their order and
-// then the lanes.
+// another kind of term and the chain of dependent instructions, which is what a small launch costs, is the longest
+// part's and not all of them. Team lanes leave their parts in shared memory, warp 0 adds the parts in their order and
+// then the team lanes.
 //
-// SerialLaneTeam: the same lanes run one part after the other. A launch that fills the device anyway pays for
-// instructions, and here no warp waits for another sort of term. Terms of a pooled part are computed by all threads of
-// the block, whosever they are, a block's worth at a time; each lane then adds its own from shared memory, in their
-// order. So a team with fifty contacts holds up nobody, and the chain of dependent reads is as long as the block's
-// average.
+// SerialLaneTeam: the same team lanes run one part after the other. A launch that fills the device anyway pays for
+// instructions, and here no warp waits for another kind of term. All threads of the block share out the terms of a
+// pooled part of all its teams, a block's worth at a time; each team lane then adds its own from shared memory, in
+// their order. So a team with fifty contacts does not hold up the others, and the chain of dependent reads is as long
+// as the block's average.
 //
-// The tree is a butterfly: at distance s every lane adds its partner l xor s. By induction all lanes l with the same l
-// mod s hold the same bits after that round: the two partners add the same two numbers, in opposite order, and IEEE
-// addition is commutative. Lane l < s adds lanes[l] + lanes[l + s], which is SerialTeam's tree, so every lane ends with
-// SerialTeam's total. No product feeds these additions (a shuffle stands between), so contraction cannot change them
-// either.
+// The tree is a butterfly: at distance s every team lane adds its partner l xor s. By induction all team lanes l with
+// the same l mod s hold the same bits after that round: the two partners add the same two numbers, in opposite order,
+// and IEEE addition is commutative. Team lane l < s adds lanes[l] + lanes[l + s], which is SerialTeam's tree, so every
+// team lane ends with SerialTeam's total. No product feeds these additions (a shuffle stands between), so contraction
+// cannot change them either.
 //
 // A launch may overlap the one before it (programmatic dependent launch): what a part loads is read at once, then `sum`
 // waits for that launch to end. The next launch is let in only after this wait, so whatever came two launches before
@@ -36,6 +36,7 @@ inline constexpr int serial_block_size = 128;  ///< threads of a block of Serial
 
 namespace detail {
 
+/// Size of an accumulator in words of 4 B, as shuffles move them.
 template <class Accumulator>
 __device__ constexpr int words() {
   static_assert(std::is_trivially_copyable_v<Accumulator> && sizeof(Accumulator) % sizeof(unsigned) == 0,
@@ -44,6 +45,7 @@ __device__ constexpr int words() {
   return sizeof(Accumulator) / sizeof(unsigned);
 }
 
+/// The accumulator of the thread whose lane is this one's xor `distance`; all threads of the warp call it together.
 template <class Accumulator>
 __device__ Accumulator from_partner(const Accumulator& mine, int distance) {
   unsigned word[words<Accumulator>()];
@@ -55,7 +57,7 @@ __device__ Accumulator from_partner(const Accumulator& mine, int distance) {
   return partner;
 }
 
-/// The total of W lanes, in each of them.
+/// The total of W team lanes, in each of them.
 template <int W, class Accumulator>
 __device__ Accumulator total_of_lanes(Accumulator total) {
 #pragma unroll
@@ -63,10 +65,10 @@ __device__ Accumulator total_of_lanes(Accumulator total) {
   return total;
 }
 
-/// This lane's items of a part. With `begins`: the first is loaded before the launch before this one has ended, and the
-/// next launch is let in after that.
-template <int W, bool begins, class Part, class Accumulator>
-__device__ void add_part(const Part& part, int lane, Accumulator& own) {
+/// This team lane's items of a part. With `begins` the first is loaded while the launch before this one may still run;
+/// then the thread waits for that launch and lets the next one in.
+template <int W, bool begins, class AnyPart, class Accumulator>
+__device__ void add_part(const AnyPart& part, int lane, Accumulator& own) {
   int k = lane;
   decltype(load_item(part, 0)) loaded{};
   if (k < part.count) loaded = load_item(part, k);
@@ -74,39 +76,40 @@ __device__ void add_part(const Part& part, int lane, Accumulator& own) {
     cudaGridDependencySynchronize();
     cudaTriggerProgrammaticLaunchCompletion();
   }
-  while (k < part.count) {  // add_item stands here once: instructions have to be read, too
+  while (k < part.count) {  // add_item stands here once: a second copy would cost instruction reads
     add_item(part, loaded, own);
     k += W;
     if (k < part.count) loaded = load_item(part, k);
   }
 }
 
-/// What the threads of a block share over a pooled part.
+/// Shared memory of a block for a pooled part.
 template <int W, class Accumulator>
 struct Pool {
-  static constexpr int teams = serial_block_size / W;
+  static constexpr int teams = serial_block_size / W;  ///< of a block
   using Scan = cub::BlockScan<int, serial_block_size>;
   typename Scan::TempStorage scan;
   int begins[teams], offsets[teams + 1];  ///< of the teams' items: in their arrays; in the order of the block
-  /// in turn: who writes the next terms waits for nobody who reads these
+  /// two buffers in turn: threads write the next terms while others still read these
   unsigned memory[2][serial_block_size][words<Accumulator>()];
 };
 
-/// The same for all parts of a sum.
+/// One for all parts of a sum.
 template <int W, class Accumulator>
 __device__ Pool<W, Accumulator>& pool_of_block() {
   __shared__ Pool<W, Accumulator> pool;
   return pool;
 }
 
-/// This lane's items of a pooled part, by all threads of the block at once. A team that is not `present` has none.
+/// This team lane's items of a pooled part, whose terms all threads of the block compute together. A team that is not
+/// `present` has none.
 template <int W, class Load, class Term, class Accumulator>
 __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Accumulator& own) {
   auto& [scan, begins, offsets, memory] = pool_of_block<W, Accumulator>();
   constexpr int teams = Pool<W, Accumulator>::teams;
   const int thread = static_cast<int>(threadIdx.x), team = thread / W, lane = thread % W;
   int offset = 0, total = 0;
-  __syncthreads();  // whoever still reads what stood here
+  __syncthreads();  // threads that still read the terms of the part before
   typename Pool<W, Accumulator>::Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
   if (lane == 0) begins[team] = part.begin, offsets[team] = offset;
   if (thread == 0) offsets[teams] = total;
@@ -129,16 +132,17 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
 
 }  // namespace detail
 
-/// `present` of both: false for a team that only fills a block. `sum` of both: as SerialTeam::sum; once in a kernel, by
-/// every thread of the block, or `leave` in its place: whoever comes after this launch may rely on what came before it.
+/// `present` of both: false for a team that only fills a block. `sum` of both: as SerialTeam::sum; every thread of the
+/// block calls it once, or `leave` in its place: the launch after this one relies on the launch before it having ended.
 template <int W>
 class SpreadTeam {
  public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
-  static constexpr int width = W;
+  static constexpr int width = W;  ///< W, team lanes
 
   __device__ explicit SpreadTeam(bool present) : present_(present) {}
 
+  /// Waits for the launch before, as `sum` does.
   __device__ static void leave() { cudaGridDependencySynchronize(); }
 
   __device__ static void prefetch(const void*, int) {}
@@ -162,6 +166,7 @@ class SpreadTeam {
     return detail::total_of_lanes<W>(total);
   }
 
+  /// Team lane 0 of warp 0, where the total is.
   __device__ bool leader() const { return present_ && warp() == 0 && lane() == 0; }
 
  private:
@@ -171,24 +176,27 @@ class SpreadTeam {
   bool present_;
 };
 
+/// A team whose team lanes run all parts of a sum (head of this file).
 template <int W>
 class SerialLaneTeam {
  public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
-  static constexpr int width = W;
+  static constexpr int width = W;  ///< W, team lanes
 
   __device__ explicit SerialLaneTeam(bool present) : present_(present) {}
 
+  /// Waits for the launch before, as `sum` does.
   __device__ static void leave() { cudaGridDependencySynchronize(); }
 
-  /// Has rows of a stream brought near while others are worked on. A launch of SerialLaneTeams reads more than the
-  /// second-level cache holds.
+  /// Fetches rows of a stream into the second-level cache while the team works on others: a launch of SerialLaneTeams
+  /// reads more than it holds.
   __device__ static void prefetch(const void* rows, int bytes) {
     constexpr int line = 128;
     for (int at = line * lane(); at < bytes; at += line * W)
       asm volatile("prefetch.global.L2 [%0];" ::"l"(static_cast<const char*>(rows) + at));
   }
 
+  /// The first part must not be a pooled one: what it loads is read while the launch before may still run.
   template <class Accumulator, class First, class... Others>
   __device__ Accumulator sum(const First& first, const Others&... others) const {
     Accumulator total{};
@@ -197,6 +205,7 @@ class SerialLaneTeam {
     return detail::total_of_lanes<W>(total);
   }
 
+  /// Team lane 0; each of them has the total.
   __device__ bool leader() const { return present_ && lane() == 0; }
 
  private:

@@ -1,7 +1,7 @@
 // The conservative bound of a vertex (Eq. 21, 23, 25).
 #pragma once
 
-#include "fast/kernels/rounding.hpp"
+#include "fast/kernels/arithmetic/rounding.hpp"
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
@@ -11,10 +11,10 @@ inline constexpr float largest_float = 0x1.fffffep127f;
 
 /// Smallest distances before a query: r_q, as nothing is known beyond it. Index over the largest of the counts.
 struct ResetDistances {
-  const float* query_radius;
-  const int* overflow;
+  const float* query_radius;  ///< r_q [m], on the backend
+  const int* overflow;        ///< on the backend; where it is not 0 a list was too small, and nothing is written
   int vertex_count, edge_count, triangle_count;
-  float *d_min_vertex, *d_min_edge, *d_min_triangle;
+  float *d_min_vertex, *d_min_edge, *d_min_triangle;  ///< by vertex, edge and triangle [m]
 
   OGC_HD void operator()(int i) const {
     if (*overflow != 0) return;
@@ -24,12 +24,14 @@ struct ResetDistances {
   }
 };
 
+/// for_each over vertices: b_v = γ_p times the smallest distance of v, its edges and its triangles.
 struct ConservativeBound {
   SurfaceView surface;
+  /// by vertex, edge and triangle [m]: Eq. 22, 24, 26, at most r_q
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;
-  float bound_relaxation;
-  const int* overflow;
-  float* bound;
+  float bound_relaxation;  ///< γ_p of Eq. 21 [1]
+  const int* overflow;     ///< as in ResetDistances
+  float* bound;            ///< b_v by vertex [m], at most γ_p r_q; largest_float inside solids
 
   /// The product of two single-precision numbers is exact in double, so the bound is the largest float that is not
   /// above it.

@@ -1,29 +1,31 @@
-// A tree of boxes over primitives in the order of a Hilbert curve, four to a node. Level 0 holds the primitives' own
-// boxes, each level above one lane for every node below, so that node j of level l has the children 4j … 4j + 3 of
-// level l − 1 and nothing but the start of each level is stored. A traversal keeps the lanes that it still has to
-// visit, four bits a level, in one integer. Boxes are those of the primitives at their current positions, not inflated:
-// the query brings its radius.
+// A tree of boxes over primitives in the order of a Hilbert curve, four children to a node. The children of level 0 are
+// the primitives themselves, those of each level above the nodes below, so that node j of level l has the nodes
+// 4j … 4j + 3 of level l − 1 for children and nothing but the start of each level is stored. A traversal keeps the
+// children that it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their
+// current positions, not inflated: the query brings its radius.
 //
-// Beside its box each lane carries a `reach`: how far its primitives still have to look. A pair matters only if it is
+// Beside its box each child carries a `reach`: how far its primitives still have to look. A pair matters only if it is
 // nearer than r or could lower the smallest distance of one of its partners, and for most primitives a neighbour in the
 // mesh bounds that distance far below r_q before any search.
 #pragma once
 
 #include <cstdint>
 
-#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/segment.hpp"
 #include "fast/kernels/skin.hpp"
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
 
+/// Beyond every distance: where an empty box lies, and a neighbour that a primitive lacks.
 inline constexpr float infinity = __builtin_huge_valf();
 
 /// A closed box; empty at first.
 struct Box {
-  Vec lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+  Vec lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};  ///< corners [m]
 
+  /// Grows the box just so far that it holds a point, another box.
   OGC_HD void include(const Vec& p) { include(Box{p, p}); }
   OGC_HD void include(const Box& b) {
     lower = {smaller(lower.x, b.lower.x), smaller(lower.y, b.lower.y), smaller(lower.z, b.lower.z)};
@@ -31,6 +33,7 @@ struct Box {
   }
 };
 
+/// Gap of two intervals; 0 where they meet.
 OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
 #if defined(__CUDA_ARCH__)
   // one instruction each; another zero has the same square
@@ -57,41 +60,46 @@ OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 
 OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0x1p-18F); }
 
 /// A box with the gap limit of its reach and, in level 0, the primitive in it: two reads of 16 B.
-struct alignas(16) Lane {
-  Vec lower{infinity, infinity, infinity};
-  float reach = 0;
-  Vec upper{-infinity, -infinity, -infinity};
-  int primitive = -1;
+struct alignas(16) Child {
+  Vec lower{infinity, infinity, infinity};     ///< of the box [m]
+  float reach = 0;                             ///< gap limit of how far its primitives still look [m²]
+  Vec upper{-infinity, -infinity, -infinity};  ///< of the box [m]
+  int primitive = -1;  ///< number of the facet or edge; −1 above level 0 and in an empty child
 
   OGC_HD Box box() const { return {lower, upper}; }
 };
 
-/// Four lanes, those without a box empty; as long as a line of a device's cache, and none lies in two.
+/// A node: four children, those without a box empty; as long as a line of a device's cache, and none lies in two.
 struct alignas(128) Quad {
-  Lane lane[4];
+  Child child[4];  ///< child k of node j is node 4 j + k of the level below, or place 4 j + k of the order
 
+  /// The box of all children.
   OGC_HD Box whole() const {
-    Box all = lane[0].box();
-    for (int k = 1; k < 4; ++k) all.include(lane[k].box());
+    Box all = child[0].box();
+    for (int k = 1; k < 4; ++k) all.include(child[k].box());
     return all;
   }
+  /// The largest reach of a child.
   OGC_HD float whole_reach() const {
-    return larger(larger(lane[0].reach, lane[1].reach), larger(lane[2].reach, lane[3].reach));
+    return larger(larger(child[0].reach, child[1].reach), larger(child[2].reach, child[3].reach));
   }
 };
 
 inline constexpr int max_levels = 16;  ///< 4 bits each in the 64 of a traversal; 4¹⁶ primitives
 
+/// A tree on the backend.
 struct TreeView {
-  Quad* nodes = nullptr;
+  Quad* nodes = nullptr;       ///< level by level, from start[level]
   const int* order = nullptr;  ///< primitive at each place
   int count = 0;               ///< primitives
   int levels = 0;              ///< at least 2; the last has one node
   int start[max_levels] = {};  ///< number of each level's first node
 
+  /// Node j of a level, in place.
   OGC_HD Quad& node(int level, int j) const { return nodes[start[level] + j]; }
 };
 
+/// Number of the lowest bit that is set; n > 0.
 OGC_HD inline int lowest_bit(std::uint64_t n) {
 #if defined(__CUDA_ARCH__)
   return __ffsll(static_cast<long long>(n)) - 1;
@@ -100,22 +108,25 @@ OGC_HD inline int lowest_bit(std::uint64_t n) {
 #endif
 }
 
-/// Squared gaps of a box and the four lanes, and a bit for each lane whose gap is within the limit or the lane's own
-/// reach.
+/// Squared gaps of a box and the four children, and a bit for each child whose gap is within the limit or the child's
+/// own reach.
 struct QuadGaps {
-  float lane[4];
-  unsigned near;
+  float child[4];  ///< squared gaps [m²]
+  unsigned near;   ///< bit k: child k
 
-  OGC_HD float operator[](int i) const { return i < 2 ? (i == 0 ? lane[0] : lane[1]) : (i == 2 ? lane[2] : lane[3]); }
+  OGC_HD float operator[](int i) const {
+    return i < 2 ? (i == 0 ? child[0] : child[1]) : (i == 2 ? child[2] : child[3]);
+  }
 };
 
 #if defined(__CUDACC__)
 
+/// Limits are squared, as gap_limit makes them [m²].
 OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
   QuadGaps gaps{{}, 0};
   for (unsigned i = 0; i < 4; ++i) {
-    gaps.lane[i] = squared_gap(quad.lane[i].box(), box);
-    gaps.near |= static_cast<unsigned>(gaps.lane[i] <= larger(limit, quad.lane[i].reach)) << i;
+    gaps.child[i] = squared_gap(quad.child[i].box(), box);
+    gaps.near |= static_cast<unsigned>(gaps.child[i] <= larger(limit, quad.child[i].reach)) << i;
   }
   return gaps;
 }
@@ -129,25 +140,25 @@ inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit);
 
 /// A primitive that a leaf offers to a search: the squared gap of their boxes, and the gap limit of its reach.
 struct Offer {
-  int primitive;
-  float gap, reach;
+  int primitive;     ///< number of the facet or edge
+  float gap, reach;  ///< squared gap and gap limit [m²]
 };
 
 /// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own
-/// reach. The visitor may lower `limit` on the way. `Tree`: a TreeView, or what counts the nodes of one as they are
-/// opened (fast/work.cpp).
+/// reach. The visitor may lower `limit` on the way. `Tree`: a TreeView, or one that counts the nodes that are opened
+/// (fast/work.cpp).
 template <class Tree, class Visit>
 OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const float& limit, Visit visit) {
   QuadGaps gaps;
   const Quad* quad = nullptr;
-  const auto near_lanes = [&](int level, int j) {
+  const auto near_children = [&](int level, int j) {
     quad = &tree.node(level, j);
     gaps = squared_gaps(*quad, box, limit);
-    const int passed = (from >> (2 * level)) - 4 * j;  // lanes that lie before `from` altogether
+    const int passed = (from >> (2 * level)) - 4 * j;  // children that lie before `from` altogether
     return passed > 0 ? gaps.near & 15U << (passed < 4 ? passed : 4) : gaps.near;
   };
   int level = tree.levels - 1, j = 0;
-  std::uint64_t pending = near_lanes(level, j);
+  std::uint64_t pending = near_children(level, j);
   while (true) {
     if ((pending & 15U) == 0) {
       if (++level == tree.levels) return;
@@ -156,15 +167,15 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
     }
     const int child = 4 * j + lowest_bit(pending);
     pending &= pending - 1;
-    unsigned lanes = near_lanes(level - 1, child);
+    unsigned near = near_children(level - 1, child);
     if (level > 1) {
-      pending = pending << 4 | lanes;
+      pending = pending << 4 | near;
       --level, j = child;
       continue;
     }
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const int lane = lowest_bit(lanes);
-      visit(Offer{quad->lane[lane].primitive, gaps[lane], quad->lane[lane].reach});
+    for (; near != 0; near &= near - 1) {
+      const int leaf = lowest_bit(near);
+      visit(Offer{quad->child[leaf].primitive, gaps[leaf], quad->child[leaf].reach});
     }
   }
 }
@@ -174,15 +185,17 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
 /// so the smallest distance is not above it.
 struct Reach {
   SurfaceView surface;
-  const Vec* positions;
-  const float* query_radius;
+  const Vec* positions;             ///< by vertex [m]
+  const float* query_radius;        ///< r_q [m], on the backend
   const SkinState* skin = nullptr;  ///< null: a search that keeps no pairs
 
+  /// Reach of an edge [m].
   OGC_HD float of_edge(int e) const {
     Nearest nearest;
     for (const int v : surface.edge_seeds[e].vertex) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
     return above(nearest);
   }
+  /// Reach of a facet [m].
   OGC_HD float of_facet(int t) const {
     const Facet& facet = surface.facets[t];
     Nearest nearest;
@@ -190,6 +203,7 @@ struct Reach {
       consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
     return above(nearest);
   }
+  /// Reach of a vertex [m].
   OGC_HD float of_vertex(int v) const {
     Nearest nearest;
     for (const int e : surface.vertex_seeds[v].edge) {
@@ -215,21 +229,22 @@ struct Reach {
   }
 };
 
-/// Nodes of one level, or with level −1 the primitives; one, with empty lanes, where there are none.
+/// Nodes of one level, or with level −1 the primitives; one, with empty children, where there are none.
 OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
 
 /// Boxes and gap limits of the reaches of all primitives and of the nodes above them, and those limits of the vertices;
-/// index: places of the facets, of the edges, each kind filled up to a multiple of 32, vertices. Whoever completes the
-/// 16 children that two levels stand on goes on with these: the whole tree in one launch. Who that is changes no bit. A
-/// warp of a device holds 32 neighbours, which must take part together, so that its lowest two levels never leave its
-/// registers.
+/// index: places of the facets, of the edges, each kind filled up to a multiple of 32, vertices. The thread that
+/// completes the 16 grandchildren of a node goes on with this node: the whole tree in one launch. Which thread it is
+/// changes no bit. A warp of a device holds 32 neighbours, which must call this together, so that the lowest two levels
+/// never leave its registers.
 struct RefitTrees {
   Reach reach;
-  TreeView facets, edges;
+  TreeView facets, edges;               ///< in the order of the last rebuild; their boxes and reaches are written
   int *facet_arrivals, *edge_arrivals;  ///< a number for each node, 0 between two launches
-  float* vertex_limit;
+  float* vertex_limit;                  ///< by vertex: gap limit of its reach [m²], written
   int vertex_count;
 
+  /// Next multiple of a warp, and the items of the launch.
   OGC_HD static int filled_up(int count) { return (count + 31) / 32 * 32; }
   OGC_HD int count() const { return filled_up(facets.count) + filled_up(edges.count) + filled_up(vertex_count); }
 
@@ -237,28 +252,28 @@ struct RefitTrees {
     if (!needs_trees(reach.skin)) return;
     const int edge_place = i - filled_up(facets.count), v = edge_place - filled_up(edges.count);
     if (edge_place < 0) {
-      place(facets, facet_arrivals, i, [this](int t) { return facet_lane(t); });
+      place(facets, facet_arrivals, i, [this](int t) { return facet_child(t); });
     } else if (v < 0) {
-      place(edges, edge_arrivals, edge_place, [this](int e) { return edge_lane(e); });
+      place(edges, edge_arrivals, edge_place, [this](int e) { return edge_child(e); });
     } else if (v < vertex_count) {
       vertex_limit[v] = gap_limit(reach.of_vertex(v));
     }
   }
 
  private:
-  /// A place of a tree; beyond its primitives the lane is empty.
+  /// A place of a tree; beyond its primitives the child is empty.
   template <class Of>
-  OGC_HD static void place(const TreeView& tree, int* arrivals, int j, Of lane_of) {
-    Lane own;
-    if (j < tree.count) own = lane_of(tree.order[j]);
+  OGC_HD static void place(const TreeView& tree, int* arrivals, int j, Of child_of) {
+    Child own;
+    if (j < tree.count) own = child_of(tree.order[j]);
     climb(tree, arrivals, j, own);
   }
-  OGC_HD Lane facet_lane(int t) const {
+  OGC_HD Child facet_child(int t) const {
     Box box;
     for (const int corner : reach.surface.facets[t].corner) box.include(reach.positions[corner]);
     return {box.lower, gap_limit(reach.of_facet(t)), box.upper, t};
   }
-  OGC_HD Lane edge_lane(int e) const {
+  OGC_HD Child edge_child(int e) const {
     Box box;
     box.include(reach.positions[reach.surface.edges[e].a]);
     box.include(reach.positions[reach.surface.edges[e].b]);
@@ -269,30 +284,31 @@ struct RefitTrees {
 
   static constexpr unsigned everyone = 0xffffffffU;
 
-  /// The lane of four neighbours, or of four lanes that are `apart` threads from each other, in each of them.
-  OGC_HD static Lane of_four(Lane lane, int apart) {
+  /// The child that holds those of four neighbours, or of four threads that stand `apart` from each other, in each of
+  /// them.
+  OGC_HD static Child of_four(Child child, int apart) {
     for (int step = apart; step <= 2 * apart; step *= 2) {
       const auto other = [step](float number) { return __shfl_xor_sync(everyone, number, step); };
-      Box box = lane.box();
-      box.include(Box{{other(lane.lower.x), other(lane.lower.y), other(lane.lower.z)},
-                      {other(lane.upper.x), other(lane.upper.y), other(lane.upper.z)}});
-      lane = {box.lower, larger(lane.reach, other(lane.reach)), box.upper, -1};
+      Box box = child.box();
+      box.include(Box{{other(child.lower.x), other(child.lower.y), other(child.lower.z)},
+                      {other(child.upper.x), other(child.upper.y), other(child.upper.z)}});
+      child = {box.lower, larger(child.reach, other(child.reach)), box.upper, -1};
     }
-    return lane;
+    return child;
   }
 
-  /// The lanes of a place, and up from there. 16 neighbours go on together, as long as they complete what two levels
-  /// stand on: each reads one lane of it.
-  OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, Lane own) {
+  /// The child at a place, and up from there. 16 neighbours go on together, as long as they complete the grandchildren
+  /// of a node: each reads one of them.
+  OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, Child own) {
     const int lane = static_cast<int>(threadIdx.x % 16);
     int node = j / 16;  // of level 1, and so on
     bool goes_on = j - lane < tree.count;
-    if (j < tree.count) tree.node(0, j / 4).lane[j % 4] = own;
+    if (j < tree.count) tree.node(0, j / 4).child[j % 4] = own;
     for (int level = 1;; level += 2) {
-      const Lane four = of_four(own, 1), sixteen = of_four(four, 4);
+      const Child four = of_four(own, 1), sixteen = of_four(four, 4);
       if (goes_on && lane % 4 == 0 && 4 * node + lane / 4 < level_size(tree.count, level - 1))
-        tree.node(level, node).lane[lane / 4] = four;
-      if (goes_on && lane == 0 && level + 1 < tree.levels) tree.node(level + 1, node / 4).lane[node % 4] = sixteen;
+        tree.node(level, node).child[lane / 4] = four;
+      if (goes_on && lane == 0 && level + 1 < tree.levels) tree.node(level + 1, node / 4).child[node % 4] = sixteen;
       if (level + 2 >= tree.levels) return;
       const int above = node / 16, children = level_size(tree.count, level) - 16 * above;
       if (goes_on && lane == 0)
@@ -302,16 +318,17 @@ struct RefitTrees {
       __syncwarp();
       node = above;
       const int below = 4 * node + lane / 4;
-      own = goes_on && below < level_size(tree.count, level + 1) ? tree.node(level + 1, below).lane[lane % 4] : Lane{};
+      own = goes_on && below < level_size(tree.count, level + 1) ? tree.node(level + 1, below).child[lane % 4]
+                                                                 : Child{};
     }
   }
 
 #else
 
-  /// The lane of a place, and up from there as far as nobody else is still to come.
-  OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, const Lane& own) {
+  /// The child at a place, and up from there as far as no other thread is still to come.
+  OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, const Child& own) {
     if (j >= tree.count) return;
-    tree.node(0, j / 4).lane[j % 4] = own;
+    tree.node(0, j / 4).child[j % 4] = own;
     for (int level = 1; level < tree.levels; level += 2) {
       j /= 16;
       const int children = level_size(tree.count, level - 2) - 16 * j;
@@ -320,19 +337,20 @@ struct RefitTrees {
     }
   }
 
-  OGC_HD static Lane whole(const Quad& quad) {
+  /// A node as the child of the one above.
+  OGC_HD static Child whole(const Quad& quad) {
     const Box box = quad.whole();
     return {box.lower, quad.whole_reach(), box.upper, -1};
   }
 
-  /// Given the lanes of level `level` − 1, those of node j of `level` and its own lane of the one above.
+  /// Given the nodes of level `level` − 1, the children of node j of `level` and itself as a child of the one above.
   OGC_HD static void refit_node(const TreeView& tree, int level, int j) {
     Quad& quad = tree.node(level, j);
     const int below = level_size(tree.count, level - 1);
-    for (int lane = 0; lane < 4 && 4 * j + lane < below; ++lane) {
-      quad.lane[lane] = whole(tree.node(level - 1, 4 * j + lane));
+    for (int k = 0; k < 4 && 4 * j + k < below; ++k) {
+      quad.child[k] = whole(tree.node(level - 1, 4 * j + k));
     }
-    if (level + 1 < tree.levels) tree.node(level + 1, j / 4).lane[j % 4] = whole(quad);
+    if (level + 1 < tree.levels) tree.node(level + 1, j / 4).child[j % 4] = whole(quad);
   }
 
 #endif
@@ -349,7 +367,7 @@ OGC_HD inline std::uint64_t spread_bits(std::uint64_t n) {
 
 /// A cell of a grid of 2²⁰ in each direction.
 struct Cell {
-  std::uint32_t axis[3];
+  std::uint32_t axis[3];  ///< along x, y and z, below 2²⁰
 };
 
 /// The place of a cell on the Hilbert curve (Skilling 2004, "Programming the Hilbert curve"). Cells one after the other
@@ -376,10 +394,10 @@ OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
 /// Hilbert keys of all vertices, edges and facets for one sort; the two highest bits keep the three kinds apart.
 struct HilbertKeys {
   SurfaceView surface;
-  const Vec* positions;
+  const Vec* positions;    ///< by vertex [m]
   TreeView facets, edges;  ///< refitted: their roots give the extent
-  std::uint64_t* keys;
-  int* values;
+  std::uint64_t* keys;     ///< bits 62 and 63: kind; below: place on the curve
+  int* values;             ///< number within its kind; the sort moves it with its key
 
   OGC_HD void operator()(int i) const {
     const int e = i - surface.vertex_count, t = e - surface.edge_count;

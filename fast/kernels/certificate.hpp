@@ -1,25 +1,26 @@
 // The motion certificate (method.md §5.5): on stored positions, in double.
 #pragma once
 
-#include "fast/kernels/plane_lists.hpp"
-#include "fast/kernels/qualifiers.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
+#include "fast/kernels/feasible_region.hpp"
 
 namespace ogc::fast {
 
 /// ‖x − X_prev‖ > b_v. Differences of single-precision numbers of one size are exact in double; the squares leave 2⁻⁵²
 /// of b².
-OGC_HD inline bool bound_violated(const Vec& position, const Vec& previous, float bound) {
+OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
+  const Vec& previous = ball.centre;
   const double x = static_cast<double>(position.x) - previous.x, y = static_cast<double>(position.y) - previous.y,
                z = static_cast<double>(position.z) - previous.z;
-  return x * x + y * y + z * z > static_cast<double>(bound) * bound;
+  return x * x + y * y + z * z > static_cast<double>(ball.radius) * ball.radius;
 }
 
 /// Not in the region for certain: beyond the ball, or a half-space that the test of stored positions refuses.
 OGC_HD inline bool is_outside(const FeasibleRegion& region, const Vec& position) {
   for (int k = 0; k < region.count; ++k)
     if (!is_behind(region.planes[k], position)) return true;
-  return bound_violated(position, region.centre, region.radius);
+  return is_outside(region.ball, position);
 }
 
 }  // namespace ogc::fast

@@ -11,9 +11,10 @@ namespace ogc::fast {
 
 using compare::TriangleFeature;
 
+/// Corners of a triangle in the order of the mesh.
 template <class T>
 struct CornersOf {
-  Vector<T> a, b, c;
+  Vector<T> a, b, c;  ///< [m]
 
   OGC_HD const Vector<T>& operator[](int k) const { return k == 0 ? a : (k == 1 ? b : c); }
 };

@@ -14,17 +14,20 @@ using compare::EdgeFeature;
 /// The two ends of an edge, lower-numbered vertex first.
 template <class T>
 struct EndsOf {
-  Vector<T> a, b;
+  Vector<T> a, b;  ///< [m]
 
   OGC_HD const Vector<T>& operator[](int k) const { return k == 0 ? a : b; }
 };
 using Ends = EndsOf<float>;
 
+/// Where on two edges their closest points lie.
 struct EdgePairFeatures {
   EdgeFeature first = EdgeFeature::interior, second = EdgeFeature::interior;
-  bool nearly_parallel = false;
+  bool nearly_parallel = false;  ///< decided with is_overlapping_parallel; closest_edge_features leaves it false
 };
 
+/// Smallest distance of an end of one edge from the other edge [m]: e and f the edges, w from where e starts to where f
+/// does.
 OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const Real& f) {
   const double of_first = smaller(squared_to_segment(-w, f), squared_to_segment(e - w, f));
   return square_root(smaller(of_first, smaller(squared_to_segment(w, e), squared_to_segment(w + f, e))));
@@ -116,6 +119,7 @@ OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) 
   return {divide(along, ee), sub(end, divide(divide(dot(cross(e, u), cross(e, f)).value, ee), ff))};
 }
 
+/// The number of [0, 1] that is nearest to s.
 OGC_HD inline double clamped_parameter(double s) { return smaller(larger(s, 0.0), 1.0); }
 
 /// Middle of the overlap on the first edge, and its projection on the closed second edge.
@@ -124,6 +128,8 @@ OGC_HD inline EdgeParameters overlap_parameters(const Ends& p, const Ends& q) {
   return {mul(0.5, add(from.first, to.first)), clamped_parameter(mul(0.5, add(from.second, to.second)))};
 }
 
+/// The points whose distance the force takes, given the faces that hold them. Of nearly parallel edges they are not the
+/// closest ones but the middle of the overlap and its projection (method.md §1.4).
 OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, EdgePairFeatures on) {
   if (on.nearly_parallel) return overlap_parameters(p, q);
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);
@@ -137,6 +143,7 @@ OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, Ed
           clamped_parameter(divide(dot(cross(w, e), n).value, nn))};
 }
 
+/// Distance of the points at these parameters [m].
 OGC_HD inline double points_distance(const Ends& p, const Ends& q, EdgeParameters at) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);
   return square_root(squared(w + Rounded{at.second} * f - Rounded{at.first} * e));

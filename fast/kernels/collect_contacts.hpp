@@ -7,12 +7,13 @@
 
 namespace ogc::fast {
 
-/// Index over the noted pairs.
+/// Enters the contacts among the noted pairs. Index over these pairs.
 struct CollectContacts {
   static constexpr int resident_blocks = 4;  ///< 128 registers; 6 spill more than more warps win (fast/PERFORMANCE.md)
-  CollectVertexFacet vertex_facet;
+  CollectVertexFacet vertex_facet;           ///< decides pairs whose first number is negative, ~vertex
+  /// decides pairs of edges; its radius also leaves out pairs that were noted for their planes alone
   CollectEdgeEdge edge_edge;
-  ListsView lists;
+  ListsView lists;                    ///< where contacts are entered, and whose overflow flag ends the launch
   const PairPlane* planes = nullptr;  ///< beside the noted pairs, where those beyond r are noted, too
 
   OGC_HD void operator()(int i) const {
@@ -23,7 +24,7 @@ struct CollectContacts {
     const int second = certain ? ~pair.second : pair.second;
     const RawContact contact = pair.first < 0 ? vertex_facet(~pair.first, second, certain)
                                               : edge_edge(pair.first, second, certain);
-    // in one place, where lanes that decided different sorts of pairs meet again
+    // in one place, where threads that decided different kinds of pairs meet again
     if (contact.bucket >= 0) lists.enter(contact, {edge_edge.surface});
   }
 };

@@ -15,17 +15,18 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fast/kernels/accumulator.hpp"
-#include "fast/kernels/activation.hpp"
-#include "fast/kernels/qualifiers.hpp"
-#include "fast/kernels/scalar.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
+#include "fast/kernels/models/activation.hpp"
 
 namespace ogc::fast {
 
+/// Which faces meet; the head of this file says which slots a kind has.
 enum class ContactKind : std::uint8_t { point_point, point_segment, segment_segment, point_triangle };
 
-/// Of two bodies that meet.
+/// Of two bodies that meet (method.md §4.5).
 struct ContactMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ [1]
 };
@@ -40,7 +41,7 @@ OGC_HD inline float closest_on_segment(const Vec& along, const Vec& from_start) 
 
 /// Barycentric weights of the point of the closed triangle (a, b, c) closest to p.
 struct TriangleWeights {
-  float a = 0, b = 0, c = 0;
+  float a = 0, b = 0, c = 0;  ///< ≥ 0; they add up to 1 but for rounding
 };
 
 namespace detail {
@@ -52,7 +53,8 @@ OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
 
 }  // namespace detail
 
-/// Of the triangle (x[1], x[2], x[3]) and the point x[0]. Never NaN; a collapsed triangle is its longest edge.
+/// Weights of the point of the triangle (x[1], x[2], x[3]) closest to x[0]. Never NaN; a collapsed triangle is its
+/// longest edge.
 ///
 /// A point that is not over the interior lies beyond one edge, and is closest to that, or beyond two, and then the foot
 /// that is not their common corner wins. Signs of weights decide: distances of points far above a corner agree in all
@@ -87,6 +89,7 @@ struct SegmentParameters {
   float first = 0, second = 0;
 };
 
+/// t within [0, 1]; 0 for NaN.
 OGC_HD inline float clamp_unit(float t) { return t > 0 ? (t < 1 ? t : 1.0f) : 0.0f; }
 
 /// Segments start + s·first and start + between + t·second. Nearly parallel (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) with an overlap
@@ -113,12 +116,12 @@ OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec&
   return {clamp_unit((to_start + end * ab) / aa), end};
 }
 
-/// By slot; 0 for a slot that the kind lacks.
+/// Weights w of the closest points by slot [1]; 0 for a slot that the kind lacks.
 template <class T>
 struct ContactWeightsOf {
-  T slot[4] = {};
+  T slot[4] = {};  ///< w, adding up to 0 but for rounding
 
-  /// By selection: a register has no address.
+  /// w of slot k, by selection: an index would move the array from registers to memory.
   OGC_HD T of(int k) const {
     const T low = k == 0 ? slot[0] : slot[1], high = k == 2 ? slot[2] : slot[3];
     return k < 2 ? low : high;
@@ -126,17 +129,19 @@ struct ContactWeightsOf {
 };
 using ContactWeights = ContactWeightsOf<float>;
 
-/// Whose contacts: where it is known, formulas of kinds that do not occur take no room among a device's instructions.
-enum class ContactSort { any, vertex_facet, edge_edge };
+/// Which pairs a contact is of: where it is known, formulas of kinds that do not occur take no room among a device's
+/// instructions.
+enum class PairKind { any, vertex_facet, edge_edge };
 
-template <ContactSort sort = ContactSort::any>
+/// Weights of the closest points of a contact whose slots are at x.
+template <PairKind pairs = PairKind::any>
 OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
   if (kind == ContactKind::point_point) return {{1, 0, -1, 0}};
   if (kind == ContactKind::point_segment) {
     const float t = closest_on_segment(x[3] - x[2], x[0] - x[2]);
     return {{1, 0, t - 1, -t}};
   }
-  if (sort == ContactSort::edge_edge || (sort == ContactSort::any && kind == ContactKind::segment_segment)) {
+  if (pairs == PairKind::edge_edge || (pairs == PairKind::any && kind == ContactKind::segment_segment)) {
     const SegmentParameters w = closest_on_segments(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
     return {{1 - w.first, w.first, w.second - 1, -w.second}};
   }
@@ -155,38 +160,39 @@ OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T
 /// then, keeps them apart.
 template <class T>
 struct ContactShapeOf {
-  Vector<T> normal;
-  T distance{};
+  Vector<T> normal;  ///< n, a unit vector from the second side's closest point to the first side's
+  T distance{};      ///< d [m]
   Mask<T> acts{};
 };
 using ContactShape = ContactShapeOf<float>;
 
-OGC_HD inline ContactShape contact_shape(const Vec& separation, float radius) {
+/// From Σ w_i x_i.
+OGC_HD inline ContactShape contact_shape(const Vec& separation, float contact_radius) {
   const float squared = dot(separation, separation);
   if (!(squared >= 0x1p-126f)) return {};
   const float distance = sqrtf(squared);
-  return {(1.0f / distance) * separation, distance, distance < radius};
+  return {(1.0f / distance) * separation, distance, distance < contact_radius};
 }
 
 /// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c
 /// r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far above every other block and far below overflow. Nearer points feel the
 /// force of this distance.
 template <class T>
-OGC_HD T activation_distance(const T& distance, float radius) {
-  const float least = 0x1p-23f * radius;
+OGC_HD T activation_distance(const T& distance, float contact_radius) {
+  const float least = 0x1p-23f * contact_radius;
   return select(distance > least, distance, T{least});
 }
 
 /// Adds the force and block of a vertex with weight w to `sum`; `majorant` stands for w² in the block (ContactAt).
 /// Returns the normal force λ = −g' ≥ 0 [N].
-template <class T>
-OGC_HD T add_contact(ContactActivation kind, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
-                     float radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
-  const T distance = activation_distance(shape.distance, radius);
-  const ActivationSlopeOf<T> activation = activation_slope(kind, distance, radius, stiffness);
-  sum.add_force(-activation.slope * weight, shape.normal);
-  sum.add_outer(activation.curvature * majorant, shape.normal);
-  return -activation.slope;
+template <class Activation, class T>
+OGC_HD T add_contact(const Activation& activation, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
+                     float contact_radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
+  const T distance = activation_distance(shape.distance, contact_radius);
+  const ActivationSlopeOf<T> at = activation.slope(distance, contact_radius, stiffness);
+  sum.add_force(-at.slope * weight, shape.normal);
+  sum.add_outer(at.curvature * majorant, shape.normal);
+  return -at.slope;
 }
 
 /// e_k of two edges with rest lengths ē, ē' (method.md §4.3): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε = 10⁻³
@@ -205,8 +211,8 @@ OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_sq
 OGC_HD inline float overlap_share(const Vec& first, const Vec& second, const Vec& to_start, const Vec& to_end) {
   const float aa = dot(first, first), bb = dot(second, second);
   const float start = clamp_unit(dot(first, to_start) / aa), end = clamp_unit(dot(first, to_end) / aa);
-  const float part = start < end ? end - start : start - end;
-  return bb < aa ? part * sqrtf(aa / bb) : part;
+  const float share = start < end ? end - start : start - end;
+  return bb < aa ? share * sqrtf(aa / bb) : share;
 }
 
 }  // namespace ogc::fast

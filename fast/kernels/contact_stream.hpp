@@ -1,6 +1,6 @@
 // From the records of a detection to the stream that the sweep reads: slots, stiffness with the mollifier of this
-// detection, friction, and for each neighbour the buffer it is read from. Done once a detection, so that the sweep's 4
-// incidences a contact and iteration look nothing up.
+// detection, friction, and for each neighbour the buffer it is read from. Made once a detection, so that the sweep has
+// nothing to look up.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,12 @@ namespace ogc::fast {
 struct ContactTables {
   const int* body = nullptr;                   ///< by vertex
   const ContactMaterial* materials = nullptr;  ///< of bodies a and b, at a · body_count + b
-  int body_count = 0;
+  int body_count = 0;                          ///< 0 in probes: then materials are by body b alone
   const float* rest_squared = nullptr;  ///< ‖ē‖² by edge [m²]; 0 without triangles: parallel strands must repel
-  const Vec* detected = nullptr;        ///< positions of the detection, for e_k
+  const Vec* previous = nullptr;        ///< X_prev, positions of the detection, for e_k
 };
 
+/// A contact with the k_c [N/m] and μ of two vertices' bodies (method.md §4.5), and nothing else.
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;
@@ -30,6 +31,7 @@ OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, i
   return contact;
 }
 
+/// Kind and vertices of a contact.
 OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a, int b, int c, int d) {
   contact.kind = kind;
   contact.index[0] = a;
@@ -38,6 +40,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a,
   contact.index[3] = d;
 }
 
+/// A record's slots with plain vertex numbers as indices, `own` 0.
 OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord& record) {
   const int v = record.vertex;
   const int* corner = record.corner;
@@ -49,7 +52,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord&
     set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
 }
 
-/// Plain vertex numbers as indices, `own` 0.
+/// A vertex–facet contact as a record has it: plain vertex numbers as indices, `own` 0.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
   ContactIncidence contact = meeting(tables, record.vertex, record.corner[0]);
   set_slots(contact, record);
@@ -58,7 +61,7 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Ver
 
 /// e_k of two interiors: the mollifier; of two edges without triangles the share that nearly parallel ones overlap.
 OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeRecord& record) {
-  const Vec* x = tables.detected;
+  const Vec* x = tables.previous;
   const Ends p{x[record.first[0]], x[record.first[1]]}, q{x[record.second[0]], x[record.second[1]]};
   const Vec first = p.b - p.a, second = q.b - q.a;
   const float rest_first = tables.rest_squared[record.first_edge],
@@ -69,6 +72,7 @@ OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeReco
   return called(is_shared) ? overlap_share(first, second, q.a - p.a, q.b - p.a) : 1.0f;
 }
 
+/// The slots of an edge–edge record, likewise.
 OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& record) {
   const int* p = record.first;
   const int* q = record.second;
@@ -80,6 +84,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& re
     set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
 }
 
+/// The same of an edge–edge contact. The stiffness of two interiors holds e_k.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
   ContactIncidence contact = meeting(tables, record.first[0], record.second[0]);
   set_slots(contact, record);
@@ -89,13 +94,14 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
 
 /// Whether a vertex is part of an active contact. Of a detection with a margin some are not nearer than r.
 struct ActiveContacts {
-  const int* incidence_offsets;
-  // where there is a margin
+  const int* incidence_offsets;  ///< vertices + 1, on the backend
+  /// Read where contacts are listed with a margin; null without one: each contact that is listed acts.
   const Incidence* incidences = nullptr;
   const VertexFacetRecord* vertex_facet = nullptr;
   const EdgeEdgeRecord* edge_edge = nullptr;
-  float radius = 0;
+  float radius = 0;  ///< r [m]
 
+  /// Whether a contact of v acts at `position`.
   OGC_HD bool touch(int v, const Vec* position) const {
     const int begin = incidence_offsets[v], end = incidence_offsets[v + 1];
     if (incidences == nullptr) return end > begin;
@@ -130,17 +136,17 @@ OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int ro
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// for_each over slots. `Item`: an incidence of whatever kind; rows may have any order.
+/// for_each over slots: each vertex' row of the stream. `Item`: an incidence of whatever kind; rows may have any order.
 template <class Item>
 struct CopyContactRows {
-  const int* incidence_offsets;
-  const Item* incidences;
-  const int* off;  ///< not 0: the old rows stay; null: never
-  const SweepVertex* vertices;
-  ContactRow* rows;
+  const int* incidence_offsets;  ///< by vertex, vertices + 1
+  const Item* incidences;        ///< row of vertex v: from incidence_offsets[v]
+  const int* overflow;           ///< not 0: the old rows stay; null: never
+  const SweepVertex* vertices;   ///< by slot
+  ContactRow* rows;              ///< by slot, written; each begins where the vertex's row of incidences does
 
   OGC_HD void operator()(int slot) const {
-    if (off != nullptr && *off != 0) return;
+    if (overflow != nullptr && *overflow != 0) return;
     const int v = vertices[slot].vertex, begin = incidence_offsets[v], end = incidence_offsets[v + 1];
     int vertex_facet = 0;
     for (int k = begin; k < end; ++k) vertex_facet += incidences[k].code >> 31 == 0 ? 1 : 0;
@@ -148,13 +154,13 @@ struct CopyContactRows {
   }
 };
 
-/// An incidence at its place in the stream, for RankIncidences; or for_each_counted over all incidences that have their
-/// places already.
+/// An incidence at its place in the stream (step_detection.hpp); or for_each_counted over all incidences of a row order
+/// that stands already.
 struct ResolveContact {
-  ContactView view;
+  ContactView view;  ///< records of the detection
   ContactTables tables;
-  const int* colour;
-  ContactIncidence* stream;
+  const int* colour;         ///< by vertex; −1: not free
+  ContactIncidence* stream;  ///< by place of the incidence in view.incidences, written
 
   OGC_HD void operator()(int place) const { (*this)(place, view.incidences[place]); }
   OGC_HD void operator()(int place, Incidence incidence) const {
@@ -176,37 +182,39 @@ struct ResolveContact {
 };
 
 /// Energy of a contact with plain indices [J]; e_k within the stiffness.
-OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position, ContactActivation kind,
-                                    float radius) {
+OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position,
+                                    const AnyActivation& activation, float contact_radius) {
   Vec x[4];
   for (int k = 0; k < 4; ++k) x[k] = position[contact.index[k]];
-  const ContactShape shape = contact_shape(weighted_sum(contact_weights(contact.kind, x), x), radius);
+  const ContactShape shape = contact_shape(weighted_sum(contact_weights(contact.kind, x), x), contact_radius);
   if (!shape.acts) return 0;
-  return activation_energy(kind, activation_distance(shape.distance, radius), radius, contact.stiffness);
+  return activation.energy(activation_distance(shape.distance, contact_radius), contact_radius, contact.stiffness);
 }
 
-/// Terms over records; how many there are is known on the device only.
+/// Energy of the vertex–facet contacts, record by record; how many there are is known on the device only.
 struct VertexFacetTerm {
   ContactView view;
-  ContactTables tables;
-  const Vec* position;
-  ContactActivation kind;
-  float radius;
+  ContactTables tables;  ///< of the last detection, whose e_k counts
+  const Vec* position;   ///< by vertex [m]
+  AnyActivation activation;
+  float contact_radius;  ///< r [m]
 
   OGC_HD void operator()(int i, double* sum) const {
-    sum[sum_vertex_facet] += contact_energy(contact_of(tables, view.vertex_facet[i]), position, kind, radius);
+    sum[sum_vertex_facet] += contact_energy(contact_of(tables, view.vertex_facet[i]), position, activation,
+                                            contact_radius);
   }
 };
 
+/// Energy of the edge–edge contacts, likewise.
 struct EdgeEdgeTerm {
   ContactView view;
-  ContactTables tables;
-  const Vec* position;
-  ContactActivation kind;
-  float radius;
+  ContactTables tables;  ///< of the last detection, whose e_k counts
+  const Vec* position;   ///< by vertex [m]
+  AnyActivation activation;
+  float contact_radius;  ///< r [m]
 
   OGC_HD void operator()(int i, double* sum) const {
-    sum[sum_edge_edge] += contact_energy(contact_of(tables, view.edge_edge[i]), position, kind, radius);
+    sum[sum_edge_edge] += contact_energy(contact_of(tables, view.edge_edge[i]), position, activation, contact_radius);
   }
 };
 

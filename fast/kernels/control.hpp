@@ -10,12 +10,13 @@
 #include <cstring>
 
 #include "compare/contestant.hpp"
-#include "fast/kernels/atomic.hpp"
-#include "fast/kernels/qualifiers.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast {
 
+/// False for NaN and for infinities.
 OGC_HD inline bool is_finite(float a) { return fabsf(a) <= 3.40282347e38f; }
 OGC_HD inline bool is_finite(const Vec& a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
 
@@ -25,6 +26,7 @@ OGC_HD inline int float_bits(float a) {
   memcpy(&bits, &a, sizeof bits);
   return bits;
 }
+/// The float of such bits.
 OGC_HD inline float float_from_bits(int bits) {
   float a = 0;
   memcpy(&a, &bits, sizeof a);
@@ -33,15 +35,16 @@ OGC_HD inline float float_from_bits(int bits) {
 
 /// Settings of the control, the same in each step.
 struct ControlSettings {
-  int cut_threshold = 1;  ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
-  int redetect_every = 0;
-  int iterations = 1 << 30;  ///< of a step; after the last no detection is made
-  int guess_rounds = 16;
+  int redetect_count = 1;          ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
+  int redetect_every = 0;          ///< iterations after which a detection is due in any case; 0: none ever is
+  int iterations = 1 << 30;        ///< of a step; after the last no detection is made
+  int guess_rounds = 16;           ///< of a step, at most
   int sort_every = 1;              ///< steps that keep the order of the trees
   float contact_radius = 0;        ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
 };
 
+/// The state of a frame and of its step on the device.
 struct StepControl {
   // Of the frame.
   int active = 0;            ///< 1: steps take place; 0: they are no-ops
@@ -49,7 +52,7 @@ struct StepControl {
   int steps_done = 0;        ///< committed since the frame began: number of the row and of the row of targets
   int since_sort = 1 << 30;  ///< steps begun in the order that the trees have; the host carries it from frame to frame
   // Of the step. Flags that `when` reads hold `active` too.
-  int attempted = 0;
+  int attempted = 0;                      ///< 1: the step began active
   int sort = 0;                           ///< a new order of the trees
   int guess = 0;                          ///< another round of the guess loop
   int detect = 0;                         ///< detection before the next iteration
@@ -57,6 +60,7 @@ struct StepControl {
   float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
   float smallest_bound = 0;               ///< [m]
+  /// vertices cut in this round or iteration; cut_last: in the one before, lagging ones included
   int cut = 0, cut_last = 0;
   /// With planes: prescribed vertices behind their targets, whether one has moved since the last detection, and whether
   /// one has asked for a detection in this step.
@@ -64,6 +68,7 @@ struct StepControl {
   int not_finite = 0, violations = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
+  /// Threads of one launch call these together; sums and maxima do not depend on their order.
   OGC_HD void count_cut() { atomic_add(&cut, 1); }
   OGC_HD void count_lag(bool has_advanced) {
     atomic_add(&lagging, 1);
@@ -75,8 +80,8 @@ struct StepControl {
 
 /// Whether the vertices that were cut ask for a detection; their counts begin anew. A prescribed vertex behind its
 /// target asks alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut.
-OGC_HD inline bool take_request(StepControl& c, int cut_threshold) {
-  const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0), asks = c.cut >= cut_threshold;
+OGC_HD inline bool take_request(StepControl& c, int redetect_count) {
+  const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0), asks = c.cut >= redetect_count;
   if (lag_asks) c.lag_asked = 1;
   c.cut_last = c.cut + c.lagging;
   c.cut = c.lagging = c.advanced = 0;
@@ -90,8 +95,9 @@ OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.status != 0) c.active = c.guess = c.detect = 0;
 }
 
+/// First kernel of a step.
 struct BeginStep {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
   ControlSettings settings;
 
   OGC_HD void operator()(int) const {
@@ -110,7 +116,7 @@ struct BeginStep {
 
 /// r_q = min(r + largest move, cap) (method.md §5.3).
 struct ChooseQueryRadius {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
   ControlSettings settings;
 
   OGC_HD void operator()(int) const {
@@ -124,8 +130,8 @@ struct ChooseQueryRadius {
 
 /// After a detection. `overflow`: not zero where a list was too small.
 struct EndDetection {
-  StepControl* control;
-  const int* overflow;
+  StepControl* control;  ///< on the backend
+  const int* overflow;   ///< on the backend
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
@@ -140,13 +146,13 @@ struct EndDetection {
 
 /// After a round of the guess loop: another one if enough vertices were cut and rounds are left.
 struct EndRound {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
   ControlSettings settings;
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
     ++c.rounds;
-    const bool asked = take_request(c, settings.cut_threshold);
+    const bool asked = take_request(c, settings.redetect_count);
     c.guess = c.active != 0 && asked && c.rounds < settings.guess_rounds ? 1 : 0;
   }
 };
@@ -154,7 +160,7 @@ struct EndRound {
 /// Alg. 3 line 29, and the largest number of iterations between detections. `number`: of the iteration, which ends only
 /// if it was its turn; −1: it was.
 struct EndIteration {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
   ControlSettings settings;
   int number = -1;
 
@@ -163,7 +169,7 @@ struct EndIteration {
     if (number >= 0 && c.turn != number) return;
     ++c.iterations;
     ++c.since_detection;
-    const bool asked = take_request(c, settings.cut_threshold);
+    const bool asked = take_request(c, settings.redetect_count);
     const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
     c.detect = c.active != 0 && c.iterations < settings.iterations && (due || asked) ? 1 : 0;
     stop_if_failed(c);

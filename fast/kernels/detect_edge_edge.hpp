@@ -3,7 +3,7 @@
 // detect_vertex_facet.hpp.
 #pragma once
 
-#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/block.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/search.hpp"
@@ -15,19 +15,21 @@ namespace ogc::fast {
 /// The searches of all edges in their tree; a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
-  Places positions;
-  TreeView tree;
-  ListsView lists;
-  SkinView skin;
-  float contact_radius;
-  float* d_min_edge;  ///< at most r_q before the launch
+  PaddedVecs positions;  ///< of the detection, by vertex [m]
+  TreeView tree;         ///< of all edges, refitted at these positions
+  ListsView lists;       ///< where pairs are noted; with its overflow flag set nothing is searched
+  SkinView skin;         ///< its mode decides whether the tree is searched, and how far beyond the radius
+  float contact_radius;  ///< r, with the contact margin [m]
+  float* d_min_edge;     ///< at most r_q before the launch
 
+  /// Whether a list has overflowed, or pairs of the skin take the place of the search.
   OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
+  /// The search of the edge at place i of the tree, from the place behind it.
   OGC_HD Search begin(int i) const {
-    const Lane lane = tree.node(0, i / 4).lane[i % 4];
+    const Child child = tree.node(0, i / 4).child[i % 4];
     const float margin = skin.search_margin();
-    return {lane.box(), lane.primitive, i + 1, larger(gap_limit(add(contact_radius, margin)), lane.reach), margin};
+    return {child.box(), child.primitive, i + 1, larger(gap_limit(add(contact_radius, margin)), child.reach), margin};
   }
 
   /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
@@ -38,6 +40,7 @@ struct DetectEdgeEdge {
     return offer.gap > within ? -1.0F : within;
   }
 
+  /// Whether the candidate needs a distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -50,6 +53,7 @@ struct DetectEdgeEdge {
     return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
+  /// Its distance, for both partners.
   OGC_HD float meet(const Search& search, int other, float gap) const {
     const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
     return gap_limit(add(larger(contact_radius, measure(low, high, gap)), search.margin));
@@ -71,7 +75,7 @@ struct DetectEdgeEdge {
                   smaller(offer.reach, gap_limit(add(theirs, margin))));
   }
 
-  /// Of which no smallest distance of this detection will be above.
+  /// Never below the edge's smallest distance of this detection.
   OGC_HD float bound(int e) const { return smaller(atomic_load(&d_min_edge[e]), skin.bound(skin.edge[e])); }
 
   /// The pair's distance for both partners, and the note where it may be a contact; low < high.
@@ -97,8 +101,8 @@ struct DetectEdgeEdge {
 /// doubt.
 struct CollectEdgeEdge {
   SurfaceView surface;
-  Places positions;
-  float contact_radius;
+  PaddedVecs positions;  ///< of the detection, by vertex [m]
+  float contact_radius;  ///< r, with the contact margin [m]
 
   OGC_HD RawContact operator()(int low, int high, bool certain) const {
     constexpr RawContact none{-1, -1, -1, -1};

@@ -7,7 +7,7 @@
 // predicates are most of the code.
 #pragma once
 
-#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/block.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/search.hpp"
@@ -19,22 +19,28 @@ namespace ogc::fast {
 /// The searches of all vertices in the tree of the facets; a Query of search.hpp.
 struct DetectVertexFacet {
   SurfaceView surface;
-  Places positions;
-  TreeView tree;
-  const int* vertex_order;
+  PaddedVecs positions;       ///< of the detection, by vertex [m]
+  TreeView tree;              ///< of all facets, refitted at these positions
+  const int* vertex_order;    ///< vertex of each search, along a Hilbert curve
   const float* vertex_limit;  ///< by vertex: gap limit of its reach
-  ListsView lists;
-  SkinView skin;
-  float contact_radius;
-  float* d_min_vertex;    ///< at most r_q before the launch
-  float* d_min_triangle;  ///< likewise
+  ListsView lists;            ///< where pairs are noted; with its overflow flag set nothing is searched
+  SkinView skin;              ///< its mode decides whether the tree is searched, and how far beyond the radius
+  float contact_radius;       ///< r, with the contact margin [m]
+  float* d_min_vertex;        ///< at most r_q before the launch
+  float* d_min_triangle;      ///< likewise
 
+  /// Whether a list has overflowed, or pairs of the skin take the place of the search.
   OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
   /// A vertex inside a solid looks where nothing is: its squared gap to any box is finite, and beyond any limit.
+  OGC_HD Vec searched_from(int v) const {
+    return surface.is_inside_solid(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
+  }
+
+  /// The search of the i-th vertex along the Hilbert curve.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
-    const Vec x = surface.is_inside_solid(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
+    const Vec x = searched_from(v);
     const float margin = skin.search_margin();
     return {{x, x}, v, 0, larger(gap_limit(add(contact_radius, margin)), vertex_limit[v]), margin};
   }
@@ -49,6 +55,7 @@ struct DetectVertexFacet {
     return offer.gap > within ? -1.0F : within;
   }
 
+  /// Whether the candidate needs a distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -61,6 +68,7 @@ struct DetectVertexFacet {
     return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
+  /// Its distance, for both partners.
   OGC_HD float meet(const Search& search, int t, float gap) const {
     return gap_limit(add(larger(contact_radius, measure(search.owner, t, gap)), search.margin));
   }
@@ -105,8 +113,8 @@ struct DetectVertexFacet {
 /// Each triangle around a shared face reports it; the lists keep one.
 struct CollectVertexFacet {
   SurfaceView surface;
-  Places positions;
-  float contact_radius;
+  PaddedVecs positions;  ///< of the detection, by vertex [m]
+  float contact_radius;  ///< r, with the contact margin [m]
 
   OGC_HD RawContact operator()(int v, int t, bool certain) const {
     constexpr RawContact none{-1, -1, -1, -1};

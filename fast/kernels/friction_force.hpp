@@ -3,10 +3,10 @@
 // derivatives.
 #pragma once
 
-#include "fast/kernels/accumulator.hpp"
-#include "fast/kernels/qualifiers.hpp"
-#include "fast/kernels/scalar.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast {
 

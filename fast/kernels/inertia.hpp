@@ -1,9 +1,9 @@
 // Inertia: m/(2h²) ‖x − y‖², and the target y it pulls to.
 #pragma once
 
-#include "fast/kernels/accumulator.hpp"
-#include "fast/kernels/qualifiers.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast {
 

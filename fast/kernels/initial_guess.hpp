@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "fast/kernels/bending.hpp"
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/inertia.hpp"
-#include "fast/kernels/membrane.hpp"
-#include "fast/kernels/tetrahedron.hpp"
+#include "fast/kernels/models/hinge.hpp"
+#include "fast/kernels/models/membrane.hpp"
+#include "fast/kernels/models/tetrahedron.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
@@ -19,14 +19,14 @@ namespace ogc::fast {
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
-  const int* prescribed_number;   ///< by vertex: place among the prescribed ones; -1 free, -2 fixed
-  const Vec* prescribed_targets;  ///< [step of the frame][place]
-  int prescribed_count;
-  Vec acceleration;
-  float step;
-  Vec* position;
-  Vec* target;
-  StepControl* control;
+  const int* prescribed_number;   ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
+  const Vec* prescribed_targets;  ///< [step of the frame][number]
+  int prescribed_count;           ///< of a row of targets
+  Vec acceleration;               ///< a [m/s²]
+  float step;                     ///< h [s]
+  Vec* position;                  ///< x by vertex [m], written
+  Vec* target;                    ///< y by vertex [m], written
+  StepControl* control;           ///< on the backend: raises largest_move, counts what is not finite
 
   OGC_HD void operator()(int v) const {
     const Vec x = start[v];
@@ -48,9 +48,9 @@ struct BeginVertex {
 
 /// for_each over triangles: Gᵗ, for the damping.
 struct BeginTriangle {
-  const TriangleRest* triangles;
-  const Vec* start;
-  Symmetric2* strain_start;
+  const TriangleRest* triangles;  ///< by triangle
+  const Vec* start;               ///< xᵗ by vertex [m]
+  Symmetric2* strain_start;       ///< Gᵗ by triangle, written
 
   OGC_HD void operator()(int t) const {
     const TriangleRest& rest = triangles[t];
@@ -62,9 +62,9 @@ struct BeginTriangle {
 
 /// for_each over hinges: θᵗ, for the damping.
 struct BeginHinge {
-  const HingeRest* hinges;
-  const Vec* start;
-  float* angle_start;
+  const HingeRest* hinges;  ///< by hinge
+  const Vec* start;         ///< xᵗ by vertex [m]
+  float* angle_start;       ///< θᵗ by hinge [rad], written; 0 where the hinge has collapsed
 
   OGC_HD void operator()(int i) const {
     const int* v = hinges[i].vertex;
@@ -75,9 +75,9 @@ struct BeginHinge {
 
 /// for_each over tetrahedra: Gᵗ, for the damping.
 struct BeginTetrahedron {
-  const TetrahedronRest* tetrahedra;
-  const Vec* start;
-  SolidStrain* strain_start;
+  const TetrahedronRest* tetrahedra;  ///< by tetrahedron
+  const Vec* start;                   ///< xᵗ by vertex [m]
+  SolidStrain* strain_start;          ///< Gᵗ by tetrahedron, written
 
   OGC_HD void operator()(int t) const {
     const TetrahedronRest& rest = tetrahedra[t];
@@ -89,65 +89,61 @@ struct BeginTetrahedron {
   }
 };
 
-/// for_each over all vertices: the certificate of the bounds that end here (‖x − X_prev‖ ≤ b_v in double on stored
-/// positions, and its half-spaces), then X_prev ← x. Before the first detection of a step X_prev and b_v are those of
-/// an earlier one, and certified.
-struct BeginBounds {
-  const Vec* position;
-  const float* bound;
-  Vec* previous;
-  StepControl* control;
-  RegionView regions{};
+/// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
+/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
+struct BeginRegions {
+  const Vec* position;    ///< x by vertex [m]
+  FeasibleRegions ended;  ///< those that the last detection left
+  Vec* previous;          ///< X_prev by vertex [m], written
+  StepControl* control;   ///< on the backend: counts vertices that their region does not hold
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
-    if (control->rounds > 0 && is_outside(regions.region(v, previous[v], bound[v]), x)) control->count_violation();
+    if (control->rounds > 0 && is_outside(ended[v], x)) control->count_violation();
     previous[v] = x;
   }
 };
 
-/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex that is part of an active contact
-/// stays where it is. A free vertex slides as inertia alone would have it.
+/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex of an active contact stays where
+/// it is. A free vertex slides as inertia alone would have it.
 struct GuessVertex {
-  const Vec* target;
-  const Vec* previous;
-  const float* bound;
+  const Vec* target;        ///< y by vertex [m]
+  FeasibleRegions regions;  ///< about X_prev
   ActiveContacts contacts;  ///< X_prev = x
-  Vec* position;
-  StepControl* control;
-  RegionView regions{};
+  Vec* position;            ///< x by vertex [m], written
+  StepControl* control;     ///< on the backend: its flag `active` and its rounds are read, cuts are counted
   const int* prescribed_number = nullptr;  ///< as in BeginVertex; read where there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
-    if (control->rounds > 0 && contacts.touch(v, previous)) return;
-    const Vec stay = previous[v], wanted = target[v];
-    const FeasibleRegion region = regions.region(v, stay, bound[v]);
+    if (control->rounds > 0 && contacts.touch(v, regions.centre)) return;
+    const FeasibleRegion region = regions[v];
+    const Vec& stay = region.ball.centre;
     const bool is_prescribed = regions.has_planes() && prescribed_number[v] >= 0;
-    const Truncated kept = is_prescribed ? held_on_path(region, stay, wanted)
-                                         : held(region, stay, wanted, InertiaMetric{});
+    const Truncated kept = is_prescribed ? held_on_path(region, stay, target[v])
+                                         : held(region, stay, target[v], InertiaMetric{});
     position[v] = kept.position;
     if (is_prescribed)
       count_behind(*control, kept, stay, regions);
-    else if (kept.exceeded)
+    else if (kept.cut)
       control->count_cut();
   }
 };
 
 /// for_each over all vertices, after the guess: xᵗ and x where the sweep gathers them; x in both of its buffers,
-/// because it writes no fixed vertex.
+/// because the sweep writes no fixed vertex.
 struct BeginSweep {
-  const Vec* start;
-  const Vec* position;
-  Place* start_places;
-  Place* places;  ///< the second buffer follows the first
-  int vertex_count;
+  const Vec* start;         ///< xᵗ by vertex [m]
+  const Vec* position;      ///< x by vertex [m]
+  PaddedVec* padded_start;  ///< xᵗ by vertex [m], written
+  PaddedVec* padded;        ///< x, in both buffers: the second follows the first
+  int vertex_count;         ///< length of one buffer
 
   OGC_HD void operator()(int v) const {
-    const Place x(position[v]);
-    start_places[v] = Place(start[v]);
-    places[v] = x;
-    places[v + vertex_count] = x;
+    const PaddedVec x(position[v]);
+    padded_start[v] = PaddedVec(start[v]);
+    padded[v] = x;
+    padded[v + vertex_count] = x;
   }
 };
 

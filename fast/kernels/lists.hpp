@@ -1,18 +1,18 @@
 // From the pairs that the searches note to records in canonical order and to each vertex's incidences. A contact's
-// bucket is its first face. A contact of two interiors is of one pair, and whoever decides that pair gives it a place
-// in the list and counts it. Others several pairs may generate: those are entered in a hash table, and only the first
-// to do so takes a place. Inside a bucket each contact then counts those before it, which costs far less than sorting
-// all, and no thread waits for the longest bucket.
+// bucket is its first face. Only one pair generates a contact of two interiors; the thread that decides the pair takes
+// a place in the list for it. Several pairs may generate any other contact: threads enter it in a hash table, and the
+// first of them takes the place. Inside a bucket each contact then counts those before it, which costs far less than
+// sorting all, and no thread waits for the longest bucket.
 //
 // Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order
 // buckets, and in a bucket the sorted seconds, have the canonical order of compare/stages. The searches note pairs that
 // may be contacts: half as many again as the contacts where r is shorter than the edges, far more where it is longer.
-// Where a list has no room nothing of the detection is used: all later kernels stop at the overflow flag, and the
-// counts, which go on, say how much room the same detection needs.
+// Where a list has no room the detection counts on, so that the host learns how much room it needs, and all later
+// kernels stop at the overflow flag.
 #pragma once
 
 #include "fast/contact_view.hpp"
-#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
@@ -38,17 +38,17 @@ struct alignas(16) ContactSlot {
 /// A contact at its place in the list, and where the table has it.
 struct alignas(16) EnteredContact {
   static constexpr std::uint32_t nowhere = 0xffffffffU;  ///< of one that a single pair generates
-  int bucket, second;
-  std::uint32_t slot;
+  int bucket, second;                                    ///< as in RawContact
+  std::uint32_t slot;                                    ///< of the table, or `nowhere`
 };
 
 /// An incidence that has no order yet, and whose it is.
 struct alignas(8) LooseIncidence {
-  std::uint32_t code;
+  std::uint32_t code;  ///< as in Incidence
   int vertex;
 };
 
-/// The vertices of a contact by role (contact_view.hpp); −1: nobody has it.
+/// The vertices of a contact by role (contact_view.hpp); −1: it lacks this role.
 struct RoleVertices {
   int role[4] = {-1, -1, -1, -1};
 };
@@ -57,6 +57,7 @@ struct RoleVertices {
 struct ContactFaces {
   SurfaceView surface;
 
+  /// Buckets of vertices come first, those of faces of edge–edge contacts behind them.
   OGC_HD bool is_vertex_facet(int bucket) const { return bucket < surface.vertex_count; }
 
   /// Whether only one pair generates it: the pair of its two interiors, which a search notes once.
@@ -65,6 +66,7 @@ struct ContactFaces {
                                    : bucket >= 2 * surface.vertex_count;
   }
 
+  /// Its vertices by role.
   OGC_HD RoleVertices vertices(int bucket, int second) const {
     RoleVertices of;
     if (is_vertex_facet(bucket)) {
@@ -93,6 +95,18 @@ struct ContactFaces {
   }
 };
 
+/// Counters of a detection, on the backend. What counts goes on where a list has no room: the host learns how much the
+/// same detection needs.
+struct ListStatus {
+  int contacts = 0;      ///< entered, also those that found no room
+  int overflow = 0;      ///< not 0 once a list was too small; sticky
+  int edge_edge = 0;     ///< edge–edge records
+  int noted = 0;         ///< pairs noted, also those that found no room
+  int without_slot = 0;  ///< contacts that found no slot of the table, as often as they were generated
+};
+
+/// The lists on the backend; `contact_count`, `without_slot`, `overflow`, `noted_count` and `edge_edge_count` point
+/// into their ListStatus.
 struct ListsView {
   /// Slots that the search for a contact looks at, at most. Of a table that is half full at most, as one whose contacts
   /// all have room, k slots in a row are the homes of k keys or more with a chance of at most (√e / 2)ᵏ (Chernoff's
@@ -100,8 +114,8 @@ struct ListsView {
   /// grow.
   static constexpr int longest_search = 256;
 
-  NotedPair* noted = nullptr;
-  int noted_capacity = 0;
+  NotedPair* noted = nullptr;         ///< in any order; those surely nearer than r with their second number inverted
+  int noted_capacity = 0;             ///< pairs beyond it are counted in noted_count and lost
   int* noted_count = nullptr;         ///< also those that found no room
   ContactSlot* table = nullptr;       ///< empty before and after a detection that does not overflow
   std::uint32_t slot_mask = 0;        ///< slots − 1: a power of two, at least 2 · capacity
@@ -109,9 +123,9 @@ struct ListsView {
   RawContact* bucketed = nullptr;     ///< bucket by bucket
   /// of entered, bucketed and both record arrays; incidences have four times as much
   int capacity = 0;
-  int* cursor = nullptr;        ///< contacts entered, also those that found no room
-  int* without_slot = nullptr;  ///< contacts that found no slot either, as often as they were generated
-  int* overflow = nullptr;      ///< sticky
+  int* contact_count = nullptr;  ///< contacts entered, also those that found no room
+  int* without_slot = nullptr;   ///< contacts that found no slot either, as often as they were generated
+  int* overflow = nullptr;       ///< sticky
   int buckets = 0;
   int* record_counts = nullptr;   ///< by bucket, of the contacts that found room
   int* record_offsets = nullptr;  ///< buckets + 1
@@ -143,7 +157,7 @@ struct ListsView {
     for (int looks = 0; looks < longest_search; ++looks, at = (at + 1) & slot_mask) {
       ContactSlot& slot = table[at];
       std::uint64_t found = atomic_load(&slot.key);
-      // beside the key: who reads one after the other waits twice
+      // Read beside the key: one after the other would cost two latencies.
       const std::uint64_t found_edges = atomic_load(&slot.edges);
       if (found == 0) found = atomic_compare_exchange(&slot.key, 0, key);
       if (found != 0 && found != key) continue;
@@ -154,7 +168,7 @@ struct ListsView {
     atomic_add(without_slot, 1);
   }
 
-  /// The record of a contact and its incidences for one more or less.
+  /// Counts the record of a contact and its incidences: `amount` 1, or −1 to take them back.
   OGC_HD void count(int bucket, const RoleVertices& vertices, int amount) const {
     atomic_add(&record_counts[bucket], amount);
     for (const int v : vertices.role) {
@@ -176,8 +190,9 @@ struct ListsView {
   }
 
   OGC_HD void place(const RawContact& contact, std::uint32_t slot, const ContactFaces& faces) const {
-    const RoleVertices vertices = faces.vertices(contact.bucket, contact.second);  // read while the cursor is asked
-    const int place = atomic_add(cursor, 1);
+    const RoleVertices vertices = faces.vertices(contact.bucket,
+                                                 contact.second);  // read while the contact_count is asked
+    const int place = atomic_add(contact_count, 1);
     if (place >= capacity) return;
     entered[place] = {contact.bucket, contact.second, slot};
     count(contact.bucket, vertices, 1);
@@ -191,19 +206,19 @@ struct PrepareLists {
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
-    if (i == 0) *lists.noted_count = *lists.cursor = *lists.without_slot = *lists.edge_edge_count = 0;
+    if (i == 0) *lists.noted_count = *lists.contact_count = *lists.without_slot = *lists.edge_edge_count = 0;
     if (i < lists.buckets) lists.record_counts[i] = lists.record_filled[i] = 0;
     if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
   }
 };
 
-/// After the contacts are collected. Of pairs that found no room nobody knows which are contacts, so the contacts may
-/// want more in a second try.
+/// After the contacts are collected. Pairs that found no room may be contacts, too, so a second try may need still more
+/// room.
 struct CheckCapacity {
   ListsView lists;
 
   OGC_HD void operator()(int) const {
-    const bool fits = *lists.noted_count <= lists.noted_capacity && *lists.cursor <= lists.capacity &&
+    const bool fits = *lists.noted_count <= lists.noted_capacity && *lists.contact_count <= lists.capacity &&
                       *lists.without_slot == 0;
     if (*lists.overflow == 0 && !fits) *lists.overflow = 1;
   }
@@ -272,7 +287,7 @@ struct WriteRecords {
   }
 
  private:
-  /// All contacts before it.
+  /// Contacts of all buckets before its own, and those of its own with a smaller second face.
   OGC_HD int rank(const RawContact& own) const {
     const int begin = lists.record_offsets[own.bucket], end = lists.record_offsets[own.bucket + 1];
     int before = begin;
@@ -292,7 +307,7 @@ struct WriteRecords {
 /// ones.
 struct FillIncidences {
   ListsView lists;
-  int vertex_facet_count;
+  int vertex_facet_count;  ///< vertex–facet records; edge–edge ones follow in the index
 
   OGC_HD void operator()(int i) const {
     if (i < vertex_facet_count) {
@@ -306,27 +321,22 @@ struct FillIncidences {
   }
 };
 
-/// The contacts that nobody resolves as they are found.
-struct Unresolved {
-  OGC_HD void operator()(int, Incidence) const {}
-};
-
-/// Each row in ascending order, from loose incidences; resolve(place, incidence) for each in its place. Index over all
-/// incidences. Each counts those of its row that come before it: rows are short, and no thread waits for the longest of
-/// them.
-template <class Resolve>
+/// Each row in ascending order, from loose incidences. Index over all incidences. Each counts those of its row that
+/// come before it: rows are short, and no thread waits for the longest of them.
 struct RankIncidences {
   ListsView lists;
-  Resolve resolve;
 
   OGC_HD void operator()(int i) const {
-    if (*lists.overflow != 0) return;
-    const LooseIncidence own = lists.loose[i];
+    if (*lists.overflow == 0) put(lists.loose[i]);
+  }
+
+  /// Writes an incidence at its place; returns the place.
+  OGC_HD int put(const LooseIncidence& own) const {
     const int begin = lists.incidence_offsets[own.vertex], end = lists.incidence_offsets[own.vertex + 1];
     int place = begin;
     for (int k = begin; k < end; ++k) place += lists.loose[k].code < own.code ? 1 : 0;
     lists.incidences[place] = {own.code};
-    resolve(place, Incidence{own.code});
+    return place;
   }
 };
 

@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include "fast/contact_view.hpp"
-#include "fast/kernels/bending.hpp"
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
-#include "fast/kernels/isometric.hpp"
-#include "fast/kernels/membrane.hpp"
-#include "fast/kernels/neo_hookean.hpp"
-#include "fast/kernels/spring.hpp"
-#include "fast/kernels/tetrahedron.hpp"
+#include "fast/kernels/models/bending_models.hpp"
+#include "fast/kernels/models/membrane_models.hpp"
+#include "fast/kernels/models/spring.hpp"
+#include "fast/kernels/models/tetrahedron.hpp"
 
 namespace ogc::fast {
 
@@ -34,11 +32,14 @@ enum SumColumn : int {
 
 /// One row of the device's ring; the host makes a compare::StepMetrics of it.
 struct StepRow {
-  int status = 0;
-  int vertex_facet_contacts = 0, edge_edge_contacts = 0;
+  int status = 0;                                         ///< compare::StepStatus bits; 0: the step was committed
+  int vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< records of the last detection
+  /// of the step; cut_last: vertices that its last iteration cut
   int detections = 0, rounds = 0, iterations = 0, cut_last = 0;
+  /// r_q, the largest lag, the smallest b_v or, with planes, distance [m]
   float query_radius = 0, largest_lag = 0, smallest_bound = 0;
-  double lost_guess = 0, lost_end = 0;
+  double lost_guess = 0, lost_end = 0;  ///< ‖Σ m (x − y)‖/‖Σ m (y − xᵗ)‖ after the guess loop and at the end [1]
+  /// at the end [J]; without StepSettings::energies elastic is that of tetrahedra alone, and contact is 0
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
   int inverted = 0;  ///< tetrahedra with J ≤ 0
 };
@@ -46,21 +47,19 @@ struct StepRow {
 /// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
 /// smallest distance).
 struct CheckVertex {
-  const Vec* position;
-  const Vec* previous;
-  const float* bound;
-  const Vec* target;
-  const int* prescribed_number;
-  StepControl* control;
-  RegionView regions{};
+  const Vec* position;             ///< x by vertex [m]
+  FeasibleRegions regions;         ///< of the last detection
+  const Vec* target;               ///< y by vertex [m]
+  const int* prescribed_number;    ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
+  StepControl* control;            ///< on the backend: counts and extremes are written
   const float* nearest = nullptr;  ///< smallest distances [m], where there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
     const Vec x = position[v];
     if (!is_finite(x)) control->count_not_finite();
-    if (is_outside(regions.region(v, previous[v], bound[v]), x)) control->count_violation();
-    atomic_min(&control->smallest_bound, regions.has_planes() ? nearest[v] : bound[v]);
+    if (is_outside(regions[v], x)) control->count_violation();
+    atomic_min(&control->smallest_bound, regions.has_planes() ? nearest[v] : regions.radius[v]);
     if (prescribed_number[v] < 0) return;
     const Vec behind = target[v] - x;
     atomic_max(&control->largest_lag, float_bits(square_root(dot(behind, behind))));
@@ -69,18 +68,18 @@ struct CheckVertex {
 
 /// After the certificate: nothing that failed is committed.
 struct EndCheck {
-  StepControl* control;
+  StepControl* control;  ///< on the backend
 
   OGC_HD void operator()(int) const { stop_if_failed(*control); }
 };
 
 /// for_each over all vertices of a step that is clean: v = (x − xᵗ)/h, xᵗ = x.
 struct CommitVertex {
-  const Vec* position;
-  float step;
-  const StepControl* control;
-  Vec* start;
-  Vec* velocity;
+  const Vec* position;         ///< x by vertex [m]
+  float step;                  ///< h [s]
+  const StepControl* control;  ///< on the backend; not active: the step failed, and nothing is written
+  Vec* start;                  ///< xᵗ by vertex [m], becomes x
+  Vec* velocity;               ///< by vertex [m/s], written
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
@@ -92,7 +91,7 @@ struct CommitVertex {
 
 /// for_each over all vertices, for a snapshot.
 struct CopyBound {
-  const float* from;
+  const float* from;  ///< b_v by vertex [m]
   float* to;
 
   OGC_HD void operator()(int v) const { to[v] = from[v]; }
@@ -101,13 +100,13 @@ struct CopyBound {
 /// Term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not yet
 /// committed).
 struct VertexTerm {
-  const Vec* position;
-  const Vec* start;
-  const Vec* target;
-  const float* mass;
-  const int* prescribed_number;
-  Vec acceleration;
-  double step;
+  const Vec* position;           ///< x by vertex [m]
+  const Vec* start;              ///< xᵗ by vertex [m]
+  const Vec* target;             ///< y by vertex [m]
+  const float* mass;             ///< by vertex [kg]; 0 on fixed bodies
+  const int* prescribed_number;  ///< as in CheckVertex; momenta are those of free vertices
+  Vec acceleration;              ///< a [m/s²]
+  double step;                   ///< h [s]
 
   OGC_HD void operator()(int v, double* sum) const {
     const double m = mass[v];
@@ -127,49 +126,68 @@ struct VertexTerm {
   }
 };
 
+/// Energy of a triangle, given the functor of its model.
+struct MembraneEnergy {
+  const TriangleRest& rest;
+  const SurfaceMaterial& material;
+  Vec to_b, to_c;  ///< edges from corner 0 to corners 1 and 2 [m]
+
+  template <class Model>
+  OGC_HD double operator()(Model) const {
+    return Model::energy(rest, material, to_b, to_c);
+  }
+};
+
+/// Term of a triangle.
 struct TriangleTerm {
-  const TriangleRest* triangles;
-  const SurfaceMaterial* materials;
-  const SurfaceModels* models;
-  const Vec* position;
+  const TriangleRest* triangles;     ///< by triangle
+  const SurfaceMaterial* materials;  ///< by body
+  const SurfaceModels* models;       ///< by body
+  const Vec* position;               ///< x by vertex [m]
 
   OGC_HD void operator()(int t, double* sum) const {
     const TriangleRest& rest = triangles[t];
     const Vec a = position[rest.corner[0]], to_b = position[rest.corner[1]] - a, to_c = position[rest.corner[2]] - a;
-    const DeformationGradient f = deformation_gradient(to_b, to_c, rest.gradient[1], rest.gradient[2]);
-    const SurfaceMaterial& material = materials[rest.body];
-    if (models[rest.body].membrane == compare::MembraneModel::stable_neo_hookean) {
-      const float ratio = area_ratio(to_b, to_c, rest.gradient[1], rest.gradient[2]).ratio;
-      sum[sum_membrane] += rest.area * neo_hookean_energy_density(material, f, ratio);
-    } else {
-      sum[sum_membrane] += rest.area * membrane_energy_density(material, green_strain(f));
-    }
+    sum[sum_membrane] += with_membrane(models[rest.body].membrane,
+                                       MembraneEnergy{rest, materials[rest.body], to_b, to_c});
   }
 };
 
+/// Energy of hinge i, given the functor of its model.
+struct HingeEnergy {
+  const HingeRest& rest;
+  const HingeWeights* weights;  ///< read where the model reads them
+  int i;
+  const Vec* to;  ///< from x0 to x1, o0 and o1 [m]
+
+  template <class Model>
+  OGC_HD double operator()(Model) const {
+    HingeWeights own;
+    if constexpr (Model::reads_weights) own = weights[i];
+    return Model::energy(rest, own, to);
+  }
+};
+
+/// Term of a hinge.
 struct HingeTerm {
-  const HingeRest* hinges;
+  const HingeRest* hinges;      ///< by hinge
   const HingeWeights* weights;  ///< read where a body bends isometrically
-  const SurfaceModels* models;
-  const Vec* position;
+  const SurfaceModels* models;  ///< by body
+  const Vec* position;          ///< x by vertex [m]
 
   OGC_HD void operator()(int i, double* sum) const {
     const HingeRest& rest = hinges[i];
     const Vec base = position[rest.vertex[0]];
     const Vec to[3] = {position[rest.vertex[1]] - base, position[rest.vertex[2]] - base,
                        position[rest.vertex[3]] - base};
-    if (models[rest.body].bending == compare::BendingModel::isometric_quadratic) {
-      sum[sum_bending] += isometric_energy(rest, weights[i], to);
-      return;
-    }
-    const HingeShape shape = hinge_shape(to[0], to[1], to[2]);
-    if (shape.defined) sum[sum_bending] += hinge_energy(rest, shape.angle);
+    sum[sum_bending] += with_bending(models[rest.body].bending, HingeEnergy{rest, weights, i, to});
   }
 };
 
+/// Term of a spring.
 struct SpringTerm {
-  const SpringRest* springs;
-  const Vec* position;
+  const SpringRest* springs;  ///< by spring
+  const Vec* position;        ///< x by vertex [m]
 
   OGC_HD void operator()(int i, double* sum) const {
     const SpringRest& rest = springs[i];
@@ -178,10 +196,11 @@ struct SpringTerm {
   }
 };
 
+/// A tetrahedron: its energy, and whether it is inverted.
 struct TetrahedronTerm {
-  const TetrahedronRest* tetrahedra;
-  const SolidMaterial* materials;
-  const Vec* position;
+  const TetrahedronRest* tetrahedra;  ///< by tetrahedron
+  const SolidMaterial* materials;     ///< by body
+  const Vec* position;                ///< x by vertex [m]
 
   OGC_HD void operator()(int t, double* sum) const {
     const TetrahedronRest& rest = tetrahedra[t];
@@ -204,11 +223,11 @@ OGC_HD inline double momentum_lost(const double* sums) {
 /// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is
 /// repeated).
 struct FinishStep {
-  StepControl* control;
-  ContactView contacts;
-  const double* sums_guess;
-  const double* sums_end;
-  StepRow* rows;
+  StepControl* control;      ///< on the backend
+  ContactView contacts;      ///< whose counts are reported
+  const double* sums_guess;  ///< by SumColumn, after the guess loop
+  const double* sums_end;    ///< by SumColumn, at the end
+  StepRow* rows;             ///< by step of the frame, on the backend
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;

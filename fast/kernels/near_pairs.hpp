@@ -11,14 +11,17 @@ namespace ogc::fast {
 struct NearVertexFacet : DetectVertexFacet {
   const float* query_radius;  ///< r_q [m], on the backend
 
+  /// Whether a list has overflowed. No pair of a skin takes the place of this search.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
+  /// The search of the i-th vertex along the Hilbert curve. Its limit is that of r_q and never falls.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
-    const Vec x = positions[v];
+    const Vec x = searched_from(v);
     return {{x, x}, v, 0, gap_limit(*query_radius), 0};
   }
 
+  /// The squared limit of r_q; negative where the boxes are farther apart, or the pair is none.
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     if (offer.gap > search.limit) return -1.0F;
     const int v = search.owner;
@@ -28,11 +31,13 @@ struct NearVertexFacet : DetectVertexFacet {
     return search.limit;
   }
 
+  /// Whether a lower bound of the distance leaves the pair within r_q.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     if (candidate_limit(search, offer) < 0) return false;
     return !is_beyond(separation(search.box.lower, corners(surface.facets[offer.primitive])), search.limit);
   }
 
+  /// Notes the pair where it may be nearer than r_q, as certain where it surely is nearer than r.
   OGC_HD float meet(const Search& search, int t, float) const {
     const Distance d = point_triangle_distance(search.box.lower, corners(surface.facets[t]));
     if (d.may_be_within(*query_radius)) lists.note({~search.owner, t}, d.is_surely_within(contact_radius));
@@ -42,15 +47,18 @@ struct NearVertexFacet : DetectVertexFacet {
 
 /// The searches of all edges; each pair once, as in DetectEdgeEdge.
 struct NearEdgeEdge : DetectEdgeEdge {
-  const float* query_radius;
+  const float* query_radius;  ///< r_q [m], on the backend
 
+  /// As NearVertexFacet::is_off.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
+  /// The search of the edge at place i of the tree, from the place behind it; its limit never falls.
   OGC_HD Search begin(int i) const {
-    const Lane lane = tree.node(0, i / 4).lane[i % 4];
-    return {lane.box(), lane.primitive, i + 1, gap_limit(*query_radius), 0};
+    const Child child = tree.node(0, i / 4).child[i % 4];
+    return {child.box(), child.primitive, i + 1, gap_limit(*query_radius), 0};
   }
 
+  /// As NearVertexFacet::candidate_limit.
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     if (offer.gap > search.limit) return -1.0F;
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
@@ -58,12 +66,14 @@ struct NearEdgeEdge : DetectEdgeEdge {
     return search.limit;
   }
 
+  /// As NearVertexFacet::is_pair.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     if (candidate_limit(search, offer) < 0) return false;
     return !is_beyond(separation(ends(surface.edges[search.owner]), ends(surface.edges[offer.primitive])),
                       search.limit);
   }
 
+  /// As NearVertexFacet::meet.
   OGC_HD float meet(const Search& search, int other, float) const {
     const int low = search.owner < other ? search.owner : other, high = search.owner < other ? other : search.owner;
     const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));

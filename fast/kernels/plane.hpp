@@ -5,38 +5,12 @@
 // vertices of the pair read the same bits.
 #pragma once
 
+#include "fast/kernels/arithmetic/solve3.hpp"
 #include "fast/kernels/closest_face.hpp"
 #include "fast/kernels/closest_points.hpp"
-#include "fast/kernels/solve3.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
-
-/// n·x ≤ o: a plane as one of its vertices sees it.
-struct alignas(8) HalfSpace {
-  Vec normal;
-  double offset = 0;  ///< [m], n being nearly a unit vector
-};
-
-/// n·x − o, and the sum of the moduli of its terms.
-struct Excess {
-  double value = 0, size = 0;
-};
-
-OGC_HD inline Excess excess(const Vec& n, double offset, const Vec& x) {
-  const double a = mul(static_cast<double>(n.x), static_cast<double>(x.x)),
-               b = mul(static_cast<double>(n.y), static_cast<double>(x.y)),
-               c = mul(static_cast<double>(n.z), static_cast<double>(x.z));
-  return {sub(add(add(a, b), c), offset), add(add(add(modulus(a), modulus(b)), modulus(c)), modulus(offset))};
-}
-
-/// n·x ≤ o for certain. The three products of floats are exact in double; two sums and the difference err by at most
-/// 2⁻⁵³ of the size S = Σ|n_k x_k| + |o| each, and S is short by 3 roundings of itself: under 2⁻⁵¹ S together. The sign
-/// of a rounded sum is that of the exact one. False where x is not finite.
-OGC_HD inline bool is_behind(const HalfSpace& plane, const Vec& x) {
-  const Excess e = excess(plane.normal, plane.offset, x);
-  return add(e.value, mul(0x1p-51, e.size)) <= 0;
-}
 
 /// The plane of a pair, or the smallest distance that is known of one that has none.
 struct alignas(8) PairPlane {
@@ -44,6 +18,7 @@ struct alignas(8) PairPlane {
   float below = 0;               ///< not above the pair's distance [m]
   double first = 0, second = 0;  ///< offsets o₁ < o₂ [m]
 
+  /// Whether there is a plane; where there is, the half-spaces that vertices of either side keep.
   OGC_HD bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
   OGC_HD HalfSpace of_first() const { return {normal, first}; }
   OGC_HD HalfSpace of_second() const { return {-normal, -second}; }
@@ -52,7 +27,7 @@ struct alignas(8) PairPlane {
 /// The points of both sides of a pair, and which sides do not move.
 template <int first_count, int second_count>
 struct PairPoints {
-  Vec first[first_count], second[second_count];
+  Vec first[first_count], second[second_count];  ///< by vertex of the side [m]
   bool is_first_fixed, is_second_fixed;
 };
 
@@ -116,6 +91,7 @@ OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
   return best;
 }
 
+/// Of the closed faces, with its slack. The distance alone: no exact sign decides which faces hold the closest points.
 OGC_HD inline Distance distance_of(const PairPoints<1, 3>& pair) {
   return point_triangle_distance(pair.first[0], {pair.second[0], pair.second[1], pair.second[2]});
 }
@@ -151,24 +127,16 @@ OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share
   return separates ? placed : plane;
 }
 
-/// Where a vertex may be until the next detection: K_v, a ball about X_prev and half-spaces. Convex.
-struct FeasibleRegion {
-  Vec centre;
-  float radius = 0;
-  const HalfSpace* planes = nullptr;
-  int count = 0;
-
-  /// Decided on the stored numbers: in it for certain.
-  OGC_HD bool holds(const Vec& x) const {
-    for (int k = 0; k < count; ++k)
-      if (!is_behind(planes[k], x)) return false;
-    return is_within_bound(centre, x, radius);
-  }
-};
+/// Decided on the stored numbers: x is in the region for certain.
+OGC_HD inline bool is_within(const FeasibleRegion& region, const Vec& x) {
+  for (int k = 0; k < region.count; ++k)
+    if (!is_behind(region.planes[k], x)) return false;
+  return is_within(region.ball, x);
+}
 
 /// The direction in which a vertex leaves a half-space with the least increase of its energy: H⁻¹ n.
 struct BlockMetric {
-  Symmetric3 block;
+  Symmetric3 block;    ///< H of the update, inertia included [N/m]
   float fallback = 0;  ///< as of solve_symmetric
 
   OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }
@@ -181,25 +149,35 @@ struct InertiaMetric {
 namespace slide {
 
 using Point = Vector<double>;
-inline constexpr int passes = 4, nudges = 3;
+inline constexpr int passes = 4, nudges = 3;  ///< over the half-spaces; of a stored position, at most
 
+/// To double without loss, and back with one rounding.
 OGC_HD inline Point wide(const Vec& a) { return {a.x, a.y, a.z}; }
 OGC_HD inline Vec stored(const Point& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
 /// How far y lies beyond the plane, and as much farther as storing it in single precision can move it. Guides the
-/// search for a position; whether that one is taken `FeasibleRegion::holds` decides.
+/// search for a position; whether that one is taken `is_within` decides.
 OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
   const Point n = wide(plane.normal);
   const double size = modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z);
   return dot(n, y) - plane.offset + 0x1p-24 * size;
 }
 
+/// The radius within which a position may be stored anywhere. Storing moves each coordinate by 2⁻²⁴ of itself, at most
+/// ‖X_prev‖_∞ + b, and so the point by √3 times that: 2⁻²³ of it leaves some for the arithmetic here.
+OGC_HD inline double safe_radius(const FeasibleRegion& region) {
+  const Point centre = wide(region.ball.centre);
+  const double radius = static_cast<double>(region.ball.radius);
+  const double size = larger(larger(modulus(centre.x), modulus(centre.y)), modulus(centre.z)) + radius;
+  return larger(0.0, radius - 0x1p-23 * size);
+}
+
 /// Along the violated half-spaces in their order, then into the ball.
 template <class Metric>
 OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric) {
-  const Point centre = wide(region.centre);
+  const Point centre = wide(region.ball.centre);
   for (int pass = 0; pass < passes; ++pass) {
     bool moved = false;
     for (int k = 0; k < region.count; ++k) {
@@ -212,7 +190,7 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
       moved = true;
     }
     const Point away = y - centre;
-    const double length = std::sqrt(dot(away, away)), radius = static_cast<double>(region.radius) * (1 - 0x1p-22);
+    const double length = std::sqrt(dot(away, away)), radius = safe_radius(region);
     if (length > radius) y = centre + (radius / length) * away, moved = true;
     if (!moved) break;
   }
@@ -221,7 +199,7 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
 
 /// One coordinate by one float towards the inside of what x violates first.
 OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
-  Vec outward = x - region.centre;
+  Vec outward = x - region.ball.centre;
   for (int k = 0; k < region.count; ++k) {
     if (is_behind(region.planes[k], x)) continue;
     outward = region.planes[k].normal;
@@ -236,17 +214,17 @@ OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
 
 /// The share of the way from `from`, which is in the region, to y that stays in it.
 OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& from, const Point& y) {
-  const Point step = y - from, away = from - wide(region.centre);
+  const Point step = y - from, away = from - wide(region.ball.centre);
   double share = 1;
   for (int k = 0; k < region.count; ++k) {
     const Point n = wide(region.planes[k].normal);
     const double out = beyond(region.planes[k], y), rise = dot(n, step);
     if (out > 0 && rise > 0) share = smaller(share, larger(0.0, 1 - out / rise));
   }
-  const double bb = dot(step, step), ab = dot(away, step),
-               left = static_cast<double>(region.radius) * region.radius - dot(away, away);
-  if (bb > 0 && ab + ab + bb > left)
-    share = smaller(share, left > 0 ? (std::sqrt(ab * ab + bb * left) - ab) / bb * (1 - 0x1p-22) : 0.0);
+  // ‖a + s b‖ = R; where a lies beyond the safe radius, too, as long as the way leads inward first
+  const double radius = safe_radius(region), bb = dot(step, step), ab = dot(away, step),
+               left = radius * radius - dot(away, away), root = ab * ab + bb * left;
+  if (bb > 0 && ab + ab + bb > left) share = smaller(share, root > 0 ? larger(0.0, (std::sqrt(root) - ab) / bb) : 0.0);
   return share;
 }
 
@@ -256,7 +234,7 @@ OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Po
   double share = share_inside(region, start, y);
   for (int attempt = 0; attempt < 3 && share > 0; ++attempt, share *= 0.5) {
     const Vec x = stored(start + share * (y - start));
-    if (region.holds(x)) return x;
+    if (is_within(region, x)) return x;
   }
   return from;
 }
@@ -269,8 +247,8 @@ template <class Metric>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric) {
   const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric);
   Vec x = slide::stored(y);
-  for (int nudge = 0; nudge < slide::nudges && !region.holds(x); ++nudge) x = slide::nudged(region, x);
-  return {region.holds(x) ? x : slide::scaled(region, current, y), true};
+  for (int nudge = 0; nudge < slide::nudges && !is_within(region, x); ++nudge) x = slide::nudged(region, x);
+  return {is_within(region, x) ? x : slide::scaled(region, current, y), true};
 }
 
 /// The same on the straight way from `current`: for prescribed vertices, whose groups shall stay rigid.
@@ -278,18 +256,18 @@ OGC_HD OGC_OUT_OF_LINE inline Truncated scale_into(FeasibleRegion region, Vec cu
   return {slide::scaled(region, current, slide::wide(proposal)), true};
 }
 
-/// The proposal of a free vertex as its region allows it; `exceeded`: it was changed.
+/// The proposal of a free vertex as its region allows it; `cut`: it was changed.
 template <class Metric>
 OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric) {
-  if (region.count == 0) return truncate(region.centre, proposal, region.radius);
-  if (region.holds(proposal)) return {proposal, false};
+  if (region.count == 0) return truncate(region.ball, proposal);
+  if (is_within(region, proposal)) return {proposal, false};
   return slide_into(region, current, proposal, metric);
 }
 
 /// The same of a prescribed vertex.
 OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& current, const Vec& target) {
-  if (region.count == 0) return truncate(region.centre, target, region.radius);
-  if (region.holds(target)) return {target, false};
+  if (region.count == 0) return truncate(region.ball, target);
+  if (is_within(region, target)) return {target, false};
   return scale_into(region, current, target);
 }
 

@@ -11,37 +11,17 @@
 // vertices bear no plane and have no row.
 #pragma once
 
+#include "fast/kernels/bound.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/plane.hpp"
 
 namespace ogc::fast {
 
-/// N, planes of a vertex at most: a spot of collapsed triangles would have hundreds.
-inline constexpr int most_planes = 16;
-
-/// What holds the vertices beside their balls.
-struct RegionView {
-  const HalfSpace* rows = nullptr;  ///< of vertex v from v · most_planes
-  const int* counts = nullptr;      ///< null: there are balls alone
-  bool is_off = false;              ///< nothing holds them
-
-  OGC_HD bool has_planes() const { return counts != nullptr; }
-  OGC_HD FeasibleRegion region(int v, const Vec& centre, float radius) const {
-    if (is_off) return {centre, unbounded};
-    if (counts == nullptr) return {centre, radius};
-    return {centre, radius, rows + static_cast<std::ptrdiff_t>(v) * most_planes, counts[v]};
-  }
-
- private:
-  /// [m], of which single precision has the square.
-  static constexpr float unbounded = 0x1p50F;
-};
-
 /// Counts a prescribed vertex that did not reach its target.
 OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, const Vec& previous,
-                                const RegionView& regions) {
-  if (!kept.exceeded) return;
+                                const FeasibleRegions& regions) {
+  if (!kept.cut) return;
   const Vec &x = kept.position, &p = previous;
   if (!regions.has_planes())
     control.count_cut();
@@ -52,24 +32,25 @@ OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, con
 /// What the kernels of this file share.
 struct PlaneListsView {
   SurfaceView surface;
-  Places positions;                        ///< of the detection
+  PaddedVecs positions;                    ///< of the detection
   const std::uint8_t* is_fixed = nullptr;  ///< by vertex
   float share = 0;                         ///< γ_p
   const float* query_radius = nullptr;     ///< r_q [m]
-  const NotedPair* noted = nullptr;
-  PairPlane* planes = nullptr;  ///< by noted pair
-  int* pair_counts = nullptr;   ///< by vertex: pairs that it is part of
-  int* pair_offsets = nullptr;  ///< vertices + 1
-  int* pair_filled = nullptr;   ///< by vertex
-  int* pair_rows = nullptr;
-  float* threshold = nullptr;  ///< δ_v [m]
-  float* nearest = nullptr;    ///< by vertex: not above the distance of its nearest pair, at most r_q [m]
-  float* unplaned = nullptr;   ///< the same of its nearest pair without a plane
-  HalfSpace* rows = nullptr;
-  NotedPair* pairs = nullptr;  ///< beside the rows: whose planes they are
-  int* counts = nullptr;
-  float* bound = nullptr;
+  const NotedPair* noted = nullptr;        ///< pairs within r_q in any order, numbered by their place
+  PairPlane* planes = nullptr;             ///< by noted pair
+  int* pair_counts = nullptr;              ///< by vertex: pairs that it is part of
+  int* pair_offsets = nullptr;             ///< vertices + 1
+  int* pair_filled = nullptr;              ///< by vertex
+  int* pair_rows = nullptr;                ///< numbers of a vertex's pairs, in any order: from pair_offsets[v]
+  float* threshold = nullptr;              ///< δ_v [m]
+  float* nearest = nullptr;                ///< by vertex: not above the distance of its nearest pair, at most r_q [m]
+  float* unplaned = nullptr;               ///< the same of its nearest pair without a plane
+  HalfSpace* rows = nullptr;               ///< n·x ≤ o of vertex v from v · most_planes, in ascending order of pair
+  NotedPair* pairs = nullptr;              ///< beside the rows: whose planes they are
+  int* counts = nullptr;                   ///< half-spaces by vertex, at most most_planes
+  float* bound = nullptr;                  ///< b_v by vertex [m]: γ_p times `unplaned`
 
+  /// Such a pair is stored as ~vertex and facet.
   OGC_HD bool is_vertex_facet(const NotedPair& pair) const { return pair.first < 0; }
   /// A search stores the second number inverted where it is certain of something else.
   OGC_HD NotedPair pair(int i) const {
@@ -100,7 +81,7 @@ struct PlaneListsView {
   OGC_HD auto at_points(const NotedPair& pair, F f) const {
     const Vertices of = vertices(pair);
     const int* v = of.at;
-    const Places x = positions;
+    const PaddedVecs x = positions;
     const auto fixed = [this, v](int a, int b) { return is_fixed[v[a]] != 0 && is_fixed[v[b]] != 0; };
     if (of.second_from == 1)
       return f(PairPoints<1, 3>{{x[v[0]]}, {x[v[1]], x[v[2]], x[v[3]]}, fixed(0, 0), fixed(1, 2) && fixed(3, 3)});
@@ -118,6 +99,8 @@ struct PreparePlanes {
   }
 };
 
+/// for_each_counted over noted pairs: their distances, rounded down, and the number of pairs and the smallest distance
+/// of each vertex.
 struct MeasurePairs {
   PlaneListsView lists;
 
@@ -132,6 +115,7 @@ struct MeasurePairs {
   }
 };
 
+/// for_each_counted over noted pairs: enters each in the rows of its vertices.
 struct FillPairRows {
   PlaneListsView lists;
 
@@ -142,6 +126,7 @@ struct FillPairRows {
   }
 };
 
+/// for_each over vertices: δ_v, infinite where there are at most N pairs.
 struct ChooseThreshold {
   PlaneListsView lists;
 
@@ -161,6 +146,8 @@ struct ChooseThreshold {
   }
 };
 
+/// for_each_counted over noted pairs: the plane, where the pair is nearer than δ_v of all vertices that can move and
+/// the points keep what is computed; otherwise the pair's distance lowers `unplaned` of its vertices.
 struct PlacePlanes {
   PlaneListsView lists;
 
@@ -177,6 +164,7 @@ struct PlacePlanes {
   }
 };
 
+/// for_each over vertices: the rows of half-spaces, their numbers and the balls.
 struct WriteHalfSpaces {
   PlaneListsView lists;
 
@@ -195,7 +183,9 @@ struct WriteHalfSpaces {
       lists.pairs[row + k] = lists.pair(place[k]);
     }
     lists.counts[v] = count;
-    lists.bound[v] = round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
+    lists.bound[v] = lists.surface.is_inside_solid(v)
+                         ? largest_float
+                         : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
   }
 
  private:

@@ -3,7 +3,7 @@
 // stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
 #pragma once
 
-#include "fast/kernels/exact_sign.hpp"
+#include "fast/kernels/arithmetic/exact_sign.hpp"
 
 namespace ogc::fast {
 
@@ -23,6 +23,7 @@ OGC_HD inline Wide perpendicular_product(const Vector<Wide>& u, const Vector<Wid
 /// Positive where x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for
 /// an edge of zero length.
 struct End {
+  /// (x − a)·(b − a) [m²].
   static constexpr int degree = 2;
   Vec x, a, b;
   template <class N>
@@ -34,6 +35,7 @@ struct End {
 /// Positive where x lies on c's side of the edge ab, seen in the triangle's plane; 0 for every x where the triangle has
 /// no area.
 struct Side {
+  /// ((x − a) × (b − a))·((c − a) × (b − a)) [m⁴].
   static constexpr int degree = 4;
   Vec x, a, b, c;
   template <class N>
@@ -45,6 +47,7 @@ struct Side {
 /// Negative where, from v towards w, the distance to the line ab falls. With c(e, v) inside ab this is the plane of Eq.
 /// 15 at v: c in U_v iff ≥ 0 for all w.
 struct Receding {
+  /// ((v − a) × (b − a))·((w − v) × (b − a)) [m⁴].
   static constexpr int degree = 4;
   Vec v, w, a, b;
   template <class N>
@@ -55,6 +58,7 @@ struct Receding {
 
 /// Positive where ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1.4): nearly parallel. Never for an edge of zero length.
 struct NearlyParallel {
+  /// ‖e‖² ‖f‖² − 10⁶ ‖e × f‖² [m⁴], e = b − a, f = d − c.
   static constexpr int degree = 4;
   Vec a, b, c, d;
   template <class N>
@@ -66,6 +70,7 @@ struct NearlyParallel {
 
 /// Negative where x is nearer than r to the point a.
 struct PointReach {
+  /// ‖x − a‖² − r² [m²].
   static constexpr int degree = 2;
   Vec x, a;
   float r;
@@ -78,6 +83,7 @@ struct PointReach {
 
 /// Negative where x is nearer than r to the line ab.
 struct LineReach {
+  /// ‖(x − a) × e‖² − r² ‖e‖² [m⁴], e = b − a.
   static constexpr int degree = 4;
   Vec x, a, b;
   float r;
@@ -91,6 +97,7 @@ struct LineReach {
 /// Negative where x is nearer than r to the plane through a spanned by b − a and d − c: a triangle's plane with c = a,
 /// or the distance of two lines ab and cd with x = c.
 struct PlaneReach {
+  /// ((x − a)·n)² − r² ‖n‖² [m⁶], n = (b − a) × (d − c).
   static constexpr int degree = 6;
   Vec x, a, b, c, d;
   float r;

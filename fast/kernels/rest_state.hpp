@@ -10,9 +10,10 @@ namespace ogc::fast {
 
 /// A vector of the rest shape, in double; lives only while rest data are computed.
 struct RestVector {
-  double x, y, z;
+  double x, y, z;  ///< [m]
 };
 
+/// a − b.
 inline RestVector rest_difference(const compare::Vec3& a, const compare::Vec3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
@@ -25,8 +26,8 @@ inline RestVector rest_cross(const RestVector& a, const RestVector& b) {
 /// Area [m²] and the gradients ∇N_k [1/m] of the three linear shape functions in an orthonormal frame of the rest
 /// triangle: F = Σ x_k ∇N_kᵀ (3×2).
 struct RestTriangle {
-  double area = 0;
-  double gradient[3][2] = {};
+  double area = 0;             ///< A [m²]
+  double gradient[3][2] = {};  ///< ∇N_k by corner [1/m]
 };
 
 /// The triangle must have an area (validate refuses it otherwise).
@@ -47,9 +48,9 @@ inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& 
 /// Volume V [m³], the gradients ∇N_k [1/m] of the four linear shape functions, and V ∇N_k·∇N_l [m] of the pairs 01, 02,
 /// 03, 12, 13, 23.
 struct RestTetrahedron {
-  double volume = 0;
-  RestVector gradient[4] = {};
-  double weight[6] = {};
+  double volume = 0;            ///< V [m³]
+  RestVector gradient[4] = {};  ///< ∇N_k by corner [1/m]
+  double weight[6] = {};        ///< V ∇N_k·∇N_l by pair of corners [m]
 };
 
 /// The volume must be positive (validate refuses it otherwise). ∇N_k = n_k/(6V) with n_k of twice the area of the face
@@ -73,12 +74,12 @@ inline RestTetrahedron rest_tetrahedron(const compare::Vec3& p0, const compare::
 /// [1], e = x1 − x0; weights of x1, o0 and o1 in the isometric model [1/m]: sums of the cotangents of the angles at x0
 /// and x1 over ‖e‖.
 struct RestHinge {
-  double angle = 0, factor = 0;
-  double weight[3] = {};
+  double angle = 0, factor = 0;  ///< θ₀ [rad], 3‖e‖²/(A₀ + A₁) [1]
+  double weight[3] = {};         ///< of x1, o0, o1 [1/m]
 };
 
 /// Sign: negative where o1 lies on the side to which (x1 − x0) × (o0 − x0) points. The same as in
-/// fast/kernels/bending.hpp.
+/// fast/kernels/models/discrete_hinge.hpp.
 inline RestHinge rest_hinge(const compare::Vec3& x0, const compare::Vec3& x1, const compare::Vec3& o0,
                             const compare::Vec3& o1) {
   const RestVector edge = rest_difference(x1, x0), a = rest_difference(o0, x0), b = rest_difference(o1, x0);

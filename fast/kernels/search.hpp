@@ -1,13 +1,13 @@
-// A search of a tree, apart from how many threads carry it out: alone in one (here, and four candidates at a time in
-// fast/cpu/packed_search.hpp), or many by a team that shares its work (fast/cuda/search.cuh).
+// A search of a tree. One thread carries it out (here, and four candidates at a time in fast/cpu/packed_search.hpp), or
+// a warp carries out several together (fast/cuda/search.cuh).
 //
 // A Query is what the searches of one kind have in common:
 //   bool is_off() const                                 nothing is to be searched
 //   Search begin(int i) const                           the i-th search
-//   bool is_pair(const Search&, const Offer&)           whether the primitive needs a closer look; cheap, in single
-//                                                       precision
-//   float meet(const Search&, int primitive, float gap) that look; returns a limit that it leaves for the search
-// Which primitives beyond the limit are offered too, and in which order, is open: no answer may depend on it.
+//   bool is_pair(const Search&, const Offer&)           whether the primitive needs its distance taken; cheap, in
+//                                                       single precision
+//   float meet(const Search&, int primitive, float gap) takes the distance; returns a new limit for the search
+// A search may offer primitives beyond the limit, too, in any order: no answer may depend on it.
 #pragma once
 
 #include "fast/kernels/bvh.hpp"
@@ -17,18 +17,18 @@ namespace ogc::fast {
 /// All primitives at a place ≥ `from` whose box lies within the squared gap `limit` of `box`, or within their own
 /// reach.
 struct alignas(16) Search {  // read whole, by few instructions
-  Box box;
-  int owner = -1;  ///< whose search it is: number of a vertex or an edge
-  int from = 0;
-  float limit = 0;
-  float margin = 0;  ///< by which it looks farther than it has to (skin.hpp) [m]
+  Box box;                   ///< of the vertex or edge that searches [m]
+  int owner = -1;            ///< whose search it is: number of a vertex or an edge
+  int from = 0;              ///< place in the tree's order from which on primitives are offered
+  float limit = 0;           ///< squared [m²]; falls as distances are taken
+  float margin = 0;          ///< by which it looks farther than it has to (skin.hpp) [m]
 };
 
 /// `count` searches in one tree.
 template <class Query>
 struct Searches {
-  TreeView tree;
-  int count;
+  TreeView tree;  ///< refitted at the positions that the query reads
+  int count;      ///< searches; their numbers are those of Query::begin
   Query query;
 
   /// The i-th, from begin to end.

@@ -1,16 +1,18 @@
 // Distance of a point and a closed segment in rounded double: the piece that both pair distances share.
 #pragma once
 
-#include "fast/kernels/exact_sign.hpp"
+#include "fast/kernels/arithmetic/exact_sign.hpp"
 
 namespace ogc::fast {
 
+/// A vector in rounded double.
 using Real = Vector<Rounded>;
 
 /// A distance [m] and how far it can be from the exact one.
 struct Distance {
-  double value = 0, slack = 0;
+  double value = 0, slack = 0;  ///< [m]: the exact distance lies within value ± slack
 
+  /// Nearer than r: perhaps, where the slack leaves it open; for certain.
   OGC_HD bool may_be_within(float r) const { return sub(value, slack) < static_cast<double>(r); }
   OGC_HD bool is_surely_within(float r) const { return add(value, slack) < static_cast<double>(r); }
   /// Never above the exact distance.
@@ -20,10 +22,12 @@ struct Distance {
   }
 };
 
+/// ‖a‖₁.
 OGC_HD inline double norm_1(const Real& a) {
   return add(add(modulus(a.x.value), modulus(a.y.value)), modulus(a.z.value));
 }
 
+/// ‖a‖², rounded operation by operation.
 OGC_HD inline double squared(const Real& a) { return dot(a, a).value; }
 
 /// Parameter of the point of the line nearest to x, u = x − a, e = b − a, clamped to [0, 1]; 0 where the edge has no

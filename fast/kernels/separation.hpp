@@ -7,9 +7,9 @@
 // more where three projections meet are 6 u ‖d‖₂ S, S the 1-norms of the differences.
 #pragma once
 
+#include "fast/kernels/arithmetic/scalar.hpp"
 #include "fast/kernels/closest_face.hpp"
 #include "fast/kernels/closest_points.hpp"
-#include "fast/kernels/scalar.hpp"
 
 namespace ogc::fast {
 
@@ -31,11 +31,13 @@ OGC_HD inline float rough_inverse_root(float a) {
 #endif
 }
 
+/// ‖a‖₁.
 template <class T>
 OGC_HD T norm_1(const Vector<T>& a) {
   return absolute(a.x) + absolute(a.y) + absolute(a.z);
 }
 
+/// To [0, 1].
 template <class T>
 OGC_HD T clamped(const T& s) {
   return smaller(larger(s, T{}), T{1.0F});

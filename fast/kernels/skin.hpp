@@ -1,6 +1,6 @@
-// A list of pairs with a skin: as long as no vertex has moved far since a search, the pairs that can matter are among
-// those that this search met within a margin, and a detection looks at these instead of searching the trees. Sets,
-// smallest distances and bounds are the same bits (tests/fast/stages/skin.cpp).
+// A Verlet list, that is a list of pairs with a skin: as long as no vertex has moved far since a search, the pairs that
+// can matter are among those that this search met within a margin, and a detection looks at these instead of searching
+// the trees. Sets, smallest distances and bounds are the same bits (tests/fast/stages/skin.cpp).
 //
 // Let m be the margin, δ the largest displacement since the search ("the anchor"), D the smallest distance of a
 // primitive then, as stored: at most ε below the exact one. A listing search keeps every pair not farther than max(r,
@@ -21,37 +21,40 @@
 
 namespace ogc::fast {
 
-/// What a detection does.
-/// search the trees; also keep the pairs within the margin; look at the kept pairs
+/// What a detection does: search the trees; also keep the pairs within the margin; look at the kept pairs.
 enum class SkinMode : int { search, list, recheck };
 
+/// What the device knows of its list.
 struct SkinState {
-  SkinMode mode = SkinMode::search;
-  int has_anchor = 0, has_list = 0;
-  int drift = 0, extent = 0;  ///< bits of δ and X of this detection [m]
-  float margin = 0;           ///< m of the list [m]
-  float listed_radius = 0;    ///< r_q of the anchor [m]
-  float contact_radius = 0;   ///< r of the list [m]
-  float bound = 0;            ///< 2δ + m/16: with it D is above the smallest distance now [m]
-  int count = 0, most = 0;    ///< pairs kept, also those that found no room; the most of any list before this one
-  int searches = 0, listings = 0, rechecks = 0;  ///< detections of each sort so far
+  SkinMode mode = SkinMode::search;  ///< of this detection
+  int has_anchor = 0, has_list = 0;  ///< 1 once a search has left its positions; 1 while there is a list made at them
+  int drift = 0, extent = 0;         ///< bits of δ and X of this detection [m]
+  float margin = 0;                  ///< m of the list [m]
+  float listed_radius = 0;           ///< r_q of the anchor [m]
+  float contact_radius = 0;          ///< r of the list [m]
+  float bound = 0;                   ///< 2δ + m/16: with it D is above the smallest distance now [m]
+  int count = 0, most = 0;  ///< pairs kept, also those that found no room; the most of any list before this one
+  int searches = 0, listings = 0, rechecks = 0;  ///< detections of each mode so far
   /// uses of this list; searches without one after a list that nothing used, and how many are left
   int rechecks_of_list = 0, patience = 0, wait = 0;
 };
 
+/// The list on the backend.
 struct SkinView {
-  SkinState* state = nullptr;
-  float largest_margin = 0;  ///< of m [m]; 0: no list is ever made
-  float contact_radius = 0;  ///< r [m]: pairs that were kept for another one are of no use
-  NotedPair* pairs = nullptr;
-  int capacity = 0;
-  Vec* anchor = nullptr;
+  SkinState* state = nullptr;  ///< on the backend
+  float largest_margin = 0;    ///< of m [m]; 0: no list is ever made
+  float contact_radius = 0;    ///< r [m]: pairs that were kept for another one are of no use
+  NotedPair* pairs = nullptr;  ///< pairs within the margin, in any order
+  int capacity = 0;            ///< of `pairs`; a list that found more than this is not used
+  Vec* anchor = nullptr;       ///< x by vertex at the search that the list is measured against [m]
   float *vertex = nullptr, *edge = nullptr, *triangle = nullptr;  ///< D of the anchor [m]
 
+  /// Whether the list takes the place of a search.
   OGC_HD bool rechecks() const { return state->mode == SkinMode::recheck; }
   /// By which a search looks farther.
   OGC_HD float search_margin() const { return state->mode == SkinMode::list ? state->margin : 0.0F; }
 
+  /// Adds a pair; counts it also where there is no room.
   OGC_HD void keep(const NotedPair& pair) const {
     const int place = atomic_add(&state->count, 1);
     if (place < capacity) pairs[place] = pair;
@@ -73,11 +76,11 @@ OGC_HD inline void raise_bits(int* target, float value) {
   if (bits > *const_cast<const volatile int*>(target)) atomic_max(target, bits);
 }
 
-/// for_each over vertices: δ and X.
+/// for_each over vertices: raises δ, the largest displacement since the search, and X, the largest coordinate.
 struct MeasureDrift {
   SkinView skin;
-  const Vec* positions;
-  const int* overflow;
+  const Vec* positions;  ///< of this detection, by vertex [m]
+  const int* overflow;   ///< on the backend; not 0: nothing is measured
 
   OGC_HD void operator()(int v) const {
     if (*overflow != 0) return;
@@ -88,15 +91,17 @@ struct MeasureDrift {
   }
 };
 
-/// After it, alone. A list costs about as much as a second search, so it is made only where the next three detections
-/// can use it: m is chosen for six of them, at the displacement since the search before this detection. After each list
-/// in a row that nothing could use, twice as many searches are made without one.
+/// After MeasureDrift, one item: the mode of this detection. A list costs about as much as a second search, so it is
+/// made only where the next three detections can use it: m is chosen for six of them, at the displacement since the
+/// search before this detection. After each list in a row that nothing could use, twice as many searches are made
+/// without one.
 struct ChooseSkinMode {
+  /// Share of m that δ may reach: a list then still holds all that matters (head of this file).
   static constexpr float drift_of_margin = 0x7p-5F;
 
   SkinView skin;
-  const float* query_radius;
-  const int* overflow;
+  const float* query_radius;  ///< r_q of this detection [m], on the backend
+  const int* overflow;        ///< on the backend; not 0: the mode stays
 
   OGC_HD void operator()(int) const {
     if (*overflow != 0) return;
@@ -141,8 +146,8 @@ struct ChooseSkinMode {
 struct KeepAnchor {
   SkinView skin;
   SurfaceView surface;
-  const Vec* positions;
-  const float *d_min_vertex, *d_min_edge, *d_min_triangle;
+  const Vec* positions;                                     ///< of the search, by vertex [m]
+  const float *d_min_vertex, *d_min_edge, *d_min_triangle;  ///< of the search, by vertex, edge and triangle [m]
 
   OGC_HD void operator()(int i) const {
     if (skin.rechecks()) return;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast {
 
@@ -11,8 +11,8 @@ namespace ogc::fast {
 /// is set where edge k starts at its higher-numbered vertex, so that every triangle at an edge can give the edge's
 /// predicate the same operands.
 struct alignas(16) Facet {
-  int corner[3];
-  int edge[3];
+  int corner[3];  ///< vertices in the order of the mesh
+  int edge[3];    ///< 01, 12 and 20, as numbers of SurfaceView::edges
   unsigned descending;
 };
 
@@ -23,8 +23,8 @@ struct alignas(8) EdgeEnds {
 
 /// Row i is items[offsets[i] … offsets[i + 1]).
 struct Rows {
-  const int* offsets = nullptr;
-  const int* items = nullptr;
+  const int* offsets = nullptr;  ///< rows + 1
+  const int* items = nullptr;    ///< row by row
 };
 
 /// Seeds name pairs that are known to take part in the smallest distances, so that a query need not look farther
@@ -32,29 +32,33 @@ struct Rows {
 struct EdgeSeeds {
   int vertex[2];  ///< each has an edge that forms a pair with this one
 };
+/// Seeds of a facet.
 struct FacetSeeds {
   int vertex[3];  ///< across edge k of the facet: forms a pair with it
 };
+/// Seeds of a vertex.
 struct VertexSeeds {
   int edge[2];  ///< each has a facet that forms a pair with the vertex
 };
 
+/// The complex on the backend.
 struct SurfaceView {
   int vertex_count = 0, edge_count = 0, triangle_count = 0;
-  const Facet* facets = nullptr;
-  const EdgeEnds* edges = nullptr;
-  Rows neighbours;  ///< V_v of Eq. 8 and 15
-  Rows opposites;   ///< V_e of Eq. 9
-  Rows vertex_edges, vertex_triangles;
+  const Facet* facets = nullptr;               ///< by triangle
+  const EdgeEnds* edges = nullptr;             ///< by edge
+  Rows neighbours;                             ///< V_v of Eq. 8 and 15
+  Rows opposites;                              ///< V_e of Eq. 9
+  Rows vertex_edges, vertex_triangles;         ///< by vertex: numbers of its edges and of its triangles
   const std::uint8_t* inside_solid = nullptr;  ///< by vertex; null where there is none (compare::Topology)
   const int* groups = nullptr;                 ///< pairs whose vertices all carry one number ≥ 0 are left out
-  const EdgeSeeds* edge_seeds = nullptr;
-  const FacetSeeds* facet_seeds = nullptr;
-  const VertexSeeds* vertex_seeds = nullptr;
+  const EdgeSeeds* edge_seeds = nullptr;       ///< by edge
+  const FacetSeeds* facet_seeds = nullptr;     ///< by triangle
+  const VertexSeeds* vertex_seeds = nullptr;   ///< by vertex
   /// pairs are left out where a vertex of one side stands in the row of one of the other; without offsets where there
   /// is none
   Rows partners;
 
+  /// Whether the vertex is on no boundary triangle, so that no detection looks at it (method.md §8.3).
   OGC_HD bool is_inside_solid(int v) const { return inside_solid != nullptr && inside_solid[v] != 0; }
 
   /// A face as one number: vertices, then edges, then triangles, so that numbers have the order of compare::Face.

@@ -1,23 +1,23 @@
 // One vertex update of Algorithm 4: all energies of a vertex gathered from streams that hold, incidence by incidence,
 // everything but positions, then a 3×3 solve, then truncation, then the write, and one reduction for all stencils.
 //
-// Two position buffers an iteration (method.md §7.2): a neighbour of lower colour is read from the fresh buffer, any
-// other from the old one. Which of the two is known when the streams are made, so it stands in the index: n ≥ 0 reads
-// old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as colour -1. Both buffers are halves of one
-// array, so that the choice is arithmetic and no read of a pointer.
+// Gauss–Seidel over colours with two position buffers an iteration (method.md §7.2): a neighbour of lower colour is
+// read from the fresh buffer, any other from the old one. Which of the two is known when the streams are made, so it
+// stands in the index: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices count as colour −1.
+// Both buffers are halves of one array, so that the choice is arithmetic and no read of a pointer.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 
-#include "fast/kernels/bending.hpp"
+#include "fast/kernels/arithmetic/solve3.hpp"
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/friction_force.hpp"
 #include "fast/kernels/inertia.hpp"
-#include "fast/kernels/membrane.hpp"
+#include "fast/kernels/models/discrete_hinge.hpp"
+#include "fast/kernels/models/st_venant_kirchhoff.hpp"
 #include "fast/kernels/plane_lists.hpp"
-#include "fast/kernels/solve3.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/kernels/truncate.hpp"
 
@@ -25,103 +25,104 @@ namespace ogc::fast {
 
 /// A free vertex in the order of the sweep, with its rows in the streams.
 struct alignas(16) SweepVertex {
-  int vertex = -1;
+  int vertex = -1;  ///< number in the mesh
   int body = -1;
-  float inertia = 0;  ///< m/h² [N/m]
-  int membrane_begin = 0, membrane_count = 0;
-  int hinge_begin = 0, hinge_count = 0;
+  float inertia = 0;                           ///< m/h² [N/m]
+  int membrane_begin = 0, membrane_count = 0;  ///< its row: first place in SweepView::membrane, and how many
+  int hinge_begin = 0, hinge_count = 0;        ///< likewise in SweepView::hinges
 };
 
 /// A triangle seen from one of its corners. `index`: the other two, in the triangle's order, encoded as said above.
 struct alignas(16) MembraneIncidence {
-  int index[2] = {0, 0};
-  int triangle = -1;  ///< number in RestState::triangles
-  MembraneStencil stencil{};
+  int index[2] = {0, 0};      ///< x_b, x_c
+  int triangle = -1;          ///< number in RestState::triangles
+  MembraneStencil stencil{};  ///< gradients and area
 };
 
 /// A hinge seen from one of its vertices. At an end of the edge `index` is the other end, o0, o1 (with the own vertex
 /// as x0); at an opposite vertex it is x0, x1, o1 (with the own vertex as o0).
 struct alignas(8) HingeIncidence {
-  int index[3] = {0, 0, 0};
-  int hinge = -1;  ///< number in RestState::hinges; ~number at an opposite vertex
-  HingeStencil stencil{};
+  int index[3] = {0, 0, 0};  ///< encoded
+  int hinge = -1;            ///< number in RestState::hinges; ~number at an opposite vertex
+  HingeStencil stencil{};    ///< c and θ₀
 };
 
 /// A contact seen from one of its vertices: slots as in contact_force.hpp; `own` is the slot of the vertex itself. The
 /// stiffness holds e_k of the detection.
 struct alignas(16) ContactIncidence {
-  int index[4] = {0, 0, 0, 0};
-  float stiffness = 0, friction = 0;
-  ContactKind kind = ContactKind::point_point;
-  std::uint8_t own = 0;
+  int index[4] = {0, 0, 0, 0};                  ///< by slot, encoded
+  float stiffness = 0, friction = 0;            ///< e_k k_c [N/m], μ [1]
+  ContactKind kind = ContactKind::point_point;  ///< says which slots it has
+  std::uint8_t own = 0;                         ///< 0 … 3
   std::uint8_t together = 0;  ///< bit k: the vertex of slot k, another one than the own, has its colour
 };
 
 /// The contacts of a vertex in the stream: the vertex–facet ones, then the edge–edge ones.
 struct alignas(16) ContactRow {
+  /// first place in SweepView::contacts; how many of vertex–facet; how many in all
   int begin = 0, vertex_facet = 0, count = 0;
 };
 
 struct SpringIncidence;
 struct SpringRow;
-struct IsometricStencil;
-struct SurfaceModels;
 struct TetrahedronIncidence;
 struct TetrahedronRow;
 struct TetrahedronGradients;
 struct SolidMaterial;
 
-/// The vertex of an encoded index, without a branch: which buffer is read is as good as random.
+/// The vertex of an encoded index. No branch: a processor cannot predict which buffer is read.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
 
 /// Everything that an update reads and writes. Plain pointers, valid for one launch sequence.
 struct SweepView {
-  const SweepVertex* vertices = nullptr;
-  const MembraneIncidence* membrane = nullptr;
-  const HingeIncidence* hinges = nullptr;
-  const ContactRow* contact_rows = nullptr;  ///< by slot
-  const ContactIncidence* contacts = nullptr;
-  const SurfaceMaterial* materials = nullptr;
-  const Symmetric2* strain_start = nullptr;  ///< Gᵗ by triangle
-  const float* angle_start = nullptr;        ///< θᵗ by hinge
-  Places start;                              ///< xᵗ
-  const Vec* target = nullptr;               ///< y
-  const Vec* previous = nullptr;             ///< X_prev
-  const float* bound = nullptr;              ///< b_v
-  RegionView regions;
-  Place* old = nullptr;     ///< x before the iteration
-  int to_fresh = 0;         ///< from a vertex there to the same one in the fresh buffer
-  Vec* position = nullptr;  ///< as fresh, for all but the sweep, which does not read it
-  StepControl* control = nullptr;
-  const int* turn = nullptr;  ///< null, or: the sweep takes place where this is
-  int iteration = 0;          ///< this
-  float radius = 0;           ///< r [m]
-  float friction_limit = 0;   ///< ε_v h [m]
+  const SweepVertex* vertices = nullptr;        ///< by slot
+  const MembraneIncidence* membrane = nullptr;  ///< row by row, in the order of slots
+  const HingeIncidence* hinges = nullptr;       ///< likewise
+  const ContactRow* contact_rows = nullptr;     ///< by slot
+  const ContactIncidence* contacts = nullptr;   ///< row by row, as contact_rows says
+  const SurfaceMaterial* materials = nullptr;   ///< by body
+  const Symmetric2* strain_start = nullptr;     ///< Gᵗ by triangle
+  const float* angle_start = nullptr;           ///< θᵗ by hinge
+  PaddedVecs start;                             ///< xᵗ
+  const Vec* target = nullptr;                  ///< y
+  FeasibleRegions regions;                      ///< about X_prev; every new position is truncated to them
+  PaddedVec* old = nullptr;                     ///< x before the iteration
+  int to_fresh = 0;                             ///< from a vertex there to the same one in the fresh buffer
+  Vec* position = nullptr;                      ///< as fresh, for all but the sweep, which does not read it
+  StepControl* control = nullptr;               ///< on the backend: cut vertices and such as are not finite are counted
+  const int* turn = nullptr;                    ///< the iteration whose turn it is, on the device; null: this one's
+  int iteration = 0;                            ///< number of this one; nothing is written where it is not its turn
+  float contact_radius = 0;                     ///< r [m]
+  float friction_limit = 0;                     ///< ε_v h [m]
   // Read by GatherEveryModel alone (sweep_models.hpp).
   const SurfaceModels* models = nullptr;        ///< by body
   const IsometricStencil* isometric = nullptr;  ///< beside `hinges`; null where no body has the model
   const SpringRow* spring_rows = nullptr;       ///< by slot; null where there is no spring
-  const SpringIncidence* springs = nullptr;
+  const SpringIncidence* springs = nullptr;     ///< row by row, as spring_rows says
+  /// of all contacts; GatherEveryModel has the others than `ogc`
   ContactActivation activation = ContactActivation::ogc;
   // Read where there are tetrahedra (sweep_solids.hpp).
   const TetrahedronRow* tetrahedron_rows = nullptr;  ///< by slot
-  const TetrahedronIncidence* tetrahedra = nullptr;
-  const TetrahedronGradients* gradients = nullptr;  ///< beside `tetrahedra`; null where no body damps
-  const SolidMaterial* solids = nullptr;            ///< by body
-  const Symmetric3* solid_start = nullptr;          ///< Gᵗ by tetrahedron
+  const TetrahedronIncidence* tetrahedra = nullptr;  ///< row by row, as tetrahedron_rows says
+  const TetrahedronGradients* gradients = nullptr;   ///< beside `tetrahedra`; null where no body damps
+  const SolidMaterial* solids = nullptr;             ///< by body
+  const Symmetric3* solid_start = nullptr;           ///< Gᵗ by tetrahedron
 
+  /// Whether it is another iteration's turn.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
-  /// The same for the team of a vertex that has been read: on a device whose turn it is comes beside it, and nobody
-  /// waits for one after the other.
+  /// The same for the team of a vertex that has been read: without a branch between the two reads a device makes both
+  /// at once.
   OGC_HD bool is_off(const SweepVertex& vertex) const {
     return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0));
   }
 
   /// Where an encoded index is read.
   OGC_HD int number(int index) const { return decoded(index) + ((index >> 31) & to_fresh); }
-  OGC_HD Vec read(int index) const { return Places{old}[number(index)]; }
+  /// The position there.
+  OGC_HD Vec read(int index) const { return PaddedVecs{old}[number(index)]; }
+  /// A new position.
   OGC_HD void write(int v, const Vec& x) const {
-    old[v + to_fresh] = Place(x);
+    old[v + to_fresh] = PaddedVec(x);
     position[v] = x;
   }
 };
@@ -129,11 +130,13 @@ struct SweepView {
 // What a stencil reads beside its incidence, all at once: the latency of reads, not arithmetic, is what a vertex costs
 // on a device.
 
+/// Of a triangle: the other corners, and Gᵗ where it is damped.
 struct MembraneReads {
-  Vec b, c;
-  Symmetric2 strain_start{};
+  Vec b, c;                   ///< positions [m]
+  Symmetric2 strain_start{};  ///< Gᵗ; 0 without damping
 };
 
+/// What a triangle reads.
 OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneIncidence& incidence,
                                           const SurfaceMaterial& material) {
   MembraneReads reads{view.read(incidence.index[0]), view.read(incidence.index[1])};
@@ -141,45 +144,31 @@ OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneI
   return reads;
 }
 
+/// Adds a triangle of the default model.
 OGC_HD inline void add_membrane_incidence(const MembraneIncidence& incidence, const MembraneReads& reads,
                                           const SurfaceMaterial& material, const Vec& own, ForceAndBlock& sum) {
-  add_membrane(incidence.stencil, material, reads.b - own, reads.c - own, reads.strain_start, sum);
+  StVenantKirchhoff::add(incidence.stencil, material, reads.b - own, reads.c - own, reads.strain_start, sum);
 }
 
-struct HingeReads {
-  Vec p[3];
-  float angle_start = 0;
-};
-
-OGC_HD inline HingeReads read_hinge(const SweepView& view, const HingeIncidence& incidence,
-                                    const SurfaceMaterial& material) {
-  HingeReads reads{{view.read(incidence.index[0]), view.read(incidence.index[1]), view.read(incidence.index[2])}};
-  if (material.bending_damping > 0) reads.angle_start = view.angle_start[decoded(incidence.hinge)];
-  return reads;
-}
-
-/// A hinge as one of its vertices sees it: p as listed in HingeIncidence.
-template <class T>
-OGC_HD HingeShapeOf<T> hinge_shape_seen(const Mask<T>& opposite, const Vector<T>* p, const Vector<T>& own) {
-  const Vector<T> base = select(opposite, p[0], own), end = select(opposite, p[1], p[0]),
-                  side = select(opposite, own, p[1]);
-  return hinge_shape(end - base, side - base, p[2] - base);
-}
-
-OGC_HD inline void add_hinge_incidence(const HingeIncidence& incidence, const HingeReads& reads,
-                                       const SurfaceMaterial& material, const Vec& own, ForceAndBlock& sum) {
-  const bool opposite = incidence.hinge < 0;
-  const HingeShape shape = hinge_shape_seen<float>(opposite, reads.p, own);
-  if (!shape.defined) return;
-  add_hinge(incidence.stencil, material.bending_damping, shape.angle, reads.angle_start,
-            hinge_gradient(shape, opposite), sum);
+/// A hinge as the vertex at `own` sees it, with θᵗ where it is damped.
+OGC_HD inline HingeSeen read_hinge(const SweepView& view, const HingeIncidence& incidence,
+                                   const SurfaceMaterial& material, const Vec& own) {
+  HingeSeen hinge{.stencil = incidence.stencil,
+                  .isometric = {},
+                  .opposite = incidence.hinge < 0,
+                  .own = own,
+                  .p = {view.read(incidence.index[0]), view.read(incidence.index[1]), view.read(incidence.index[2])},
+                  .angle_start = 0};
+  if (material.bending_damping > 0) hinge.angle_start = view.angle_start[decoded(incidence.hinge)];
+  return hinge;
 }
 
 /// Positions now and, with friction, at the start of the step.
 struct ContactReads {
-  Vec x[4], start[4];
+  Vec x[4], start[4];  ///< by slot [m]; start: xᵗ, 0 without friction
 };
 
+/// What a contact reads.
 OGC_HD inline ContactReads read_contact(const SweepView& view, const ContactIncidence& incidence) {
   ContactReads reads;
   for (int k = 0; k < 4; ++k) reads.x[k] = view.read(incidence.index[k]);
@@ -191,21 +180,23 @@ OGC_HD inline ContactReads read_contact(const SweepView& view, const ContactInci
 
 /// A contact at the positions that an update reads.
 struct ContactAt {
-  ContactWeights weights;
-  ContactShape shape;
-  float weight = 0;    ///< of the vertex itself
-  float majorant = 0;  ///< |w| Σ |w_u| over the vertices u of its colour, itself included; w² mostly
+  ContactWeights weights;  ///< w by slot
+  ContactShape shape;      ///< normal and distance
+  float weight = 0;        ///< of the vertex itself
+  float majorant = 0;      ///< |w| Σ |w_u| over the vertices u of its colour, itself included; w² mostly
 
+  /// Whether the vertex feels it.
   OGC_HD bool acts() const { return shape.acts && weight != 0; }
 };
 
-template <ContactSort sort = ContactSort::any>
-OGC_HD ContactAt contact_at(const ContactIncidence& incidence, const ContactReads& reads, float radius) {
-  const ContactWeights weights = contact_weights<sort>(incidence.kind, reads.x);
+/// The contact where its vertices are now.
+template <PairKind pairs = PairKind::any>
+OGC_HD ContactAt contact_at(const ContactIncidence& incidence, const ContactReads& reads, float contact_radius) {
+  const ContactWeights weights = contact_weights<pairs>(incidence.kind, reads.x);
   const float own = weights.of(incidence.own);
   float together = fabsf(own);
   for (int k = 0; k < 4; ++k) together += (incidence.together >> k & 1) != 0 ? fabsf(weights.slot[k]) : 0.0f;
-  return {weights, contact_shape(weighted_sum(weights, reads.x), radius), own, fabsf(own) * together};
+  return {weights, contact_shape(weighted_sum(weights, reads.x), contact_radius), own, fabsf(own) * together};
 }
 
 /// The friction of a contact that acts with the normal force λ.
@@ -219,40 +210,45 @@ OGC_HD inline void add_contact_friction(const ContactIncidence& incidence, const
   add_friction(at.shape.normal, relative, at.weight, at.majorant, incidence.friction, normal_force, limit, sum);
 }
 
-template <ContactSort sort>
-OGC_HD ForceAndBlock contact_term(const SweepView& view, ContactActivation kind, const ContactIncidence& incidence,
-                                  const ContactReads& reads) {
+/// Force and block of a contact on one vertex, friction included.
+template <PairKind pairs, class Activation>
+OGC_HD ForceAndBlock contact_term(const SweepView& view, const Activation& activation,
+                                  const ContactIncidence& incidence, const ContactReads& reads) {
   ForceAndBlock term;
-  const ContactAt at = contact_at<sort>(incidence, reads, view.radius);
+  const ContactAt at = contact_at<pairs>(incidence, reads, view.contact_radius);
   if (!at.acts()) return term;
-  const float normal_force = add_contact(kind, at.shape, at.weight, at.majorant, view.radius, incidence.stiffness,
-                                         term);
+  const float normal_force = add_contact(activation, at.shape, at.weight, at.majorant, view.contact_radius,
+                                         incidence.stiffness, term);
   add_contact_friction(incidence, reads, at, normal_force, view.friction_limit, term);
   return term;
 }
 
-/// Both sorts of contacts of a vertex, each as a part of its sum. A vertex may have fifty and its neighbours none, so
-/// teams share the work.
+/// Both kinds of contacts of a vertex, each as a part of its sum. A vertex may have fifty and its neighbours none, so
+/// teams share the work. `Activation`: a functor of models/activation.hpp.
+template <class Activation>
 struct ContactParts {
   const SweepView& view;
-  ContactRow row;
-  ContactActivation kind;
+  ContactRow row;  ///< contacts of the vertex
+  Activation activation;
 
-  template <ContactSort sort>
+  /// The first row.vertex_facet of them, and the rest.
+  OGC_HD auto vertex_facet() const { return range<PairKind::vertex_facet>(row.begin, row.vertex_facet); }
+  OGC_HD auto edge_edge() const {
+    return range<PairKind::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet);
+  }
+
+ private:
+  template <PairKind pairs>
   OGC_HD auto range(int begin, int count) const {
     return pooled_part(
         begin, count, [contacts = view.contacts](int i) { return contacts[i]; },
-        [seen = &view, activation = kind](const ContactIncidence& contact) {
-          return contact_term<sort>(*seen, activation, contact, read_contact(*seen, contact));
+        [seen = &view, activation = activation](const ContactIncidence& contact) {
+          return contact_term<pairs>(*seen, activation, contact, read_contact(*seen, contact));
         });
-  }
-  OGC_HD auto vertex_facet() const { return range<ContactSort::vertex_facet>(row.begin, row.vertex_facet); }
-  OGC_HD auto edge_edge() const {
-    return range<ContactSort::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet);
   }
 };
 
-/// The rows of a vertex, which its sum is going to read.
+/// Brings the rows of a vertex near, which its sum is going to read.
 template <class Team>
 OGC_HD void prefetch_rows(const SweepView& view, const SweepVertex& vertex, const ContactRow& contacts,
                           const Team& team) {
@@ -266,12 +262,12 @@ OGC_HD void prefetch_rows(const SweepView& view, const SweepVertex& vertex, cons
 /// Venant–Kirchhoff, discrete hinges, activation `ogc`, damping of strains, no springs), in four parts: triangles,
 /// hinges, vertex–facet contacts, edge–edge contacts.
 struct GatherDefault {
-  static constexpr int parts = 4;
+  static constexpr int parts = 4;  ///< parts of the sum: warps of a block where teams are spread (fast/cuda/team.cuh)
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                   const Team& team) const {
-    const ContactParts contacts{view, view.contact_rows[slot], ContactActivation::ogc};
+    const ContactParts<OgcActivation> contacts{view, view.contact_rows[slot], {}};
     const SurfaceMaterial material = view.materials[vertex.body];
     prefetch_rows(view, vertex, contacts.row, team);
     return team.template sum<ForceAndBlock>(
@@ -283,7 +279,7 @@ struct GatherDefault {
         part(
             vertex.hinge_count, [&](int k) { return view.hinges[vertex.hinge_begin + k]; },
             [&](const HingeIncidence& hinge, ForceAndBlock& sum) {
-              add_hinge_incidence(hinge, read_hinge(view, hinge, material), material, own, sum);
+              DiscreteHinge::add(read_hinge(view, hinge, material, own), material.bending_damping, sum);
             }),
         contacts.vertex_facet(), contacts.edge_edge());
   }
@@ -301,7 +297,7 @@ OGC_HD void write_held(const SweepView& view, int v, const Vec& proposal, const 
   }
   const Truncated kept = held(region, stay, proposal, metric);
   view.write(v, kept.position);
-  if (kept.exceeded) view.control->count_cut();
+  if (kept.cut) view.control->count_cut();
 }
 
 /// for_each_team over the slots of one colour.
@@ -309,21 +305,21 @@ template <class Gather>
 struct UpdateVertex {
   static constexpr int parts = Gather::parts;  ///< of its sum
   SweepView view;
-  int first_slot = 0;
-  bool asks_late;  ///< the launch before decides whether it is off
+  int first_slot = 0;  ///< of the colour
+  bool asks_late;      ///< it overlaps the launch that decides whose turn it is, and looks only after its sum
 
   template <class Team>
   OGC_HD void operator()(int i, const Team& team) const {
     const SweepVertex vertex = view.vertices[first_slot + i];
     if (!asks_late && view.is_off(vertex)) return team.leave();
     const int v = vertex.vertex;
-    const Vec own = view.old[v], target = view.target[v], previous = view.previous[v];
-    const float bound = view.bound[v];
+    const Vec own = view.old[v], target = view.target[v];
+    const Ball ball = view.regions.ball(v);
     ForceAndBlock total = Gather{}(view, first_slot + i, vertex, own, team);
     if (!team.leader() || (asks_late && view.is_off())) return;
     add_inertia(vertex.inertia, own, target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
-    write_held(view, v, own + change, own, view.regions.region(v, previous, bound),
+    write_held(view, v, own + change, own, view.regions.region(v, ball),
                BlockMetric{total.block, 1.0f / vertex.inertia});
   }
 };
@@ -331,20 +327,21 @@ struct UpdateVertex {
 /// for_each over the prescribed vertices, before the first colour of an iteration.
 struct UpdatePrescribed {
   SweepView view;
-  const int* prescribed = nullptr;
+  const int* prescribed = nullptr;  ///< numbers of the prescribed vertices
 
   OGC_HD void operator()(int i) const {
     if (view.is_off()) return;
     const int v = prescribed[i];
-    const Vec target = view.target[v], old = view.old[v], previous = view.previous[v];
+    const Vec target = view.target[v], old = view.old[v];
     if (!is_finite(target)) {
       view.write(v, old);
       view.control->count_not_finite();
       return;
     }
-    const Truncated kept = held_on_path(view.regions.region(v, previous, view.bound[v]), old, target);
+    const FeasibleRegion region = view.regions[v];
+    const Truncated kept = held_on_path(region, old, target);
     view.write(v, kept.position);
-    count_behind(*view.control, kept, previous, view.regions);
+    count_behind(*view.control, kept, region.ball.centre, view.regions);
   }
 };
 

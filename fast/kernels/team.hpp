@@ -1,43 +1,45 @@
-// The sum of a team of lanes, run by one thread. A sum has parts, one for each sort of term. Item k of a part belongs
-// to lane k mod W; a lane adds its items of one part in their order, then its parts in theirs; the lanes are added by a
-// fixed tree. A team of any size, on any backend, that keeps this rule gives the same bits, whether one thread or
-// several warps run the parts; only W can change one.
+// The sum of a team of W team lanes, run by one thread. A sum has parts, one for each kind of term. Item k of a part
+// belongs to team lane k mod W; a team lane adds its items of one part in their order, then its parts in theirs; a
+// fixed tree adds the team lanes. A team of any size, on any backend, that keeps this rule gives the same bits, whether
+// one thread or several warps run the parts; only W can change one.
 #pragma once
 
-#include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
 
 namespace ogc::fast {
 
-/// Terms k of a sum, 0 ≤ k < count: load(k) reads what nobody changes during the launch before this one, add(loaded,
-/// acc) reads the rest and adds. They are apart so that a device can load while that launch still runs.
+/// Terms k of a sum, 0 ≤ k < count: load(k) reads what the launch before this one does not write, add(loaded, acc)
+/// reads the rest and adds. They are apart so that a device can load while that launch still runs (programmatic
+/// dependent launch).
 template <class Load, class Add>
 struct Part {
-  int count;
+  int count;  ///< items
   Load load;
   Add add;
 };
 
+/// A Part of these.
 template <class Load, class Add>
 OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
   return {count, load, add};
 }
 
-/// Terms of items begin + k that depend on nothing of the team's own, so that teams may compute each other's:
-/// term(load(item)) is an Accumulator.
+/// Terms of items begin + k that read nothing of the team's vertex, so that a block's threads may share out the terms
+/// of all its teams: term(load(item)) is an Accumulator.
 template <class Load, class Term>
 struct PooledPart {
-  int begin, count;
+  int begin, count;  ///< first item, and how many
   Load load;
   Term term;
 };
 
+/// A PooledPart of these.
 template <class Load, class Term>
 OGC_HD PooledPart<Load, Term> pooled_part(int begin, int count, Load load, Term term) {
   return {begin, count, load, term};
 }
 
-// Item k of either sort of part.
-
+/// Reads item k of either kind of part, and adds what was read, so that a team has one loop for both.
 template <class Load, class Add>
 OGC_HD auto load_item(const Part<Load, Add>& part, int k) {
   return part.load(k);
@@ -55,17 +57,17 @@ OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, A
   sum += part.term(loaded);
 }
 
-/// W lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded sum is -0
-/// only of two -0, so leaving out the empty lanes of a part changes no bit.
+/// W team lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded sum
+/// is -0 only of two -0, so leaving out the empty lanes of a part changes no bit.
 template <int W>
 struct SerialTeam {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
-  static constexpr int width = W;
+  static constexpr int width = W;  ///< W, team lanes
 
-  /// Has `bytes` from `rows` on brought near, where that helps, as the team is going to read them.
+  /// Fetches `bytes` from `rows` on into a cache, where that helps: the team is going to read them.
   OGC_HD static void prefetch(const void*, int) {}
 
-  /// In place of `sum`, by all teams of a launch.
+  /// What all teams of a launch call in place of `sum`.
   OGC_HD static void leave() {}
 
   /// Σ over all terms of all parts. The leader of a team gets the total.
@@ -79,12 +81,12 @@ struct SerialTeam {
     return lanes[0];
   }
 
-  /// Whether this lane writes the team's result.
+  /// Whether this thread writes the team's result.
   OGC_HD bool leader() const { return true; }
 
  private:
-  template <class Part, class Accumulator>
-  OGC_HD static void add_part(const Part& part, Accumulator (&lanes)[W]) {
+  template <class AnyPart, class Accumulator>
+  OGC_HD static void add_part(const AnyPart& part, Accumulator (&lanes)[W]) {
     for (int l = 0; l < W && l < part.count; ++l) {
       Accumulator own{};
       for (int k = l; k < part.count; k += W) add_item(part, load_item(part, k), own);

@@ -2,31 +2,34 @@
 // double, each coordinate rounded towards x_prev, and the stored result tested exactly.
 #pragma once
 
+#include "fast/kernels/arithmetic/vector.hpp"
+#include "fast/kernels/feasible_region.hpp"
 #include "fast/kernels/predicates.hpp"
-#include "fast/kernels/vector.hpp"
 
 namespace ogc::fast {
 
+/// A position that its region holds, and whether the proposal was changed for it.
 struct Truncated {
-  Vec position;
-  bool exceeded = false;
+  Vec position;  ///< [m]
+  bool cut = false;
 };
 
 /// ‖x − x_prev‖ < b for certain, seen in single precision. With u = 2⁻²⁴ a difference is right to u, so the sum of
 /// three squares is at least (1 − u)⁵ of the exact one, and b² (1 − 16 u) in two roundings at most (1 + u)² (1 − 16 u)
 /// b² < (1 − u)⁵ b². Squares that underflow are off by 2⁻¹⁵⁰ each, nothing beside 16 u b² where b² ≥ 2⁻¹⁰⁰. Contraction
 /// leaves roundings out and so cannot change what is certain. False where x is not finite.
-OGC_HD inline bool is_certainly_within_bound(const Vec& previous, const Vec& x, float bound) {
-  const Vec step = x - previous;
-  const float squared = bound * bound;
+OGC_HD inline bool is_certainly_within(const Ball& ball, const Vec& x) {
+  const Vec step = x - ball.centre;
+  const float squared = ball.radius * ball.radius;
   return squared >= 0x1p-100f && squared <= 0x1p100f && dot(step, step) < (1.0f - 16 * 0x1p-24f) * squared;
 }
 
 /// A sum of doubles without rounding (Shewchuk's growing expansion): components of growing size that do not overlap.
 struct ExactTotal {
-  double part[8] = {};
-  int count = 0;
+  double part[8] = {};  ///< in use are the first `count`
+  int count = 0;        ///< at most 8: each square adds two
 
+  /// Adds a number without rounding.
   OGC_HD void grow(double value) {
     for (int i = 0; i < count; ++i) {
       const double s = add(value, part[i]), v = sub(s, value);
@@ -35,11 +38,12 @@ struct ExactTotal {
     }
     part[count++] = value;
   }
+  /// Adds ±a².
   OGC_HD void grow_square(double a, double sign) {
     const double p = mul(a, a), rest = fused(a, a, -p);
     grow(sign * p), grow(sign * rest);
   }
-  /// Of the largest component that is not 0.
+  /// The sum has the sign of its largest component that is not 0.
   OGC_HD bool is_positive() const {
     for (int i = count - 1; i >= 0; --i)
       if (part[i] != 0) return part[i] > 0;
@@ -49,25 +53,25 @@ struct ExactTotal {
 
 /// ‖x − x_prev‖ ≤ b without rounding, for what two doubles cannot tell from the bound: true ties, and a coordinate of
 /// 10⁻²¹ beside one at the bound, which must not pass. A difference that does not fit into a double is beyond.
-OGC_HD inline bool is_exactly_within(const Vec& previous, const Vec& x, float bound) {
-  const Vector<Wide> step = difference<Wide>(x, previous);
+OGC_HD inline bool is_exactly_within(const Ball& ball, const Vec& x) {
+  const Vector<Wide> step = difference<Wide>(x, ball.centre);
   if (step.x.low != 0 || step.y.low != 0 || step.z.low != 0) return false;
   ExactTotal margin;
   margin.grow_square(step.x.high, 1), margin.grow_square(step.y.high, 1), margin.grow_square(step.z.high, 1);
-  margin.grow_square(static_cast<double>(bound), -1);
+  margin.grow_square(static_cast<double>(ball.radius), -1);
   return !margin.is_positive();
 }
 
 /// ‖x − x_prev‖ ≤ b, decided on the stored single-precision numbers without error. False where x is not finite.
-OGC_HD inline bool is_within_bound(const Vec& previous, const Vec& x, float bound) {
-  if (is_certainly_within_bound(previous, x, bound)) return true;
-  const PointReach reach{x, previous, bound};
+OGC_HD inline bool is_within(const Ball& ball, const Vec& x) {
+  if (is_certainly_within(ball, x)) return true;
+  const PointReach reach{x, ball.centre, ball.radius};
   const Filtered margin = reach.value<Filtered>();
   if (!(margin.scale < 0x1p1000)) return false;
   const Sign quick = margin.sign();
   if (quick.certain) return quick.value <= 0;
   const int sign = reach.value<Wide>().sign().value;
-  return sign < 0 || (sign == 0 && is_exactly_within(previous, x, bound));
+  return sign < 0 || (sign == 0 && is_exactly_within(ball, x));
 }
 
 /// The float nearest to p + s (x − p) that is no farther from p.
@@ -78,25 +82,26 @@ OGC_HD inline float towards(float p, float x, double s) {
 }
 
 /// `truncate` where single precision does not see x within the bound.
-OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Vec previous, Vec x, float bound) {
-  if (is_within_bound(previous, x, bound)) return {x, false};
+OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Ball ball, Vec x) {
+  if (is_within(ball, x)) return {x, false};
+  const Vec& previous = ball.centre;
   const Vector<Rounded> step = difference<Rounded>(x, previous);
-  double s = divide(static_cast<double>(bound), square_root(dot(step, step).value));
+  double s = divide(static_cast<double>(ball.radius), square_root(dot(step, step).value));
   // The second and third tries are for a step whose rounding in double crossed a float, with coordinates far larger
   // than the bound.
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Vec cut{towards(previous.x, x.x, s), towards(previous.y, x.y, s), towards(previous.z, x.z, s)};
-    if (is_within_bound(previous, cut, bound)) return {cut, true};
+    if (is_within(ball, cut)) return {cut, true};
     s = mul(s, 1 - 0x1p-22);
   }
   return {previous, true};
 }
 
-/// x where it is within the bound, bit for bit; otherwise the point of the segment from x_prev at distance b, or just
+/// x where the ball holds it, bit for bit; otherwise the point of the segment from x_prev at distance b, or just
 /// short of it. x_prev where x is not finite.
-OGC_HD inline Truncated truncate(const Vec& previous, const Vec& x, float bound) {
-  if (is_certainly_within_bound(previous, x, bound)) return {x, false};
-  return truncate_in_double(previous, x, bound);
+OGC_HD inline Truncated truncate(const Ball& ball, const Vec& x) {
+  if (is_certainly_within(ball, x)) return {x, false};
+  return truncate_in_double(ball, x);
 }
 
 }  // namespace ogc::fast

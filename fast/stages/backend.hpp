@@ -1,4 +1,4 @@
-// What a stage may ask of a backend. A stage (fast/stages/*.hpp) is the order of work, a template on the backend; a
+// The interface of a backend. A stage (fast/stages/*.hpp) is the order of work, a template on the backend; a
 // kernel (fast/kernels/*.hpp) is the mathematics, a functor over plain pointers. A backend brings memory, loops and a
 // few collectives, and nothing else:
 //
@@ -18,7 +18,7 @@
 //   for_each_team<W>(int n, F f, Start start)
 //                                    f(i, team): team.sum<Accumulator>(parts...) once, with F::parts parts; the
 //                                    order of its additions is that of fast/kernels/team.hpp, so only W can change a
-//                                    bit; the lane where team.leader() holds has the total and writes it. Or all
+//                                    bit; the thread where team.leader() holds has the total and writes it. Or all
 //                                    teams of a launch leave (team.leave()) in place of the sum. Start::overlapping:
 //                                    all that f reads before a Part's `add` is not written by the launch before
 //   search(Searches first, Searches second)
@@ -42,38 +42,18 @@
 //   synchronize()                        host only, once a frame
 //
 // Calls are enqueued in order and may return before the work is done; nothing but synchronize and the Buffer copies
-// waits. Functors get raw pointers and values, never a Buffer. Atomics: fast/kernels/atomic.hpp, whose result no order
-// can change.
+// waits. Functors get raw pointers and values, never a Buffer. Atomics: fast/kernels/arithmetic/atomic.hpp, whose
+// result no order can change.
 #pragma once
 
-#include "fast/kernels/qualifiers.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
 
 namespace ogc::fast {
 
-/// A functor that does nothing: for `when` where the flag is known already, or where nothing has to be done beside
-/// something else.
-struct Decided {
-  OGC_HD void operator()(int) const {}
-};
-
-/// Two functors as one, for loops of which neither reads what the other writes.
-template <class F, class G>
-struct Both {
-  F first;
-  int first_count;
-  G second;
-  int second_count;
-
-  OGC_HD void operator()(int i) const {
-    if (i < first_count) first(i);
-    if (i < second_count) second(i);
-  }
-};
-
 /// out[i] = in[0] + … + in[i − 1] for 0 ≤ i ≤ count; `out` may be `in`.
 struct Scan {
-  const int* in;
-  int* out;
+  const int* in;  ///< on the backend
+  int* out;       ///< on the backend, count + 1 sums
   int count;
 };
 

@@ -1,6 +1,6 @@
-// The two trees, over facets and over edges, and the order of the vertices. A refit is one launch; a rebuild is a refit
-// in the old order, whose roots give the extent, and one sort of the Hilbert keys of all three kinds together (a sort's
-// time hardly depends on its length on a device).
+// The two trees, over facets and over edges, and the order of the vertices. A refit is one launch. A rebuild is a refit
+// in the old order, whose roots give the extent, and one sort of the Hilbert keys of vertices, edges and facets
+// together: on a device a sort's time hardly depends on its length.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 
 namespace ogc::fast {
 
+/// The trees of one surface.
 template <class Backend>
 class Bvh {
  public:
@@ -32,21 +33,23 @@ class Bvh {
     facets_ = allocate(surface.triangle_count, facet_nodes_, facet_arrivals_, order_.data() + facets_at());
   }
 
+  /// On the backend; boxes and reaches are those of the last refit.
   const TreeView& facets() const { return facets_; }
   const TreeView& edges() const { return edges_; }
+  /// Vertices in the order of a Hilbert curve.
   const int* vertex_order() const { return order_.data(); }
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
   /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are
   /// rechecked. For for_each over its count().
   RefitTrees refit(const Vec* positions, const float* query_radius, const SkinView& skin = {}) {
-    return {{surface_, positions, query_radius, skin.state},
-            facets_,
-            edges_,
-            facet_arrivals_.data(),
-            edge_arrivals_.data(),
-            vertex_limit_.data(),
-            surface_.vertex_count};
+    return {.reach = {surface_, positions, query_radius, skin.state},
+            .facets = facets_,
+            .edges = edges_,
+            .facet_arrivals = facet_arrivals_.data(),
+            .edge_arrivals = edge_arrivals_.data(),
+            .vertex_limit = vertex_limit_.data(),
+            .vertex_count = surface_.vertex_count};
   }
 
   /// A new order for `positions`; boxes are stale until the next refit.
@@ -54,7 +57,12 @@ class Bvh {
     const RefitTrees boxes = refit(positions, no_radius_.data());
     backend.for_each(boxes.count(), boxes);
     const int total = facets_at() + surface_.triangle_count;
-    backend.for_each(total, HilbertKeys{surface_, positions, facets_, edges_, keys_.data(), order_.data()});
+    backend.for_each(total, HilbertKeys{.surface = surface_,
+                                        .positions = positions,
+                                        .facets = facets_,
+                                        .edges = edges_,
+                                        .keys = keys_.data(),
+                                        .values = order_.data()});
     backend.sort_pairs(keys_.data(), order_.data(), total);
   }
 

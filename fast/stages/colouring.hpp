@@ -12,6 +12,7 @@
 
 namespace ogc::fast {
 
+/// The free vertices, colour by colour.
 struct Colouring {
   int count = 0;              ///< number of colours
   std::vector<int> colour;    ///< of each vertex; -1 where it is not free

@@ -5,6 +5,7 @@
 
 namespace ogc::fast {
 
+/// One for each edge.
 inline Searches<DetectEdgeEdge> searches_of(const DetectEdgeEdge& query) {
   return {query.tree, query.surface.edge_count, query};
 }

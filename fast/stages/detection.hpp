@@ -1,7 +1,8 @@
-// A whole detection: trees at the current positions and both queries, or a look at the pairs that a search kept; lists,
-// bounds (Alg. 3 lines 4–19). All of it is enqueued, nothing waits and nothing is allocated, so it may stand inside
-// Backend::when. Once a list has overflowed every launch does nothing until `grow`, so that the needed size stays that
-// of the first detection that had no room, and the contacts of the last complete one are not mixed with others.
+// A whole detection (Alg. 3 lines 4–19): trees at the current positions, both queries, lists, bounds. What a skin
+// changes of it stands behind fast/stages/skin.hpp. All of it is enqueued, nothing waits and nothing is allocated, so
+// it may stand inside Backend::when. Once a list has overflowed every launch does nothing until `grow`, so that the
+// needed size stays that of the first detection that had no room, and the contacts of the last complete one are not
+// mixed with others.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 
 #include "fast/contact_view.hpp"
 #include "fast/kernels/bound.hpp"
+#include "fast/kernels/detection.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/bvh.hpp"
 #include "fast/stages/detect_edge_edge.hpp"
@@ -24,72 +26,33 @@
 
 namespace ogc::fast {
 
-/// The pairs of the list with a skin, in place of a search; index over all of them.
-struct RecheckPairs {
-  DetectVertexFacet vertex_facet;
-  DetectEdgeEdge edge_edge;
-
-  OGC_HD void operator()(int i) const {
-    const SkinView& skin = edge_edge.skin;
-    if (*edge_edge.lists.overflow != 0 || !skin.rechecks()) return;
-    const NotedPair pair = skin.pairs[i];
-    if (pair.first < 0) {
-      vertex_facet.recheck(~pair.first, pair.second);
-    } else {
-      edge_edge.recheck(pair.first, pair.second);
-    }
+/// The launches of a detection that nothing else shares. Another caller's launches have the same three members
+/// (fast/stages/step_detection.hpp).
+struct PlainLaunches {
+  /// First launch, where a skin decides afterwards whether the trees are needed.
+  template <class Backend>
+  void prepare(Backend& backend, int items, const PrepareDetection& prepare) const {
+    backend.for_each(items, prepare);
+  }
+  /// First launch, where the trees are needed in any case.
+  template <class Backend>
+  void prepare_and_refit(Backend& backend, int items, const PrepareDetection& prepare, const RefitTrees& refit) const {
+    backend.for_each(RefitTrees::filled_up(std::max(items, refit.count())), PrepareAndRefit{prepare, refit});
+  }
+  /// Last launch, over *count ≤ `capacity` incidences.
+  template <class Backend>
+  void rank(Backend& backend, const ListsView& lists, const int* count, int capacity) const {
+    backend.for_each_counted(count, capacity, RankIncidences{lists});
   }
 };
 
-/// What every launch of a detection starts from, and what the caller has to do for each vertex before it.
-template <class Before>
-struct PrepareDetection {
-  Before before;
-  const Vec* positions;
-  Place* places;
-  PrepareLists lists;
-  ResetDistances distances;
-
-  OGC_HD void operator()(int i) const {
-    if (i < distances.vertex_count) {
-      before(i);
-      places[i] = Place(positions[i]);
-    }
-    lists(i);
-    distances(i);
-  }
-};
-
-/// Both at once, where no skin decides in between whether the trees are needed; whole warps of 32.
-template <class Before>
-struct PrepareAndRefit {
-  PrepareDetection<Before> prepare;
-  RefitTrees refit;
-
-  OGC_HD void operator()(int i) const {
-    prepare(i);
-    refit(i);
-  }
-};
-
-/// What a caller has done on the way, to spare launches: before(v) for each vertex, which may read the bounds that end
-/// with the detection and write nothing that it reads; in its last launch after(i) for 0 ≤ i < after_count, when
-/// overflow(), the incidences' rows and what stands in each are known (loose_incidences), and resolve(place, incidence)
-/// for each incidence.
-template <class Before = Decided, class After = Decided, class Resolve = Unresolved>
-struct OnTheWay {
-  Before before{};
-  int after_count = 0;
-  After after{};
-  Resolve resolve{};
-};
-
+/// The resident detection of one surface.
 template <class Backend>
 class Detection {
  public:
   /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size. `skin`:
-  /// largest margin of the list of pairs as a part of r; 0 for none. It changes the time alone. `is_fixed`: by vertex,
-  /// read where `bounds` are planes.
+  /// largest margin of the Verlet list as a fraction of r; 0 for none. It changes the time alone. `is_fixed`: by
+  /// vertex, read where `bounds` are planes.
   Detection(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
             int capacity = 0, float skin = 0, compare::Bounds bounds = compare::Bounds::ball,
             const std::vector<std::uint8_t>& is_fixed = {})
@@ -103,7 +66,7 @@ class Detection {
     const SurfaceView surface = surface_.view();
     const auto vertices = static_cast<std::size_t>(surface.vertex_count);
     for (auto* by_vertex : {&d_min_vertex_, &bound_}) by_vertex->resize(vertices), by_vertex->fill_zero();
-    places_.resize(vertices);
+    padded_.resize(vertices);
     d_min_edge_.resize(static_cast<std::size_t>(surface.edge_count));
     d_min_triangle_.resize(static_cast<std::size_t>(surface.triangle_count));
   }
@@ -113,72 +76,72 @@ class Detection {
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
   /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q =
-  /// *query_radius ≥ r [m] (on the backend), γ_p = bound_relaxation. A no-op while *overflow() is set.
-  template <class Before = Decided, class After = Decided, class Resolve = Unresolved>
+  /// *query_radius ≥ r [m] (on the backend), γ_p = bound_relaxation. A no-op while *overflow() is set. `launches`: the
+  /// first and the last launch, with whatever the caller adds to them.
+  template <class Launches = PlainLaunches>
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
-              const OnTheWay<Before, After, Resolve>& on_the_way = {}) {
+              const Launches& launches = {}) {
     const SurfaceView surface = surface_.view();
     const ListsView lists = lists_.view();
     const SkinView skin = skin_.view(contact_radius);
-    float *d_vertex = d_min_vertex_.data(), *d_edge = d_min_edge_.data(), *d_triangle = d_min_triangle_.data();
-    const PrepareDetection<Before> prepare{on_the_way.before,
-                                           positions,
-                                           places_.data(),
-                                           {lists, surface.vertex_count},
-                                           {query_radius, lists.overflow, surface.vertex_count, surface.edge_count,
-                                            surface.triangle_count, d_vertex, d_edge, d_triangle}};
-    const int items = std::max(lists.buckets, surface.triangle_count);
-    const RefitTrees refit = bvh_.refit(positions, query_radius, skin);
-    if (skin_.is_used()) {
-      backend_.for_each(items, prepare);
-      backend_.for_each(surface.vertex_count, MeasureDrift{skin, positions, lists.overflow});
-      backend_.for_each(1, ChooseSkinMode{skin, query_radius, lists.overflow});
-      backend_.for_each(refit.count(), refit);
-    } else {
-      backend_.for_each(RefitTrees::filled_up(std::max(items, refit.count())), PrepareAndRefit<Before>{prepare, refit});
-    }
-    const Places places{places_.data()};
-    const DetectVertexFacet vertex_facet{
-        surface, places,         bvh_.facets(), bvh_.vertex_order(), bvh_.vertex_limit(), lists,
-        skin,    contact_radius, d_vertex,      d_triangle};
-    const DetectEdgeEdge edge_edge{surface, places, bvh_.edges(), lists, skin, contact_radius, d_edge};
+    const ResetDistances distances{.query_radius = query_radius,
+                                   .overflow = lists.overflow,
+                                   .vertex_count = surface.vertex_count,
+                                   .edge_count = surface.edge_count,
+                                   .triangle_count = surface.triangle_count,
+                                   .d_min_vertex = d_min_vertex_.data(),
+                                   .d_min_edge = d_min_edge_.data(),
+                                   .d_min_triangle = d_min_triangle_.data()};
+    skin_.prepare(backend_, skin, launches,
+                  PrepareDetection{positions, padded_.data(), {lists, surface.vertex_count}, distances},
+                  bvh_.refit(positions, query_radius, skin));
+    const PaddedVecs padded{padded_.data()};
+    const DetectVertexFacet vertex_facet{.surface = surface,
+                                         .positions = padded,
+                                         .tree = bvh_.facets(),
+                                         .vertex_order = bvh_.vertex_order(),
+                                         .vertex_limit = bvh_.vertex_limit(),
+                                         .lists = lists,
+                                         .skin = skin,
+                                         .contact_radius = contact_radius,
+                                         .d_min_vertex = d_min_vertex_.data(),
+                                         .d_min_triangle = d_min_triangle_.data()};
+    const DetectEdgeEdge edge_edge{.surface = surface,
+                                   .positions = padded,
+                                   .tree = bvh_.edges(),
+                                   .lists = lists,
+                                   .skin = skin,
+                                   .contact_radius = contact_radius,
+                                   .d_min_edge = d_min_edge_.data()};
     if (planes_.is_used()) {
       backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.edge_count, {edge_edge, query_radius}},
                       Searches<NearVertexFacet>{bvh_.facets(), surface.vertex_count, {vertex_facet, query_radius}});
-      planes_.make(backend_, surface, places, lists, bound_relaxation, query_radius, bound_.data());
-      lists_.assemble(backend_, places, contact_radius, 0, Decided{}, on_the_way.after_count, on_the_way.after,
-                      on_the_way.resolve, planes_.planes());
-      return;
+      planes_.make(backend_, surface, padded, lists, bound_relaxation, query_radius, bound_.data());
+    } else {
+      backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
+      skin_.complete(backend_, vertex_facet, edge_edge, positions);
     }
-    backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
-    if (skin_.is_used()) {
-      backend_.for_each_counted(&skin.state->count, skin.capacity, RecheckPairs{vertex_facet, edge_edge});
-      backend_.for_each(std::max({surface.vertex_count, surface.edge_count, surface.triangle_count}),
-                        KeepAnchor{skin, surface, positions, d_vertex, d_edge, d_triangle});
-    }
-    const ConservativeBound bounds{surface,          d_vertex,       d_edge,       d_triangle,
-                                   bound_relaxation, lists.overflow, bound_.data()};
-    lists_.assemble(backend_, places, contact_radius, surface.vertex_count, bounds, on_the_way.after_count,
-                    on_the_way.after, on_the_way.resolve);
+    lists_.assemble(backend_, padded, contact_radius, planes_.is_used() ? 0 : surface.vertex_count,
+                    bounds(surface, lists, bound_relaxation), planes_.planes(), launches);
   }
 
   /// Of the last complete detection; valid until grow() returns true.
   ContactView view() {
     const ListsView lists = lists_.view();
-    return {lists.vertex_facet,
-            lists.edge_edge,
-            lists_.vertex_facet_count(),
-            lists_.edge_edge_count(),
-            lists.incidence_offsets,
-            lists.incidences,
-            bound_.data(),
-            planes_.is_used() ? planes_.nearest() : d_min_vertex_.data()};
+    return {.vertex_facet = lists.vertex_facet,
+            .edge_edge = lists.edge_edge,
+            .vertex_facet_count = lists_.vertex_facet_count(),
+            .edge_edge_count = lists_.edge_edge_count(),
+            .incidence_offsets = lists.incidence_offsets,
+            .incidences = lists.incidences,
+            .bound = bound_.data(),
+            .d_min_vertex = planes_.is_used() ? planes_.nearest() : d_min_vertex_.data()};
   }
 
   /// Host only: see Planes::download.
   compare::VertexPlanes download_planes() const { return planes_.download(); }
-  /// Beside the balls of view().
-  RegionView regions() const { return planes_.regions(); }
+  /// Of the last complete detection. `centre`: the positions that it was for, on the backend.
+  FeasibleRegions regions(const Vec* centre) const { return planes_.regions(centre, bound_.data()); }
 
   /// Incidences in the rows of ContactView::incidence_offsets, in any order within one.
   const LooseIncidence* loose_incidences() { return lists_.view().loose; }
@@ -224,13 +187,23 @@ class Detection {
   const int* vertex_facet_faces() { return lists_.view().vertex_facet_face; }
 
  private:
+  ConservativeBound bounds(const SurfaceView& surface, const ListsView& lists, float bound_relaxation) {
+    return {.surface = surface,
+            .d_min_vertex = d_min_vertex_.data(),
+            .d_min_edge = d_min_edge_.data(),
+            .d_min_triangle = d_min_triangle_.data(),
+            .bound_relaxation = bound_relaxation,
+            .overflow = lists.overflow,
+            .bound = bound_.data()};
+  }
+
   Backend& backend_;
   Surface<Backend> surface_;
   Bvh<Backend> bvh_;
   Skin<Backend> skin_;
   Lists<Backend> lists_;
   Planes<Backend> planes_;
-  typename Backend::template Buffer<Place> places_;  ///< positions of the last detection
+  typename Backend::template Buffer<PaddedVec> padded_;  ///< positions of the last detection
   typename Backend::template Buffer<float> d_min_vertex_, d_min_edge_, d_min_triangle_, bound_;
 };
 

@@ -8,11 +8,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fast/kernels/bound.hpp"
 #include "fast/kernels/collect_contacts.hpp"
 #include "fast/kernels/lists.hpp"
 
 namespace ogc::fast {
 
+/// The lists of one surface.
 template <class Backend>
 class Lists {
  public:
@@ -20,7 +22,7 @@ class Lists {
   Lists(const SurfaceView& surface, int capacity)
       : surface_(surface), buckets_(2 * surface.vertex_count + surface.edge_count) {
     const auto buckets = static_cast<std::size_t>(buckets_), vertices = static_cast<std::size_t>(surface.vertex_count);
-    status_.resize(status_count);
+    status_.resize(1);
     status_.fill_zero();
     for (Buffer<int>* counts : {&record_counts_, &record_filled_}) counts->resize(buckets);
     for (Buffer<int>* counts : {&incidence_counts_, &incidence_filled_}) counts->resize(vertices);
@@ -28,70 +30,73 @@ class Lists {
     resize(capacity, least_noted + 4 * capacity);
   }
 
+  /// As kernels see them.
   ListsView view() {
-    int* status = status_.data();
-    const auto slot_mask = static_cast<std::uint32_t>(table_.size() - 1);
-    return {noted_.data(),
-            noted_capacity_,
-            status + 3,
-            table_.data(),
-            slot_mask,
-            entered_.data(),
-            bucketed_.data(),
-            capacity_,
-            status,
-            status + 4,
-            status + 1,
-            buckets_,
-            record_counts_.data(),
-            record_offsets_.data(),
-            record_filled_.data(),
-            status + 2,
-            vertex_facet_.data(),
-            vertex_facet_face_.data(),
-            edge_edge_.data(),
-            incidence_counts_.data(),
-            incidence_offsets_.data(),
-            incidence_filled_.data(),
-            loose_.data(),
-            incidences_.data()};
+    ListStatus* status = status_.data();
+    return {.noted = noted_.data(),
+            .noted_capacity = noted_capacity_,
+            .noted_count = &status->noted,
+            .table = table_.data(),
+            .slot_mask = static_cast<std::uint32_t>(table_.size() - 1),
+            .entered = entered_.data(),
+            .bucketed = bucketed_.data(),
+            .capacity = capacity_,
+            .contact_count = &status->contacts,
+            .without_slot = &status->without_slot,
+            .overflow = &status->overflow,
+            .buckets = buckets_,
+            .record_counts = record_counts_.data(),
+            .record_offsets = record_offsets_.data(),
+            .record_filled = record_filled_.data(),
+            .edge_edge_count = &status->edge_edge,
+            .vertex_facet = vertex_facet_.data(),
+            .vertex_facet_face = vertex_facet_face_.data(),
+            .edge_edge = edge_edge_.data(),
+            .incidence_counts = incidence_counts_.data(),
+            .incidence_offsets = incidence_offsets_.data(),
+            .incidence_filled = incidence_filled_.data(),
+            .loose = loose_.data(),
+            .incidences = incidences_.data()};
   }
 
+  /// Of vertex–facet records; on the backend.
   const int* vertex_facet_count() const { return record_offsets_.data() + surface_.vertex_count; }
-  const int* edge_edge_count() const { return status_.data() + 2; }
-  const int* overflow() const { return status_.data() + 1; }
+  /// Of edge–edge records; on the backend.
+  const int* edge_edge_count() const { return &status_.data()->edge_edge; }
+  /// Not 0 once a list was too small; on the backend.
+  const int* overflow() const { return &status_.data()->overflow; }
+  /// Contacts that the lists have room for.
   int capacity() const { return capacity_; }
+  /// Noted pairs that the lists have room for.
   int noted_capacity() const { return noted_capacity_; }
 
-  /// After both searches: noted pairs to records and incidences. Beside them, because neither needs the other:
-  /// beside(i) for 0 ≤ i < beside_count with the first launch, and after(i) for 0 ≤ i < after_count with the last, when
-  /// overflow(), the incidences' rows and what stands in each are known, but not the order in them; resolve as in
-  /// RankIncidences. `planes`: see CollectContacts.
-  template <class Beside, class After, class Resolve>
-  void assemble(Backend& backend, Places positions, float contact_radius, int beside_count, const Beside& beside,
-                int after_count, const After& after, const Resolve& resolve, const PairPlane* planes = nullptr) {
+  /// After both searches: noted pairs to records and incidences. `bounds`, which need no list, stand beside the first
+  /// launch for `bounded` vertices; `planes`: see CollectContacts; `launches` makes the last (Detection::detect).
+  template <class Launches>
+  void assemble(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
+                const ConservativeBound& bounds, const PairPlane* planes, const Launches& launches) {
     const ListsView lists = view();
     backend.for_both(
-        beside_count, beside, lists.noted_count, noted_capacity_,
+        bounded, bounds, lists.noted_count, noted_capacity_,
         CollectContacts{{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, lists, planes});
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_},
                             {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
-    backend.for_both(1, CheckCapacity{lists}, lists.cursor, capacity_, FillBuckets{lists, surface_.vertex_count});
-    backend.for_each_counted(lists.cursor, capacity_, WriteRecords{lists, {surface_}});
-    backend.for_both(after_count, after, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_,
-                     RankIncidences<Resolve>{lists, resolve});
+    backend.for_both(1, CheckCapacity{lists}, lists.contact_count, capacity_,
+                     FillBuckets{lists, surface_.vertex_count});
+    backend.for_each_counted(lists.contact_count, capacity_, WriteRecords{lists, {surface_}});
+    launches.rank(backend, lists, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_);
   }
 
   /// Host only: where the flag is set, enlarges each list that was too small to what was needed and half as much again,
   /// clears the flag and returns true. Sets are empty until the next detection.
   bool grow() {
-    int status[status_count];
-    status_.download(status, status_count);
-    if (status[1] == 0) return false;
-    const int without_slot = status[4], contacts = status[0] + without_slot;
+    ListStatus status;
+    status_.download(&status, 1);
+    if (status.overflow == 0) return false;
+    const int contacts = status.contacts + status.without_slot;
     const auto grown = [](int capacity, int count) { return count > capacity ? count + count / 2 : capacity; };
-    resize(grown(capacity_, without_slot > 0 ? std::max(contacts, capacity_ + 1) : contacts),
-           grown(noted_capacity_, status[3]));
+    resize(grown(capacity_, status.without_slot > 0 ? std::max(contacts, capacity_ + 1) : contacts),
+           grown(noted_capacity_, status.noted));
     status_.fill_zero();
     return true;
   }
@@ -104,7 +109,6 @@ class Lists {
   using Buffer = typename Backend::template Buffer<T>;
 
   static constexpr int least_noted = 1 << 16;  // half a mebibyte
-  static constexpr int status_count = 5;
 
   void resize(int capacity, int noted_capacity) {
     capacity_ = capacity;
@@ -124,7 +128,7 @@ class Lists {
 
   SurfaceView surface_;
   int buckets_, capacity_, noted_capacity_;
-  Buffer<int> status_;  ///< contacts entered, overflow, edge–edge records, noted pairs, contacts without a slot
+  Buffer<ListStatus> status_;
   Buffer<NotedPair> noted_;
   Buffer<ContactSlot> table_;
   Buffer<EnteredContact> entered_;

@@ -13,13 +13,17 @@
 
 namespace ogc::fast {
 
+/// The planes of one surface.
 template <class Backend>
 class Planes {
  public:
   /// `is_fixed`: by vertex, whether it never moves; read where bounds are planes.
-  Planes(compare::Bounds bounds, const std::vector<std::uint8_t>& is_fixed)
-      : is_used_(bounds == compare::Bounds::planes), is_off_(bounds == compare::Bounds::off) {
-    if (!is_used_) return;
+  Planes(compare::Bounds bounds, const std::vector<std::uint8_t>& is_fixed) {
+    switch (bounds) {
+      case compare::Bounds::ball: return;
+      case compare::Bounds::off: is_off_ = true; return;
+      case compare::Bounds::planes: is_used_ = true; break;
+    }
     const std::size_t vertices = is_fixed.size();
     is_fixed_.upload(is_fixed.data(), vertices);
     for (Buffer<int>* counts : {&pair_counts_, &pair_filled_, &counts_}) {
@@ -31,6 +35,7 @@ class Planes {
     rows_.resize(vertices * most_planes), pairs_.resize(vertices * most_planes);
   }
 
+  /// Whether bounds are planes.
   bool is_used() const { return is_used_; }
 
   /// Host only: room for so many noted pairs.
@@ -40,34 +45,39 @@ class Planes {
     pair_rows_.resize(4 * static_cast<std::size_t>(noted_capacity));
   }
 
-  RegionView regions() const {
-    return is_used_ ? RegionView{rows_.data(), counts_.data()} : RegionView{nullptr, nullptr, is_off_};
+  /// X_prev and b_v with the half-spaces that stand here.
+  FeasibleRegions regions(const Vec* centre, const float* radius) const {
+    FeasibleRegions regions{.centre = centre, .radius = radius, .is_off = is_off_};
+    if (is_used_) regions.planes = rows_.data(), regions.counts = counts_.data();
+    return regions;
   }
+  /// By vertex: not above the distance of its nearest pair, at most r_q [m].
   const float* nearest() const { return nearest_.data(); }
-  const PairPlane* planes() const { return planes_.data(); }
+  /// By noted pair; null where bounds are no planes.
+  const PairPlane* planes() const { return is_used_ ? planes_.data() : nullptr; }
 
   /// After the searches: planes and balls (`bound`) of `vertices` vertices from the pairs that `noted` has. Where there
   /// was no room for all pairs nobody may use what comes of it.
-  void make(Backend& backend, const SurfaceView& surface, Places positions, const ListsView& noted, float share,
+  void make(Backend& backend, const SurfaceView& surface, PaddedVecs positions, const ListsView& noted, float share,
             const float* query_radius, float* bound) {
-    const PlaneListsView lists{surface,
-                               positions,
-                               is_fixed_.data(),
-                               share,
-                               query_radius,
-                               noted.noted,
-                               planes_.data(),
-                               pair_counts_.data(),
-                               pair_offsets_.data(),
-                               pair_filled_.data(),
-                               pair_rows_.data(),
-                               threshold_.data(),
-                               nearest_.data(),
-                               unplaned_.data(),
-                               rows_.data(),
-                               pairs_.data(),
-                               counts_.data(),
-                               bound};
+    const PlaneListsView lists{.surface = surface,
+                               .positions = positions,
+                               .is_fixed = is_fixed_.data(),
+                               .share = share,
+                               .query_radius = query_radius,
+                               .noted = noted.noted,
+                               .planes = planes_.data(),
+                               .pair_counts = pair_counts_.data(),
+                               .pair_offsets = pair_offsets_.data(),
+                               .pair_filled = pair_filled_.data(),
+                               .pair_rows = pair_rows_.data(),
+                               .threshold = threshold_.data(),
+                               .nearest = nearest_.data(),
+                               .unplaned = unplaned_.data(),
+                               .rows = rows_.data(),
+                               .pairs = pairs_.data(),
+                               .counts = counts_.data(),
+                               .bound = bound};
     const int vertices = surface.vertex_count, capacity = noted.noted_capacity;
     backend.for_each(vertices, PreparePlanes{lists});
     backend.for_each_counted(noted.noted_count, capacity, MeasurePairs{lists});
@@ -110,7 +120,7 @@ class Planes {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  bool is_used_, is_off_;
+  bool is_used_ = false, is_off_ = false;
   Buffer<std::uint8_t> is_fixed_;
   Buffer<PairPlane> planes_;
   Buffer<int> pair_counts_, pair_offsets_, pair_filled_, pair_rows_, counts_, no_sum_;

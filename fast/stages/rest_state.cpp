@@ -7,6 +7,7 @@
 
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
+#include "fast/kernels/models/bending_models.hpp"
 #include "fast/kernels/rest_state.hpp"
 
 namespace ogc::fast {
@@ -116,13 +117,11 @@ void add_masses(const compare::Scene& scene, RestState& rest) {
   }
 }
 
-bool bends_isometrically(const compare::Body& body) {
-  return !body.fixed && body.material.bending == compare::BendingModel::isometric_quadratic;
-}
+bool has_weights(const compare::Body& body) { return !body.fixed && reads_weights(body.material.bending); }
 
 void add_hinges(const compare::Scene& scene, const compare::Topology& topology, RestState& rest) {
   const auto& p = scene.rest_positions;
-  const bool weighted = std::any_of(scene.bodies.begin(), scene.bodies.end(), bends_isometrically);
+  const bool weighted = std::any_of(scene.bodies.begin(), scene.bodies.end(), has_weights);
   for (const compare::Hinge& hinge : topology.hinges) {
     const compare::Edge& edge = topology.edges[at(hinge.edge)];
     const int number = rest.body[at(edge[0])];
@@ -136,7 +135,7 @@ void add_hinges(const compare::Scene& scene, const compare::Topology& topology, 
                            static_cast<float>(body.material.bending_stiffness * shape.factor)});
     if (!weighted) continue;
     rest.weights.emplace_back();
-    if (!bends_isometrically(body)) continue;
+    if (!has_weights(body)) continue;
     for (int k = 0; k < 3; ++k) rest.weights.back().weight[k] = static_cast<float>(shape.weight[k]);
   }
 }
@@ -208,7 +207,7 @@ RestState rest_state_of(const compare::RestStateIn& in, const compare::RestState
     complete_gradient(triangle);
     rest.triangles.push_back(triangle);
   }
-  const bool weighted = std::any_of(in.scene->bodies.begin(), in.scene->bodies.end(), bends_isometrically);
+  const bool weighted = std::any_of(in.scene->bodies.begin(), in.scene->bodies.end(), has_weights);
   for (const compare::RestHinge& h : out.hinges) {
     rest.hinges.push_back({{h.vertex[0], h.vertex[1], h.vertex[2], h.vertex[3]}, h.body, h.rest_angle, h.stiffness});
     if (weighted) rest.weights.push_back({{h.weight[0], h.weight[1], h.weight[2]}});

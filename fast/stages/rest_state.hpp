@@ -7,18 +7,18 @@
 
 #include "compare/problem/scene.hpp"
 #include "compare/stages/rest_state.hpp"
-#include "fast/kernels/bending.hpp"
 #include "fast/kernels/contact_force.hpp"
-#include "fast/kernels/isometric.hpp"
-#include "fast/kernels/membrane.hpp"
-#include "fast/kernels/spring.hpp"
-#include "fast/kernels/tetrahedron.hpp"
+#include "fast/kernels/models/hinge.hpp"
+#include "fast/kernels/models/membrane.hpp"
+#include "fast/kernels/models/spring.hpp"
+#include "fast/kernels/models/tetrahedron.hpp"
 
 namespace ogc::fast {
 
 /// How a vertex moves.
 enum class Mobility : std::uint8_t { free, prescribed, fixed };
 
+/// What the sweep has to know of the rest shape.
 struct RestState {
   /// m_v [kg]: a third of each incident triangle's, a quarter of each incident tetrahedron's; 0 on fixed bodies
   std::vector<float> mass;
@@ -26,7 +26,7 @@ struct RestState {
   std::vector<int> body;  ///< of each vertex
   std::vector<TriangleRest> triangles;
   std::vector<HingeRest> hinges;
-  std::vector<HingeWeights> weights;  ///< by hinge; empty where no body bends isometrically
+  std::vector<HingeWeights> weights;  ///< by hinge; empty where no model reads them
   std::vector<SpringRest> springs;
   std::vector<TetrahedronRest> tetrahedra;
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]

@@ -1,5 +1,5 @@
-// A resident simulation: state on the backend, a frame of steps enqueued at once, rows read once a frame. The host acts
-// between frames only: it grows the lists where a step found no room and goes on at that step.
+// A resident simulation: the state stays on the backend, the host enqueues a frame of steps at once and reads its rows
+// once. The host acts between frames only: it grows the lists where a step found no room and goes on at that step.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 
 #include "compare/contestant.hpp"
 #include "fast/stages/step.hpp"
-#include "fast/stages/trace.hpp"
 
 namespace ogc::fast {
 
+/// The simulation of one scene.
 template <class Backend>
 class ResidentSimulation : public compare::Simulation {
  public:
@@ -60,24 +60,6 @@ class ResidentSimulation : public compare::Simulation {
     return rows;
   }
 
-  /// advance(1), told event by event: of a step that was repeated because a list grew, the last attempt. Needs
-  /// SimulationOptions::profile; changes no bit.
-  compare::StepOut trace() {
-    StepTrace<Backend> trace(backend_, state_, detection_, topology_);
-    step_.observe(&trace);
-    advance(1);
-    step_.observe(nullptr);
-    compare::StepOut out;
-    out.colour = colouring_.colour;
-    out.rest = rest_state_out({&scene_, &topology_});
-    out.query_radius = query_radius_;
-    out.events = trace.take();
-    download(state_.target, out.target);
-    download(state_.start, out.position);
-    download(state_.velocity, out.velocity);
-    return out;
-  }
-
   compare::Snapshot snapshot() override {
     compare::Snapshot result;
     result.step = step_number_;
@@ -104,9 +86,22 @@ class ResidentSimulation : public compare::Simulation {
   }
   std::string device() const override { return device_; }
 
+  /// Made on the host at the start, of the scene rounded to single precision.
   const Colouring& colouring() const { return colouring_; }
   const RestState& rest_state() const { return rest_; }
+  /// W, the width of the sweep's sums.
   int lanes() const { return sweep_.lanes(); }
+
+  /// Null ends it. Needs SimulationOptions::profile; changes no bit.
+  void observe(StepObserver* observer) { step_.observe(observer); }
+  // What an observer looks at.
+  float query_radius() const { return query_radius_; }  ///< r_q of the last step [m]
+  /// For the observer alone, between launches: whatever it changes there changes the run.
+  Backend& backend() { return backend_; }
+  StepState<Backend>& state() { return state_; }
+  Detection<Backend>& detection() { return detection_; }
+  const compare::Scene& scene() const { return scene_; }
+  const compare::Topology& topology() const { return topology_; }
 
  private:
   static constexpr int longest_frame = 64;  // rows and targets of a frame stay small; a longer one is several
@@ -151,8 +146,8 @@ class ResidentSimulation : public compare::Simulation {
     s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
-    s.start_places.resize(n);
-    s.places.resize(2 * n);
+    s.padded_start.resize(n);
+    s.padded.resize(2 * n);
     s.strain_start.resize(rest_.triangles.size());
     s.angle_start.resize(rest_.hinges.size());
     s.solid_start.resize(rest_.tetrahedra.size());
@@ -229,8 +224,8 @@ class ResidentSimulation : public compare::Simulation {
     return control;
   }
 
-  /// Each step is timed by the backend; where stages are timed too nothing is recorded, so that the clock can stand
-  /// between them.
+  /// The backend times each step. Where the clock times stages, too, nothing is recorded, so that the host can look at
+  /// it between launches.
   void enqueue(int count, std::vector<double>& wall_ms, std::vector<std::vector<double>>& stage_ms) {
     if (!clock_.on()) {
       backend_.replay(recordings_[group_ > 1 ? 1 : 0], count, [this] { step_.enqueue(group_); });

@@ -1,23 +1,27 @@
-// Memory of the list with a skin (fast/kernels/skin.hpp). Unlike the other lists it may be too small: then a detection
-// searches, and the host, when it looks the next time, gives the list more room. It begins with room for few pairs,
-// since many callers never need it.
+// The policy of looking again: a Verlet list of pairs with a skin (fast/kernels/skin.hpp), or a search each time.
+// Either way a detection calls `prepare` before its searches and `complete` after them. Unlike the other lists this one
+// may be too small: then a detection searches, and the host, when it looks the next time, gives the list more room. It
+// begins with room for few pairs, since many callers never need it.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 
+#include "fast/kernels/detection.hpp"
 #include "fast/kernels/skin.hpp"
 
 namespace ogc::fast {
 
-/// Largest m as a part of r: a list outlives displacements of up to 7/32 of m, and grows with it (fast/PERFORMANCE.md).
+/// Largest m as a fraction of r: a list outlives displacements of up to 7/32 of m, and grows with it
+/// (fast/PERFORMANCE.md).
 inline constexpr float usual_skin = 1.0F;
 
+/// Memory and launches of the list of one surface.
 template <class Backend>
 class Skin {
  public:
   /// `share`: largest m/r; 0 for none, every detection searches.
-  Skin(const SurfaceView& surface, float share) : share_(share) {
+  Skin(const SurfaceView& surface, float share) : share_(share), surface_(surface) {
     const auto size = [](int n) { return static_cast<std::size_t>(n); };
     forget();
     if (!is_used()) return;
@@ -27,13 +31,47 @@ class Skin {
     pairs_.resize(size(capacity_));
   }
 
+  /// As kernels see it.
   SkinView view(float contact_radius) {
-    return {state_.data(),  share_ * contact_radius, contact_radius, pairs_.data(),   capacity_,
-            anchor_.data(), vertex_.data(),          edge_.data(),   triangle_.data()};
+    return {.state = state_.data(),
+            .largest_margin = share_ * contact_radius,
+            .contact_radius = contact_radius,
+            .pairs = pairs_.data(),
+            .capacity = capacity_,
+            .anchor = anchor_.data(),
+            .vertex = vertex_.data(),
+            .edge = edge_.data(),
+            .triangle = triangle_.data()};
   }
 
-  /// Whether a detection may ever do anything but search.
-  bool is_used() const { return share_ > 0; }
+  /// All that stands before the searches: `launches` prepares the detection, `refit` the trees. With a skin the choice
+  /// between search and list stands in between.
+  template <class Launches>
+  void prepare(Backend& backend, const SkinView& skin, const Launches& launches, const PrepareDetection& prepare,
+               const RefitTrees& refit) {
+    const int items = std::max(prepare.lists.lists.buckets, surface_.triangle_count);
+    if (!is_used()) return launches.prepare_and_refit(backend, items, prepare, refit);
+    const int* overflow = prepare.lists.lists.overflow;
+    launches.prepare(backend, items, prepare);
+    backend.for_each(surface_.vertex_count, MeasureDrift{skin, prepare.positions, overflow});
+    backend.for_each(1, ChooseSkinMode{skin, prepare.distances.query_radius, overflow});
+    backend.for_each(refit.count(), refit);
+  }
+
+  /// All that stands after the searches: a look at the list in their place, and where vertices were at a search.
+  void complete(Backend& backend, const DetectVertexFacet& vertex_facet, const DetectEdgeEdge& edge_edge,
+                const Vec* positions) {
+    if (!is_used()) return;
+    const SkinView& skin = edge_edge.skin;
+    backend.for_each_counted(&skin.state->count, skin.capacity, RecheckPairs{vertex_facet, edge_edge});
+    backend.for_each(std::max({surface_.vertex_count, surface_.edge_count, surface_.triangle_count}),
+                     KeepAnchor{.skin = skin,
+                                .surface = surface_,
+                                .positions = positions,
+                                .d_min_vertex = vertex_facet.d_min_vertex,
+                                .d_min_edge = edge_edge.d_min_edge,
+                                .d_min_triangle = vertex_facet.d_min_triangle});
+  }
 
   /// Host only: the next detection searches.
   void forget() {
@@ -64,7 +102,11 @@ class Skin {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
+  /// Whether a detection may ever do anything but search.
+  bool is_used() const { return share_ > 0; }
+
   float share_;
+  SurfaceView surface_;
   int capacity_ = 1 << 14;  // 128 KiB
   Buffer<SkinState> state_;
   Buffer<NotedPair> pairs_;

@@ -15,15 +15,16 @@ Facet facet_of(const compare::Topology& topology, std::size_t t);
 
 /// The seeds of fast/kernels/bvh.hpp: near neighbours in the mesh that are neither adjacent nor left out.
 struct Seeds {
-  std::vector<EdgeSeeds> edges;
-  std::vector<FacetSeeds> facets;
-  std::vector<VertexSeeds> vertices;
+  std::vector<EdgeSeeds> edges;       ///< by edge
+  std::vector<FacetSeeds> facets;     ///< by triangle
+  std::vector<VertexSeeds> vertices;  ///< by vertex
 };
 
 /// `groups`: one number for each vertex; `partners`: null where there is none (compare/problem/exclusions.hpp).
 Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,
                  const compare::CompressedRows* partners, const std::vector<Facet>& facets);
 
+/// The complex of one mesh.
 template <class Backend>
 class Surface {
  public:
@@ -52,22 +53,23 @@ class Surface {
     upload_seeds(find_seeds(topology, groups, exclusions.partners, facets));
   }
 
+  /// As kernels see it.
   SurfaceView view() const {
-    return {vertex_count_,
-            edge_count_,
-            triangle_count_,
-            facets_.data(),
-            edges_.data(),
-            neighbours_.view(),
-            opposites_.view(),
-            vertex_edges_.view(),
-            vertex_triangles_.view(),
-            inside_solid_.size() > 0 ? inside_solid_.data() : nullptr,
-            groups_.data(),
-            edge_seeds_.data(),
-            facet_seeds_.data(),
-            vertex_seeds_.data(),
-            has_partners_ ? partners_.view() : Rows{}};
+    return {.vertex_count = vertex_count_,
+            .edge_count = edge_count_,
+            .triangle_count = triangle_count_,
+            .facets = facets_.data(),
+            .edges = edges_.data(),
+            .neighbours = neighbours_.view(),
+            .opposites = opposites_.view(),
+            .vertex_edges = vertex_edges_.view(),
+            .vertex_triangles = vertex_triangles_.view(),
+            .inside_solid = inside_solid_.size() > 0 ? inside_solid_.data() : nullptr,
+            .groups = groups_.data(),
+            .edge_seeds = edge_seeds_.data(),
+            .facet_seeds = facet_seeds_.data(),
+            .vertex_seeds = vertex_seeds_.data(),
+            .partners = has_partners_ ? partners_.view() : Rows{}};
   }
 
  private:

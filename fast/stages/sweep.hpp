@@ -23,13 +23,13 @@ inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 :
 
 /// The streams on the host, slot by slot in the order of the colouring.
 struct SweepStreams {
-  std::vector<SweepVertex> vertices;
-  std::vector<MembraneIncidence> membrane;
-  std::vector<HingeIncidence> hinges;
-  std::vector<IsometricStencil> isometric;  ///< beside `hinges`; empty where no body bends isometrically
-  std::vector<SpringIncidence> springs;
-  std::vector<SpringRow> spring_rows;  ///< by slot; empty where there is no spring
-  std::vector<TetrahedronIncidence> tetrahedra;
+  std::vector<SweepVertex> vertices;             ///< by slot
+  std::vector<MembraneIncidence> membrane;       ///< row by row, in the order of slots
+  std::vector<HingeIncidence> hinges;            ///< likewise
+  std::vector<IsometricStencil> isometric;       ///< beside `hinges`; empty where no body bends isometrically
+  std::vector<SpringIncidence> springs;          ///< row by row, as spring_rows says
+  std::vector<SpringRow> spring_rows;            ///< by slot; empty where there is no spring
+  std::vector<TetrahedronIncidence> tetrahedra;  ///< row by row, as tetrahedron_rows says
   std::vector<TetrahedronGradients> gradients;   ///< beside `tetrahedra`; empty where no body damps
   std::vector<TetrahedronRow> tetrahedron_rows;  ///< by slot; empty where there is no tetrahedron
 };
@@ -41,6 +41,7 @@ inline int encoded(int vertex, const std::vector<int>& colour, int own_colour) {
   return colour[static_cast<std::size_t>(vertex)] < own_colour ? ~vertex : vertex;
 }
 
+/// A triangle as its corner sees it.
 inline MembraneIncidence membrane_incidence(const RestState& rest, int triangle, int corner,
                                             const std::vector<int>& colour) {
   const TriangleRest& shape = rest.triangles[static_cast<std::size_t>(triangle)];
@@ -55,9 +56,10 @@ inline MembraneIncidence membrane_incidence(const RestState& rest, int triangle,
 }
 
 /// The other vertices of a hinge as a vertex of this role lists them. Role 0, 1: an end of the edge; 2, 3: an opposite
-/// vertex. Exchanging both pairs at once keeps the angle (fast/kernels/bending.hpp).
+/// vertex. Exchanging both pairs at once keeps the angle (fast/kernels/models/discrete_hinge.hpp).
 inline constexpr int hinge_others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
 
+/// A hinge as its vertex of this role sees it.
 inline HingeIncidence hinge_incidence(const RestState& rest, int hinge, int role, const std::vector<int>& colour) {
   const HingeRest& shape = rest.hinges[static_cast<std::size_t>(hinge)];
   const int own = colour[static_cast<std::size_t>(shape.vertex[role])];
@@ -80,6 +82,7 @@ inline IsometricStencil isometric_stencil(const HingeWeights& rest, int role) {
   return stencil;
 }
 
+/// A spring as this end of it sees it.
 inline SpringIncidence spring_incidence(const SpringRest& spring, int end, const std::vector<int>& colour) {
   const int own = colour[static_cast<std::size_t>(spring.end[end])];
   return {
@@ -90,9 +93,10 @@ inline SpringIncidence spring_incidence(const SpringRest& spring, int end, const
 
 /// The other corners as each corner lists them: those of the opposite face, in the order of a positive volume.
 inline constexpr int tetrahedron_others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-/// The place of a pair of corners among the weights.
+/// Number of a pair of corners among the weights.
 inline constexpr int tetrahedron_pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 
+/// A tetrahedron seen from a corner.
 inline TetrahedronIncidence tetrahedron_incidence(const RestState& rest, int tetrahedron, int corner,
                                                   const std::vector<int>& colour) {
   const TetrahedronRest& shape = rest.tetrahedra[static_cast<std::size_t>(tetrahedron)];
@@ -108,7 +112,7 @@ inline TetrahedronIncidence tetrahedron_incidence(const RestState& rest, int tet
   return incidence;
 }
 
-/// ∇N₀ is made of the stored ones and rounded once.
+/// Gradients as a corner sees them. ∇N₀ is made of the stored ones and rounded once.
 inline TetrahedronGradients tetrahedron_gradients(const TetrahedronRest& shape, int corner) {
   const auto gradient = [&](int k, int axis) {
     if (k > 0) return shape.gradient[k - 1][axis];
@@ -124,7 +128,7 @@ inline TetrahedronGradients tetrahedron_gradients(const TetrahedronRest& shape, 
   return seen;
 }
 
-/// (element, role) of each vertex, by element; −1 for a vertex: nobody has that role.
+/// (element, role) of each vertex, by element; −1 for a vertex: the element lacks this role.
 template <class Element, class Vertices>
 std::vector<std::vector<std::pair<int, int>>> incidences(std::size_t vertex_count, const std::vector<Element>& elements,
                                                          Vertices vertices, int roles) {
@@ -213,6 +217,7 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
 /// GatherEveryModel, GatherSolids, GatherEverything.
 enum class SweepSum { surfaces, every_model, solids, everything };
 
+/// By the activation, springs, models and tetrahedra of the scene.
 inline SweepSum needed_sum(const RestState& rest) {
   const bool every_model = rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
                            !std::all_of(rest.models.begin(), rest.models.end(), are_default);
@@ -221,14 +226,12 @@ inline SweepSum needed_sum(const RestState& rest) {
   return every_model || !alone ? SweepSum::everything : SweepSum::solids;
 }
 
-/// The resident streams and their launches. `view` of the constructor's results is completed by the caller for each
-/// iteration (positions, bounds, control).
+/// The resident streams and their launches. `complete` gives a view what belongs to the sweep; positions, bounds and
+/// control of an iteration are the caller's.
 template <class Backend>
 class Sweep {
  public:
-  template <class T>
-  using Buffer = typename Backend::template Buffer<T>;
-
+  /// Of a scene; `backend` and nothing else must outlive it.
   Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology,
         const compare::Scene& scene)
       : backend_(backend),
@@ -265,40 +268,44 @@ class Sweep {
     upload(prescribed_, prescribed_host_);
   }
 
-  int colours() const { return colours_; }
+  int colours() const { return colours_; }  ///< launches of an iteration, beside that of the prescribed vertices
+  /// W, the width of the sums.
   int lanes() const { return lanes_; }
+  /// By body; on the backend.
   const SurfaceMaterial* materials() const { return materials_.data(); }
+  /// Likewise.
   const SurfaceModels* models() const { return models_.data(); }
   const SolidMaterial* solids() const { return solids_.data(); }
   ContactActivation activation() const { return activation_; }
 
-  /// What a record does not say itself; `detected`: the positions of the last detection.
-  ContactTables tables(const Vec* detected) const {
+  /// What a record does not say itself; `previous`: X_prev, the positions of the last detection.
+  ContactTables tables(const Vec* previous) const {
     ContactTables tables = tables_;
-    tables.detected = detected;
+    tables.previous = previous;
     return tables;
   }
 
-  /// Room for the incidences of a detection; host only, outside a step.
+  /// Room for the incidences of a detection. Host only, outside a step.
   void reserve_contacts(int incidences) { contacts_.resize(static_cast<std::size_t>(incidences)); }
 
   /// Free vertices: items of a launch over contact_rows.
   int slots() const { return static_cast<int>(vertices_.size()); }
-  /// What makes the stream of a detection at `detected`: the rows, and the incidences as they get their places. Where
-  /// *off is not 0 the old stream stays, which is whole.
+  /// What makes the rows of the stream after a detection. Where *overflow is not 0 the old stream stays, which is
+  /// whole.
   template <class Item>
-  CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* off) {
-    return {incidence_offsets, incidences, off, vertices_.data(), contact_rows_.data()};
+  CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* overflow) {
+    return {incidence_offsets, incidences, overflow, vertices_.data(), contact_rows_.data()};
   }
-  ResolveContact resolve_contact(const ContactView& view, const Vec* detected) {
-    return {view, tables(detected), colour_.data(), contacts_.data()};
+  /// What writes the stream, as each incidence gets its place; `previous`: the positions of the detection.
+  ResolveContact resolve_contact(const ContactView& view, const Vec* previous) {
+    return {view, tables(previous), colour_.data(), contacts_.data()};
   }
 
   /// The stream of contacts that are there already.
-  void resolve_contacts(const ContactView& view, const Vec* detected) {
+  void resolve_contacts(const ContactView& view, const Vec* previous) {
     backend_.for_both(slots(), contact_rows(view.incidence_offsets, view.incidences, nullptr),
                       view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
-                      resolve_contact(view, detected));
+                      resolve_contact(view, previous));
   }
 
   /// The streams of this sweep in a view; positions, targets and control are the caller's.
@@ -321,10 +328,10 @@ class Sweep {
   }
 
   /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each
-  /// cut counted. `start`: overlapping after a launch that writes nothing of what a sweep reads but whose turn it is.
+  /// cut counted. `start`: overlapping where the launch before writes nothing that a sweep reads but StepControl::turn.
   void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
-    // writes what a colour reads after its wait alone
+    // It writes only what a colour reads after its sum, so the first colour may overlap it.
     backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});
     for (int c = 0; c < colours_; ++c) {
       const auto k = static_cast<std::size_t>(c);
@@ -344,6 +351,9 @@ class Sweep {
   }
 
  private:
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
   template <class T>
   static void upload(Buffer<T>& buffer, const std::vector<T>& items) {
     buffer.upload(items.data(), items.size());

@@ -26,6 +26,8 @@ from plots import style
 from plots.run_folder import RunError, commits_in_words
 
 SCENE, STEPS = commands.THREE_CLOTHS, commands.THREE_CLOTHS_STEP
+# What is not as the paper has it, as folders are called and in words.
+CHOICES = {"any": "γ_e = 0", "slow": "ε_v = 1e-4 m/s", "planes": "half-spaces", "pairs": "pair by pair"}
 MARKS = (50, 500)  # iterations of the paper's curves of Newton and of VBD
 
 
@@ -33,9 +35,9 @@ def label_of(name):
     """vbd_cuda_any, vbd_cuda_any_at_25 and their like in words."""
     kind, *more = name.split("_")
     where = "single, " + more[0] if kind == "vbd" and more[0] != "double" else "double"
-    zero, slow = (", γ_e = 0" if "any" in more else ""), (", ε_v = 1e-4 m/s" if "slow" in more else "")
+    said = "".join(f", {words}" for word, words in CHOICES.items() if word in more)
     other = f", step {more[-1]}" if "at" in more else ""
-    return f"{'VBD' if kind == 'vbd' else 'Newton'}, {where}{zero}{slow}{other}"
+    return f"{'VBD' if kind == 'vbd' else 'Newton'}, {where}{said}{other}"
 
 
 def curves(folder, ogc, jobs, without):

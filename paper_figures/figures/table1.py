@@ -1,5 +1,5 @@
-"""Table 1, cloth rows: ours beside the paper's, as CSV, Markdown and HTML, from the runs that the runner makes
-(FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
+"""Table 1, rows of cloth and of the mat: ours beside the paper's, as CSV, Markdown and HTML, from the runs that the
+runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
 
 Average and maximum are of whole steps as steps.csv times them. A step that was repeated because a list grew is in the
 average, not in the maximum, and counted. The CPU's average is that of its windows, each with the same weight. With
@@ -18,7 +18,9 @@ from paper_figures.workflow.device_memory import taken
 from paper_figures.workflow.evidence import CLAIMS, NOT_RUN, EvidenceError, columns_of, run_at
 from paper_figures.workflow.jobs import MEMORY
 
-ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m", "dress", "robot_shirt")
+ROWS = ("twist", "cloth_on_sphere", "knot", "fifty_layers", "fifty_layers_1m", "dress", "robot_shirt", "mat_twist",
+        "mat_twist_planes")
+TITLE = "Table 1, rows of cloth and of the mat"
 WINDOWS = 5  # on the CPU, of each row
 STALE, FRESH = "residual, last detection's contacts [1]", "residual, contacts of the end [1]"
 
@@ -167,7 +169,7 @@ NOTE = ("Ours and the paper's times are of different machines. A step that was r
 
 
 def markdown(rows):
-    lines = ["# Table 1, cloth rows", "", "| " + " | ".join(SHOWN) + " |", "|" + "---|" * len(SHOWN)]
+    lines = [f"# {TITLE}", "", "| " + " | ".join(SHOWN) + " |", "|" + "---|" * len(SHOWN)]
     lines += ["| " + " | ".join(text(row[name]) for name in SHOWN) + " |" for row in rows]
     return "\n".join([*lines, "", NOTE, ""])
 
@@ -178,7 +180,7 @@ def page(rows):
                      for row in rows)
     style = ("body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}"
              "td,th{border:1px solid #bbb;padding:.3em .6em;text-align:right}")
-    title = "Table 1, cloth rows"
+    title = TITLE
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
             f"<style>{style}</style></head>\n"
             f"<body><h1>{title}</h1>\n<table><thead><tr>{head}</tr></thead>\n"

@@ -21,6 +21,7 @@ from pathlib import Path
 
 from paper_figures.workflow import recipes
 from paper_figures.workflow.evidence import NOT_RUN, RESULTS, SCENES, run_at
+from paper_figures.workflow.jobs import ENDED_BY_TIME
 from paper_figures.workflow.kept import AcceptError, bytes_of, run_files
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
@@ -36,6 +37,8 @@ def manifests(folder):
 
 def manifest_at(path):
     run, manifest = run_at(path.parent), json.loads(path.read_text())
+    if (path.parent / ENDED_BY_TIME).is_file():  # it was given so long, and is whole
+        manifest["status"] = "finished"
     return {**manifest, "guarantee_kept": run.guarantee_kept} if run and run.afterwards else manifest
 
 

@@ -24,6 +24,7 @@ THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd":
                            "paper": {"vbd": 1000, "newton": 150}}
 ANY = ("--set", "redetect_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
+PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "truncation=pair")  # what Newton's step is cut to
 NEWTON = ("--solver", "newton", "--residual",
           *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "friction_solves=50")
                                                for word in ("--set", value)))
@@ -70,8 +71,8 @@ def ipc_windows(scene, whole, starts, last, scale, membrane=NEO_HOOKEAN, steps=2
 def three_cloths(scale, backends, start_iterations=None):
     """Fig. 17: the run up to the step before, each step solved to convergence (γ_e = 0); then that step by VBD in
     single precision; and by VBD and Newton in double. With γ_e = 0 also with a hundredth of ε_v, which the paper may
-    have printed in cm/s, and other steps, because the paper does not say which it draws. `start_iterations`: of each
-    step before, where the scene's own take too long."""
+    have printed in cm/s, and other steps, because the paper does not say which it draws; Newton also with other bounds
+    than balls. `start_iterations`: of each step before, where the scene's own take too long."""
     step, iterations = THREE_CLOTHS_STEP[scale], THREE_CLOTHS_ITERATIONS[scale]
     base = (THREE_CLOTHS, "--scale", scale, "--audit", "end")
     before = ("--set", f"iterations={start_iterations or iterations['vbd']}")
@@ -85,11 +86,16 @@ def three_cloths(scale, backends, start_iterations=None):
     with_slow = (*variants, *([] if scale == "smoke" else [slow]))
     single = [Job(f"vbd_{backend}{suffix}", (*solve, "--backend", backend, *vbd, *more), state) for backend in backends
               for suffix, more in (with_slow if backend == backends[-1] else variants)]
-    again = (*base, "--iterations", "--profile", "--backend", backends[-1], *vbd, *ANY)
-    single += [Job(f"vbd_{backends[-1]}_any_at_{other}", (*again, "--steps", other), ("start", Step(other - 1)))
-               for other in THREE_CLOTHS_OTHERS.get(scale, ())]
+    others = [(other, ("start", Step(other - 1))) for other in THREE_CLOTHS_OTHERS.get(scale, ())]
+    again = (*base, "--iterations", "--profile")
+    single += [Job(f"vbd_{backends[-1]}_any_at_{other}",
+                   (*again, "--backend", backends[-1], *vbd, *ANY, "--steps", other), begin)
+               for other, begin in others]
+    bounds = [] if scale == "smoke" else [("_any_planes", (*ANY, *PLANES)), ("_any_pairs", (*ANY, *PAIRS))]
     double = [Job("vbd_double", (*solve, "--solver", "reference_vbd", *vbd), state),
-              *(Job(f"newton{suffix}", (*solve, *newton, *more), state) for suffix, more in with_slow)]
+              *(Job(f"newton{suffix}", (*solve, *newton, *more), state) for suffix, more in (*with_slow, *bounds)),
+              *(Job(f"newton{suffix}_at_{other}", (*again, *newton, *more, "--steps", other), begin)
+                for other, begin in others for suffix, more in (("_any", ANY), ("_any_pairs", (*ANY, *PAIRS))))]
     return [start, *single], double
 
 
@@ -168,34 +174,41 @@ def activations(scale, backend):
 
 # Table 1: each row's whole run, its audit, one step from five of its states, and windows on the CPU from the same.
 # Steps between stored, audited states: as many as go into 1/60 s, one where a step is longer than half of that.
+MAT, MAT_PLANES, PLANES = "mat_twist", "mat_twist_planes", ("--set", "bounds=planes")
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
-               "robot_shirt": 10}
+               "robot_shirt": 10, MAT: 4, MAT_PLANES: 4}
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
 
 
-def of_data(row, data):
-    """The dress is a stand-in without the data of Codimensional IPC."""
-    return ("--set", f"data={data}") if data and row == "dress" else ()
+def scene_of(row):
+    """A row is called as its scene, or as the scene and what is set otherwise."""
+    return MAT if row == MAT_PLANES else row
 
 
-def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data=""):
+def of_row(row, data):
+    """The dress is a stand-in without the data of Codimensional IPC; the mat is there with either kind of bounds."""
+    return (*(("--set", f"data={data}") if data and row == "dress" else ()), *(PLANES if row == MAT_PLANES else ()))
+
+
+def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data="", folder=""):
     """So many times the row's scene to its end, or to step `steps`; the audit comes after the run, in time of its own,
-    or beside it (`audit`: every, frame, end, off)."""
+    or beside it (`audit`: every, frame, end, off). They lie in `folder`, or that of the row."""
     beside = "off" if audit == "afterwards" else audit
-    options = (*(("--steps", steps) if steps else ()), *of_data(row, data), "--set", f"frame_steps={FRAME_STEPS[row]}")
+    options = (*(("--steps", steps) if steps else ()), *of_row(row, data), "--set", f"frame_steps={FRAME_STEPS[row]}")
     for number in range(1, runs + 1):
-        name = f"{row}/whole" + (f"_{number}" if number > 1 else "")
-        yield Job(name, (row, "--scale", scale, "--backend", backend, "--audit", beside, *options))
+        name = f"{folder or row}/whole" + (f"_{number}" if number > 1 else "")
+        yield Job(name, (scene_of(row), "--scale", scale, "--backend", backend, "--audit", beside, *options))
         if audit == "afterwards":
             yield Audit(name)
 
 
 def from_states(row, kind, more_steps, scale, options, data=""):
     """So many steps from five states of the row's whole run, without frames of their own."""
-    every = ("--audit", "off", "--set", "frame_steps=1000000", *of_data(row, data), *options)
+    every = ("--audit", "off", "--set", "frame_steps=1000000", *of_row(row, data), *options)
     for share in SHARES:
         state = (f"{row}/whole", Share(share, FRAME_STEPS[row]))
-        yield Job(f"{row}/{kind}_{share}", (row, "--scale", scale, *every), state, more_steps, pictured=False)
+        arguments = (scene_of(row), "--scale", scale, *every)
+        yield Job(f"{row}/{kind}_{share}", arguments, state, more_steps, pictured=False)
 
 
 def residuals(row, scale, backend, data=""):
@@ -209,6 +222,60 @@ def residuals(row, scale, backend, data=""):
 
 def cpu_windows(row, steps, scale, data=""):
     return from_states(row, "cpu", steps, scale, ("--backend", "cpu"), data)
+
+
+# Fig. 19: the mat with both kinds of bounds, with friction and without (as GIPC was measured); windows on the CPU and
+# single steps from states of the run with planes, whose ends do not lag.
+MAT_BOUNDS = {"ball": (MAT, ()), "planes": (MAT_PLANES, PLANES)}  # row of Table 1, options
+GIPC_STEPS = {"smoke": 216, "small": 576, "paper": 2303}  # at the paper's size as many as were measured of GIPC
+MAT_WINDOWS = (0, 25, 50, 75)  # of the run's steps [%]: t = 0, 4, 8 and 12 s
+MAT_WINDOW_STEPS = {"smoke": 4, "small": 20, "paper": 20}
+MAT_ITERATIONS = {"smoke": (20, 80), "small": (20, 40, 80, 160), "paper": (20, 40, 80, 160, 320)}
+# IPC does as many steps as so long gives, and at least two; Newton's step is given up then.
+WINDOW_SECONDS, IPC_STEPS = {"smoke": 5, "small": 120, "paper": 120}, 2
+# So that only bounds, and no list of iterations, keep a step from its minimum: one vertex that is cut asks.
+MAT_NEWTON = ("--solver", "newton", *TOLERANCE, *ANY, *PLANES)
+
+
+def mat_whole(scale, backend):
+    """The runs of Table 1's two rows, which are done once where the table's are at hand."""
+    for bounds, (row, _) in MAT_BOUNDS.items():
+        yield from whole_runs(row, scale, backend, folder=bounds)
+
+
+def mat_without_friction(scale, backend):
+    """A state every 1/15 s is audited."""
+    for bounds, (_, options) in MAT_BOUNDS.items():
+        name = f"{bounds}/free"
+        yield Job(name, (MAT, "--scale", scale, "--backend", backend, "--audit", "off", *options, "--set", "friction=0",
+                         "--set", "frame_steps=16", "--steps", GIPC_STEPS[scale]))
+        yield Audit(name)
+
+
+def from_mat(share, name, options, more_steps, scale, **more):
+    state = ("planes/whole", Share(share, FRAME_STEPS[MAT_PLANES]))
+    words = (MAT, "--scale", scale, "--audit", "off", "--set", "frame_steps=1", *options)
+    return Job(f"window_{share}/{name}", words, state, more_steps, **more)
+
+
+def mat_windows(scale, seconds=0):
+    """VBD on the CPU with both kinds of bounds, then IPC for so long, from each state."""
+    steps = MAT_WINDOW_STEPS[scale]
+    for share in MAT_WINDOWS:
+        yield from (from_mat(share, f"vbd_{bounds}", ("--backend", "cpu", *options), steps, scale, pictured=False)
+                    for bounds, (_, options) in MAT_BOUNDS.items())
+        yield from_mat(share, "ipc", ("--solver", "ipc"), 50 * steps, scale, least=IPC_STEPS,
+                       seconds=seconds or WINDOW_SECONDS[scale])
+
+
+def mat_one_step(scale, seconds=0):
+    """One step from each state, by VBD with more and more iterations, and by Newton until nothing is left."""
+    for share in MAT_WINDOWS:
+        yield from_mat(share, "newton", (*MAT_NEWTON, "--residual"), 1, scale, may_fail=True,
+                       seconds=seconds or WINDOW_SECONDS[scale])
+        yield from (from_mat(share, f"step_{n}", (*PLANES, "--backend", "cpu", "--residual", "--set",
+                                                  f"iterations={n}"), 1, scale)
+                    for n in MAT_ITERATIONS[scale])
 
 
 # Fig. 18's solvers. Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut: held by its ball

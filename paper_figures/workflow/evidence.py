@@ -178,13 +178,14 @@ class RunEvidence:
 
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
-        membrane, activation, redetect_fraction (rounded to single precision in the manifest), and steps: so many from
-        the scene's start, not a window."""
+        membrane, activation, bounds, redetect_fraction (rounded to single precision in the manifest), and steps: so
+        many from the scene's start, not a window."""
         m = self.manifest
         special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
                    "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
                    "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
+                   "bounds": lambda name: m["settings"].get("bounds", {}).get("value", "ball") == name,
                    "redetect_fraction":
                        lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,

@@ -20,9 +20,11 @@ from pathlib import Path
 SECONDS_TO_STOP = 60  # for the step at hand, and its checkpoint
 KEPT, FINISHED, STOPPED, FAILED = "kept", "finished", "stopped at the limit; call again to go on", "FAILED"
 CALL_AGAIN = 75  # exit status where a limit came first (EX_TEMPFAIL of sysexits.h)
+STOPPED_BY_US = (130, -signal.SIGINT, -signal.SIGKILL)  # exit status
 LINES = 5
 PROCESSOR_TIME = "processor_time.json"  # beside the manifest of a run whose processor time was asked for [s]
 MEMORY = "_device_memory.json"  # ends the name of what was sampled while a run was on a device
+ENDED_BY_TIME = "ended_by_time.json"  # beside the manifest of a run that was given so many seconds, and took them
 AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run found (paper_figures.workflow.audited)
 
 
@@ -93,7 +95,8 @@ class Job:
 
     `state`: (another job's name, frame) that it begins with, `more_steps` long where that is not 0. `scene`: a file
     that it writes first (layers.Stack). `may_fail`: to fail is a result. `processor_time`: what it uses of it is kept
-    beside the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed."""
+    beside the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed. `seconds`: it is
+    asked to stop after so long, and is whole then; where it must have `least` steps, not before it has them."""
 
     name: str
     arguments: tuple
@@ -104,6 +107,8 @@ class Job:
     processor_time: bool = False
     under: tuple = ()
     pictured: bool = True
+    seconds: float = 0
+    least: int = 0
 
     def words(self, root):
         """What follows the program's name. Throws RunFailure where the state that it begins with is missing."""
@@ -122,7 +127,8 @@ class Job:
         """Whether the folder holds the run of this command by this program, at its end."""
         status = manifest_of(root / self.name).get("status", "")
         ended = status == "finished" or self.may_fail and status.startswith("failed")
-        return bool(ended) and same_command(root / self.name, self.words(root))
+        ended = ended or bool(status) and (root / self.name / ENDED_BY_TIME).is_file()
+        return ended and same_command(root / self.name, self.words(root))
 
     def goes_on(self, program, root):
         """Whether the folder holds a part of this run from which this program can go on."""
@@ -147,11 +153,22 @@ class Job:
         if shown:
             print(" ".join(command), file=sys.stderr, flush=True)
         used_before = taken_before(folder) if goes_on and self.processor_time else {}
-        code, used = command_in(command, limit, log)
+        code, used = command_in(command, limit, log, seconds=self.seconds, waits=self.least > 0)
+        if self.seconds and code in STOPPED_BY_US and limit.left() > 0:
+            return self.end_by_time(program, root, limit, shown)
         if self.processor_time and used_before is not None and folder.is_dir():
             together = {name: used_before.get(name, 0) + seconds for name, seconds in used.items()}
             (folder / PROCESSOR_TIME).write_text(json.dumps(together) + "\n")
         return self.end(folder, code, limit, command, log)
+
+    def end_by_time(self, program, root, limit, shown):
+        """It was asked to stop, and not by the limit."""
+        rows = root / self.name / "steps.csv"
+        steps = rows.read_text().count("\n") - 1 if rows.is_file() else 0
+        if steps < self.least:
+            return self.make(program, root, limit, shown)
+        (root / self.name / ENDED_BY_TIME).write_text(json.dumps({"seconds": self.seconds, "steps": steps}) + "\n")
+        return FINISHED
 
     def begin_anew(self, program, root):
         folder = root / self.name
@@ -177,9 +194,10 @@ class Job:
     def results(self, root, frames, last):
         """Manifest, rows and so many frames, evenly over the run, and the last ones; of a run that has ended alone."""
         folder = root / self.name
-        if not manifest_of(folder).get("status", "").startswith(("finished", "failed: Newton")):
+        by_time = (folder / ENDED_BY_TIME).is_file()
+        if not by_time and not manifest_of(folder).get("status", "").startswith(("finished", "failed: Newton")):
             return
-        names = ("run.json", "steps.csv", "iterations.csv", PROCESSOR_TIME, AUDIT)
+        names = ("run.json", "steps.csv", "iterations.csv", PROCESSOR_TIME, ENDED_BY_TIME, AUDIT)
         chosen = chosen_frames(folder, frames, last) if self.pictured else []
         beside = [root / f"{self.name}{MEMORY}", *(folder / name for name in names)]
         yield from (path for path in beside if path.is_file())
@@ -275,22 +293,24 @@ def chosen_frames(folder, frames, last):
     return [frame for i, frame in enumerate(found) if i in spread or i >= len(found) - last]
 
 
-def command_in(command, limit=Limit(), log=None, out=None):
-    """(exit status, processor time) of a command that is asked to stop at the limit and killed a minute later. What it
-    prints goes to the file `log`; its standard output to `out` where that is named; without both, errors and progress
-    to the screen."""
+def command_in(command, limit=Limit(), log=None, out=None, seconds=0, waits=False):
+    """(exit status, processor time) of a command that is asked to stop at the limit, or after so many `seconds`, and
+    killed a minute later; `waits`: asked before the limit, it has until then. What it prints goes to the file `log`;
+    its standard output to `out` where that is named; without both, errors and progress to the screen."""
     command = list(map(str, command))
     apart = {"start_new_session": True}  # an interrupt of ours, told once: a second one kills
     if log is None:
-        return waited(subprocess.Popen(command, stdout=subprocess.DEVNULL, **apart), limit)
+        return waited(subprocess.Popen(command, stdout=subprocess.DEVNULL, **apart), limit, seconds, waits)
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("w") as errors, (out.open("w") if out else contextlib.nullcontext(errors)) as output:
-        return waited(subprocess.Popen(command, stdout=output, stderr=errors, **apart), limit)
+        return waited(subprocess.Popen(command, stdout=output, stderr=errors, **apart), limit, seconds, waits)
 
 
-def waited(process, limit):
-    """(exit status, processor time by kind [s]) of a process, which is asked to stop at the limit."""
-    for stop, until in ((None, limit), (signal.SIGINT, Limit(SECONDS_TO_STOP)), (signal.SIGKILL, Limit())):
+def waited(process, limit, seconds=0, waits=False):
+    """(exit status, processor time by kind [s]) of a process, which is asked to stop; see command_in."""
+    asked = Limit(seconds, limit) if seconds else limit
+    for stop, until in ((None, asked), (signal.SIGINT, None), (signal.SIGKILL, Limit())):
+        until = until or Limit((limit.left() if waits else 0) + SECONDS_TO_STOP)
         if stop is not None:
             os.kill(process.pid, stop)
         try:

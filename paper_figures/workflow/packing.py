@@ -143,7 +143,7 @@ def show(out, run):
     figure = parts.ROWS.get(row, ("",))[0]
     if not table.startswith("table1-") or name != "whole" or not figure:
         return None
-    target = out / table.replace("table1", figure, 1) / "run"
+    target = out / table.replace("table1", figure, 1) / parts.SHOWN.get(row, "run")
     remove(target)
     shutil.copytree(run, target)
     return target

@@ -14,7 +14,10 @@ from paper_figures.workflow.judge_counts import STAGES, Counts
 # Rows of Table 1, the most wanted first: the figure of the row's scene, and the frames that are packed of its run.
 ROWS = {"twist": ("fig12", 40), "fifty_layers_1m": ("", 0), "cloth_on_sphere": ("fig18", 21),
         "fifty_layers": ("fig10", 3),
-        "knot": ("fig11", 17), "dress": ("fig13", 20), "robot_shirt": ("fig14", 20)}
+        "knot": ("fig11", 17), "dress": ("fig13", 20), "robot_shirt": ("fig14", 20), commands.MAT: ("fig19", 17),
+        commands.MAT_PLANES: ("fig19", 17)}
+# Where the figure of several runs looks for the row's run; a figure of one looks for `run`.
+SHOWN = {row: f"{bounds}/whole" for bounds, (row, _) in commands.MAT_BOUNDS.items()}
 WINDOW = {"smoke": 20, "small": 20, "paper": 200}  # steps on the CPU
 
 
@@ -37,8 +40,8 @@ class Part:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What all parts are made of; `window`, `runs`, `steps`, `audit` and `data` concern Table 1, `share`, `seed` and
-    `stages` (none: all) the judge's counts."""
+    """What all parts are made of; `window`, `runs`, `steps`, `audit` and `data` concern Table 1, `window_seconds` Fig.
+    19, `share`, `seed` and `stages` (none: all) the judge's counts."""
 
     scale: str = "paper"
     backend: str = "cuda"
@@ -47,6 +50,7 @@ class Wanted:
     steps: int = 0
     audit: str = "afterwards"
     data: str = ""
+    window_seconds: float = 0
     share: float = 1
     seed: int = 1
     stages: tuple = ()
@@ -92,8 +96,21 @@ def of_figures(wanted):
         "fig17_double": Part(folder("fig17"), one_by_one(double), "fig17", frames=0, last=1),
         # A figure of the CPU, as its recipe says: a ratio is of the same cores, and of nothing beside them.
         "fig18_solvers": Part(folder("fig18_solvers", "cpu"), (solvers,), "fig18_solvers", frames=21),
+        **of_mat(wanted),
         "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0),
     }
+
+
+def of_mat(wanted):
+    """Fig. 19 after Table 1's whole runs of the mat, which it begins with."""
+    folder, whole_mat = wanted.folder("fig19"), tuple(commands.mat_whole(wanted.scale, wanted.backend))
+    free = tuple(commands.mat_without_friction(wanted.scale, wanted.backend))
+    return {"fig19": Part(folder, (whole_mat,), "fig19", frames=17),
+            "fig19_free": Part(folder, (free,), "fig19"),
+            "fig19_windows": Part(folder, (tuple(commands.mat_windows(wanted.scale, wanted.window_seconds)),),
+                                  "fig19", frames=2),
+            "fig19_one_step": Part(folder, (tuple(commands.mat_one_step(wanted.scale, wanted.window_seconds)),),
+                                   "fig19", frames=0, last=1)}
 
 
 def whole(row, wanted):
@@ -105,14 +122,16 @@ def of_table(wanted):
     jobs = {row: (*whole(row, wanted), *commands.residuals(row, wanted.scale, wanted.backend, wanted.data))
             for row in ROWS}
     folder = wanted.folder("table1")
-    return {row: Part(folder, (jobs[row],), "table1", frames) for row, (_, frames) in ROWS.items()}
+    shown = {row: f"{wanted.folder(ROWS[row][0])}/{place}" for row, place in SHOWN.items()}
+    return {row: Part(folder, (jobs[row],), "table1", frames, shown_as=shown.get(row, ""))
+            for row, (_, frames) in ROWS.items()}
 
 
 def whole_figures(wanted):
     """Figures of a row's scene, whose picture is drawn of the row's whole run."""
     folder = wanted.folder("table1")
     return {figure: Part(folder, (tuple(whole(row, wanted)),), figure, frames, shown_as=f"{wanted.folder(figure)}/run")
-            for row, (figure, frames) in ROWS.items() if figure}
+            for row, (figure, frames) in ROWS.items() if figure and row not in SHOWN}
 
 
 def windows(wanted):

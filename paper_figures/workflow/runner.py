@@ -114,6 +114,9 @@ def arguments():
     add("--audit", default="afterwards", choices=("afterwards", "every", "frame", "end", "off"),
         help="of whole runs: afterwards in time of its own (default), or beside them")
     add("--data", default="", metavar="FOLDER", help="of Codimensional IPC's dress and dancer (default: a stand-in)")
+    add = parser.add_argument_group("Fig. 19").add_argument
+    add("--window-seconds", type=float, default=0, metavar="N",
+        help="of IPC's windows, and of Newton's steps at most (default: 120; 5 at scale smoke)")
     counts = parser.add_argument_group("the judge's counts (part judge)")
     add = counts.add_argument
     add("--share", type=float, default=1, help="of the cases wanted (default: 1)")
@@ -157,7 +160,7 @@ def main():
     options = parser.parse_intermixed_args()
     if options.unpack:
         sys.exit(unpacked(options))
-    keys = ("scale", "backend", "window", "runs", "steps", "audit", "data", "share", "seed")
+    keys = ("scale", "backend", "window", "runs", "steps", "audit", "data", "window_seconds", "share", "seed")
     wanted = parts.Wanted(**{key: getattr(options, key) for key in keys}, stages=tuple(options.stages))
     try:
         chosen = parts.chosen(parts.book(wanted), options.parts, options.figures)

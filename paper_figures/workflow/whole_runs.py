@@ -13,7 +13,7 @@ import statistics
 import sys
 
 from paper_figures.figures.table1 import ROWS, paper
-from paper_figures.workflow import verdicts
+from paper_figures.workflow import commands, verdicts
 from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError
 
 COSTS = ("step alone [ms]", "a detection [ms]", "10⁵ contacts [ms]", "residual of the fit [ms]")
@@ -26,7 +26,7 @@ def quarters(run, name):
     return statistics.fmean(values[:quarter]), statistics.fmean(values[-quarter:])
 
 
-def row_of(run):
+def row_of(row, run):
     from paper_figures.workflow.step_costs import costs
 
     scene, closest = run.manifest["scene"], "smallest_distance"
@@ -39,7 +39,7 @@ def row_of(run):
         parts = ()
     if not parts or min(parts) < 0:  # the fit can't tell them apart
         parts = ("",) * len(COSTS)
-    return {"scene": name, "vertices": scene["vertices"], "steps": run.step_count,
+    return {"scene": row, "vertices": scene["vertices"], "steps": run.step_count,
             "mean [ms]": run.mean("wall"), "worst [ms]": run.largest("wall"),
             "paper, mean [ms]": paper(name, backend, "average")[0],
             "paper, worst [ms]": paper(name, backend, "maximum")[0],
@@ -56,8 +56,11 @@ def table(folder):
     """Of each row of Table 1 the run on a GPU that judges its claims, as CSV."""
     evidence = Evidence(folder)
     asked = {claim["scene"]: claim["run"] for claim in verdicts.load() if claim["id"].endswith(".cuda_average")}
-    found = {scene: evidence.runs_as({"scene": scene, **asked[scene]}) for scene in ROWS}
-    rows = [row_of(runs[-1]) for runs in found.values() if runs]
+    bounds = {row: {"bounds": name} for name, (row, _) in commands.MAT_BOUNDS.items()}
+    wanted = {row: {"scene": commands.scene_of(row), **asked[commands.scene_of(row)], **bounds.get(row, {})}
+              for row in ROWS}
+    found = {row: evidence.runs_as(wanted[row]) for row in ROWS}
+    rows = [row_of(row, runs[-1]) for row, runs in found.items() if runs]
     if not rows:
         raise EvidenceError(f"{folder} holds no whole run of Table 1: accept one")
     out = io.StringIO()

@@ -9,16 +9,17 @@ namespace ogc::reference {
 
 /// One boundary of a block.
 struct BlockMargin {
+  /// What the boundary is part of.
   enum class Kind : std::uint8_t {
     sphere,  ///< dis(x, a) ≤ r; the length is Eq. 13's penetration depth r − dis(x, a)
     end,     ///< the plane through a vertex, perpendicular to an edge (Eq. 8, 9, 14, 15)
     wall,    ///< the plane through an edge, perpendicular to a triangle (Eq. 9, 10)
   };
-  Kind kind = Kind::sphere;
-  Face across;          ///< the face whose block begins there; the face itself for the sphere
-  int sign = 0;         ///< exact: 1 inside, 0 on the boundary, −1 outside
-  double length = 0;    ///< distance to the boundary [m] with this sign, within 1 ulp of double
-  bool closed = false;  ///< as printed: the boundary belongs to the block
+  Kind kind = Kind::sphere;  ///< of this boundary
+  Face across;               ///< the face whose block begins there; the face itself for the sphere
+  int sign = 0;              ///< exact: 1 inside, 0 on the boundary, −1 outside
+  double length = 0;         ///< distance to the boundary [m] with this sign, within 1 ulp of double
+  bool closed = false;       ///< as printed: the boundary belongs to the block
   /// Whether the point is on the inner side of this boundary.
   bool holds() const { return sign > 0 || (sign == 0 && closed); }
 };

@@ -81,7 +81,7 @@ bool holds_point(const std::array<ExactVector, 3>& corners, const ExactVector& n
   return true;
 }
 
-/// Of a · (1, ε, ε²) for a vanishing ε > 0.
+/// The sign of a · (1, ε, ε²) for a vanishing ε > 0.
 int generic_sign(const ExactVector& a) {
   for (const Exact* component : {&a.x, &a.y, &a.z})
     if (!component->is_zero()) return sign_of(*component);

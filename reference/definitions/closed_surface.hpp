@@ -8,7 +8,7 @@ namespace ogc::reference {
 
 /// Where a point lies. A surface that passes through itself covers some places more than once.
 struct PointLocation {
-  bool on_surface = false;
+  bool on_surface = false;  ///< exactly on a triangle
   /// how often the surface winds around the point, counted with the orientation; 0 on the surface, where it jumps
   int winding = 0;
   /// Winding numbers of either sign count as inside.

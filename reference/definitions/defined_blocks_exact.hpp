@@ -11,8 +11,8 @@ namespace ogc::reference {
 
 /// x − y for the foot y of x on a face, times a positive weight.
 struct Connection {
-  ExactVector along;
-  Exact weight;
+  ExactVector along;  ///< (x − y) · weight
+  Exact weight;       ///< > 0
 };
 
 /// Nothing where the foot is not in the interior of the face, or the face has none.
@@ -23,8 +23,8 @@ enum class Sphere { closed, open };
 
 /// The cones of normals of all faces of a mesh.
 struct DefinedBlocks::Cones {
-  Complex mesh;
-  std::vector<NormalCone> vertices, edges, triangles;
+  Complex mesh;                                        ///< whose faces they are
+  std::vector<NormalCone> vertices, edges, triangles;  ///< by number of the face
 
   /// N_a of one face.
   const NormalCone& of(Face face) const;

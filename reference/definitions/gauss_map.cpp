@@ -65,7 +65,7 @@ void order_region(GaussMap& map, int lineality) {
   map.closed = lineality == 3;
   if (map.closed) return;
   const Unit centre = sum_of(map.corners);
-  // Of a half-sphere the one generator that is no corner is its centre; elsewhere no generator is near it.
+  // A half-sphere has one generator that is no corner: its centre. No other set has a generator near its centre.
   if (lineality == 2) std::erase_if(map.corners, [&](const Unit& u) { return inner(u, centre) > 0.5; });
   const Unit& first = map.corners.front();
   const double along = inner(first, centre);

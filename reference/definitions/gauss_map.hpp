@@ -43,9 +43,9 @@ double solid_angle(const GaussMap& map);
 
 /// Echeverria's polygon of a vertex: the normals of its triangles in order around it; inverted parts are kept.
 struct Indicatrix {
-  std::vector<Unit> normals;
-  bool closed = false;  ///< false at a boundary vertex
-  double area = 0;      ///< signed area enclosed [sr], the angle deficit for a closed one; 0 otherwise
+  std::vector<Unit> normals;  ///< of its triangles, in order
+  bool closed = false;        ///< false at a boundary vertex
+  double area = 0;            ///< signed area enclosed [sr], the angle deficit for a closed one; 0 otherwise
 };
 /// Nothing where the triangles at the vertex are none, collapsed, the same one twice, or not one fan.
 std::optional<Indicatrix> indicatrix(const Complex& mesh, Index vertex);

@@ -14,14 +14,14 @@ namespace ogc::reference {
 /// The nearest non-adjacent candidate of a primitive; of several equally near ones the lowest-numbered. `gap` is the
 /// distance between the two (Margin), or r_q where nothing is nearer; then `partner` is −1.
 struct Nearest {
-  compare::Index partner = -1;
-  Margin gap;
+  compare::Index partner = -1;  ///< number of the candidate
+  Margin gap;                   ///< the distance to it
 };
 
 /// d_min,v with a triangle as partner (Eq. 22), d_min,e with an edge (Eq. 24), d_min,t with a vertex (Eq. 26), by
 /// primitive.
 struct NearestPrimitives {
-  std::vector<Nearest> vertex, edge, triangle;
+  std::vector<Nearest> vertex, edge, triangle;  ///< by number of the primitive
 };
 
 /// Decided exactly; what the detections leave out is left out.

@@ -20,8 +20,8 @@ using ExactVector = Point<Exact>;
 
 /// The point numerator / weight [m], weight > 0: closest points of edges are quotients.
 struct ExactPoint {
-  ExactVector numerator;
-  Exact weight = Exact(1);
+  ExactVector numerator;    ///< [m] · weight
+  Exact weight = Exact(1);  ///< > 0
 };
 
 /// The point without rounding.

@@ -24,8 +24,8 @@ ExactPoint closest_on(const Complex& mesh, Face face, Face other) {
   return point_at(a, u, dot(cross(c - a, v), n), dot(n, n));
 }
 
-/// Of x at the plane through `at` across the line to `towards`; inside is where the direction is met (`inward` 1) or
-/// left behind (−1).
+/// The margin of x from the plane through `at` across the line to `towards`; inside is where the direction is met
+/// (`inward` 1) or left behind (−1).
 BlockMargin end_plane(const Complex& mesh, Index at, Index towards, int inward, Face across, const ExactPoint& x) {
   const ExactVector p = exact(mesh.at(at)), d = exact(mesh.at(towards)) - p;
   const Exact m = dot(x.numerator - times(x.weight, p), d);

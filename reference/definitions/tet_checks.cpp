@@ -84,7 +84,7 @@ int turns_around(std::span<const Vec3f> positions, const std::vector<Tetrahedron
   }));
 }
 
-/// The same tetrahedron, same sign, with the corners i and j first.
+/// The tetrahedron with the corners i and j first and the same orientation.
 Tetrahedron with_first(const Tetrahedron& t, std::size_t i, std::size_t j) {
   std::array<std::size_t, 4> order{i, j, 0, 0};
   std::size_t free = 2;

@@ -33,8 +33,8 @@ using Tetrahedron = std::array<Index, 4>;
 
 /// A triangle of one tetrahedron only, its normal outward.
 struct BoundaryTriangle {
-  compare::Triangle vertices{-1, -1, -1};
-  Index tetrahedron = -1;
+  compare::Triangle vertices{-1, -1, -1};  ///< counterclockwise as seen from outside
+  Index tetrahedron = -1;                  ///< whose face it is
 };
 
 /// The closest point of one boundary triangle to a point in a sheet.
@@ -65,7 +65,7 @@ class TetVolume {
   /// tetrahedra are refused, not handled.
   TetVolume(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra);
 
-  /// By tetrahedron, then by the corner that is left out.
+  /// The boundary triangles, by tetrahedron, then by the corner that is left out.
   const std::vector<BoundaryTriangle>& boundary() const { return boundary_; }
 
   /// Whether the vertex is one of its four corners.

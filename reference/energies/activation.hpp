@@ -12,7 +12,8 @@ compare::ActivationTruth activation(const compare::ActivationIn& in);
 
 /// One value of the activation and its derivatives by d, from multiprecision.
 struct ActivationValue {
-  double energy = 0, slope = 0, curvature = 0;
+  double energy = 0, slope = 0, curvature = 0;  ///< g [J], g' [N], g'' [N/m]
+  /// units of their errors, as of compare::ActivationTruth
   double energy_scale = 0, slope_scale = 0, curvature_scale = 0;
 };
 /// At one distance d ≥ 0 [m]; r [m], k_c [N/m].

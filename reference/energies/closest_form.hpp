@@ -22,7 +22,7 @@ enum class FormKind : std::uint8_t {
 
 /// The contact points: x_first = Σ of the positive weights, x_second = −Σ of the negative ones.
 struct ClosestForm {
-  FormKind kind = FormKind::points;
+  FormKind kind = FormKind::points;  ///< which faces hold the closest points
   std::array<std::uint8_t, 4> at{};  ///< which vertices the places are
   std::array<double, 4> weight{};    ///< by vertex of the contact; each side's add up to 1 and −1
 };

@@ -43,7 +43,7 @@ struct ActivationForm {
   bool jumps = false;       ///< g' jumps at τ
   bool ends_flat = false;   ///< g' is 0 at r and has no slope there
 };
-/// Of one activation.
+/// The form of one activation.
 inline ActivationForm form_of(compare::ContactActivation kind) {
   switch (kind) {
     case compare::ContactActivation::ogc: return {.has_stages = true};

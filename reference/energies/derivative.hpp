@@ -18,9 +18,9 @@ inline double plain(double x) { return x; }
 /// what is 0 need not be computed.
 template <class T, std::size_t N>
 struct Derivative {
-  T value{};
-  std::size_t count = 0;
-  std::array<T, N> slope{};
+  T value{};                 ///< of the expression
+  std::size_t count = 0;     ///< slopes that may differ from 0
+  std::array<T, N> slope{};  ///< by input
 
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}
@@ -60,7 +60,7 @@ struct Derivative {
   Derivative& operator+=(const Derivative& b) { return *this = *this + b; }
   Derivative& operator-=(const Derivative& b) { return *this = *this - b; }
   Derivative& operator*=(const Derivative& b) { return *this = *this * b; }
-  /// Of the values, for branches.
+  /// Compares values, for branches.
   friend bool operator==(const Derivative& a, double b) requires(!std::is_same_v<T, double>) { return a.value == b; }
   friend bool operator==(const Derivative& a, const T& b) { return a.value == b; }
 };

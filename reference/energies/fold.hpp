@@ -26,8 +26,8 @@ double plain_length(const Triple<T>& a) {
 /// The two normals and the edge between them.
 template <class T>
 struct Fold {
-  Hinge<T> x;
-  Triple<T> edge, first, second;
+  Hinge<T> x;                     ///< x0, x1, o0, o1 [m]
+  Triple<T> edge, first, second;  ///< x1 − x0 [m], and the normals of both triangles [m²]
   explicit Fold(const Hinge<T>& at)
       : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
   /// Whether a triangle or the edge has no direction, so that there is no angle; a truth value, or one for each lane.

@@ -12,7 +12,7 @@ namespace ogc::reference {
 
 /// A number that knows how it reacts to each input.
 using Input = Derivative<double, 28>;
-/// By the coordinates of the vertex asked about.
+/// A number with its derivatives by the coordinates of the vertex asked about.
 using ByVertex = Derivative<Input, 3>;
 
 /// Collects the inputs of one stencil.
@@ -63,7 +63,7 @@ using Block = BlockOf<Input>;
 
 /// A force and its block as an answer.
 compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& system);
-/// The same of an energy, whose force is minus its slope.
+/// The answer from an energy, whose force is minus its slope, and a block.
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
 /// B moved, of a vertex that moved since the start of the step, as a force of damping `k`: −k B moved, on top of the

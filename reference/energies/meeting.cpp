@@ -21,7 +21,7 @@ using Vertices = std::array<Triple<Input>, 4>;
 
 const Input zero(0.0), one(1.0);
 
-/// Of the point of the line ab closest to p.
+/// The parameter of the point of the line ab closest to p.
 Input foot(const Triple<Input>& p, const Triple<Input>& a, const Triple<Input>& b) {
   const Triple<Input> e = b - a;
   return dot(p - a, e) / dot(e, e);
@@ -36,7 +36,7 @@ Input at_end(const Inputs& inputs, Input free, double end) {
   return free;
 }
 
-/// Of the foot in the triangle's plane.
+/// The parameters of the foot in the triangle's plane.
 Parameters in_plane(const Vertices& x) {
   const auto &p = x[0], &a = x[1], &b = x[2], &c = x[3];
   const Triple<Input> n = cross(b - a, c - a);
@@ -247,7 +247,7 @@ bool near_features(const ContactForceCase& q) {
 
 Input modulus(const Input& x) { return x.value < 0 ? -x : x; }
 
-/// Of the vertex asked about, and then of those that are updated together with it.
+/// The weights of the vertex asked about and then of those that are updated together with it.
 std::vector<Input> updated_weights(const Meeting& meeting, const ContactForceCase& q) {
   const auto own = static_cast<std::size_t>(q.own);
   std::vector<Input> all{meeting.weight[own]};

@@ -21,10 +21,11 @@ namespace ogc::reference {
 /// One acceptable way of meeting. Coordinates are relative to the first edge's end 0, the second side's first vertex
 /// where the first side is a point.
 struct Meeting {
-  Inputs inputs;
-  std::array<Triple<Input>, 4> vertex;
-  std::array<Input, 4> weight;      ///< those of the first side add up to 1, those of the second to −1
-  Input contact_radius, stiffness;  ///< r; k_c e_k
+  Inputs inputs;                        ///< what scales are relative to
+  std::array<Triple<Input>, 4> vertex;  ///< x [m]
+  std::array<Input, 4> weight;          ///< those of the first side add up to 1, those of the second to −1
+  Input contact_radius, stiffness;      ///< r; k_c e_k
+  /// g
   compare::ContactActivation activation = compare::ContactActivation::ogc;
   bool across = false;        ///< asked for the other side of the jump of g' at τ, which d cannot be told from
   Input distance;             ///< d, without derivatives where it is 0
@@ -86,7 +87,7 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings,
 
 /// The largest −g' and g'' from this distance on [N], [N/m]; 2⁻²³ r stands for all that are nearer.
 struct LargestSlopes {
-  double first = 0, second = 0;
+  double first = 0, second = 0;  ///< −g', g''
 };
 /// At any distance from `distance` on [m].
 LargestSlopes largest_slopes(const compare::ContactForceCase& question, double distance);

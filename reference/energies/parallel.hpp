@@ -12,8 +12,8 @@ namespace ogc::reference {
 
 /// The truth about one case: the acceptable answers, the exact one first, and whether a decision is near.
 struct Accepted {
-  std::vector<compare::ForceAnswer> answers;
-  bool near = false;
+  std::vector<compare::ForceAnswer> answers;  ///< the exact one first
+  bool near = false;                          ///< within near_factor of a decision
   Accepted(std::vector<compare::ForceAnswer> all, bool is_near = false) : answers(std::move(all)), near(is_near) {}
 };
 

@@ -276,7 +276,7 @@ class Builder {
     truth_.stiffness_scale.push_back(unit_of(inputs, bending * reacting.factor()));
   }
 
-  /// Of the last hinge; 0 but in the isometric model.
+  /// Adds the weights of the last hinge; they are 0 but in the isometric model.
   void add_weights(compare::BendingModel model, const Fold<Exact>& fold, const Fold<Input>& reacting,
                    const std::array<Point<Exact>, 2>& opposite, const std::array<Point<Input>, 2>& reacting_opposite,
                    const Inputs& inputs) {

@@ -33,9 +33,9 @@ template <std::size_t N, class Visit>
 template <std::size_t N, class Number = double>
 class Second {
  public:
-  static constexpr std::size_t bends = N * (N + 1) / 2;
-  Number value;
-  std::array<Number, N> slope;
+  static constexpr std::size_t bends = N * (N + 1) / 2;  ///< second derivatives of N inputs, each pair once
+  Number value;                                          ///< of the expression
+  std::array<Number, N> slope;                           ///< by input
 
   Second() : Second(Number(0.0)) {}
   Second(const Number& constant) : value(constant), slope{} {}

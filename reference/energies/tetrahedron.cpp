@@ -30,7 +30,7 @@ struct Elastic {
   T ratio(const std::array<Triple<T>, 4>& x) const {
     return inverse * dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0]));
   }
-  /// Of what depends on x₀ in the energy.
+  /// Force and block of what depends on x₀ in the energy.
   VertexSystemOf<Input> system() const {
     using T = ByOwnTwice<Input>;
     const std::array<Triple<T>, 4> x = with_own<T>(corner, 0);

@@ -15,8 +15,8 @@ using compare::Index;
 
 /// A mesh at given positions. Views; the owner must outlive it.
 struct Complex {
-  const compare::Topology& topology;
-  std::span<const Vec3f> positions;
+  const compare::Topology& topology;  ///< of the mesh
+  std::span<const Vec3f> positions;   ///< by vertex [m]
 
   /// Where a vertex is [m].
   const Vec3f& at(Index vertex) const { return positions[static_cast<std::size_t>(vertex)]; }
@@ -38,12 +38,12 @@ struct Complex {
   Index opposite(Index t, Index e) const;
   /// The vertices of a face; `count` of them are used.
   struct Vertices {
-    std::array<Index, 3> items{-1, -1, -1};
-    int count = 0;
-    /// Those that there are.
+    std::array<Index, 3> items{-1, -1, -1};  ///< the first `count`
+    int count = 0;                           ///< 1, 2 or 3
+    /// The vertices that the face has.
     std::span<const Index> span() const { return {items.data(), static_cast<std::size_t>(count)}; }
   };
-  Vertices vertices(Face face) const;
+  Vertices vertices(Face face) const;  ///< of any face
 };
 
 /// A vertex as a face.
@@ -55,8 +55,8 @@ inline Face triangle_face(Index t) { return {FaceKind::triangle, t}; }
 
 /// A condition of a block and the face whose block begins where it ends.
 struct Boundary {
-  Condition condition;
-  Face across;
+  Condition condition;  ///< holds in the block
+  Face across;          ///< whose block begins where it ends
 };
 
 /// All boundaries of U_a but the distance, for the point x (Eq. 8, 9, 10): visit(Boundary) returns false to stop. A
@@ -98,7 +98,7 @@ bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float co
 
 /// Two faces of the edge-only manifold.
 struct FacePair {
-  Face first, second;
+  Face first, second;  ///< a vertex or an edge each
   friend auto operator<=>(const FacePair&, const FacePair&) = default;
 };
 /// The lower-numbered face first.
@@ -106,8 +106,8 @@ inline FacePair ordered(Face a, Face b) { return a < b ? FacePair{a, b} : FacePa
 
 /// A condition on a pair of faces and the pair that holds the closest points where it ends.
 struct PairBoundary {
-  Condition condition;
-  FacePair across;
+  Condition condition;  ///< holds where the pair has the closest points
+  FacePair across;      ///< that has them where it ends
 };
 
 /// That the closest point of each of the two faces lies in the other's block (Eq. 14, 15, 17), and that these are their

@@ -71,8 +71,8 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
   build(0, 1, 0, count);
 }
 
-/// The nodes below `node` go to `free` and after it: two children, all below the first, all below the second. Each
-/// place is known beforehand.
+/// The nodes below `node` go to `free` and after it: two children, all below the first, all below the second. All
+/// indices are known beforehand.
 void BoxTree::build(std::uint32_t node, std::uint32_t free, std::uint32_t first, std::uint32_t count) {
   Box box;
   for (std::uint32_t k = first; k < first + count; ++k) include(box, boxes_[static_cast<std::size_t>(order_[k])]);

@@ -15,7 +15,7 @@ using compare::Index;
 
 /// Closed, axis-parallel [m]. Empty until the first `include`.
 struct Box {
-  std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};  ///< corners [m]
 };
 
 /// Grows the box until it holds a point.

@@ -13,12 +13,12 @@ using compare::EdgeFeature;
 
 /// Two edges; `first` is the lower-numbered one.
 struct EdgePair {
-  std::array<Vec3f, 2> first, second;
+  std::array<Vec3f, 2> first, second;  ///< by end [m]
 };
 
 /// Which part of each of two edges is closest to the other.
 struct EdgeFeatures {
-  EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;
+  EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;  ///< of the first edge, of the second
   friend bool operator==(const EdgeFeatures&, const EdgeFeatures&) = default;
 };
 

@@ -8,8 +8,8 @@ namespace ogc::reference {
 
 /// margin > 0 (`positive`) or margin ≤ 0.
 struct Condition {
-  Margin margin;
-  bool positive = true;
+  Margin margin;         ///< whose sign decides
+  bool positive = true;  ///< margin > 0; else margin ≤ 0
 };
 
 /// Exact.
@@ -30,6 +30,7 @@ inline void require(Membership& membership, bool held, bool doubtful) {
   membership.certain = membership.certain && held && !doubtful;
 }
 
+/// Adds a condition to those that the region asks for.
 inline void require(Membership& membership, const Condition& condition) {
   const MarginAnswer margin = examine(condition.margin);
   require(membership, (margin.sign > 0) == condition.positive, margin.grey);

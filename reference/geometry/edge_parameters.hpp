@@ -16,7 +16,7 @@ struct EdgeParameters {
   double distance = 0;  ///< of the two points [m]; parallel_parameters only
 };
 
-/// Of the closest points, whose features are given.
+/// The parameters of the closest points, whose features are given.
 EdgeParameters closest_parameters(const EdgePair& pair, EdgeFeatures features);
 
 /// Of nearly parallel edges: the middle of the overlap on the first edge, and its projection on the closed second edge.

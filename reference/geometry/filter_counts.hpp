@@ -23,21 +23,21 @@ enum class Filtered : std::uint8_t {
   distance_below,
   nearer
 };
-inline constexpr std::size_t filtered_predicates = 10;
+inline constexpr std::size_t filtered_predicates = 10;  ///< enumerators of Filtered
 
 /// "gap_plane".
 std::string_view name(Filtered predicate);
 
-/// Of one predicate.
+/// How often one predicate was asked, and needed exact numbers.
 struct FilterCount {
-  std::uint64_t calls = 0;
+  std::uint64_t calls = 0;      ///< how often the predicate was asked
   std::uint64_t undecided = 0;  ///< of these, left to exact numbers
   friend bool operator==(const FilterCount&, const FilterCount&) = default;
 };
 
-/// By predicate.
+/// The counts of all predicates.
 struct FilterCounts {
-  std::array<FilterCount, filtered_predicates> of{};
+  std::array<FilterCount, filtered_predicates> of{};  ///< in the order of Filtered
 
   const FilterCount& operator[](Filtered predicate) const { return of[static_cast<std::size_t>(predicate)]; }
   /// The sum over all predicates.
@@ -46,8 +46,8 @@ struct FilterCounts {
   FilterCounts since(const FilterCounts& earlier) const;
 };
 
-/// Of all threads since the program began. Complete for work that has been joined; a predicate that another thread asks
-/// meanwhile may be missing.
+/// The counts of all threads since the program began. Complete for work that has been joined; a predicate that another
+/// thread asks meanwhile may be missing.
 FilterCounts filter_counts();
 
 /// For the predicates themselves.

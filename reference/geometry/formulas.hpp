@@ -10,7 +10,7 @@ namespace ogc::reference {
 /// A point or vector over the number type T.
 template <class T>
 struct Point {
-  T x{}, y{}, z{};
+  T x{}, y{}, z{};  ///< coordinates
 };
 
 template <class T>
@@ -63,7 +63,7 @@ T parallel(const Point<T>& p0, const Point<T>& p1, const Point<T>& q0, const Poi
 /// A squared distance as numerator over positive denominator.
 template <class T>
 struct Quotient {
-  T numerator{}, denominator{};
+  T numerator{}, denominator{};  ///< the distance squared is their quotient
 };
 
 /// Between two points [m²].

@@ -10,24 +10,24 @@ namespace ogc::reference {
 
 /// Edges `edge` < `other` generate the contact `faces`, exactly or possibly.
 struct Generated {
-  FacePair faces;
-  Index edge = -1, other = -1;
-  bool exact = false;    ///< the exact answer of Algorithm 2
-  bool certain = false;  ///< exact, and no grey boundary is near
+  FacePair faces;               ///< the contact
+  Index edge = -1, other = -1;  ///< that generate it
+  bool exact = false;           ///< the exact answer of Algorithm 2
+  bool certain = false;         ///< exact, and no grey boundary is near
   friend auto operator<=>(const Generated&, const Generated&) = default;
 };
 
 /// A doubtful pair of faces that nothing replaces on the other side of a boundary, or (`joined`) that another one
 /// replaces.
 struct Doubt {
-  FacePair faces, other;
-  bool joined = false;
+  FacePair faces, other;  ///< the doubtful pair, and the one that replaces it
+  bool joined = false;    ///< whether one does
 };
 
 /// The canonical contacts of a list of generated pairs in any order, and the grey decisions.
 struct Assembled {
-  std::vector<compare::EdgeEdgeContact> contacts;
-  std::vector<compare::GreyDecision<compare::EdgeEdgeContact>> grey;
+  std::vector<compare::EdgeEdgeContact> contacts;                     ///< in canonical order
+  std::vector<compare::GreyDecision<compare::EdgeEdgeContact>> grey;  ///< all there are
 };
 /// Equal pairs of faces as one contact each, with its decision.
 Assembled assemble(const Complex& mesh, std::vector<Generated> generated, const std::vector<Doubt>& doubts);

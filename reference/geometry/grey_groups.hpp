@@ -27,8 +27,8 @@ class GreyGroups {
 
   /// Contacts of one decision.
   struct Group {
-    std::vector<Key> keys;
-    bool absence = false;
+    std::vector<Key> keys;  ///< any one of them is accepted
+    bool absence = false;   ///< none of them is accepted, too
   };
 
   /// The groups by their smallest key, keys ascending. A join to a contact that is not doubtful leaves the doubtful one

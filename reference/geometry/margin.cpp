@@ -156,7 +156,7 @@ double side_sensitivity(const Points<double>& at) {
   return spread(cross(to_c, e), p) + spread(cross(to_p, e), c) + spread(cross(p, to_c) + cross(c, to_p), e);
 }
 
-/// Of `turn`, m = (q × v)·(x × v) with v = q₁ − q, the points as x, q, q₁: ∂m/∂x = v × (q × v), by its own place ∂m/∂q
+/// Of `turn`, m = (q × v)·(x × v) with v = q₁ − q, the points as x, q, q₁: ∂m/∂x = v × (q × v), through q itself ∂m/∂q
 /// = v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x, which goes to q₁ and with the other sign to q.
 double turn_sensitivity(const Points<double>& at) {
   const Point<double>&x = at[1], &q = at[2], v = at[3] - q, of_q = cross(q, v), of_x = cross(x, v),

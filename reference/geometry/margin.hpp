@@ -20,9 +20,9 @@ enum class MarginKind : std::uint8_t { along, side, turn, parallel, gap_points, 
 
 /// A formula with its points; the first is the one to which the coordinates δ of the grey zone are relative.
 struct Margin {
-  MarginKind kind = MarginKind::along;
-  std::array<Vec3f, 4> at{};
-  float radius = 0;  ///< r of a gap [m]
+  MarginKind kind = MarginKind::along;  ///< which formula
+  std::array<Vec3f, 4> at{};            ///< its points [m]; what it lacks is 0
+  float radius = 0;                     ///< r of a gap [m]
 };
 
 /// How far p is along the edge from a to b.
@@ -90,9 +90,10 @@ float distance_below(const Margin& gap);
 
 /// Both at once, faster; the distance within 2⁻⁴⁰ max(d, Σ|δᵢ|) only.
 struct GapDistance {
-  double distance = 0;
-  float below = 0;
+  double distance = 0;  ///< [m]
+  float below = 0;      ///< [m], as distance_below
 };
+/// Both distances of a gap.
 GapDistance measure(const Margin& gap);
 
 /// scale · d < b for the distance d of the gap, exactly; scale, b ≥ 0. Denominator as above.

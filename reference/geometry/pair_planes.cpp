@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/edge_parameters.hpp"
@@ -63,27 +64,15 @@ Direction to_closest(const EdgesPair& edges) {
   return minus(minus(minus(pair.second[0], pair.first[0]), times(s[0], e)), times(-s[1], f));
 }
 
-/// A pair within r_q: its vertices, those of the second side from `second_from` on; its distance, rounded down; its
-/// plane, if it has one.
-struct NearPair {
-  PrimitivePair pair;
-  std::array<Index, 4> vertices{};
-  std::size_t second_from = 1;
-  float below = 0;
-  bool has_plane = false;
-  Vec3f normal{};
-  double first_offset = 0, second_offset = 0;
-
-  VertexPlane as_borne(std::size_t k) const {
-    if (k < second_from) return {pair, normal, first_offset};
-    return {pair, {-normal.x, -normal.y, -normal.z}, -second_offset};
-  }
-};
-
 class PlaneMaker {
  public:
   explicit PlaneMaker(const PlaneIn& in)
       : in_(in), mesh_{*in.topology, in.positions}, near_(mesh_, in.exclusions, double{in.query_radius}) {}
+
+  std::vector<NearPair> pairs() {
+    find_pairs();
+    return std::move(pairs_);
+  }
 
   PlaneOut run() {
     find_pairs();
@@ -188,6 +177,13 @@ class PlaneMaker {
 };
 
 }  // namespace
+
+VertexPlane NearPair::as_borne(std::size_t k) const {
+  if (k < second_from) return {pair, normal, first_offset};
+  return {pair, {-normal.x, -normal.y, -normal.z}, -second_offset};
+}
+
+std::vector<NearPair> near_pairs_with_planes(const PlaneIn& in) { return PlaneMaker(in).pairs(); }
 
 PlaneOut pair_planes(const PlaneIn& in) { return PlaneMaker(in).run(); }
 

@@ -1,14 +1,35 @@
 // Planes between near pairs and balls for all others, by definition (method.md §5.6).
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "compare/stages/plane.hpp"
 
 namespace ogc::reference {
 
-/// Of each pair within r_q the closest points c_p, c_q, found exactly, give n = (c_q − c_p)/d; its two offsets lie
-/// γ_p d from the sides, or 2γ_p d from one where the other is fixed. A pair gets the plane if every vertex keeps it in
-/// single precision, exactly, and if it is nearer than the 17th nearest pair of each of its vertices that can move; the
-/// others limit the balls. In parallel; the answer does not depend on the number of threads.
+/// A pair within r_q: its vertices, those of the second side from `second_from` on; its distance, rounded down; its
+/// plane, if it has one.
+struct NearPair {
+  compare::PrimitivePair pair;
+  std::array<compare::Index, 4> vertices{};
+  std::size_t second_from = 1;
+  float below = 0;                             ///< [m]
+  bool has_plane = false;                      ///< every vertex keeps it in single precision, exactly
+  compare::Vec3f normal{};                     ///< n, from the first side to the second
+  double first_offset = 0, second_offset = 0;  ///< what n·x is at most on the first side, at least on the second [m]
+
+  /// As its k-th vertex bears it.
+  compare::VertexPlane as_borne(std::size_t k) const;
+};
+
+/// All pairs within r_q, ascending, each with the plane that it may have: of the closest points c_p, c_q, found exactly,
+/// n = (c_q − c_p)/d; the two offsets lie γ_p d from the sides, or 2γ_p d from one where the other is fixed. In
+/// parallel; the answer does not depend on the number of threads.
+std::vector<NearPair> near_pairs_with_planes(const compare::PlaneIn& in);
+
+/// A pair gets its plane if it is nearer than the 17th nearest pair of each of its vertices that can move; the others
+/// limit the balls.
 compare::PlaneOut pair_planes(const compare::PlaneIn& in);
 
 }  // namespace ogc::reference

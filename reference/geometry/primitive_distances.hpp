@@ -11,7 +11,7 @@ namespace ogc::reference {
 /// d_min,v, d_min,e and d_min,t [m] by primitive (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26), r_q where nothing is nearer:
 /// those of detect_vertex_facet and detect_edge_edge, bit by bit.
 struct PrimitiveDistances {
-  std::vector<float> vertex, edge, triangle;
+  std::vector<float> vertex, edge, triangle;  ///< by number of the primitive [m]
 };
 
 /// In parallel; the answer does not depend on the number of threads. A primitive is searched as far as its nearest

@@ -11,8 +11,8 @@ namespace ogc::reference {
 /// A value with its derivatives by N inputs.
 template <std::size_t N>
 struct Dual {
-  double value = 0;
-  std::array<double, N> slope{};
+  double value = 0;               ///< of the expression
+  std::array<double, N> slope{};  ///< by input
 
   Dual() = default;
   explicit Dual(double constant) : value(constant) {}
@@ -45,7 +45,7 @@ struct Dual {
 /// modulus once for each of its at most k factors; and n roundings on the longest way from an input to the value move
 /// it by n 2⁻⁵³ · modulus at most, to first order.
 struct Measured {
-  double value = 0, modulus = 0;
+  double value = 0, modulus = 0;  ///< in double; the sum of the moduli of its terms
 
   Measured() = default;
   explicit Measured(double x) : value(x), modulus(std::abs(x)) {}

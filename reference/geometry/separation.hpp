@@ -19,7 +19,7 @@ enum class DetectionExtent {
 
 /// Whether point x[0] and triangle x[1] x[2] x[3] are farther apart than `distance` [m]; false where no slab shows it.
 bool surely_beyond_triangle(const std::array<compare::Vec3f, 4>& x, double distance);
-/// The same of the edges x[0] x[1] and x[2] x[3].
+/// Whether the edges x[0] x[1] and x[2] x[3] are farther apart likewise.
 bool surely_beyond_edge(const std::array<compare::Vec3f, 4>& x, double distance);
 
 }  // namespace ogc::reference

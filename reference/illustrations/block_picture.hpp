@@ -12,10 +12,10 @@ namespace ogc::reference {
 /// One boundary of a block as triangles over `BlockPicture::points`; a block without volume has its flat or straight
 /// part as a patch.
 struct BlockPatch {
-  BlockMargin::Kind kind = BlockMargin::Kind::sphere;
-  bool closed = true;  ///< as printed; open boundaries are drawn dashed (Fig. 7, 8)
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<std::vector<int>> outlines;  ///< polylines around the patch
+  BlockMargin::Kind kind = BlockMargin::Kind::sphere;  ///< of the boundary
+  bool closed = true;                                  ///< as printed; open boundaries are drawn dashed (Fig. 7, 8)
+  std::vector<std::array<int, 3>> triangles;           ///< by numbers of points
+  std::vector<std::vector<int>> outlines;              ///< polylines around the patch
 };
 
 /// A block as triangles and curves.

@@ -12,18 +12,18 @@ namespace ogc::reference {
 
 /// Points with what connects them. Lengths in units of the drawing, which has no scale, but in Fig. 9 and 22b metres.
 struct DrawingLayer {
-  std::string name;  ///< what it shows: "surface", "block", "gauss_map", "arrows of OGC", …
-  std::vector<std::array<double, 3>> points;
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<std::vector<int>> lines;
-  std::vector<double> values;  ///< one for each point of a field or curve; otherwise empty
-  bool closed = true;          ///< boundaries that belong to a block; open ones are drawn dashed
+  std::string name;                           ///< what it shows: "surface", "block", "gauss_map", "arrows of OGC", …
+  std::vector<std::array<double, 3>> points;  ///< coordinates
+  std::vector<std::array<int, 3>> triangles;  ///< by numbers of points
+  std::vector<std::vector<int>> lines;        ///< polylines, likewise
+  std::vector<double> values;                 ///< one for each point of a field or curve; otherwise empty
+  bool closed = true;                         ///< boundaries that belong to a block; open ones are drawn dashed
 };
 
 /// One part of a figure, in the order of its caption.
 struct DrawingPanel {
-  std::string name, caption;
-  std::vector<DrawingLayer> layers;
+  std::string name, caption;         ///< "a"; what stands below it
+  std::vector<DrawingLayer> layers;  ///< drawn one over the other
 };
 
 /// "fig02_models", "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig22".

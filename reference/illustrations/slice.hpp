@@ -13,8 +13,8 @@ namespace ogc::reference {
 
 /// A face of the polyline: vertex i, or the segment from i to i + 1.
 struct SliceFace {
-  bool segment = false;
-  int index = 0;
+  bool segment = false;  ///< whether it is a segment
+  int index = 0;         ///< i
   friend auto operator<=>(const SliceFace&, const SliceFace&) = default;
 };
 

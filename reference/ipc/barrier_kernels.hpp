@@ -26,7 +26,7 @@ struct ShapedBarrierOf {
 /// A barrier over doubles.
 using ShapedBarrier = ShapedBarrierOf<double>;
 
-/// By the number of vertices.
+/// The kernels of barriers, by their number of vertices.
 struct BarrierKernels {
   StencilKernels::Function<ShapedBarrier, 2> of_2;
   StencilKernels::Function<ShapedBarrier, 3> of_3;

@@ -11,7 +11,7 @@
 
 namespace ogc::reference {
 
-/// Of the way of one primitive, given by its vertices, wider by `margin` [m].
+/// The box of the way of one primitive, given by its vertices, wider by `margin` [m].
 template <class Vertices>
 Box swept_box(const Vertices& vertices, const State& from, const State& to, double margin) {
   Box box;

@@ -21,7 +21,7 @@ struct StiffnessScale {
 struct StiffnessBounds {
   double lower = 0, upper = 0;  ///< [J/m⁴]
 };
-/// Of a scene, by what is said above.
+/// The bounds of κ for a scene, by what is said above.
 StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale, IpcAdaptation adaptation);
 
 /// The κ within the bounds that makes ‖∇E + κ ∇b‖ smallest; the lower one where there is no barrier.

@@ -18,7 +18,7 @@ Index root(std::vector<Index>& parent, Index v) {
   return v;
 }
 
-/// By vertex the lowest number of those that stencils join it to, itself included.
+/// For each vertex the lowest number in its connected component, by stencils.
 std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   std::vector<Index> parent(near.size());
   std::iota(parent.begin(), parent.end(), Index{0});

@@ -28,9 +28,9 @@ struct ContactStencil {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< first side, then second; those that it lacks are −1
   std::array<compare::Index, 2> edge{-1, -1};            ///< of two interiors, whose energy is mollified
 };
-/// Of a vertex and a face.
+/// The stencil of a vertex and a face.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::VertexFacetContact& contact);
-/// Of two edges, or of the faces of theirs that meet.
+/// The stencil of two edges, or of the faces of theirs that meet.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
 /// Squared rest lengths of two edges that meet [m²]; 0 of one without triangles. Zeros for contacts with a vertex.

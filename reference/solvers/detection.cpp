@@ -7,7 +7,6 @@
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
-#include "reference/geometry/pair_planes.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -100,6 +99,14 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
                                                     : result.sets;
   result.previous = std::move(positions);
   return result;
+}
+
+std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,
+                                   const std::vector<compare::Vec3f>& positions, float query_radius,
+                                   double bound_relaxation) {
+  const std::vector<std::uint8_t> is_fixed = fixed_vertices(exclusions.groups);
+  const auto relaxation = static_cast<float>(bound_relaxation);
+  return near_pairs_with_planes({&topology, exclusions, positions, is_fixed, query_radius, relaxation});
 }
 
 }  // namespace ogc::reference

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compare/stages/plane.hpp"
+#include "reference/geometry/pair_planes.hpp"
 #include "reference/solvers/potential.hpp"
 
 namespace ogc::reference {
@@ -35,5 +35,10 @@ double detection_radius(const compare::Settings& settings);
 /// Stages detect_vertex_facet, detect_edge_edge and bound, or plane, at `positions`.
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
                 const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius);
+
+/// All pairs within r_q at `positions`, ascending, each with the plane between its sides.
+std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,
+                                   const std::vector<compare::Vec3f>& positions, float query_radius,
+                                   double bound_relaxation);
 
 }  // namespace ogc::reference

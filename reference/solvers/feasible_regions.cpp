@@ -23,9 +23,12 @@ FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bound
     const double bound = double{detected.bound[v]},
                  size = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) + bound;
     const double rounding = std::sqrt(3.0) * ((0x1p-24 + 0x1p-50) * size + 0x1p-149);
-    radius_.push_back(bounds == compare::Bounds::off ? std::numeric_limits<double>::infinity()
-                                                     : std::max(0.0, (bound - rounding) * (1 - 0x1p-50)));
-    if (bounds == compare::Bounds::planes) add_planes(v, detected, rounding);
+    radius_.push_back(std::max(0.0, (bound - rounding) * (1 - 0x1p-50)));
+    switch (bounds) {
+      case compare::Bounds::ball: break;
+      case compare::Bounds::planes: add_planes(v, detected, rounding); break;
+      case compare::Bounds::off: radius_.back() = std::numeric_limits<double>::infinity(); break;
+    }
   }
 }
 

@@ -24,7 +24,7 @@ std::vector<compare::Vec3f> end_velocities(const std::vector<compare::Vec3f>& po
 
 /// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ over free vertices; 0 where nothing moves (method.md §5.3).
 double momentum_lost(const StepStates& states, const Potential& potential);
-/// Of prescribed vertices behind their targets [m].
+/// The largest distance of a prescribed vertex behind its target [m].
 double largest_lag(const State& x, const State& target, const std::vector<Mobility>& mobility);
 /// Fills the energies, or not-a-number where they are not wanted.
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,

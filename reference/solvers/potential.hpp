@@ -15,7 +15,7 @@ namespace ogc::reference {
 /// Positions of all vertices [m].
 using State = std::vector<Triple<double>>;
 
-/// The same positions in double.
+/// The positions in double.
 State widened(const std::vector<compare::Vec3f>& positions);
 
 /// What moves a vertex: nothing, its motion, or forces.
@@ -40,7 +40,7 @@ struct PotentialDerivatives {
   double force_noise = 0, energy_noise = 0;  ///< [N], [J]
 };
 
-/// Of one scene, step after step.
+/// The incremental potential of a scene, step after step.
 class Potential {
  public:
   /// The scene must be rounded; both must outlive it. Throws InputError for damping by vertex, which is no potential.
@@ -61,7 +61,7 @@ class Potential {
   /// `room`: an earlier result whose memory is used again.
   PotentialDerivatives derivatives(const State& x, HessianProjection projection, PotentialDerivatives room = {}) const;
 
-  /// Of all kinds.
+  /// The number of stencils of all kinds.
   std::size_t stencil_count() const { return elastic_count() + contacts_.size() + frictions_.size(); }
   /// the first stencils: those that never change
   std::size_t elastic_count() const {
@@ -74,7 +74,7 @@ class Potential {
   double elastic_energy(const State& x) const;             ///< without damping [J]
   double contact_energy(const State& x) const;             ///< normal energies [J]
   std::int64_t inverted_tetrahedra(const State& x) const;  ///< those with J ≤ 0
-  /// By vertex [kg].
+  /// m_v by vertex [kg].
   const std::vector<double>& mass() const { return mass_; }
   /// By vertex.
   const std::vector<Mobility>& mobility() const { return mobility_; }

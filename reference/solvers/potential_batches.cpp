@@ -37,7 +37,7 @@ struct Prepared {
   std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< of those among the contact's vertices
 };
 
-/// By form, and by the stage of the activation.
+/// Prepares a contact term at x; its group: terms of one form and one stage of the activation go side by side.
 std::uint8_t prepare(const ContactTerm& term, const State& x, Prepared& to) {
   const std::array<Triple<double>, 4> corners = contact_corners(term.sides, term.vertex, x);
   const ClosestForm form = closest_form(term.sides, corners);

@@ -11,7 +11,7 @@
 
 namespace ogc::reference {
 
-/// Of one state.
+/// The residual of one state.
 struct Residual {
   double share = 0;   ///< mean ‖f_v‖ over free vertices by that after the guess loop; 0 where the latter is 0 [1]
   double force = 0;   ///< mean ‖f_v‖ [N]

@@ -23,9 +23,9 @@ VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& an
                          Index v) {
   const auto i = static_cast<std::size_t>(v);
   const double step = in.scene->settings.time_step;
-  const VertexPlace place{in.old[i],       in.target[i], in.previous[i], in.bound[i], in.rest->mass[i] / (step * step),
+  const FreeVertex vertex{in.old[i],       in.target[i], in.previous[i], in.bound[i], in.rest->mass[i] / (step * step),
                           planes_of(in, v)};
-  return update_of(terms_of_vertex(in, stencils, SweepPositions(in, answer, v), v), place, answer.position[i]);
+  return update_of(terms_of_vertex(in, stencils, SweepPositions(in, answer, v), v), vertex, answer.position[i]);
 }
 
 /// y, truncated: the very question of the stage truncate.

@@ -46,7 +46,7 @@ void add_tetrahedron(const TetrahedronTerm& term, std::size_t place, const std::
   add_damping(term, at, sum);
 }
 
-/// Of a contact's vertices those that are updated at the same time, the own one among them.
+/// Which of a contact's vertices are updated at the same time as the own one, itself included.
 using Updated = std::array<bool, 4>;
 
 /// Σ |w_u| over the vertices that are updated, in units of the own one's |w|: what their blocks are multiplied by, so

@@ -30,14 +30,14 @@ struct SweepView {
   }
 };
 
-/// Of one potential.
+/// The systems of all vertices of one potential.
 class VertexSystems {
  public:
   /// The potential must outlive it.
   explicit VertexSystems(const Potential& potential);
   /// After the potential's contacts have changed.
   void read_contacts();
-  /// Of a free vertex. Friction has λ, n and w of the positions that are read.
+  /// The system of a free vertex. Friction takes λ, n and w from the positions that are read.
   VertexSystem at(compare::Index vertex, const SweepView& x) const;
   /// Mean ‖f‖ over free vertices at one state [N]; Eq. 29's numerator.
   double mean_force(const State& x) const;

@@ -92,8 +92,8 @@ compare::SpringCase spring_question(const compare::SweepIn& in, const compare::S
 /// The other corners in the order in which a corner sees a positive volume at rest: those of the face opposite to it.
 constexpr std::array<std::array<std::size_t, 3>, 4> seen_from{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// Of two corners, the place of V ∇N_k·∇N_l among the weights.
-std::size_t place_of_pair(std::size_t k, std::size_t l) {
+/// The index of V ∇N_k·∇N_l among the weights of a tetrahedron.
+std::size_t index_of_pair(std::size_t k, std::size_t l) {
   const auto [low, high] = std::minmax(k, l);
   return low == 0 ? high - 1 : low + high;
 }
@@ -118,7 +118,7 @@ compare::TetrahedronCase tetrahedron_question(const compare::SweepIn& in, const 
     const std::size_t other = seen_from[corner][k];
     question.corner[k + 1] = x[rest.corner[other]];
     question.start[k + 1] = in.start[static_cast<std::size_t>(rest.corner[other])];
-    question.weight[k] = rest.weight[place_of_pair(corner, other)];
+    question.weight[k] = rest.weight[index_of_pair(corner, other)];
     question.gradient[k] = gradient_of(rest, other);
   }
   question.inverse = rest.inverse;

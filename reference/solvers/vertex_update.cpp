@@ -43,10 +43,10 @@ struct System {
   double force_error = 0, block_error = 0;
 };
 
-System system_of(const VertexTerms& terms, const VertexPlace& place, std::span<const std::size_t> choice) {
-  const Vec3 pull = times(place.inertia, minus(wide(place.target), wide(place.old)));
-  System sum{pull, {place.inertia, 0, 0, place.inertia, 0, place.inertia}};
-  double errors_force = compare::sweep_inertia_tolerance * norm(pull), errors_block = place.inertia * std::sqrt(3.0);
+System system_of(const VertexTerms& terms, const FreeVertex& vertex, std::span<const std::size_t> choice) {
+  const Vec3 pull = times(vertex.inertia, minus(wide(vertex.target), wide(vertex.old)));
+  System sum{pull, {vertex.inertia, 0, 0, vertex.inertia, 0, vertex.inertia}};
+  double errors_force = compare::sweep_inertia_tolerance * norm(pull), errors_block = vertex.inertia * std::sqrt(3.0);
   double moduli_force = norm(pull), moduli_block = norm(sum.block);
   for (std::size_t i = 0; i < terms.terms.size(); ++i) {
     const Term& term = terms.terms[i];
@@ -66,22 +66,22 @@ System system_of(const VertexTerms& terms, const VertexPlace& place, std::span<c
 }
 
 /// The point of the ball that is closest to x.
-Vec3 projected(const Vec3& x, const VertexPlace& place) {
-  const Vec3 step = minus(x, wide(place.previous));
+Vec3 projected(const Vec3& x, const FreeVertex& vertex) {
+  const Vec3 step = minus(x, wide(vertex.previous));
   const double length = norm(step);
-  return length > place.bound ? plus(wide(place.previous), times(place.bound / length, step)) : x;
+  return length > vertex.bound ? plus(wide(vertex.previous), times(vertex.bound / length, step)) : x;
 }
 
-double truncation_error(const VertexPlace& place) {
-  const Vec3f& p = place.previous;
+double truncation_error(const FreeVertex& vertex) {
+  const Vec3f& p = vertex.previous;
   return compare::truncate_position_tolerance * u *
-         (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + place.bound);
+         (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + vertex.bound);
 }
 
 /// How far beyond the nearest of its half-spaces x lies [m]; negative inside all, minus infinity without any.
-double beyond_planes(const VertexPlace& place, const Vec3& x) {
+double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
   double beyond = -infinity;
-  for (const compare::VertexPlane& plane : place.planes) {
+  for (const compare::VertexPlane& plane : vertex.planes) {
     const Vec3 n = wide(plane.normal);
     beyond = std::max(beyond, (inner(n, x) - plane.offset) / norm(n));
   }
@@ -89,10 +89,10 @@ double beyond_planes(const VertexPlace& place, const Vec3& x) {
 }
 
 /// What an ill-conditioned vertex is held to: dx·f ≥ −‖dx‖(φ + η‖dx‖) and what storing adds, where nothing was cut.
-double accepted_without_position(const System& system, const VertexPlace& place, const Vec3f& answer) {
-  const Vec3 moved = minus(wide(answer), wide(place.old));
-  const bool may_be_cut = norm(minus(wide(answer), wide(place.previous))) + truncation_error(place) >= place.bound ||
-                          beyond_planes(place, wide(answer)) + truncation_error(place) >= 0;
+double accepted_without_position(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
+  const Vec3 moved = minus(wide(answer), wide(vertex.old));
+  const bool may_be_cut = norm(minus(wide(answer), wide(vertex.previous))) + truncation_error(vertex) >= vertex.bound ||
+                          beyond_planes(vertex, wide(answer)) + truncation_error(vertex) >= 0;
   if (may_be_cut) return infinity;
   const double stored = u * norm(wide(answer)), length = norm(moved) + stored;
   const double slack = length * (system.force_error + system.block_error * length) + stored * norm(system.force);
@@ -106,23 +106,23 @@ double accepted_along(const Vec3& error, const Eigen3& eigen, const std::array<d
   return share > 0 ? norm(error) / share : *std::min_element(along.begin(), along.end());
 }
 
-VertexUpdate update_with(const System& system, const VertexPlace& place, const Vec3f& answer) {
+VertexUpdate update_with(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Eigen3 eigen = eigen_of(system.block);
   std::array<double, 3> stiffness;
   // All terms but inertia are positive semidefinite.
-  for (std::size_t i = 0; i < 3; ++i) stiffness[i] = std::max(eigen.value[i], place.inertia);
+  for (std::size_t i = 0; i < 3; ++i) stiffness[i] = std::max(eigen.value[i], vertex.inertia);
   const auto [least, most] = std::minmax_element(stiffness.begin(), stiffness.end());
   Vec3 change;
   for (std::size_t i = 0; i < 3; ++i)
     change = plus(change, times(inner(system.force, eigen.axis[i]) / stiffness[i], eigen.axis[i]));
   const double block_error = system.block_error + u * compare::sweep_solve_tolerance * *most,
                relative = block_error / *least;
-  const Vec3 proposal = plus(wide(place.old), change);
-  VertexUpdate update{projected(proposal, place)};
+  const Vec3 proposal = plus(wide(vertex.old), change);
+  VertexUpdate update{projected(proposal, vertex)};
   if (relative >= 0.5) {
     update.cut = Cut::doubtful;
     update.grey = true;
-    update.accepted = accepted_without_position({system.force, system.block, system.force_error, block_error}, place,
+    update.accepted = accepted_without_position({system.force, system.block, system.force_error, block_error}, vertex,
                                                 answer);
     return update;
   }
@@ -132,20 +132,20 @@ VertexUpdate update_with(const System& system, const VertexPlace& place, const V
   const double stored = u * (norm(proposal) + numerator / *least) + std::numeric_limits<float>::denorm_min();
   std::array<double, 3> along;
   for (std::size_t i = 0; i < 3; ++i) along[i] = numerator / stiffness[i] + stored;
-  const double largest = numerator / *least + stored, reach = norm(minus(proposal, wide(place.previous)));
-  const double beyond = beyond_planes(place, proposal), slack = largest + truncation_error(place);
+  const double largest = numerator / *least + stored, reach = norm(minus(proposal, wide(vertex.previous)));
+  const double beyond = beyond_planes(vertex, proposal), slack = largest + truncation_error(vertex);
   if (beyond > -slack) {
-    update.cut = beyond > slack || reach - largest > place.bound ? Cut::yes : Cut::doubtful;
+    update.cut = beyond > slack || reach - largest > vertex.bound ? Cut::yes : Cut::doubtful;
     update.accepted = infinity;
     return update;
   }
-  if (reach + largest <= place.bound) {
+  if (reach + largest <= vertex.bound) {
     update.accepted = accepted_along(minus(wide(answer), update.position), eigen, along);
     return update;
   }
-  update.cut = reach - largest > place.bound ? Cut::yes : Cut::doubtful;
-  const double shrunk = update.cut == Cut::yes ? place.bound / (reach - largest) : 1;
-  update.accepted = shrunk * largest + truncation_error(place);
+  update.cut = reach - largest > vertex.bound ? Cut::yes : Cut::doubtful;
+  const double shrunk = update.cut == Cut::yes ? vertex.bound / (reach - largest) : 1;
+  update.accepted = shrunk * largest + truncation_error(vertex);
   return update;
 }
 
@@ -166,9 +166,9 @@ bool advance(std::vector<std::size_t>& choice, const VertexTerms& terms) {
 
 }  // namespace
 
-VertexUpdate update_of(const VertexTerms& terms, const VertexPlace& place, const Vec3f& answer) {
+VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const Vec3f& answer) {
   std::vector<std::size_t> choice(terms.terms.size(), 0);
-  VertexUpdate best = update_with(system_of(terms, place, choice), place, answer);
+  VertexUpdate best = update_with(system_of(terms, vertex, choice), vertex, answer);
   std::size_t combinations = 1;
   for (const Term& term : terms.terms)
     combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
@@ -176,7 +176,7 @@ VertexUpdate update_of(const VertexTerms& terms, const VertexPlace& place, const
   // Where the bound hides which of them an answer has chosen, the cut may be that of any.
   bool cuts_differ = false;
   while (advance(choice, terms)) {
-    const VertexUpdate other = update_with(system_of(terms, place, choice), place, answer);
+    const VertexUpdate other = update_with(system_of(terms, vertex, choice), vertex, answer);
     cuts_differ = cuts_differ || (other.cut != best.cut && share_of(other, answer) <= 1);
     if (share_of(other, answer) < share_of(best, answer)) best = other;
   }

@@ -11,7 +11,7 @@
 namespace ogc::reference {
 
 /// Where a free vertex is and what holds it.
-struct VertexPlace {
+struct FreeVertex {
   compare::Vec3f old, target, previous;            ///< x, y, X_prev [m]
   float bound = 0;                                 ///< b_v [m]
   double inertia = 0;                              ///< m/h² [N/m]
@@ -30,6 +30,6 @@ struct VertexUpdate {
 };
 
 /// The truth about `answer`, the position that an answer holds for the vertex.
-VertexUpdate update_of(const VertexTerms& terms, const VertexPlace& place, const compare::Vec3f& answer);
+VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const compare::Vec3f& answer);
 
 }  // namespace ogc::reference

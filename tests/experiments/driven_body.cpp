@@ -2,7 +2,7 @@
 // passes through nothing.
 #include <nlohmann/json.hpp>
 
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "experiments/scenes/shapes.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"

@@ -48,6 +48,46 @@ void arithmetic_mean(const Scene& scene, RestStateOut& out) {
                                                        2);
 }
 
+std::vector<Fault> solid_rest_faults() {
+  const auto of_each = [](const char* name, void (*spoil)(RestTetrahedron&)) {
+    return rest_fault(std::string("rest_state: ") + name, [spoil](const Scene&, RestStateOut& out) {
+      for (RestTetrahedron& t : out.tetrahedra) spoil(t);
+    });
+  };
+  return {
+      rest_fault("rest_state: a third of a tetrahedron's mass to each corner",
+                 [](const Scene& scene, RestStateOut& out) {
+                   for (const Body& body : scene.bodies)
+                     for (Index v = 0; body.is_solid() && v < body.vertex_count; ++v)
+                       out.mass[static_cast<std::size_t>(body.first_vertex + v)] *= 4.0f / 3;
+                 }),
+      of_each("six times the volume of tetrahedra",
+              [](RestTetrahedron& t) {
+                t.volume *= 6, t.inverse /= 6;
+                for (float& w : t.weight) w *= 6;
+              }),
+      of_each("gradients of tetrahedra transposed",
+              [](RestTetrahedron& t) {
+                for (std::size_t k = 0; k < 3; ++k)
+                  for (std::size_t axis = 0; axis < k; ++axis) std::swap(t.gradient[k][axis], t.gradient[axis][k]);
+              }),
+      of_each("gradients of tetrahedra of the other sign",
+              [](RestTetrahedron& t) {
+                for (auto& gradient : t.gradient)
+                  for (float& g : gradient) g = -g;
+              }),
+      of_each("1/V for 1/(6V)", [](RestTetrahedron& t) { t.inverse *= 6; }),
+      of_each("weights of opposite edges exchanged", [](RestTetrahedron& t) { std::swap(t.weight[0], t.weight[5]); }),
+      of_each("two corners of tetrahedra exchanged", [](RestTetrahedron& t) { std::swap(t.corner[2], t.corner[3]); }),
+      rest_fault("rest_state: triangles of solids among those of cloth",
+                 [](const Scene& scene, RestStateOut& out) {
+                   for (const Body& body : scene.bodies)
+                     if (body.is_solid() && !body.fixed)
+                       out.triangles.push_back({scene.mesh.triangles[static_cast<std::size_t>(body.first_triangle)]});
+                 }),
+  };
+}
+
 std::vector<Fault> rest_state_faults() {
   return {
       rest_fault("rest_state: half of a triangle's mass to each corner",
@@ -238,7 +278,8 @@ void add_right_rest(Contestant& exact, const Authority& authority) {
 
 std::vector<Fault> rest_faults() {
   std::vector<Fault> all = rest_state_faults();
-  for (const auto& more : {block_faults(), initial_guess_faults()}) all.insert(all.end(), more.begin(), more.end());
+  for (const auto& more : {block_faults(), initial_guess_faults(), solid_rest_faults()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 

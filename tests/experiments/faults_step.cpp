@@ -67,6 +67,22 @@ void hold_in_first_round(const StepIn& in, StepOut& out) {
   }
 }
 
+/// The first corner takes the colour of the last.
+void share_a_colour(const StepIn&, StepOut& out) {
+  for (const RestTetrahedron& t : out.rest.tetrahedra) {
+    Index& first = out.colour[static_cast<std::size_t>(t.corner[0])];
+    const Index last = out.colour[static_cast<std::size_t>(t.corner[3])];
+    if (first >= 0 && last >= 0) first = last;
+  }
+}
+
+void bound_what_is_inside(const StepIn& in, StepOut& out) {
+  const auto ball = static_cast<float>(in.scene->settings.bound_relaxation * out.query_radius);
+  for (StepEvent& event : out.events)
+    for (std::size_t v = 0; v < event.bound.size(); ++v)
+      if (!in.topology->on_surface(static_cast<Index>(v))) event.bound[v] = ball;
+}
+
 void velocity_from_last_detection(const StepIn& in, StepOut& out) {
   const auto last = std::find_if(out.events.rbegin(), out.events.rend(), is_detection);
   const double h = in.scene->settings.time_step;
@@ -105,6 +121,8 @@ std::vector<Fault> step_faults() {
                   if (is_detection(event)) event.planes = out.events.front().planes;
               }),
       asked_wrongly("balls where planes are asked for", [](Scene& scene) { scene.settings.bounds = Bounds::ball; }),
+      spoiled("two corners of a tetrahedron of one colour", share_a_colour),
+      spoiled("a ball for vertices inside solids", bound_what_is_inside),
       spoiled("two neighbours of one colour",
               [](const StepIn&, StepOut& out) {
                 for (Index& colour : out.colour) colour = std::min(colour, 1);

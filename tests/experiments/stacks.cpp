@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/scenes/shapes.hpp"
 #include "tests/catch.hpp"

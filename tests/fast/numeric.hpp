@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "fast/kernels/accumulator.hpp"
-#include "fast/kernels/vector.hpp"
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast::test {
 

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "fast/cpu/backend.hpp"
-#include "fast/stages/probes.hpp"
+#include "fast/probes/probes.hpp"
 #include "tests/mutants/contestant.hpp"
 
 namespace ogc::tests {

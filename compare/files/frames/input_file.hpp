@@ -10,6 +10,7 @@
 
 namespace ogc::compare {
 
+/// An open binary file and the position in it.
 class InputFile {
  public:
   /// Throws InputError that names the file: missing, no regular file, unreadable.

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "compare/files/polygon_mesh.hpp"
+#include "compare/files/meshes/polygon_mesh.hpp"
 
 namespace ogc::compare {
 
+/// The frames of a simulation, read one after another.
 class MeshSequence {
  public:
   virtual ~MeshSequence() = default;
@@ -34,14 +35,14 @@ std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::p
 /// archive has neither; its positions are not looked at.
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// The same for one array of positions (numpy.save).
+/// The frames of one array of positions (numpy.save), as of an archive.
 std::unique_ptr<MeshSequence> npy_sequence(const std::filesystem::path& file, const Mesh* topology);
 
 /// The samples of a point cache (PC2: "POINTCACHE2", version, points, start, rate, samples, then float32,
 /// little-endian).
 std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// Files of a folder with one of these extensions (".obj"; in any case), in natural order. Throws InputError where
+/// Files of a folder with one of these extensions (".obj"; capitals or not), in natural order. Throws InputError where
 /// there are several kinds of them or none.
 std::vector<std::filesystem::path> mesh_files_in(const std::filesystem::path& folder,
                                                  const std::vector<std::string>& extensions);

@@ -14,8 +14,8 @@ constexpr std::size_t longest_header = 1 << 16;
 
 /// What stands behind 'key': in the header's dictionary.
 std::string_view value_of(std::string_view header, const std::string& key, const std::string& where) {
-  const std::size_t place = header.find("'" + key + "'");
-  const std::size_t colon = place == std::string_view::npos ? place : header.find(':', place);
+  const std::size_t quoted = header.find("'" + key + "'");
+  const std::size_t colon = quoted == std::string_view::npos ? quoted : header.find(':', quoted);
   if (colon == std::string_view::npos) throw InputError(where + ": its header has no '" + key + "'; it is damaged");
   header.remove_prefix(colon + 1);
   header.remove_prefix(std::min(header.find_first_not_of(' '), header.size()));

@@ -10,6 +10,7 @@
 
 namespace ogc::compare {
 
+/// An open archive, of which one member at a time can be read.
 class ZipFile {
  public:
   /// Throws InputError where it is no archive, ResourceError where this program was built without minizip.

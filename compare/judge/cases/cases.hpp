@@ -109,7 +109,7 @@ struct StepCase {
   std::shared_ptr<const Topology> topology;  ///< of its mesh
 };
 
-/// Where a sweep finds a scene; contacts and bounds follow from X_prev (compare/judge/stages/sweep_question.hpp).
+/// Where a sweep finds a scene; contacts and bounds follow from X_prev (compare/judge/engine/sweep_question.hpp).
 struct SweepCase {
   std::shared_ptr<const Scene> scene;               ///< rounded
   std::vector<Index> colour;                        ///< as in SweepIn

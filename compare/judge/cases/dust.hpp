@@ -16,10 +16,10 @@ namespace ogc::compare {
 /// radii, materials and rest data stay. Scenes stay as they are, but for the positions of a sweep.
 void add_dust(Random& random, TestCase& test);
 
-/// The coordinates of points, one place after another.
-inline std::vector<float*> coordinates_of(std::initializer_list<std::span<Vec3f>> places) {
+/// The coordinates of points, one array after another.
+inline std::vector<float*> coordinates_of(std::initializer_list<std::span<Vec3f>> arrays) {
   std::vector<float*> all;
-  for (const std::span<Vec3f> points : places)
+  for (const std::span<Vec3f> points : arrays)
     for (Vec3f& p : points) all.insert(all.end(), {&p.x, &p.y, &p.z});
   return all;
 }

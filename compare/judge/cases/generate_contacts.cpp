@@ -21,7 +21,7 @@ constexpr std::array<ContactSides, 4> all_sides{ContactSides::point_point, Conta
 /// A contact in its canonical frame: its points, now and at the last detection.
 struct Shape {
   ContactSides sides = ContactSides::point_point;
-  double size = 1, radius = 1, distance = 0;  ///< about the length of an edge; r; about d
+  double size = 1, contact_radius = 1, distance = 0;  ///< about the length of an edge; r; about d
   std::array<Vec3, 4> x{}, previous{};
   bool turned = true;  ///< may be rotated
 };
@@ -31,8 +31,8 @@ Shape sized(Random& random, ContactSides sides, double share) {
   Shape shape;
   shape.sides = sides;
   shape.size = random.magnitude(-3, 0);
-  shape.radius = shape.size * random.magnitude(-0.7, 0.5);
-  shape.distance = shape.radius * share;
+  shape.contact_radius = shape.size * random.magnitude(-0.7, 0.5);
+  shape.distance = shape.contact_radius * share;
   return shape;
 }
 
@@ -83,7 +83,7 @@ void put(Random& random, Shape& shape, double s, double t) {
   }
 }
 
-/// In the interiors, of a triangle as of two edges.
+/// A contact in the interiors of both sides.
 Shape inside(Random& random, ContactSides sides, double share) {
   Shape shape = sized(random, sides, share);
   const bool triangle = sides == ContactSides::point_triangle;
@@ -145,7 +145,7 @@ Shape nearly_parallel(Random& random) {
   }
   // One behind the other: a share of the first overlaps, or none, or the ends meet.
   const double overlap = random.one_in(2) ? random.between(-0.5, 0.5) : random.rung(),
-               aside = random.one_in(2) ? 0.0 : random.between(-1, 1) * shape.radius;
+               aside = random.one_in(2) ? 0.0 : random.between(-1, 1) * shape.contact_radius;
   shape.x = crossing(shape, length, sine, 1 - overlap, 0);
   const double tilt = random.one_in(2) ? 0.0 : sine * length;
   shape.x[2].y += aside;
@@ -158,7 +158,7 @@ Shape nearly_parallel(Random& random) {
 Shape on_grid(Random& random) {
   Shape shape = sized(random, any_sides(random), 0);
   shape.size = std::ldexp(1.0, random.below(9) - 8);
-  shape.radius = shape.size * 0.5 * (1 + random.below(6));
+  shape.contact_radius = shape.size * 0.5 * (1 + random.below(6));
   for (Vec3& p : shape.x) p = scaled(on_lattice(random, 1), shape.size);
   shape.turned = false;
   return shape;
@@ -176,7 +176,8 @@ float squared_length(const Vec3f& a, const Vec3f& b) {
   return static_cast<float>(x * x + y * y + z * z);
 }
 
-/// x and `moved`, the motion of each vertex since the start of the step, at one place.
+/// The case of a shape and `moved`, the motion of each vertex since the start of the step; one rigid motion takes both
+/// out of the canonical frame.
 FrictionForceCase placed(Random& random, const Shape& shape, const std::array<Vec3, 4>& moved) {
   std::array<Vec3, 12> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -195,7 +196,7 @@ FrictionForceCase placed(Random& random, const Shape& shape, const std::array<Ve
     contact.previous[k] = single(points[4 + k]);
     question.start[k] = single(points[8 + k]);
   }
-  contact.contact_radius = static_cast<float>(shape.radius);
+  contact.contact_radius = static_cast<float>(shape.contact_radius);
   contact.stiffness = static_cast<float>(random.magnitude(-1, 4));
   if (shape.sides == ContactSides::edge_edge && !random.one_in(4)) {
     const double stretch = random.one_in(2) ? 1 : random.magnitude(-0.5, 0.5);
@@ -230,8 +231,8 @@ Shape of_bits(Random& random) {
   shape.sides = random.one_in(2) ? ContactSides::point_point : ContactSides::point_edge;
   shape.x = points_of_bits(random);
   shape.previous = shape.x;
-  shape.radius = random.pattern();
-  shape.size = shape.radius;
+  shape.contact_radius = random.pattern();
+  shape.size = shape.contact_radius;
   shape.turned = false;
   return shape;
 }
@@ -285,7 +286,7 @@ CaseData contact_variants(Random& random) {
   return question;
 }
 
-/// Any vertices move together.
+/// Any of the vertices are updated together with the one asked about.
 CaseData contact_together(Random& random) {
   auto question = case_of<ContactForceCase>(contact_case(random, any_shape(random)));
   question.together = static_cast<std::uint8_t>(1 + random.below(15));
@@ -338,7 +339,7 @@ CaseData friction_distance(Random& random) {
                                                 : near_radius(random));
 }
 
-/// Nothing has moved, or by a grid step.
+/// No slip, or one of a grid step.
 CaseData friction_lattice(Random& random) {
   Shape shape = on_grid(random);
   shape.previous = shape.x;
@@ -350,7 +351,7 @@ CaseData friction_lattice(Random& random) {
   return question;
 }
 
-/// The motion of any bits as well.
+/// The motion has any bits, too.
 CaseData friction_bits(Random& random) {
   FrictionForceCase question = placed(random, of_bits(random), points_of_bits(random));
   question.friction = static_cast<float>(random.between(0.01, 1.5));

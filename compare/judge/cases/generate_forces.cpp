@@ -44,7 +44,7 @@ void set_material(Random& random, MembraneCase& question) {
 }
 
 /// `deform` moves the corners of the rest shape; the start lies near the result in half of the cases, at rest
-/// otherwise. The same placement for both.
+/// otherwise. One rigid motion takes both out of the canonical frame.
 template <class Deform>
 CaseData membrane_case(Random& random, Deform deform, bool lattice = false) {
   MembraneCase question;
@@ -186,7 +186,7 @@ HingeShape hinge_shape(Random& random) {
   return shape;
 }
 
-/// The two shapes of a hinge, now and at the start, at the same place.
+/// The two shapes of a hinge, now and at the start, under the same rigid motion.
 CaseData bending_case(Random& random, const HingeShape& now, const HingeShape& start, bool turned = true) {
   BendingCase question;
   question.stiffness = single(random.magnitude(-8, -2));

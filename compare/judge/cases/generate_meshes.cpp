@@ -11,8 +11,8 @@ namespace {
 
 using namespace placement;
 
-/// From so many cases on the rows whose meshes have thousands of vertices take nearly all of them: a device answers
-/// these a hundred times as fast.
+/// From so many cases on nearly all come from the rows whose meshes have thousands of vertices: a device answers these
+/// a hundred times as fast.
 constexpr std::uint64_t large_run = 1000000;
 
 constexpr std::array<int, 6> small_sizes{0, 1, 2, 3, 5, 10};
@@ -239,7 +239,7 @@ void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
   }
 }
 
-/// Edges one above the other, tilted by a rung or not at all, that end at the same place, beside each other or
+/// Edges one above the other, tilted by a rung or not at all, that end one above the other, beside each other or
 /// anywhere: what hangs at their ends decides whether one end, both or none of the overlap lies in the blocks.
 MeshBuilder pile_of(Random& random, double gap) {
   MeshBuilder builder;

@@ -99,7 +99,7 @@ Material material_of(Random& random) {
   return material;
 }
 
-/// Prescribes what has no mass, and in one of three bodies some more.
+/// Prescribes vertices without mass, and in one of three bodies some more.
 void hold(Random& random, Scene& scene, const Body& body) {
   std::vector<bool> has_triangle(at(body.vertex_count));
   for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
@@ -165,7 +165,7 @@ struct HingeShape {
   double height_a, height_b, angle;
 };
 
-/// Six hinges, all in one place, each of vertices of its own; half of the cases with a rotation.
+/// Six hinges at the same position, each with vertices of its own; half of the cases with a rotation.
 template <class Shape>
 CaseData hinges(Random& random, Shape shape_of) {
   MeshBuilder builder;

@@ -9,12 +9,28 @@
 #include "compare/judge/cases/generators.hpp"
 #include "compare/judge/cases/mesh_builder.hpp"
 #include "compare/judge/cases/placement.hpp"
+#include "compare/judge/cases/solid_block.hpp"
+#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 
 namespace {
 
 using namespace placement;
+
+/// A symmetry of the cube that mirrors would leave solids inside out at rest: their corners are then named the other
+/// way round.
+void turn_mirrored(Scene& scene) {
+  const auto at = [&](Index v) { return scene.rest_positions[static_cast<std::size_t>(v)]; };
+  for (const Body& body : scene.bodies) {
+    if (!body.is_solid()) continue;
+    const auto first = scene.mesh.tetrahedra.begin() + body.first_tetrahedron;
+    if (const auto& [a, b, c, d] = *first; orientation(at(a), at(b), at(c), at(d)) > 0) return;
+    for (auto t = first; t != first + body.tetrahedron_count; ++t) std::swap((*t)[2], (*t)[3]);
+    const std::vector<Triangle> boundary = boundary_triangles({first, first + body.tetrahedron_count});
+    std::copy(boundary.begin(), boundary.end(), scene.mesh.triangles.begin() + body.first_triangle);
+  }
+}
 
 /// A scene under construction, in metres; `spacing` is about the length of an edge.
 struct StepBuilder {
@@ -41,8 +57,8 @@ struct StepBuilder {
     scene.gravity = {0, 0, random.one_in(3) ? 0 : -9.81};
   }
 
-  /// Stiffer than inertia by up to a thousand times: beyond, a sweep's single-precision solve says little, and what it
-  /// says is stage sweep's affair.
+  /// Stiffer than inertia by up to a thousand times: beyond, a single-precision solve says little, and stage sweep asks
+  /// about it.
   Material material() {
     Material m;
     m.density = 0.2 * random.magnitude(-0.5, 0.5);
@@ -54,6 +70,18 @@ struct StepBuilder {
     m.bending_damping = random.one_in(2) ? 0 : random.magnitude(-5, -2);
     m.contact_stiffness = inertia * random.magnitude(-1, 3);
     m.friction = random.one_in(3) ? 0 : random.between(0.05, 0.8);
+    return m;
+  }
+
+  /// As much stiffer than its inertia as a sheet is.
+  Material solid_material() {
+    Material m = material();
+    m.solid_density = 1000 * random.magnitude(-0.5, 0.5);
+    const double inertia = m.solid_density * spacing * spacing / (scene.settings.time_step * scene.settings.time_step);
+    m.solid_mu = inertia * random.magnitude(-1, 2.5);
+    m.solid_lambda = random.one_in(4) ? 0 : inertia * random.magnitude(-1, 2.5);
+    m.solid_damping = random.one_in(2) ? 0 : random.magnitude(-5, -2);
+    m.contact_stiffness = inertia * spacing * random.magnitude(-1, 3);
     return m;
   }
 
@@ -74,12 +102,31 @@ struct StepBuilder {
     add(mesh, velocity, fixed);
   }
 
+  /// A block of tetrahedra that stands on the plane of a sheet at `origin`, with a vertex inside, or hangs from it. Now
+  /// and then it starts turned inside out: upside down in its own place.
+  void block(const Vec3& origin, const Vec3& velocity, bool hangs) {
+    const double height = random.between(0.5, 1.5);
+    Mesh mesh = hangs ? jittered_block(random, spacing, height) : jittered_cube(random, spacing, height);
+    const auto higher = [](const Vec3& a, const Vec3& b) { return a.z < b.z; };
+    const auto [low, high] = std::minmax_element(mesh.positions.begin(), mesh.positions.end(), higher);
+    const double lowest = low->z, highest = high->z;
+    Vec3 shift = scaled(sum(origin, {2, 2, 2}), spacing);
+    shift.z -= hangs ? highest : lowest;
+    for (Vec3& x : mesh.positions) x = sum(x, shift);
+    add(mesh, velocity, false);
+    if (!random.one_in(5)) return;
+    for (std::size_t v = scene.mesh.positions.size() - mesh.positions.size(); v < scene.mesh.positions.size(); ++v) {
+      double& z = scene.mesh.positions[v].z;
+      z = lowest + highest + 2 * shift.z - z;
+    }
+  }
+
   void add(const Mesh& mesh, const Vec3& velocity, bool fixed) {
     const auto first = scene.mesh.positions.size();
     Body body;
     body.name = "body_" + std::to_string(scene.bodies.size());
     body.fixed = fixed;
-    body.material = material();
+    body.material = mesh.tetrahedra.empty() ? material() : solid_material();
     append_body(scene, body, mesh);
     std::fill(scene.velocities.begin() + static_cast<std::ptrdiff_t>(first), scene.velocities.end(), velocity);
   }
@@ -116,6 +163,7 @@ struct StepBuilder {
     for (PrescribedMotion& motion : scene.motions)
       for (Vec3f& p : motion.keyframes.positions) p = single(*next++);
     round_to_single(scene);
+    turn_mirrored(scene);
     return StepCase{std::make_shared<Scene>(scene), std::make_shared<Topology>(build_topology(scene))};
   }
 };
@@ -309,6 +357,21 @@ CaseData bits(Random& random) {
   return builder.finish();
 }
 
+/// A block of tetrahedra that is thrown onto a sheet, or onto another block.
+CaseData solid(Random& random) {
+  StepBuilder builder(random);
+  const double speed = builder.speed(random.magnitude(-2, 0.7)), gap = random.between(0.2, 1.5);
+  const Vec3 askew{random.between(-0.5, 0.5), random.between(-0.5, 0.5), gap};
+  builder.block(askew, {builder.speed(random.between(-0.3, 0.3)), 0, -speed}, false);
+  if (random.one_in(3))
+    builder.block({}, {0, 0, 0.5 * speed}, true);
+  else
+    builder.sheet(side(random), side(random), {}, {}, random.one_in(2));
+  builder.jitter(random.between(0.01, 0.09));
+  if (random.one_in(4)) builder.scene.settings.damping = DampingForm::per_vertex;
+  return builder.finish();
+}
+
 /// Other models than the default ones.
 CaseData models(Random& random) {
   StepCase test = case_of<StepCase>(random.one_in(2) ? onto(random) : handle(random));
@@ -328,7 +391,7 @@ CaseData planes(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 12> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 13> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -338,6 +401,7 @@ constexpr std::array<Generator, 12> table{{{"fall", 12, true, fall},
                                            {"ladder.rest", 18, false, at_rest},
                                            {"bits", 6, false, bits},
                                            {"lattice", 10, false, lattice},
+                                           {"solid", 8, false, solid, 0, Stage::tetrahedron},
                                            {"models", 5, false, models},
                                            {"planes", 20, false, planes, 0, Stage::plane}}};
 

@@ -24,7 +24,7 @@ using namespace placement;
 struct Cloth {
   Scene scene;
   std::vector<Vec3> shape;
-  double radius = 0.5;  ///< r in edge lengths
+  double contact_radius = 0.5;  ///< r in edge lengths
 };
 
 /// What a family asks of `finish`. Lengths are in units of r.
@@ -50,19 +50,19 @@ Material material(Random& random) {
   return m;
 }
 
-/// A mesh at rest; `place` maps it to X_prev. Returns the number of the body's first vertex.
-template <class Place>
-Index add_body(Cloth& cloth, const Body& body, const Mesh& mesh, Place place) {
+/// A mesh at rest; `map` takes it to X_prev. Returns the number of the body's first vertex.
+template <class Map>
+Index add_body(Cloth& cloth, const Body& body, const Mesh& mesh, Map map) {
   Body named = body;
   named.name += std::to_string(cloth.scene.bodies.size());
   const std::size_t number = append_body(cloth.scene, named, mesh);
-  for (const Vec3& p : mesh.positions) cloth.shape.push_back(place(p));
+  for (const Vec3& p : mesh.positions) cloth.shape.push_back(map(p));
   return cloth.scene.bodies[number].first_vertex;
 }
 
-/// Likewise, of nx × ny cells in a plane.
-template <class Place>
-Index add_sheet(Cloth& cloth, const Body& body, int nx, int ny, Place place) {
+/// Adds a sheet of nx × ny cells in a plane likewise.
+template <class Map>
+Index add_sheet(Cloth& cloth, const Body& body, int nx, int ny, Map map) {
   Mesh mesh;
   for (int j = 0; j <= ny; ++j)
     for (int i = 0; i <= nx; ++i) mesh.positions.push_back({static_cast<double>(i), static_cast<double>(j), 0});
@@ -73,7 +73,7 @@ Index add_sheet(Cloth& cloth, const Body& body, int nx, int ny, Place place) {
       mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
-  return add_body(cloth, body, mesh, place);
+  return add_body(cloth, body, mesh, map);
 }
 
 Body body(Random& random, bool fixed = false) {
@@ -94,7 +94,7 @@ void settings(Random& random, Settings& s) {
 
 /// Fixed vertices rest, all others wander; the bounds are those of the plan.
 void move(Random& random, const Cloth& cloth, const Motion& plan, double scale, SweepCase& test) {
-  const double r = cloth.radius * scale;
+  const double r = cloth.contact_radius * scale;
   const std::vector<Index> groups = rigid_groups(*test.scene);
   const auto shifted = [&](const Vec3f& p, const Vec3& step) { return single(sum({p.x, p.y, p.z}, scaled(step, r))); };
   const bool some_bound = plan.bound == 0 && random.one_in(3);
@@ -121,7 +121,7 @@ void move(Random& random, const Cloth& cloth, const Motion& plan, double scale, 
 }
 
 CaseData finish(Random& random, Cloth cloth, const Motion& plan) {
-  for (Vec3& p : cloth.shape) p = sum(p, scaled(in_box(random, -1, 1), plan.jitter * cloth.radius));
+  for (Vec3& p : cloth.shape) p = sum(p, scaled(in_box(random, -1, 1), plan.jitter * cloth.contact_radius));
   permute(random, cloth.shape);
   if (!plan.exact) rotate(random, cloth.shape);
   const double scale = plan.exact ? std::ldexp(1.0, -random.below(9)) : random.magnitude(-2.3, 0);
@@ -129,7 +129,7 @@ CaseData finish(Random& random, Cloth cloth, const Motion& plan) {
     for (Vec3& p : *points) p = scaled(p, scale);
   cloth.scene.name = "sweep";
   settings(random, cloth.scene.settings);
-  cloth.scene.settings.contact_radius = cloth.radius * scale;
+  cloth.scene.settings.contact_radius = cloth.contact_radius * scale;
   round_to_single(cloth.scene);
   SweepCase test;
   test.scene = std::make_shared<Scene>(cloth.scene);
@@ -147,8 +147,9 @@ int cells(Random& random) { return random.one_in(6) ? 5 + random.below(4) : 1 + 
 /// Two wavy sheets, one above the other; waves and jitter are too small for them to touch, as in a step.
 Cloth two_sheets(Random& random, bool fixed_below) {
   Cloth cloth;
-  cloth.radius = random.between(0.2, 0.9);
-  const double gap = cloth.radius * random.between(0.5, 1.2), height = cloth.radius * random.between(0, 0.4);
+  cloth.contact_radius = random.between(0.2, 0.9);
+  const double gap = cloth.contact_radius * random.between(0.5, 1.2),
+               height = cloth.contact_radius * random.between(0, 0.4);
   const double dx = random.between(-0.5, 0.5), dy = random.between(-0.5, 0.5);
   add_sheet(cloth, body(random, fixed_below), cells(random), cells(random), [=](const Vec3& p) {
     return Vec3{p.x, p.y, wave(p, height)};
@@ -181,9 +182,9 @@ CaseData over_body(Random& random) {
 /// A strip folded upon itself.
 CaseData fold(Random& random) {
   Cloth cloth;
-  cloth.radius = random.between(0.2, 0.7);
+  cloth.contact_radius = random.between(0.2, 0.7);
   const int half = 2 + random.below(4);
-  const double gap = cloth.radius * random.between(0.5, 1.2);
+  const double gap = cloth.contact_radius * random.between(0.5, 1.2);
   add_sheet(cloth, body(random), 2 * half, cells(random), [=](const Vec3& p) {
     const double beyond = p.x - half;
     return beyond <= 0 ? Vec3{p.x, p.y, 0} : Vec3{half - beyond + 0.3, p.y, gap};
@@ -206,7 +207,7 @@ CaseData prescribed(Random& random) {
 /// No contact.
 CaseData alone(Random& random) {
   Cloth cloth;
-  cloth.radius = random.between(0.01, 0.1);
+  cloth.contact_radius = random.between(0.01, 0.1);
   const double height = random.between(0, 0.4);
   add_sheet(cloth, body(random), cells(random), cells(random), [=](const Vec3& p) {
     return Vec3{p.x, p.y, wave(p, height)};
@@ -218,7 +219,7 @@ CaseData alone(Random& random) {
 /// r/2 and what lies between.
 Cloth flat_sheets(Random& random, double gap, double turn = 0) {
   Cloth cloth;
-  cloth.radius = 0.5;
+  cloth.contact_radius = 0.5;
   const double dx = 0.25 * random.below(4), dy = 0.25 * random.below(4), c = std::cos(turn), s = std::sin(turn);
   add_sheet(cloth, body(random, random.one_in(3)), 1 + random.below(3), 1 + random.below(3),
             [](const Vec3& p) { return p; });
@@ -231,8 +232,8 @@ Cloth flat_sheets(Random& random, double gap, double turn = 0) {
 /// The least scenes: strips of one to three triangles, alone or one above the other.
 CaseData few(Random& random) {
   Cloth cloth;
-  cloth.radius = random.between(0.2, 0.9);
-  const double gap = cloth.radius * random.between(0.5, 1.2);
+  cloth.contact_radius = random.between(0.2, 0.9);
+  const double gap = cloth.contact_radius * random.between(0.5, 1.2);
   const int layers = 1 + random.below(2);
   for (int layer = 0; layer < layers; ++layer)
     add_body(cloth, body(random), triangle_strip(1 + random.below(3)), [=](const Vec3& p) {
@@ -252,7 +253,7 @@ CaseData lattice(Random& random) {
 /// At rest and almost so.
 CaseData at_rest(Random& random) {
   Cloth cloth;
-  cloth.radius = 0.125;
+  cloth.contact_radius = 0.125;
   add_sheet(cloth, body(random), cells(random), cells(random), [](const Vec3& p) { return p; });
   Motion motion;
   motion.exact = true;
@@ -301,7 +302,7 @@ CaseData crossing(Random& random) {
 /// Loose edges, each between the corners of two triangles, side by side, shifted along each other and tilted by a rung.
 CaseData strands(Random& random) {
   Cloth cloth;
-  const double gap = cloth.radius * random.between(0.3, 0.9);
+  const double gap = cloth.contact_radius * random.between(0.3, 0.9);
   for (int k = 0, count = 2 + random.below(2); k < count; ++k) {
     const double length = random.between(0.5, 2), end = 1 + length;
     const Mesh mesh{{{0, 0.5, 0}, {0, -0.5, 0}, {1, 0, 0}, {end, 0, 0}, {end + 1, -0.5, 0}, {end + 1, 0.5, 0}},
@@ -319,7 +320,7 @@ CaseData strands(Random& random) {
 /// A triangle, or several, without area or almost so.
 CaseData collapse(Random& random) {
   Cloth cloth;
-  cloth.radius = 0.125;
+  cloth.contact_radius = 0.125;
   const int nx = 2 + random.below(3), ny = 2 + random.below(3);
   add_sheet(cloth, body(random), nx, ny, [](const Vec3& p) { return p; });
   for (int k = 0; k < 1 + random.below(3); ++k) {
@@ -336,7 +337,7 @@ CaseData collapse(Random& random) {
 /// ‖x − X_prev‖ → b_v: without energies the proposal is y.
 CaseData at_bound(Random& random) {
   Cloth cloth;
-  cloth.radius = 0.25;
+  cloth.contact_radius = 0.25;
   Body b = body(random);
   b.material.membrane = MembraneModel::none;
   b.material.bending = BendingModel::none;
@@ -350,8 +351,8 @@ CaseData at_bound(Random& random) {
 }
 
 /// Numbers of any bits, as far as a sweep can be held to an answer: materials and time step over twelve powers of two,
-/// coordinates and bounds in their last bits, as vertices must be near their places for stencils to have a shape and
-/// for contacts to be.
+/// coordinates and bounds in their last bits, as stencils keep their shapes, and contacts exist, only where vertices
+/// stay near their positions.
 CaseData bits(Random& random) {
   constexpr int last = 17;
   SweepCase test = case_of<SweepCase>(few(random));

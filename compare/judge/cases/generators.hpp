@@ -19,7 +19,7 @@ struct Generator {
   double share;           ///< of a stage's cases, relative to the other rows
   bool generic;           ///< no degeneracy is sought: the share of grey decisions must stay below grey_share_limit
   CaseData (*make)(Random&);
-  /// left out of a run of fewer cases than this, of which one of its meshes would be too large a part
+  /// runs of fewer cases than this leave the row out, as one of its meshes would be too large a share
   std::uint64_t least = 0;
   /// A stage that the contestant must have, too: `tetrahedron` for cases about solids, `plane` for half-spaces
   std::optional<Stage> also_needs = std::nullopt;

@@ -19,24 +19,24 @@ inline constexpr float least_length = 0x1p-20f, most_length = 0x1p20f, vast = 0x
 /// What makes the question illegal, with the number at fault; empty where nothing does.
 std::string problem_of(const TestCase& test);
 
-/// The first problem that was met.
+/// Keeps the first problem that it is told of.
 class FirstProblem {
  public:
-  /// Outside [least, most], or no number.
+  /// Notes a number that lies outside of [least, most] or is NaN.
   void number(const char* what, float value, float least, float most) {
     if (value >= least && value <= most) return;
     say(what, value);
   }
-  /// A coordinate beyond most_coordinate.
+  /// Notes a coordinate beyond most_coordinate.
   void vector(const char* what, const Vec3f& v) {
     for (const float x : {v.x, v.y, v.z})
       if (!(std::abs(x) <= most_coordinate)) say(what, x);
   }
-  /// The same of each.
+  /// The same for each vector.
   void vectors(const char* what, std::span<const Vec3f> all) {
     for (const Vec3f& v : all) vector(what, v);
   }
-  /// Anything else.
+  /// Notes `otherwise` unless the condition holds.
   void require(bool holds, const char* otherwise) {
     if (!holds && text_.empty()) text_ = otherwise;
   }
@@ -49,8 +49,8 @@ class FirstProblem {
   std::string text_;
 };
 
-/// Of the points of a stencil (compare/stages/force.hpp): none apart by less than `least`, but 0, nor all by
-/// less than `least_longest`.
+/// Notes points of a stencil that lie nearer to each other than `least` without coinciding, or all within
+/// `least_longest` (compare/stages/force.hpp).
 void check_lengths(FirstProblem& problem, std::span<const Vec3f> points, float least, float least_longest = 0x1p-30f);
 
 /// Rest shape, materials and settings are those of a valid scene. Where it stands may be anything: a run collapses

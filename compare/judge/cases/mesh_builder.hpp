@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// Takes parts one after another; numbers go on.
+/// Meshes are added one after another; numbers of vertices continue.
 struct MeshBuilder {
   std::vector<Vec3> points;                    ///< in edge lengths
   std::vector<Triangle> triangles;             ///< by numbers of points

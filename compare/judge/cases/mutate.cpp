@@ -10,7 +10,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Within what is legal (compare/judge/cases/legal.hpp).
+/// Rounds to single precision and clamps to legal coordinates (compare/judge/cases/legal.hpp).
 float legal(double x) { return std::clamp(static_cast<float>(x), -most_coordinate, most_coordinate); }
 
 Vec3f point(double x, double y, double z) { return {legal(x), legal(y), legal(z)}; }
@@ -50,7 +50,7 @@ class Mutation {
     (k == 0 ? moved.x : k == 1 ? moved.y : moved.z) = k == 0 ? from.x : k == 1 ? from.y : from.z;
   }
 
-  /// To multiples of a power of two of 2⁻³ … 2⁻¹⁰ of the size.
+  /// Rounds all points to multiples of a power of two, 2⁻³ … 2⁻¹⁰ of the size.
   void coarsen(double size) {
     if (!(size > 0)) return;
     const double step = std::ldexp(1.0, std::ilogb(size) - 3 - random_.below(8));

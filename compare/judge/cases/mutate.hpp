@@ -20,18 +20,18 @@ void mutate_points(Random& random, std::span<Vec3f> points);
 /// The same, of vectors that stay numbers of single precision.
 std::vector<Vec3> mutated(Random& random, const std::vector<Vec3>& vectors);
 
-/// Points of several places in a case: moved together, each to its place again.
+/// The points of several arrays of a case, moved together.
 template <class... Points>
-void mutate_together(Random& random, Points&&... places) {
+void mutate_together(Random& random, Points&&... arrays) {
   std::vector<Vec3f> points;
-  const auto gather = [&](const auto& place) { points.insert(points.end(), place.begin(), place.end()); };
-  (gather(std::span<const Vec3f>(places)), ...);
+  const auto gather = [&](const auto& array) { points.insert(points.end(), array.begin(), array.end()); };
+  (gather(std::span<const Vec3f>(arrays)), ...);
   mutate_points(random, points);
   std::size_t at = 0;
-  const auto put = [&](std::span<Vec3f> place) {
-    for (Vec3f& p : place) p = points[at++];
+  const auto put = [&](std::span<Vec3f> array) {
+    for (Vec3f& p : array) p = points[at++];
   };
-  (put(std::span<Vec3f>(places)), ...);
+  (put(std::span<Vec3f>(arrays)), ...);
 }
 
 }  // namespace ogc::compare

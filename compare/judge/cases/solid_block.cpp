@@ -12,10 +12,7 @@ namespace {
 constexpr std::array<std::array<std::size_t, 3>, 6> paths{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
 
-}  // namespace
-
-Mesh jittered_block(Random& random, double size, double height) {
-  const std::array<Index, 3> cells{1 + random.below(2), 1 + random.below(2), 1 + random.below(2)};
+Mesh jittered(Random& random, const std::array<Index, 3>& cells, double size, double height) {
   const std::array<Index, 3> step{(cells[1] + 1) * (cells[2] + 1), cells[2] + 1, 1};
   Mesh mesh;
   for (Index i = 0; i <= cells[0]; ++i)
@@ -32,5 +29,14 @@ Mesh jittered_block(Random& random, double size, double height) {
       }
   return mesh;
 }
+
+}  // namespace
+
+Mesh jittered_block(Random& random, double size, double height) {
+  const std::array<Index, 3> cells{1 + random.below(2), 1 + random.below(2), 1 + random.below(2)};
+  return jittered(random, cells, size, height);
+}
+
+Mesh jittered_cube(Random& random, double size, double height) { return jittered(random, {2, 2, 2}, size, height); }
 
 }  // namespace ogc::compare

@@ -7,7 +7,9 @@
 namespace ogc::compare {
 
 /// Up to 2 × 2 × 2 cells of side `size` [m], `height` times as high, each of six tetrahedra about the same diagonal; of
-/// 2 × 2 × 2 one vertex lies inside. Vertices are moved by up to a tenth of a cell.
+/// 2 × 2 × 2, and of those alone, one vertex lies inside. Vertices are moved by up to a tenth of a cell.
 Mesh jittered_block(Random& random, double size, double height);
+/// The same of 2 × 2 × 2 cells.
+Mesh jittered_cube(Random& random, double size, double height);
 
 }  // namespace ogc::compare

@@ -37,8 +37,7 @@ States::States(const std::filesystem::path& folder, const Authority& authority)
   auto rounded = std::make_shared<Scene>(scene);
   round_to_single(*rounded);
   scene_ = std::move(rounded);
-  topology_ = std::make_shared<Topology>(
-      build_topology(static_cast<Index>(scene.mesh.positions.size()), scene.mesh.triangles, scene.mesh.loose_edges));
+  topology_ = std::make_shared<Topology>(build_topology(scene));
   if (topology_->edges.empty()) throw InputError(folder_ + ": the run's mesh has no edge; give a run of a mesh");
   groups_ = rigid_groups(scene);
   partners_ = exclusions(scene).partners;

@@ -55,7 +55,7 @@ class States {
   /// A vertex and a triangle, and two edges: of a contact, or near each other.
   ClosestFaceCase vertex_triangle(std::size_t frame, Random& random) const;
   ClosestPointsCase edge_edge(std::size_t frame, Random& random) const;
-  /// A contact of the frame's lists, there or a part of a step later at the frame's velocities.
+  /// A contact of the frame's lists, at the frame or within a step from it at the frame's velocities.
   FrictionForceCase contact(std::size_t frame, Random& random) const;
   /// The distance of a contact of the frame, but at least 2⁻²³ r (compare/stages/contact_force.hpp).
   ActivationCase contact_distance(std::size_t frame, Random& random) const;
@@ -94,7 +94,7 @@ class States {
   /// those of a contact, if the frame has any, else near each other.
   std::array<Index, 4> vertex_and_triangle(std::size_t frame, Random& random) const;
   std::array<Index, 4> pair_of_edges(std::size_t frame, Random& random) const;
-  /// x after this part of a step at the frame's velocity.
+  /// x after this share of a step at the frame's velocity.
   Vec3f moved(const State& state, Index v, double part = 1) const;
   MeetingMaterial meeting(Index v, Index w) const;
 

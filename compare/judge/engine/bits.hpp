@@ -18,7 +18,7 @@ class Bits {
     text_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
 
-  /// Its length, too.
+  /// An array: its length, then its entries.
   template <class T>
   void add(const std::vector<T>& values) {
     add(values.size());

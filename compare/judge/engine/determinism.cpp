@@ -12,7 +12,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// In batches of that size.
+/// The bits of the answers to cases that are asked in batches of `size`.
 std::vector<std::string> in_batches(Stage stage, Cases cases, std::size_t size, const Contestant& contestant,
                                     const Authority& authority) {
   std::vector<std::string> all;

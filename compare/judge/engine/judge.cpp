@@ -23,7 +23,8 @@ namespace ogc::compare {
 
 namespace {
 
-// Who wraps all stages of a contestant must wrap each of them.
+// visit_stages reaches every stage of the judge's list, so that code which wraps a contestant stage by stage leaves
+// none out.
 static_assert([] {
   std::size_t count = 0;
   visit_stages([&](const char*, auto) { ++count; });
@@ -116,7 +117,7 @@ class GeneratorRun {
       merged_.add(it->second);
       waiting_.erase(it);
       ++merged_count_;
-      // Batches of a family of empty meshes would never count a case.
+      // A family whose meshes are all empty would never reach the wanted number of cases.
       stopped_ = merged_.total().cases >= wanted_ || merged_count_ > wanted_ || merged_.failures >= failures_allowed;
     }
     may_go_on_.notify_all();

@@ -83,7 +83,7 @@ inline std::vector<float> to_numbers(const Json& json) {
   return numbers;
 }
 
-/// The place of a name in a list of all names. Throws InputError where it is none of them.
+/// The index of a name in a list of all names. Throws InputError where it is none of them.
 template <class Names>
 int number_of(const Json& name, const Names& names) {
   const auto found = std::find(names.begin(), names.end(), name.get<std::string>());

@@ -29,7 +29,7 @@ class Histogram {
     int exponent = 0;         ///< of the lower end
     std::uint64_t count = 0;  ///< of values
   };
-  std::vector<Octave> octaves(int lowest) const;  ///< as said of Octave
+  std::vector<Octave> octaves(int lowest) const;  ///< from octave `lowest` on
 
  private:
   std::vector<std::uint64_t> bins_;
@@ -37,8 +37,9 @@ class Histogram {
   double maximum_ = 0;
 };
 
-/// A tolerance that no error comes nearer to than this factor is loose: it would let a kernel become so much worse. It
-/// becomes tighter, or MetricInfo::loose_because says why not; a test holds the two to what it sees, both ways.
+/// A tolerance is loose where it is at least so many times the largest error: a kernel could become that much worse and
+/// pass. A loose one is tightened, or MetricInfo::loose_because says why it is not; a test finds loose tolerances
+/// without a reason, and reasons without one.
 inline constexpr double loose_factor = 50;
 
 /// The errors of one metric.
@@ -79,7 +80,7 @@ class Tally {
     if (const auto excess = note_error(metric, value)) mismatch(*excess + where());
   }
   void mismatch(std::string message);  ///< a wrong answer to the present case
-  /// Grey decisions have accepted answers that are not the exact ones.
+  /// Counts grey decisions whose accepted answer is not the exact one.
   void answered_not_exactly(std::uint64_t count = 1) { row_->not_exact += count; }
   void add(const Tally& other);
 

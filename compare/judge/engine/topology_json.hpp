@@ -5,23 +5,31 @@
 #include <vector>
 
 #include "compare/judge/engine/numbers_json.hpp"
+#include "compare/problem/error.hpp"
 #include "compare/problem/mesh.hpp"
 
 namespace ogc::compare {
 
-/// Vertex count, triangles and loose edges.
+/// Vertex count, triangles and loose edges; vertices inside solids, where there are any.
 inline Json topology_to_json(const Topology& topology) {
   Json loose = Json::array();
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
     if (topology.edge_triangles[e].empty()) loose.push_back(topology.edges[e]);
-  return {{"vertex_count", topology.vertex_count}, {"triangles", topology.triangles}, {"loose_edges", loose}};
+  Json json{{"vertex_count", topology.vertex_count}, {"triangles", topology.triangles}, {"loose_edges", loose}};
+  if (!topology.inside_solid.empty()) json["inside_solid"] = topology.inside_solid;
+  return json;
 }
 
 /// Throws what the JSON library or build_topology throw.
 inline std::shared_ptr<const Topology> to_topology(const Json& json) {
   const auto triangles = json.at("triangles").get<std::vector<Triangle>>();
   const auto loose = json.at("loose_edges").get<std::vector<Edge>>();
-  return std::make_shared<Topology>(build_topology(json.at("vertex_count").get<Index>(), triangles, loose));
+  auto topology = std::make_shared<Topology>(build_topology(json.at("vertex_count").get<Index>(), triangles, loose));
+  if (json.contains("inside_solid")) topology->inside_solid = json.at("inside_solid").get<std::vector<std::uint8_t>>();
+  if (!topology->inside_solid.empty() &&
+      topology->inside_solid.size() != static_cast<std::size_t>(topology->vertex_count))
+    throw InputError("inside_solid needs one entry a vertex");
+  return topology;
 }
 
 }  // namespace ogc::compare

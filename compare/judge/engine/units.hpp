@@ -11,7 +11,7 @@
 namespace ogc::compare {
 
 /// 0 where the error is 0, whatever the scale; otherwise the error in units of u · scale. What is below the smallest
-/// normal number 2⁻¹²⁶ is rounded to a multiple of 2⁻¹⁴⁹, which is u · 2⁻¹²⁶ off and no more to be had.
+/// normal number 2⁻¹²⁶ is rounded to a multiple of 2⁻¹⁴⁹: no kernel can avoid an error of u · 2⁻¹²⁶ there.
 inline double in_units(double error, double scale) {
   return error == 0 ? 0 : error / (unit_roundoff * (scale + 0x1p-126));
 }

@@ -25,7 +25,8 @@ Leaf leaf_of(const Json& json) {
   return json.is_string() && is_hexadecimal(json.get_ref<const std::string&>()) ? Leaf::single : Leaf::none;
 }
 
-/// What all entries of a table are; none where they differ. A table is an array of numbers, or of arrays of one length.
+/// A table is an array of numbers, or of arrays of one length. `leaf`: the type of all its entries, `none` where they
+/// differ.
 struct Table {
   Leaf leaf = Leaf::none;
   std::size_t columns = 0;  ///< 0: an array of numbers

@@ -17,9 +17,9 @@ inline constexpr int case_format_version = 3, oldest_case_format = 2;
 /// The case with its problem string and message, numbers of single precision as hexadecimal text.
 nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& message);
 
-/// Writes folder/STAGE.GENERATOR.SEED.INDEX.h5 (compare/judge/case_hdf5.hpp) and, where the case has coordinates,
-/// beside it a mesh (.obj, as print_shape_obj makes it) and a picture (.svg). Returns the path of the HDF5 file. Throws
-/// ResourceError where the disk does not take it.
+/// Writes folder/STAGE.GENERATOR.SEED.INDEX.h5 (compare/judge/report/case_hdf5.hpp) and, where the case has
+/// coordinates, beside it a mesh (.obj, as print_shape_obj makes it) and a picture (.svg). Returns the path of the HDF5
+/// file. Throws ResourceError where the disk does not take it.
 std::filesystem::path save_case(const std::filesystem::path& folder, const TestCase& test, const std::string& message);
 
 /// Reads a saved case, or one written by hand as JSON (.json, as case_to_json gives it). Throws InputError that names

@@ -19,7 +19,7 @@ constexpr std::size_t sampled = 600, sampled_of_mesh_stage = 2;
 // What all failing cases have in common says something where so many right ones lack it.
 constexpr std::uint64_t least_elsewhere = 10;
 
-/// Of the sample of a stage with so many generators.
+/// How many cases of each generator the sample of a stage has.
 std::size_t cases_of_a_generator(CaseKind kind, std::size_t generators) {
   switch (kind) {
     case CaseKind::single: return (sampled + generators - 1) / generators;
@@ -40,7 +40,7 @@ std::vector<TestCase> sample(Stage stage, std::uint64_t seed) {
   return cases;
 }
 
-/// So many of the cases, evenly.
+/// At most `most` of the cases, evenly spread.
 std::vector<TestCase> thinned(std::span<const TestCase> cases, std::size_t most) {
   std::vector<TestCase> kept;
   const std::size_t count = std::min(cases.size(), most);

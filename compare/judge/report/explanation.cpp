@@ -107,7 +107,7 @@ std::string pair_text(const AnswerPair& pair) {
   return text;
 }
 
-/// An entry alone where it is no list.
+/// An array for a list, else the one entry itself.
 Json value_json(const Quantity& quantity) {
   Json all = Json::array();
   for (std::size_t i = 0; i < quantity.entries(); ++i) {

@@ -53,7 +53,7 @@ Quantity rows(std::string name, std::string unit, const std::vector<Row>& all) {
   return quantity;
 }
 
-/// By item what `pick` takes of it.
+/// A list of what `pick` takes of each item.
 template <class Item, class Pick>
 Quantity each(std::string name, std::string unit, const std::vector<Item>& items, Pick pick) {
   std::vector<double> values;

@@ -224,7 +224,7 @@ std::vector<WrongForm> activation_forms() {
 
 struct Activation : BatchStage<Activation, &Contestant::activation, &Authority::activation>,
                     TakenWhole,
-                    ParametersInPlace<Activation>,
+                    ParametersOfCase<Activation>,
                     OfContacts {
   using Case = ActivationCase;
   static constexpr StageInfo info{.name = "activation",
@@ -240,7 +240,7 @@ struct Activation : BatchStage<Activation, &Contestant::activation, &Authority::
   static constexpr std::array parameters{
       ParameterInfo{"d", "distance [m]", std::numeric_limits<float>::min(), ranges::most}, ranges::contact_radius,
       ranges::contact_stiffness};
-  static float* place(Case& c, std::string_view name) {
+  static float* parameter(Case& c, std::string_view name) {
     return name == "d" ? &c.distance : name == "r" ? &c.contact_radius : &c.stiffness;
   }
 

@@ -43,7 +43,7 @@ struct Bending : ForceStage<Bending, BendingCase, &Contestant::bending, &Authori
   static constexpr std::array parameters{ParameterInfo{"c", "stiffness of the hinge [J]", 0x1p-60f, ranges::vast},
                                          ParameterInfo{"theta_0", "rest angle [rad]", -3.1415925f, 3.1415925f},
                                          ranges::damping};
-  static float* place(Case& c, std::string_view name) {
+  static float* parameter(Case& c, std::string_view name) {
     return name == "c" ? &c.stiffness : name == "theta_0" ? &c.rest_angle : &c.damping;
   }
 

@@ -54,7 +54,7 @@ std::vector<WrongForm> bound_forms() {
                  [](float b) { return std::nextafter(b, infinity); })};
 }
 
-struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, ParametersInPlace<Bound>, InEveryRun {
+struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, ParametersOfCase<Bound>, InEveryRun {
   using Case = BoundCase;
   static constexpr StageInfo info{.name = "bound",
                                   .question = "conservative bound of each vertex",
@@ -68,7 +68,7 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
                                                  "errors are whole units in the last place, 1 or 2 u "
                                                  "b each, of which 4 u b accepts the first ones only"}};
   static constexpr std::array parameters{ranges::bound_relaxation};
-  static float* place(Case& c, std::string_view) { return &c.bound_relaxation; }
+  static float* parameter(Case& c, std::string_view) { return &c.bound_relaxation; }
 
   static std::span<const Generator> generators() { return bound_generators(); }
 

@@ -240,7 +240,7 @@ void without_parallel_rule(ClosestPointsTruth& truth, std::size_t i) {
   truth.exact.nearly_parallel[i] = 0;
   truth.contact_distance[i] = truth.distance[i];
   truth.parameter_condition[i] =
-      std::numeric_limits<double>::infinity();  // which of the many closest points is meant, the rule alone says
+      std::numeric_limits<double>::infinity();  // of the many closest points the rule alone picks a pair
 }
 
 /// ‖e × e'‖².

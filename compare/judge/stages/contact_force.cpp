@@ -62,7 +62,7 @@ struct ContactForce : ForceStage<ContactForce, ContactForceCase, &Contestant::co
   static constexpr std::array metrics{MetricInfo{"force", "u cond", contact_force_tolerance},
                                       MetricInfo{"block", "u cond", contact_block_tolerance}};
   static constexpr std::array parameters{ranges::contact_radius, ranges::contact_stiffness};
-  static constexpr auto place = contact_place;
+  static constexpr auto parameter = contact_parameter;
 
   static std::span<const Generator> generators() { return contact_force_generators(); }
 

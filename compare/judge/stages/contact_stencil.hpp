@@ -28,7 +28,7 @@ Shape contact_shape(const ContactForceCase& c);  ///< its faces, the vertex aske
 void check_own(const ContactForceCase& c);
 
 /// "r" or "k_c" of the contact.
-inline float* contact_place(ContactForceCase& c, std::string_view name) {
+inline float* contact_parameter(ContactForceCase& c, std::string_view name) {
   return name == ranges::contact_radius.name ? &c.contact_radius : &c.stiffness;
 }
 
@@ -46,7 +46,7 @@ void add_contact(std::vector<WrongForm>& forms, ForceMember<In> stage, Contact c
     });
   changed("ogc_for_every_activation", "`ogc`, whichever activation is asked for",
           [](ContactForceCase& c) { c.activation = ContactActivation::ogc; });
-  // A rest length that is none, and not 0 either: e_k is 1.
+  // A negative square stands for no length: neither mollifier nor overlap applies, and e_k is 1.
   changed("mollifier_missing", "e_k is 1: nearly parallel edges act in full", [](ContactForceCase& c) {
     if (c.rest_squared[0] > 0) c.rest_squared = {-1, -1};
   });

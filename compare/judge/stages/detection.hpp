@@ -139,7 +139,7 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   using typename Base::Out;
   using typename Base::Truth;
   using Case = MeshCase;
-  /// R and r_q.
+  /// r and r_q.
   static constexpr std::array parameters{ranges::contact_radius, ranges::query_radius};
 
   /// Radii, which must be legal together.
@@ -265,6 +265,7 @@ std::vector<WrongForm> question_forms(Detection<Truth> stage) {
 template <class Contact>
 using Owner = Index (*)(const Contact&);
 
+/// The length of each list that is not empty.
 template <class Contact>
 std::map<Index, std::size_t> lengths(const std::vector<Contact>& contacts, Owner<Contact> owner) {
   std::map<Index, std::size_t> count;

@@ -58,7 +58,7 @@ Quantity block_quantity(const Block& block) {
 /// `S::roles(case)`: what the vertices of the stencil are, those that it lacks left out; `S::checked(case)`: a case
 /// that was read, or InputError.
 template <class S, class StencilCase, auto contestant, auto authority>
-struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, ParametersInPlace<S> {
+struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, ParametersOfCase<S> {
   using Base = BatchStage<S, contestant, authority>;
   using typename Base::In;
   using typename Base::Out;

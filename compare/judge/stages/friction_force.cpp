@@ -33,10 +33,10 @@ struct FrictionForce
   static constexpr ParameterInfo slip_limit{"slip", "slip limit ε_v h [m]", 0x1p-100f, ranges::most};
   static constexpr std::array parameters{ranges::contact_radius, ranges::contact_stiffness, ranges::friction,
                                          slip_limit};
-  static float* place(Case& c, std::string_view name) {
+  static float* parameter(Case& c, std::string_view name) {
     return name == ranges::friction.name ? &c.friction
            : name == slip_limit.name     ? &c.slip_limit
-                                         : contact_place(c.contact, name);
+                                         : contact_parameter(c.contact, name);
   }
 
   static std::span<const Generator> generators() { return friction_force_generators(); }

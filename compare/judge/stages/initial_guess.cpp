@@ -216,7 +216,7 @@ std::vector<WrongForm> initial_guess_forms() {
 
 struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Authority::initial_guess>,
                       TakenWhole,
-                      ParametersInPlace<InitialGuess>,
+                      ParametersOfCase<InitialGuess>,
                       InEveryRun {
   using Case = InitialGuessCase;
   static constexpr StageInfo info{.name = "initial_guess",
@@ -229,7 +229,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
   static constexpr std::array metrics{MetricInfo{"target", "u scale", initial_guess_target_tolerance},
                                       MetricInfo{"position", "u (|x_prev| + b)", truncate_position_tolerance}};
   static constexpr std::array parameters{ranges::time_step, ranges::bound};
-  static float* place(Case& c, std::string_view name) { return name == "h" ? &c.time_step : &c.bound; }
+  static float* parameter(Case& c, std::string_view name) { return name == "h" ? &c.time_step : &c.bound; }
 
   static std::span<const Generator> generators() { return table; }
 

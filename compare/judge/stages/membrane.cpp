@@ -45,7 +45,7 @@ struct Membrane : ForceStage<Membrane, MembraneCase, &Contestant::membrane, &Aut
   static constexpr std::array parameters{
       ParameterInfo{"lambda", "first Lamé constant times thickness [N/m]", 0, ranges::vast},
       ParameterInfo{"G", "second Lamé constant times thickness [N/m]", 0x1p-30f, ranges::vast}, ranges::damping};
-  static float* place(Case& c, std::string_view name) {
+  static float* parameter(Case& c, std::string_view name) {
     return name == "lambda" ? &c.lame_lambda : name == "G" ? &c.lame_mu : &c.damping;
   }
 

@@ -60,7 +60,7 @@ inline constexpr std::array<std::pair<const char*, double>, 10> thresholds{{{"1e
                                                                             {"1e-11", 1e-11},
                                                                             {"1e-12", 1e-12}}};
 
-/// A − b, exact.
+/// a − b, exact.
 inline Vec3 difference(const Vec3f& a, const Vec3f& b) {
   return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z};
 }

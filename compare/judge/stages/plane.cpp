@@ -152,14 +152,6 @@ std::vector<WrongForm> plane_forms() {
                       })};
 }
 
-/// Vertices inside solids, which the triangles do not tell.
-Json inside_to_json(const Topology& topology) {
-  Json inside = Json::array();
-  for (Index v = 0; v < topology.vertex_count; ++v)
-    if (!topology.on_surface(v)) inside.push_back(v);
-  return inside;
-}
-
 struct Plane : Numbered, InEveryRun {
   using Case = PlaneCase;
   using In = PlaneIn;
@@ -214,24 +206,13 @@ struct Plane : Numbered, InEveryRun {
   static Json write(const Case& c) {
     Json json = mesh_case_to_json(as_state(c));
     json["bound_relaxation"] = hexadecimal(c.bound_relaxation);
-    json["inside_solid"] = inside_to_json(*c.topology);
     return json;
   }
   static Case read(const Json& data) {
     MeshCase state = to_mesh_case(data);
-    Topology topology = *state.topology;
-    for (const Index v : data.at("inside_solid").get<std::vector<Index>>()) {
-      if (v < 0 || v >= topology.vertex_count) throw InputError("inside_solid needs numbers of vertices");
-      topology.inside_solid.resize(static_cast<std::size_t>(topology.vertex_count), 0);
-      topology.inside_solid[static_cast<std::size_t>(v)] = 1;
-    }
     std::vector<std::uint8_t> is_fixed = fixed_flags(state.rigid_groups);
-    return {std::make_shared<Topology>(std::move(topology)),
-            std::move(state.rigid_groups),
-            std::move(state.positions),
-            state.query_radius,
-            number(data.at("bound_relaxation")),
-            std::move(state.partners),
+    return {std::move(state.topology), std::move(state.rigid_groups),       std::move(state.positions),
+            state.query_radius,        number(data.at("bound_relaxation")), std::move(state.partners),
             std::move(is_fixed)};
   }
 

@@ -194,7 +194,7 @@ struct SpringStage : ForceStage<SpringStage, SpringCase, &Contestant::spring, &A
                                       MetricInfo{"block", "u cond", spring_block_tolerance}};
   static constexpr std::array parameters{ParameterInfo{"k_s", "stiffness of the spring [N/m]", 0x1p-30f, ranges::vast},
                                          ParameterInfo{"l_0", "rest length [m]", 0, ranges::most}, ranges::damping};
-  static float* place(Case& c, std::string_view name) {
+  static float* parameter(Case& c, std::string_view name) {
     return name == "k_s" ? &c.stiffness : name == "l_0" ? &c.rest_length : &c.damping;
   }
 

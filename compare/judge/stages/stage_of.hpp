@@ -90,19 +90,19 @@ struct TakenWhole {
 
 /// Answers that depend on the numbers of vertices and triangles, or have none.
 struct Numbered {
-  /// None.
+  /// Renumbering is not checked.
   static constexpr std::nullptr_t is_same_renumbered = nullptr;
 };
 
 /// Benchmarks take the stage's own generic cases.
 struct OwnCases {
-  /// None.
+  /// No scene makes a case.
   static constexpr std::nullptr_t of_scene = nullptr;
 };
 
 /// Cases that have no numbers for a problem string to set.
 struct NoParameters {
-  /// None, and none to set.
+  /// No parameter.
   static constexpr std::span<const ParameterInfo> parameters{};
   template <class Case>
   static std::string set(Case&, std::span<const Override>) {
@@ -110,13 +110,13 @@ struct NoParameters {
   }
 };
 
-/// Parameters that are numbers of the case: `S::place(case, name)` finds one.
+/// Parameters that are numbers of the case: `S::parameter(case, name)` points to one.
 template <class S>
-struct ParametersInPlace {
-  /// Each value to its place.
+struct ParametersOfCase {
+  /// Sets each number that the values name.
   template <class Case>
   static std::string set(Case& c, std::span<const Override> values) {
-    for (const Override& value : values) *S::place(c, value.name) = value.value;
+    for (const Override& value : values) *S::parameter(c, value.name) = value.value;
     return {};
   }
 };
@@ -129,7 +129,7 @@ struct InEveryRun {
 
 /// Runs with a contact have cases.
 struct OfContacts {
-  /// A contact, in runs without any.
+  /// Says so of a run whose frames have no contact.
   static std::string missing_in(const States& states) {
     return states.has_contact() ? "" : "none of its frames has a contact";
   }
@@ -170,7 +170,7 @@ struct SameQuestion {
   using Out = typename SideTypes<decltype(contestant)>::Answer;
   using Truth = typename SideTypes<decltype(authority)>::Answer;
 
-  /// Both sides have it.
+  /// Whether both sides have the stage.
   static bool can_judge(const Contestant& c, const Authority& a) { return c.*contestant && a.*authority; }
 
   /// What is to say beside an exact answer.
@@ -243,7 +243,7 @@ struct MeshStage : SameQuestion<S, contestant, authority> {
     return all;
   }
 
-  /// Of a benchmark: vertices.
+  /// What a benchmark counts: vertices.
   template <class Case>
   static std::int64_t items(const Case& c) {
     return c.topology->vertex_count;

@@ -61,7 +61,7 @@ class StepVerdict {
   std::string where(std::size_t i) const { return where_of(out_, i); }
   static std::string vertex(std::size_t v) { return ": vertex " + std::to_string(v); }
 
-  /// Judges a part by the judge of its own stage.
+  /// Judges one part of an event as its own stage is judged, and takes over the counts.
   template <class Judge>
   void part(const std::string& prefix, Stage stage, Judge judge) {
     Tally own(stage);

@@ -31,7 +31,8 @@ bool judge_half_spaces(const SweepIn& in, const SweepOut& out, std::size_t v, Ta
   return true;
 }
 
-/// Vertices that are cut, or may be, have a bound; fixed ones stay whatever it is.
+/// Whether each free or prescribed vertex lies in its region; fixed ones stay whatever theirs is. The first that does
+/// not is a mismatch.
 bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Index>& groups, Tally& tally) {
   for (std::size_t v = 0; v < in.old.size(); ++v) {
     if (in.colour[v] < 0 && groups[v] <= 0) continue;

@@ -254,7 +254,7 @@ struct TetrahedronStage
   static constexpr std::array parameters{ParameterInfo{"lambda", "first Lamé constant [Pa]", 0, ranges::vast},
                                          ParameterInfo{"G", "second Lamé constant [Pa]", 0x1p-30f, ranges::vast},
                                          ranges::damping};
-  static float* place(Case& c, std::string_view name) {
+  static float* parameter(Case& c, std::string_view name) {
     return name == "lambda" ? &c.lame_lambda : name == "G" ? &c.lame_mu : &c.damping;
   }
 

@@ -125,17 +125,17 @@ bool lies_there(const Vec3f& stored, const Vec3& exact, const Vec3f& previous, d
   return in_units(error, size + bound) <= truncate_position_tolerance;
 }
 
-/// `position(in, truth)`: where the form says that the vertex is stored; the flag is the truth's.
-template <class Place>
-WrongForm stored_at(std::string name, std::string meaning, Place place) {
-  return {std::move(name), std::move(meaning), [place](const Evidence& evidence, const Authority& authority) {
+/// `stored(X_prev, x, b_v, truth)`: where the form stores a vertex that is cut; which ones are cut the truth says.
+template <class Stored>
+WrongForm stored_at(std::string name, std::string meaning, Stored stored) {
+  return {std::move(name), std::move(meaning), [stored](const Evidence& evidence, const Authority& authority) {
             const TruncateIn in = truncate_question({&evidence.test, 1});
             const TruncateOut out = evidence.answered.truncate(in);
             const TruncateTruth truth = authority.truncate(in);
             if (out.position.size() != 1 || out.cut.size() != 1) return false;
             if (out.cut[0] != truth.cut[0] && !truth.grey[0]) return false;
             const Vec3 where = truth.cut[0]
-                                   ? place(in.previous[0], in.position[0], double{in.bound[0]}, truth.position[0])
+                                   ? stored(in.previous[0], in.position[0], double{in.bound[0]}, truth.position[0])
                                    : truth.position[0];
             return lies_there(out.position[0], where, in.previous[0], in.bound[0]);
           }};

@@ -11,7 +11,7 @@
 
 #include "compare/files/frames/mesh_sequence.hpp"
 #include "compare/files/frames/natural_order.hpp"
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 #include "experiments/program/audits/auditor.hpp"
@@ -93,7 +93,7 @@ class SequenceSource : public AuditSource {
   }
 
  private:
-  /// Of the first frame that there is something to say of: the others are most probably alike.
+  /// Logs what the first frame gives reason to say; the others are most probably alike.
   void say(const compare::LoadedMesh& loaded) {
     if (has_spoken_) return;
     const std::vector<std::string> words = words_about(loaded, "judged as they stand");
@@ -101,7 +101,7 @@ class SequenceSource : public AuditSource {
     has_spoken_ = !words.empty();
   }
 
-  /// Frames of most sequences share it.
+  /// Makes the frame's topology, unless it is the one of the frame before, as in most sequences.
   void take_topology(const compare::Mesh& mesh, const std::string& its_name) {
     const bool is_known = topology_ && static_cast<std::size_t>(topology_->vertex_count) == mesh.positions.size() &&
                           topology_->triangles == mesh.triangles && loose_edges_ == mesh.loose_edges;
@@ -156,7 +156,8 @@ FrameReader reader_of(const std::string& path) {
   return found == readers.end() ? nullptr : found->second;
 }
 
-/// Positions of another file belong to all vertices of this one.
+/// Options for a mesh that gives other files' positions their faces: it keeps each vertex, as those files count them
+/// all.
 compare::MeshOptions of_frames(compare::MeshOptions options) {
   options.keep_unused = true;
   options.weld = false;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/files/polygon_mesh.hpp"
+#include "compare/files/meshes/polygon_mesh.hpp"
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/smallest_distances.hpp"
 #include "compare/problem/element_names.hpp"
@@ -16,13 +16,13 @@ namespace ogc::experiments {
 
 /// One state, and what was found of it once it is judged.
 struct AuditedState {
-  std::string name;  ///< "step 12", a file, or "frame 3"
-  std::shared_ptr<const compare::Topology> topology;
-  std::vector<compare::Vec3> positions;  ///< [m]
-  compare::AuditResult result;
-  compare::SmallestDistances distances;
-  compare::ElementNames names;  ///< as the mesh's file counts
-  std::string text;             ///< the listed intersections in words, one line each
+  std::string name;                                   ///< "step 12", a file, or "frame 3"
+  std::shared_ptr<const compare::Topology> topology;  ///< of its mesh
+  std::vector<compare::Vec3> positions;               ///< [m]
+  compare::AuditResult result;                        ///< its intersections
+  compare::SmallestDistances distances;               ///< how near it is to touching
+  compare::ElementNames names;                        ///< as the mesh's file counts
+  std::string text;                                   ///< the listed intersections in words, one line each
 };
 
 /// States to audit, of a run or of files of other programs.

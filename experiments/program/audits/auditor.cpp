@@ -62,12 +62,14 @@ Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
   Verdict verdict;
   verdict.step = snapshot.step;
   verdict.intersections = audit(snapshot.positions);
-  if (bounds_ == compare::Bounds::off) return verdict;
-  verdict.motion = compare::motion_certificate(snapshot.positions, snapshot.previous, snapshot.bounds);
-  if (bounds_ == compare::Bounds::planes)
-    judge_planes(snapshot, verdict);
-  else
-    judge_balls(snapshot, verdict);
+  const auto certify = [&] {
+    verdict.motion = compare::motion_certificate(snapshot.positions, snapshot.previous, snapshot.bounds);
+  };
+  switch (bounds_) {
+    case compare::Bounds::ball: certify(), judge_balls(snapshot, verdict); break;
+    case compare::Bounds::planes: certify(), judge_planes(snapshot, verdict); break;
+    case compare::Bounds::off: break;
+  }
   return verdict;
 }
 

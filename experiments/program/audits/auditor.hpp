@@ -33,9 +33,9 @@ std::string left_out_of_audits(const compare::Scene& scene);
 
 /// What is exactly true of one state.
 struct Verdict {
-  std::int64_t step = 0;
-  compare::AuditResult intersections;
-  compare::MotionCertificate motion;
+  std::int64_t step = 0;                    ///< which state
+  compare::AuditResult intersections;       ///< of the state
+  compare::MotionCertificate motion;        ///< since the last detection
   std::size_t unsafe_bounds = 0;            ///< vertices whose b_v is above the exact bound of X_prev
   compare::Index worst_vertex = -1;         ///< of the largest b_v / exact bound among them
   double worst_bound = 0, exact_bound = 0;  ///< [m], of that vertex

@@ -62,7 +62,7 @@ Offenders offenders_of(const compare::AuditResult& result, const compare::Topolo
   return found;
 }
 
-std::string place_of(const Offenders& offenders, const compare::Topology& topology,
+std::string region_of(const Offenders& offenders, const compare::Topology& topology,
                      const std::vector<compare::Vec3>& positions) {
   const std::vector<Index> corners = corners_of(offenders, topology);
   if (corners.empty()) return "nowhere";
@@ -114,7 +114,7 @@ std::string show_offenders(const std::filesystem::path& folder, const std::strin
   compare::write_bytes(vtp, offenders_vtp(result, topology, positions));
   if (has_png()) compare::write_bytes(png, png_bytes(picture_of(offenders, topology, positions)));
   return name + ": " + counted(offenders.triangles.size(), "triangle") + " " +
-         place_of(offenders, topology, positions) + ": " +
+         region_of(offenders, topology, positions) + ": " +
          (has_png() ? png : "no picture (this program was built without libpng; install libpng-dev)") + ", " + vtp;
 }
 

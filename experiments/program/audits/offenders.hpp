@@ -17,12 +17,13 @@ struct Offenders {
   compare::Intersection first;            ///< in the order of the audit
 };
 
+/// The offenders of an audit's listed intersections.
 Offenders offenders_of(const compare::AuditResult& result, const compare::Topology& topology);
 
-/// Where they are, in words: "between (0.1, 0, 0.2) and (0.3, 0.1, 0.2) m". Of all corners of the triangles, edges and
-/// vertices.
-std::string place_of(const Offenders& offenders, const compare::Topology& topology,
-                     const std::vector<compare::Vec3>& positions);
+/// Where the offenders are, in words: "between (0.1, 0, 0.2) and (0.3, 0.1, 0.2) m". It holds all corners of the
+/// triangles, edges and vertices.
+std::string region_of(const Offenders& offenders, const compare::Topology& topology,
+                      const std::vector<compare::Vec3>& positions);
 
 /// A .vtp file of the offenders alone, with the corners' numbers (point data `vertex`), and of each cell its number as
 /// edge or triangle (`number`) and how many of the listed intersections it is named in (`intersections`; 0: it is the

@@ -171,7 +171,7 @@ class Painter {
   const compare::Triangle& triangle(Index t) const { return topology_.triangles[static_cast<std::size_t>(t)]; }
   const compare::Edge& edge(Index e) const { return topology_.edges[static_cast<std::size_t>(e)]; }
 
-  /// Of the whole mesh.
+  /// The region of the whole mesh.
   Region whole() const {
     Bounds bounds;
     for (const Vec3& p : positions_) bounds.add(p);
@@ -262,8 +262,8 @@ class Painter {
   const std::vector<Vec3>& positions_;
 };
 
-/// Of 26 directions that from which most is seen. The first ones look from above and aside, as people do: others must
-/// show a quarter more.
+/// The one of 26 directions from which most is seen. The first ones look from above and aside, as people do: others
+/// must show a quarter more.
 Vec3 best_direction(const Painter& painter, const Region& region, std::span<const Index> triangles) {
   Vec3 best;
   double most = 0;

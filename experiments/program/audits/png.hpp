@@ -12,8 +12,8 @@ using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue: sRGB
 
 /// Rows from the top, pixels from the left.
 struct Image {
-  std::size_t width = 0, height = 0;
-  std::vector<Colour> pixels;
+  std::size_t width = 0, height = 0;  ///< [pixels]
+  std::vector<Colour> pixels;         ///< row after row
 };
 
 /// Whether this program was built with libpng.

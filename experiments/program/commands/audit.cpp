@@ -29,7 +29,7 @@ struct Options {
   std::string show;  ///< folder of the pictures; empty: none
 };
 
-/// Of how many states pictures are made: the first ones tell what the others would.
+/// How many states get pictures: the first ones tell what the others would.
 constexpr std::size_t most_shown = 8;
 
 struct State {
@@ -106,6 +106,7 @@ struct Audits {
 struct Item {
   std::optional<AuditedState> state;
   std::string problem;
+  bool judged = false;
 };
 using Handle = std::shared_ptr<Item>;
 
@@ -144,7 +145,9 @@ Audits audit_all(AuditSource& source, const std::string& show) {
   Progress progress(0, static_cast<std::int64_t>(source.size()), "frame");
   Reading reading(source);
   const auto judge = [&](const Handle& item) {
-    if (item->state) source.judge(*item->state);
+    if (!item->state || interrupted()) return item;  // a large state takes a minute: none is begun any more
+    source.judge(*item->state);
+    item->judged = true;
     return item;
   };
   const auto keep = [&](const Handle& item) {
@@ -152,6 +155,7 @@ Audits audit_all(AuditSource& source, const std::string& show) {
       audits.stopped = item->problem;
       return;
     }
+    if (!item->judged) return;
     const AuditedState& audited = *item->state;
     audits.states.push_back(state_of(audited));
     if (!show.empty() && audited.result.count > 0 && audits.shown.size() < most_shown)

@@ -33,7 +33,7 @@ using compare::InputError;
 using compare::Stage;
 using compare::StageReport;
 
-// A generator; one that fails everywhere must not hide the others.
+// Of each generator, so that one which fails everywhere does not hide the others.
 constexpr std::size_t printed_mismatches = 3;
 // At 10⁷ cases a second more than a day of judging.
 constexpr std::uint64_t most_cases = 1'000'000'000'000;

@@ -134,7 +134,7 @@ bool within_bounds(const ToMinimiser& row) {
   return row.newton_converged && !(row.largest_distance > std::min(row.bound_by_gradient, row.bound_by_energy));
 }
 
-/// What a number of the row is not.
+/// Logs why a number of the row is not what its column promises.
 void say_doubts(const std::string& frame, const ToMinimiser& row) {
   const std::string sweeps = std::to_string(row.sweeps);
   if (!row.reached_floor)

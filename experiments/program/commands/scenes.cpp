@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/files/durable_file.hpp"
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/output.hpp"

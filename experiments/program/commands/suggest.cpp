@@ -63,12 +63,14 @@ std::string command_line(const std::string& mesh, double ground, const std::vect
 
 void run(const Options& options, const CommandContext& context) {
   const MeshInput input = read_mesh_input(options.mesh, options.reading);
-  const compare::Material cloth = layer_cloth();
+  const bool is_solid = !input.mesh.tetrahedra.empty();
+  const compare::Material material = is_solid ? soft_rubber() : layer_cloth();
+  const double density = is_solid ? material.solid_density : material.density;
   const double fall = options.fall.value_or(default_fall(input.mesh));
-  const std::vector<Row> rows = rows_of(suggest(input.mesh, cloth, fall));
+  const std::vector<Row> rows = rows_of(suggest(input.mesh, material, fall));
   const std::string command = command_line(options.mesh, lowest_point(input.mesh) - fall, rows);
   if (context.json) {
-    Json json{{"mesh", options.mesh}, {"density", cloth.density}, {"fall", fall}, {"settings", Json::object()}};
+    Json json{{"mesh", options.mesh}, {"density", density}, {"fall", fall}, {"settings", Json::object()}};
     for (const auto& [setting, unit, suggested] : rows)
       json["settings"][setting] = {{"value", suggested.value}, {"unit", unit}, {"reason", suggested.reason}};
     json["command"] = command;
@@ -77,8 +79,9 @@ void run(const Options& options, const CommandContext& context) {
   std::vector<std::vector<std::string>> lines;
   for (const auto& [setting, unit, suggested] : rows)
     lines.push_back({setting, number(suggested.value), unit, suggested.reason});
-  print_result("cloth of " + number(cloth.density) + " kg/m² that falls by " + number(fall) + " m:\n" +
-               table(lines, 4) + "\n" + command + "\n");
+  const std::string what = is_solid ? "a soft solid of " + number(density) + " kg/m³"
+                                    : "cloth of " + number(density) + " kg/m²";
+  print_result(what + " that falls by " + number(fall) + " m:\n" + table(lines, 4) + "\n" + command + "\n");
 }
 
 }  // namespace
@@ -99,9 +102,9 @@ void add_suggest_command(CLI::App& app, CommandContext& context) {
       "the\n"
       "step from how far a vertex may move between two detections, the iterations from how far a stretch wave comes in "
       "a\n"
-      "step and from how many layers lie on one another. The mesh is taken as cloth of 0.2 kg/m²; what is printed "
-      "last\n"
-      "runs it so. Lengths are in metres.\n\n"
+      "step and from how many layers lie on one another. The mesh is taken as cloth of 0.2 kg/m², "
+      "or, if\n"
+      "it has tetrahedra, as soft rubber; what is printed last runs it so. Lengths are in metres.\n\n"
       "Examples:\n"
       "  ogc suggest shirt.obj\n"
       "  ogc suggest shirt.obj --fall 0.5 --json");

@@ -5,8 +5,10 @@
 #include <filesystem>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
 #include "compare/problem/text.hpp"
 #include "experiments/program/output.hpp"
+#include "experiments/program/runs/set_material.hpp"
 #include "experiments/program/runs/suggestion.hpp"
 #include "experiments/scenes/materials.hpp"
 #include "experiments/scenes/shapes.hpp"
@@ -66,12 +68,22 @@ compare::Mesh ground_below(const Box& box, double height, double edge) {
   return mesh;
 }
 
+/// The body that falls, in words.
+std::string made_of(const compare::Body& body) {
+  const compare::Material& material = body.material;
+  if (!body.is_solid()) return "cloth of " + number(material.density) + " kg/m²";
+  const compare::Elasticity elasticity = compare::elasticity_of(material);
+  return "a solid of " + number(material.solid_density) + " kg/m³ (solid_density), " + number(elasticity.young) +
+         " Pa (solid_young), Poisson's ratio " + number(elasticity.poisson) + " (solid_poisson), damping " +
+         number(material.solid_damping) + " s (solid_damping)";
+}
+
 void say(const compare::Scene& scene, const Suggestion& found) {
   const auto line = [](const char* what, const SuggestedNumber& suggested, const char* unit) {
     log_line(std::string("  ") + what + " " + number(suggested.value) + unit + ": " + suggested.reason);
   };
-  log_line("ogc: " + scene.name + " is taken as cloth of " + number(scene.bodies[0].material.density) +
-           " kg/m² with these settings (--set changes them):");
+  log_line("ogc: " + scene.name + " is taken as " + made_of(scene.bodies[0]) +
+           " with these settings (--set changes them):");
   line("contact_radius", found.contact_radius, " m");
   line("query radius", found.query_radius, " m");
   line("contact stiffness", found.contact_stiffness, " N/m");
@@ -91,7 +103,7 @@ double default_fall(const compare::Mesh& mesh) { return box_of(mesh).fall(); }
 double lowest_point(const compare::Mesh& mesh) { return box_of(mesh).low.y; }
 
 compare::SceneFile mesh_scene(const std::string& file, const compare::MeshOptions& options,
-                              std::optional<double> ground) {
+                              std::optional<double> ground, const std::vector<std::string>& assignments) {
   MeshInput input = read_mesh_input(file, options);
   if (!input.mesh.loose_edges.empty())
     throw compare::InputError(file + ": " + input.names.loose_edge(0, input.mesh.loose_edges[0]) +
@@ -100,7 +112,12 @@ compare::SceneFile mesh_scene(const std::string& file, const compare::MeshOption
   const double height = height_of_ground(file, box, ground), fall = box.low.y - height;
   compare::Scene scene;
   scene.name = usable_name(file);
-  append_body(scene, {.name = "cloth", .material = layer_cloth()}, input.mesh);
+  if (input.mesh.tetrahedra.empty()) {
+    append_body(scene, {.name = "cloth", .material = layer_cloth()}, input.mesh);
+  } else {
+    append_body(scene, {.name = "solid", .material = soft_rubber()}, input.mesh);
+    set_solid_constants(scene, assignments);
+  }
   const Suggestion found = suggest(input.mesh, scene.bodies[0].material, fall);
   append_body(scene, {.name = "ground", .fixed = true, .material = driven_surface()},
               ground_below(box, height, found.edge_length));

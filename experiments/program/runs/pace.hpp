@@ -17,7 +17,7 @@ class Pace {
   /// However fast steps are: what a resident simulation enqueues at once (fast/stages/simulation.hpp).
   static constexpr std::int64_t most_steps = 64;
 
-  /// For the next call; 1 where nothing is known yet.
+  /// How many steps the next call takes; 1 where nothing is known yet.
   std::int64_t steps() const { return steps_; }
   /// The last call did so many steps in so much time.
   void measured(std::int64_t steps, double seconds) {

@@ -11,12 +11,12 @@ namespace ogc::experiments {
 /// What a run that goes on is computed by, and what it is asked.
 struct ResumedRun {
   RunOptions options;  ///< for contestant_of
-  RunRequest request;
+  RunRequest request;  ///< for RunSession
 };
 
-/// Of the folder. Throws compare::InputError that says what to do: no run, finished, still going on, of another program
-/// or device; scene, checkpoint or rows changed or damaged. Throws compare::ResourceError where there is no such
-/// device. Changes nothing in the folder.
+/// The run of the folder. Throws compare::InputError that says what to do: no run, finished, still going on, of another
+/// program or device; scene, checkpoint or rows changed or damaged. Throws compare::ResourceError where there is no
+/// such device. Changes nothing in the folder.
 ResumedRun resumed_run(const std::filesystem::path& folder);
 
 }  // namespace ogc::experiments

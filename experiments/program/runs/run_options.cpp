@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "compare/files/mesh_files.hpp"
-#include "compare/files/numbers.hpp"
-#include "compare/files/scene_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/ranges.hpp"
@@ -14,6 +13,7 @@
 #include "experiments/program/option_checks.hpp"
 #include "experiments/program/runs/measured_simulation.hpp"
 #include "experiments/program/runs/mesh_scene.hpp"
+#include "experiments/program/runs/set_material.hpp"
 #include "experiments/program/runs/solvers.hpp"
 #include "experiments/scenes/registry.hpp"
 
@@ -48,7 +48,8 @@ void check_scene_options(const RunOptions& options, const std::string& data) {
 compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
   const std::string data = data_folder(options.assignments);
   check_scene_options(options, data);
-  if (compare::is_mesh_file(options.scene)) return mesh_scene(options.scene, options.mesh, options.ground);
+  if (compare::is_mesh_file(options.scene))
+    return mesh_scene(options.scene, options.mesh, options.ground, options.assignments);
   if (is_scene_file(options.scene)) {
     compare::SceneFile file = compare::load_scene_file(options.scene);
     for (const std::string& note : file.notes) log_line("ogc: " + note);
@@ -70,23 +71,10 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
   return true;
 }
 
-const compare::MaterialInfo& contact_stiffness() {
-  return *std::ranges::find(compare::material_table(), "contact_stiffness", &compare::MaterialInfo::name);
-}
-
-/// k_c of every body; false where `key` names something else.
-bool set_stiffness(compare::Scene& scene, const std::string& key, const std::string& value) {
-  if (key != "contact_stiffness") return false;
-  double stiffness = 0;
-  if (!compare::parse_number(value, stiffness) || !in_range(contact_stiffness(), stiffness))
-    throw compare::InputError(key + ": '" + compare::shown(value) + "' is not " + describe_range(contact_stiffness()));
-  for (compare::Body& body : scene.bodies) body.material.contact_stiffness = stiffness;
-  return true;
-}
-
-/// Of what --set can be given.
+/// Throws where --set knows no such key.
 void expect_setting(const std::string& key) {
-  std::vector<std::string_view> names{"membrane", "bending", "contact_stiffness"};
+  std::vector<std::string_view> names{"membrane", "bending"};
+  for (const MaterialSetting& constant : material_settings()) names.push_back(constant.name);
   for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);
   if (std::ranges::find(names, key) != names.end()) return;
   throw compare::InputError(compare::unknown_name("setting", key, names));
@@ -95,7 +83,7 @@ void expect_setting(const std::string& key) {
 void set(compare::Scene& scene, const std::string& key, const std::string& value) {
   using compare::Material;
   expect_setting(key);
-  if (!set_stiffness(scene, key, value) &&
+  if (!set_material(scene, key, value) &&
       !set_model(scene, key, "membrane", value, compare::membrane_model_names(), &Material::membrane) &&
       !set_model(scene, key, "bending", value, compare::bending_model_names(), &Material::bending))
     compare::set_setting(scene.settings, key, value);
@@ -116,8 +104,9 @@ const std::vector<std::string> backend_names{"cpu", "cuda"};
 }  // namespace
 
 CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
-  const std::string kinds = "A built-in scene (" + scene_names() +
-                            "), a scene file, or a mesh file: cloth that falls on a ground";
+  const std::string kinds =
+      "A built-in scene (" + scene_names() +
+      "), a scene file, or a mesh file: cloth, or with tetrahedra a solid, that falls on a ground";
   CLI::Option* scene = command.add_option("SCENE|FILE.json|MESH", options->scene, kinds)->required();
   command
       .add_option("--ground", options->ground,
@@ -198,8 +187,8 @@ std::string settings_help() {
       "how cloth resists stretch: the model of every body that does");
   add("bending", "1", "the scene's", compare::joined(compare::bending_model_names()),
       "how cloth resists bending: the model of every body that does");
-  add("contact_stiffness", "N/m", "the scene's", compare::range_text(contact_stiffness()),
-      "force of a contact for each metre that it is too near, k_c: of every body");
+  for (const MaterialSetting& constant : material_settings())
+    add(constant.name, constant.unit, "the scene's", constant.range, constant.meaning);
   add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
   std::istringstream lines(table(rows, 4));
   const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file ";

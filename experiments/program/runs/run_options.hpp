@@ -12,14 +12,16 @@ namespace ogc::experiments {
 
 /// The options as typed.
 struct RunOptions {
+  /// as of the options with these names
   std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", from_state, out, show;
   std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
   std::int64_t steps = 0;                ///< 0: the scene's
+  /// likewise
   bool profile = false, iterations = false, condition = false, residual = false;
-  compare::MeshOptions mesh;     ///< of a mesh file in place of a scene
-  std::optional<double> ground;  ///< height of the ground below it [m]
-  int threads = 0;               ///< 0: all
-  double checkpoint_seconds = default_checkpoint_seconds;
+  compare::MeshOptions mesh;                               ///< of a mesh file in place of a scene
+  std::optional<double> ground;                            ///< height of the ground below it [m]
+  int threads = 0;                                         ///< 0: all
+  double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
 };
 
 /// Adds all of them but --threads. Returns the scene, which is required.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate.hpp"
@@ -50,7 +50,7 @@ std::int64_t frame_steps(const compare::Settings& settings) {
 
 RunRequest checked(RunRequest request) {
   compare::round_to_single(request.scene);
-  // Scenes of files have none left; what a frame holds is never looked at for it.
+  // A scene from a file has no dust left; positions of a frame are taken with theirs.
   if (const std::string dust = describe(clear_dust(request.scene)); !dust.empty())
     log_line("ogc: " + request.scene.name + ": " + dust);
   const std::string problems = compare::describe(
@@ -153,9 +153,9 @@ void RunSession::check_start() const {
 std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
   const compare::Topology topology = build_topology(request_.scene);
   const std::vector<compare::Vec3> positions = compare::to_double(state.positions);
-  const std::string place = place_of(offenders_of(result, topology), topology, positions);
-  if (request_.show.empty()) return place + " (for a picture of them add --show DIR)";
-  return place + "\n" + show_offenders(request_.show, name, result, topology, positions);
+  const std::string where = region_of(offenders_of(result, topology), topology, positions);
+  if (request_.show.empty()) return where + " (for a picture of them add --show DIR)";
+  return where + "\n" + show_offenders(request_.show, name, result, topology, positions);
 }
 
 void RunSession::open_folder() {
@@ -235,7 +235,8 @@ std::int64_t RunSession::chunk() const {
 
 bool RunSession::is_frame(std::int64_t step) const { return step % frame_steps_ == 0 || step == settings_.steps; }
 
-/// A whole run offers it, too: not only one that saves a checkpoint between two frames, or that ends before time.
+/// Whether every run offers the state of this step for an audit, also one that is never cut off; a checkpoint or an
+/// early end offers others.
 bool RunSession::is_planned(std::int64_t step) const { return request_.audit == AuditMode::every || is_frame(step); }
 
 bool RunSession::is_checkpoint_due() const { return seconds_since(saved_at_) >= request_.checkpoint_seconds; }

@@ -36,17 +36,17 @@ struct RunSeconds {
 struct RunRequest {
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the command began
   compare::Scene scene;                                                            ///< with all settings applied
-  compare::MeshSources sources;  ///< of its bodies' meshes, for messages
-  std::string scale;             ///< "smoke", …; empty for a scene file
-  std::string solver = "vbd";
-  std::string backend = "cpu";
-  AuditMode audit = AuditMode::frame;
-  bool audit_beside = false;  ///< see Auditor
-  std::optional<std::filesystem::path> from_state;
+  compare::MeshSources sources;                            ///< of its bodies' meshes, for messages
+  std::string scale;                                       ///< "smoke", …; empty for a scene file
+  std::string solver = "vbd";                              ///< as of --solver
+  std::string backend = "cpu";                             ///< as of --backend
+  AuditMode audit = AuditMode::frame;                      ///< which states are audited
+  bool audit_beside = false;                               ///< see Auditor
+  std::optional<std::filesystem::path> from_state;         ///< a frame whose state the run begins with
   std::optional<compare::Checkpoint> resume;               ///< of `folder`, whose run goes on (resume.hpp)
   double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
-  bool profile = false;
-  bool iterations = false, condition = false;  ///< see compare::SimulationOptions
+  bool profile = false;                                    ///< records times by stage
+  bool iterations = false, condition = false;              ///< see compare::SimulationOptions
   /// the contestant was wrapped so (experiments/program/runs/measured_simulation.hpp); for run.json
   bool residual = false;
   std::filesystem::path folder;
@@ -56,17 +56,19 @@ struct RunRequest {
 
 /// What a run comes to. Times of steps [ms]; not-a-number where no step was done.
 struct RunSummary {
+  /// as in run.json
   std::string scene, scale, solver, backend, device, folder, status;
-  std::vector<std::string> warnings;  ///< what can hardly be meant, in words (experiments/program/runs/warnings.hpp)
+  std::vector<std::string> warnings;  ///< about settings that are hardly meant (experiments/program/runs/warnings.hpp)
   std::string left_out_of_audits;     ///< in words; empty where nothing is
   std::string failure;                ///< what went wrong, naming primitives; empty where nothing did
-  bool was_interrupted = false;
-  bool is_unbounded = false;                   ///< bounds=off: nothing is guaranteed
+  bool was_interrupted = false;       ///< Ctrl-C ended it
+  bool is_unbounded = false;          ///< bounds=off: nothing is guaranteed
   std::int64_t first_step = 0, last_step = 0;  ///< states: from, to
-  double median_ms = 0, worst_ms = 0;
-  std::int64_t worst_step = 0;
+  double median_ms = 0, worst_ms = 0;          ///< of a step
+  std::int64_t worst_step = 0;                 ///< the step of the largest time
+  /// of both kinds in one step, and of each kind in the last one
   std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0, last_edge_edge_contacts = 0;
-  /// detections: trees brought up to date and asked
+  /// broad phases, then detections as StepMetrics counts them
   std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
   double largest_share_cut = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;

@@ -37,9 +37,10 @@ struct Measures {
   double edge = 0;  ///< length that stands for all edges [m]
   std::string edge_name;
   double gap = 0;     ///< smallest distance of primitives without a common vertex [m]; infinite where there is no pair
-  double mass = 0;    ///< mean of a vertex [kg]
+  double mass = 0;    ///< mean of a vertex, of a solid of one on its surface [kg]
   double speed = 0;   ///< at the end of the fall [m/s]
   double layers = 1;  ///< that lie on one another, on average over what is below them
+  double wave = 0;    ///< speed of a stretch wave [m/s]
 };
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -68,6 +69,35 @@ double layers_of(const compare::Mesh& mesh) {
   return seen > around && around > 0 ? seen / around : 1;
 }
 
+/// ρ A of cloth, ρ V of a solid [kg].
+double mass_of(const compare::Mesh& mesh, const compare::Material& material) {
+  const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
+  double mass = 0;
+  if (mesh.tetrahedra.empty()) {
+    for (const auto& [a, b, c] : mesh.triangles) mass += material.density * area(at(a), at(b), at(c));
+    return mass;
+  }
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    const Vec3 o = at(a), p = at(b), q = at(c), r = at(d), u{p.x - o.x, p.y - o.y, p.z - o.z},
+               v{q.x - o.x, q.y - o.y, q.z - o.z}, w{r.x - o.x, r.y - o.y, r.z - o.z};
+    const double six_volumes = u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) +
+                               u.z * (v.x * w.y - v.y * w.x);
+    mass += material.solid_density * std::abs(six_volumes) / 6;
+  }
+  return mass;
+}
+
+std::size_t surface_vertices(const compare::Topology& topology) {
+  std::size_t count = 0;
+  for (compare::Index v = 0; v < topology.vertex_count; ++v) count += topology.on_surface(v);
+  return count;
+}
+
+double wave_speed(const compare::Mesh& mesh, const compare::Material& material) {
+  return mesh.tetrahedra.empty() ? std::sqrt((2 * material.lame_mu + material.lame_lambda) / material.density)
+                                 : std::sqrt((2 * material.solid_mu + material.solid_lambda) / material.solid_density);
+}
+
 Measures measure(const compare::Mesh& mesh, const compare::Material& material, double fall) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
   const compare::Topology topology = compare::build_topology(mesh);
@@ -76,15 +106,14 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
   // Where a tenth of the edges is far shorter than most, like those around a can, they decide what may be called near.
   std::ranges::sort(lengths);
   const double middle = lengths[lengths.size() / 2], shortest = 2 * lengths[lengths.size() / 10];
-  double whole = 0;
-  for (const auto& [a, b, c] : mesh.triangles) whole += area(at(a), at(b), at(c));
   const compare::SmallestDistances gaps = compare::smallest_distances(topology, mesh.positions);
   return {std::min(middle, shortest),
           middle <= shortest ? "the median edge" : "twice what a tenth of the edges is below",
           std::min(gaps.vertex_triangle, gaps.edge_edge),
-          material.density * whole / static_cast<double>(mesh.positions.size()),
+          mass_of(mesh, material) / static_cast<double>(surface_vertices(topology)),
           std::sqrt(2 * gravity * std::max(0.0, fall)),
-          layers_of(mesh)};
+          mesh.tetrahedra.empty() ? layers_of(mesh) : 1,
+          wave_speed(mesh, material)};
 }
 
 /// `value` with two digits, not above it.
@@ -173,9 +202,9 @@ SuggestedNumber time_step_of(const Measures& mesh, double contact_radius, double
               " m/s, the end of the fall, a step is not longer than 4 γ_p r_q, what four detections let a vertex move"};
 }
 
-SuggestedNumber iterations_of(const Measures& mesh, const compare::Material& material, const Suggestion& found) {
+SuggestedNumber iterations_of(const Measures& mesh, const Suggestion& found) {
   const double stiffness = found.contact_stiffness.value, step = found.time_step.value;
-  const double rings = step * std::sqrt((2 * material.lame_mu + material.lame_lambda) / material.density) / mesh.edge;
+  const double rings = step * mesh.wave / mesh.edge;
   const double contacts = step * std::sqrt(stiffness / mesh.mass);
   const double layers = layer_sweeps(mesh, found.contact_radius.value, step);
   const double wanted = 10 * std::ceil(std::max({2 * rings, 2 * contacts, layers}) / 10);
@@ -205,7 +234,7 @@ Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material,
   result.contact_stiffness = within_stiffnesses(stiffness_of(measures, result.contact_radius.value));
   const double contact_radius = result.contact_radius.value;
   result.time_step = within_setting("time_step", time_step_of(measures, contact_radius, result.query_radius.value));
-  result.iterations = iterations_of(measures, material, result);
+  result.iterations = iterations_of(measures, result);
   return result;
 }
 

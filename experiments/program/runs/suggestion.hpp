@@ -1,6 +1,6 @@
-// What to run a mesh of cloth with where nobody says: numbers that follow from its edges, its gaps, its weight and the
-// height that it falls from, each with its reason. No search and no trial run: whoever asks gets the same answer at
-// once.
+// What to run a mesh of cloth, or a solid, with where nobody says: numbers that follow from its edges, its gaps, its
+// weight and the height that it falls from, each with its reason. No search and no trial run: whoever asks gets the
+// same answer at once.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace ogc::experiments {
 
 /// A number and the sentence that says where it comes from.
 struct SuggestedNumber {
-  double value = 0;
-  std::string reason;
+  double value = 0;    ///< in the unit of its setting
+  std::string reason;  ///< for people
 };
 
 /// Values that are easy to say (two digits, or 1, 2, 5 times a power of ten), within the ranges of `setting_table` and
@@ -26,7 +26,8 @@ struct Suggestion {
   SuggestedNumber iterations;         ///< sweeps a step [1]
 };
 
-/// For a valid mesh with triangles, `material`'s density, membrane and g = 9.81 m/s². `fall`: from how high the mesh
+/// For a valid mesh with triangles, `material`'s density, membrane (of a mesh with tetrahedra: its solid_… constants)
+/// and g = 9.81 m/s². `fall`: from how high the mesh
 /// falls before it meets something [m]; 0: it does not. The smallest gap is found exactly
 /// (compare::smallest_distances), which takes a few seconds for a million triangles. Throws compare::InputError for a
 /// mesh without a triangle.

@@ -15,19 +15,20 @@
 
 namespace ogc::experiments {
 
+/// How far the sweeps of one step, contacts and friction fixed, end from the minimiser of their energy.
 struct ToMinimiser {
-  std::string scene, device;
-  std::int64_t step = 0;  ///< whose state it is
-  std::size_t vertices = 0, free_vertices = 0;
-  std::size_t vertex_facet_contacts = 0, edge_edge_contacts = 0;
-  std::int64_t sweeps = 0;
-  bool reached_floor = false;                ///< else the sweeps came to their limit
+  std::string scene, device;                                      ///< whose step, and where it was computed
+  std::int64_t step = 0;                                          ///< whose state it is
+  std::size_t vertices = 0, free_vertices = 0;                    ///< of the scene
+  std::size_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< that are fixed
+  std::int64_t sweeps = 0;                                        ///< until the floor or the limit
+  bool reached_floor = false;                                     ///< else the sweeps came to their limit
   double residual_before = 0, residual = 0;  ///< Eq. 29 with these contacts: before the first sweep, after the last [1]
   double gradient = 0;                       ///< ‖∇E‖ after the last sweep, over all free coordinates [N]
   double energy_above = 0;                   ///< E there less E at the minimiser [J]
-  std::int64_t newton_iterations = 0;
-  double newton_residual = 0;  ///< at the minimiser [1]
-  bool newton_converged = false;
+  std::int64_t newton_iterations = 0;        ///< of the reference
+  double newton_residual = 0;                ///< at the minimiser [1]
+  bool newton_converged = false;             ///< to its tolerance
   double largest_distance = 0, rms_distance = 0;  ///< of a vertex between the two states [m]
   /// To the minimiser whose friction is lagged to itself; not-a-number where lagging anew does not come to rest [m].
   double largest_distance_own_friction = 0;

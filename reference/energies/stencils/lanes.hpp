@@ -105,7 +105,7 @@ struct Lanes {
   Lanes(double value) {
     for (Pack& pack : part) pack = everywhere(value);
   }
-  /// Of `width` doubles in a row.
+  /// Takes `width` doubles that lie in a row.
   static Lanes load(const double* from) {
     Lanes x;
     std::memcpy(x.part, from, sizeof x.part);

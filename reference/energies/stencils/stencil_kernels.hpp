@@ -26,7 +26,7 @@ struct Batch {
     for (std::size_t k = 0; k < Count; ++k) places[k] = static_cast<std::uint8_t>(k);
     add(with, at, places, to);
   }
-  /// The same with places of its own.
+  /// Adds a term whose derivatives go to other places of the stencil.
   void add(const Term& with, const std::array<Triple<double>, Count>& at, const std::array<std::uint8_t, Count>& places,
            StencilDerivatives& to) {
     term[size] = &with;

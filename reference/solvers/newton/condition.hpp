@@ -13,8 +13,9 @@ double smallest_eigenvalue(const BlockMatrix& matrix, Factor& factor);
 /// must be positive definite and factorised.
 double condition_number(const BlockMatrix& matrix, Factor& factor);
 
-/// Of the matrix of a potential's first `stencils` stencils and its inertia, from derivatives of all of them. Stencils
-/// are those of `projected` where the matrix of `derivatives` is not positive definite; not-a-number where neither is.
+/// The condition number of the matrix of a potential's first `stencils` stencils and its inertia, from derivatives of
+/// all of them. Stencils are those of `projected` where the matrix of `derivatives` is not positive definite;
+/// not-a-number where neither is.
 double condition_of_first(const Potential& potential, std::size_t stencils, const PotentialDerivatives& derivatives,
                           const PotentialDerivatives& projected);
 

@@ -57,7 +57,7 @@ class BlockMatrix {
     std::uint8_t row = 0, column = 0;
   };
   static bool earlier(const Share& a, const Share& b);
-  /// Of the stencils from `first` on, sorted.
+  /// The shares of the stencils from `first` on, sorted.
   std::vector<Share> shares_of(std::span<const StencilVertices> stencils, std::size_t first) const;
   std::vector<std::uint64_t> needed_blocks() const;
   void set_pattern(std::vector<std::uint64_t> blocks);

@@ -80,7 +80,7 @@ class Minimiser::Problem {
     return {std::sqrt(sum.norm), free > 0 ? sum.mean / static_cast<double>(free) : 0};
   }
 
-  /// Of H − shift I at the state of the derivatives. False where it is not positive definite.
+  /// Factorises H − shift I at the state of the derivatives. False where it is not positive definite.
   bool factorized(double shift) {
     if (!std::exchange(has_pattern_, true) && matrix_.set_stencils(potential_.vertices(), potential_.elastic_count()))
       factor_.analyze(matrix_);

@@ -31,7 +31,7 @@ struct Gradient {
   double mean = 0;  ///< mean ‖∂E/∂x_v‖, the numerator of Eq. 29 [N]
 };
 
-/// Of one question of a sweep.
+/// Finds the minimiser of the energy of one question of a sweep.
 class Minimiser {
  public:
   using Positions = std::vector<std::array<double, 3>>;  ///< of all vertices [m]

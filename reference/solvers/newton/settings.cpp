@@ -10,8 +10,9 @@ using enum compare::SettingKind;
 
 constexpr double most_count = 1 << 30;
 constexpr std::array<std::string_view, 3> projection_names{"none", "clamp", "absolute"};
+constexpr std::array<std::string_view, 2> truncation_names{"vertex", "pair"};  // by Truncation
 
-constexpr std::array<compare::SettingInfo, 5> rows{{
+constexpr std::array<compare::SettingInfo, 6> rows{{
     {"newton_iterations", "1", "Newton's iterations in a step at most", 1, most_count,
      compare::DeclaredSetting{whole, 50}},
     {"newton_tolerance", "1",
@@ -25,6 +26,9 @@ constexpr std::array<compare::SettingInfo, 5> rows{{
     {"projection", "1",
      "what Newton does with negative curvature of an energy: keep it, cut it off at zero, or take its absolute value",
      0, 2, compare::DeclaredSetting{choice, static_cast<double>(HessianProjection::clamp)}, projection_names},
+    {"truncation", "1",
+     "what Newton's step is cut to: each vertex to its own bound, or each near pair to a plane that travels with it", 0,
+     1, compare::DeclaredSetting{choice, static_cast<double>(Truncation::vertex)}, truncation_names},
 }};
 
 const compare::SettingsDeclaration declaration("newton", rows);
@@ -36,7 +40,8 @@ NewtonSettings newton_settings(const compare::Settings& settings) {
           .tolerance = get_setting(settings, "newton_tolerance"),
           .step_tolerance = get_setting(settings, "newton_step_tolerance"),
           .friction_solves = static_cast<std::int64_t>(get_setting(settings, "friction_solves")),
-          .projection = static_cast<HessianProjection>(get_setting(settings, "projection"))};
+          .projection = static_cast<HessianProjection>(get_setting(settings, "projection")),
+          .truncation = static_cast<Truncation>(get_setting(settings, "truncation"))};
 }
 
 }  // namespace ogc::reference

@@ -1,4 +1,4 @@
-// What Newton's method is set to beside the problem's own settings; IPC shares the last two.
+// What Newton's method is set to beside the problem's own settings; IPC shares friction_solves and projection.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,12 @@
 
 namespace ogc::reference {
 
+/// What Newton's step is held to between two detections.
+enum class Truncation {
+  vertex,  ///< each vertex to its own region, a ball or what `bounds` says
+  pair     ///< near pairs to planes that travel with them (moving_planes.hpp)
+};
+
 /// See the table of settings for ranges and defaults.
 struct NewtonSettings {
   std::int64_t iterations;       ///< a step at most
@@ -15,10 +21,11 @@ struct NewtonSettings {
   double step_tolerance;         ///< a step has also converged where no vertex wants to move faster than this [m/s]
   std::int64_t friction_solves;  ///< solves a step, each with friction lagged to the one before
   HessianProjection projection;  ///< of each stencil's Hessian
+  Truncation truncation;
 };
 
-/// As the problem carries them: newton_iterations, newton_tolerance, newton_step_tolerance, friction_solves and
-/// projection.
+/// As the problem carries them: newton_iterations, newton_tolerance, newton_step_tolerance, friction_solves,
+/// projection and truncation.
 NewtonSettings newton_settings(const compare::Settings& settings);
 
 }  // namespace ogc::reference

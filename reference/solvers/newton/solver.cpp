@@ -46,7 +46,41 @@ StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector
   matrix_.forget_pattern();
   pattern_stale_ = true;
   guess(GuessEnd::contact);
-  return finish(status_of(solve()));
+  if (newton_.truncation == Truncation::vertex) return finish(status_of(solve()));
+  detect_next_ = true;  // the guess loop knows balls alone
+  const std::uint32_t status = status_of(solve());
+  return finish(end_between_planes(status));
+}
+
+/// What is stored keeps the planes of the last detection; the bounds that are reported are those of one more, there.
+std::uint32_t NewtonSolver::end_between_planes(std::uint32_t status) {
+  if (status == compare::step_not_finite) return status;
+  if (!planes_.kept_by(rounded(x_))) return compare::step_bound_violated;
+  if (!fresh_) detect_here();
+  return status;
+}
+
+void NewtonSolver::detect_with_planes() {
+  detect_here();
+  planes_ = timed(detection, [&] {
+    const double relaxation = settings_.bound_relaxation;
+    return MovingPlanes(detect_pairs(topology_, exclusions_, detected_.previous, query_radius_, relaxation),
+                        detected_.previous, potential_.mobility(), double{query_radius_}, relaxation);
+  });
+  planes_.enter(x_);
+}
+
+std::size_t NewtonSolver::move_prescribed_between_planes() {
+  std::size_t cut = 0;
+  for (const std::size_t v : movable_) {
+    if (potential_.mobility()[v] != Mobility::prescribed) continue;
+    const Triple<double> step = target_[v] - x_[v];
+    const double share = planes_.share_inside(x_, v, step);
+    if (step != Triple<double>{} && share > 0) fresh_ = false;
+    x_[v] = share == 1 ? target_[v] : x_[v] + share * step;
+    cut += share < 1;
+  }
+  return cut;
 }
 
 std::uint32_t NewtonSolver::status_of(Outcome outcome) {
@@ -91,9 +125,10 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   const bool detects = detect_next_;
   judging_ = detects && judge_next_;
   judge_next_ = false;
-  if (detects) detect_here();
+  const bool by_vertex = newton_.truncation == Truncation::vertex;
+  if (detects) by_vertex ? detect_here() : detect_with_planes();
   pattern_stale_ = pattern_stale_ || detects;
-  const std::size_t prescribed_cut = move_prescribed();
+  const std::size_t prescribed_cut = by_vertex ? move_prescribed() : move_prescribed_between_planes();
   derive(cut_ > 0 ? newton_.projection : HessianProjection::none);
   const double force = mean_force();
   if (!std::isfinite(force)) return Outcome::not_finite;
@@ -183,13 +218,24 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
   for (std::size_t i = 0; i < free.size(); ++i) {
     const std::size_t v = free[i];
     direction.delta[v] = {solution[3 * i], solution[3 * i + 1], solution[3 * i + 2]};
-    const auto inside = regions_.inside(v, x_[v], x_[v] + direction.delta[v]);
-    direction.truncated[v] = inside.cut ? inside.x - x_[v] : direction.delta[v];
-    direction.cut += inside.cut;
     const double change = length(direction.delta[v]);
     if (!(change <= direction.largest)) direction.largest = change;
   }
+  truncate(direction);
   return direction;
+}
+
+void NewtonSolver::truncate(Direction& direction) const {
+  if (newton_.truncation == Truncation::pair) direction.truncated = planes_.truncated(x_, direction.delta);
+  for (const std::size_t v : matrix_.free_vertices()) {
+    if (newton_.truncation == Truncation::pair) {
+      direction.cut += direction.truncated[v] != direction.delta[v];
+      continue;
+    }
+    const auto inside = regions_.inside(v, x_[v], x_[v] + direction.delta[v]);
+    direction.truncated[v] = inside.cut ? inside.x - x_[v] : direction.delta[v];
+    direction.cut += inside.cut;
+  }
 }
 
 /// Adds springs to the matrix that hold each cut vertex where it is, and factorises it. A vertex that nothing but
@@ -239,14 +285,18 @@ double NewtonSolver::accepted_share(const Direction& direction) {
   return best.share;
 }
 
+double NewtonSolver::room_for(const State& delta) const {
+  if (newton_.truncation == Truncation::pair) return planes_.share_inside(x_, delta);
+  double room = 1;
+  for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, regions_.share_inside(v, x_[v], delta[v]));
+  return room;
+}
+
 /// Along δ'; where that was cut and along δ scaled to fit all balls the energy falls far more, along the latter.
 Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
   Accepted best = backtracked(potential_, x_, direction.truncated, 1, before, noise);
   if (direction.cut > 0) {
-    double room = 1;
-    for (const std::size_t v : matrix_.free_vertices())
-      room = std::min(room, regions_.share_inside(v, x_[v], direction.delta[v]));
-    Accepted scaled = backtracked(potential_, x_, direction.delta, room, before, noise);
+    Accepted scaled = backtracked(potential_, x_, direction.delta, room_for(direction.delta), before, noise);
     if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled);
   }
   return best;

@@ -32,6 +32,11 @@
 //           allows. Rounds go on while they lower the energy more. Where all vertices were cut `scaled` does the same.
 // A line search that leaves less than 10⁻³ of a step with cut vertices asks for new balls.
 //
+// Balls and half-spaces stand still, so that vertices which travel together, or along each other, need as many
+// detections as their gap goes into their way: with `truncation=pair` near pairs are held apart by planes that travel
+// with them (moving_planes.hpp), and δ' is δ with such pairs moved apart. The guess loop keeps its balls; a step ends
+// with a detection at what it stores.
+//
 // Stencils are projected where the matrix is not positive definite without it, and where the last step was cut: far
 // from the solution it rarely is. Always projected, a step of a crumpled cloth ends in a long linear tail, for the
 // projection keeps curvature that other stencils cancel.
@@ -48,6 +53,7 @@
 #include "reference/solvers/contact_step.hpp"
 #include "reference/solvers/newton/factor.hpp"
 #include "reference/solvers/newton/line_search.hpp"
+#include "reference/solvers/newton/moving_planes.hpp"
 #include "reference/solvers/newton/settings.hpp"
 
 namespace ogc::reference {
@@ -98,7 +104,14 @@ class NewtonSolver : public StepSolver, private ContactStep {
   bool factorized();
   /// Of the matrix at hand, which is factorised, and of what is left of it without friction and without contact.
   void measure_condition(compare::IterationMetrics& row);
+  void detect_with_planes();
+  /// Towards their targets, as far as planes allow; how many lag.
+  std::size_t move_prescribed_between_planes();
+  std::uint32_t end_between_planes(std::uint32_t status);
   Direction direction_of();
+  void truncate(Direction& direction) const;
+  /// The share of δ that stays inside, scaled as a whole.
+  double room_for(const State& delta) const;
   bool pin(const Direction& direction, std::vector<double>& pins);
   Accepted pinned(Direction direction, const PotentialTerms& before, double noise);
   /// The share of the best direction that was taken, or 0.
@@ -106,6 +119,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   Accepted searched(const Direction& direction, const PotentialTerms& before, double noise) const;
 
   NewtonSettings newton_;
+  MovingPlanes planes_;  ///< of the last detection, where pairs are held
   BlockMatrix matrix_;
   Factor factor_;
   PotentialDerivatives derivatives_;  ///< of the last iteration

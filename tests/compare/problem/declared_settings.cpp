@@ -24,7 +24,7 @@ constexpr std::array<SettingInfo, 1> other_rows{{
 }};
 const SettingsDeclaration declaration("tests", rows), other("another", other_rows);
 
-std::size_t place_of(std::string_view name) {
+std::size_t index_of(std::string_view name) {
   const auto table = setting_table();
   return static_cast<std::size_t>(std::ranges::find(table, name, &SettingInfo::name) - table.begin());
 }
@@ -33,12 +33,12 @@ std::size_t place_of(std::string_view name) {
 
 TEST_CASE("declared settings follow the problem's, by the names of their contestants", "[unit]") {
   // Contestants that are linked declare theirs between "another" and "tests", as their names stand.
-  const std::size_t own = place_of("tests_share");
-  CHECK(place_of("another_share") == place_of("seed") + 1);
-  CHECK(place_of("another_share") < own);
+  const std::size_t own = index_of("tests_share");
+  CHECK(index_of("another_share") == index_of("seed") + 1);
+  CHECK(index_of("another_share") < own);
   CHECK(setting_table().size() == own + 3);
-  CHECK(place_of("tests_count") == own + 1);
-  CHECK(place_of("tests_way") == own + 2);
+  CHECK(index_of("tests_count") == own + 1);
+  CHECK(index_of("tests_way") == own + 2);
 }
 
 TEST_CASE("a declared setting has its default until it is set, and is a value like any other then", "[unit]") {

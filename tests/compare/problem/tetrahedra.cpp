@@ -1,4 +1,4 @@
-// Faces, boundary and orientation of tetrahedra, and each sort of problem that a solid can have.
+// Faces, boundary and orientation of tetrahedra, and each kind of problem that a solid can have.
 #include "compare/problem/tetrahedra.hpp"
 
 #include <algorithm>
@@ -76,7 +76,7 @@ TEST_CASE("a solid's triangles are its boundary, and its scene has no problems",
   CHECK(validate(block_mesh(3, 0.1)).empty());
 }
 
-TEST_CASE("each sort of problem of a solid is named with its tetrahedron", "[unit]") {
+TEST_CASE("each kind of problem of a solid is named with its tetrahedron", "[unit]") {
   Mesh mesh = pair_of_tetrahedra();
   const auto check_only = [](const std::vector<Problem>& problems, const std::string& where, const std::string& what) {
     CHECK_THAT(describe(problems), Contains(where) && Contains(what));

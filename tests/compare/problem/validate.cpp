@@ -1,4 +1,4 @@
-// One small change to a valid mesh or scene for each sort of problem: it is found, named, and nothing else is.
+// One small change to a valid mesh or scene for each kind of problem: it is found, named, and nothing else is.
 #include "compare/problem/validate.hpp"
 
 #include <limits>
@@ -28,7 +28,7 @@ TEST_CASE("a valid mesh and a valid scene have no problems", "[unit]") {
   CHECK(describe({}).empty());
 }
 
-TEST_CASE("validate names each sort of problem of a mesh", "[unit]") {
+TEST_CASE("validate names each kind of problem of a mesh", "[unit]") {
   Mesh mesh = square();
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   SECTION("no vertices") { check_only(validate(Mesh{}), "mesh", "no vertices"); }
@@ -128,7 +128,7 @@ TEST_CASE("long lists are cut and counted", "[unit]") {
   CHECK(validate(mesh, 25).size() == 25);
 }
 
-TEST_CASE("validate names each sort of problem of a scene", "[unit]") {
+TEST_CASE("validate names each kind of problem of a scene", "[unit]") {
   Scene scene = small_scene();
   SECTION("mesh") {
     scene.mesh.triangles[0][0] = 99;
@@ -194,7 +194,7 @@ TEST_CASE("validate names each sort of problem of a scene", "[unit]") {
   }
 }
 
-TEST_CASE("validate names each sort of problem of a motion", "[unit]") {
+TEST_CASE("validate names each kind of problem of a motion", "[unit]") {
   Scene scene = small_scene();
   PrescribedMotion& motion = scene.motions[0];
   SECTION("unknown vertex") {

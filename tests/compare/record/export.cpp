@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/problem/solid_scene.hpp"

@@ -64,9 +64,9 @@ struct Question {
 /// A step of a small scene: it has lists of all kinds.
 Question step_question() {
   QuestionSizes sizes;
-  sizes.vertices = 7, sizes.edges = 12, sizes.triangles = 6, sizes.hinges = 5, sizes.bodies = 2;
+  sizes.vertices = 7, sizes.edges = 12, sizes.triangles = 6, sizes.hinges = 5, sizes.bodies = 2, sizes.tetrahedra = 3;
   sizes.settings.iterations = 3, sizes.settings.guess_rounds = 1;
-  return {&plugin_stages()[find_plugin_stage("step").value()], sizes, {1, 4, 3, 6, 5, 6, 2}};
+  return {&plugin_stages()[find_plugin_stage("step").value()], sizes, {1, 4, 3, 6, 5, 3, 6, 2}};
 }
 
 Question activation_question() {

@@ -37,12 +37,17 @@ std::vector<Vec3f> points(const ogc_vec3* p, std::size_t n) {
   return all;
 }
 
+Tetrahedron tetrahedron(const int32_t (&t)[4]) { return {t[0], t[1], t[2], t[3]}; }
+
 Body body_of(const ogc_body& b) {
   Body body{"", b.first_vertex, b.vertex_count, b.first_triangle, b.triangle_count, b.fixed != 0, {}};
+  body.first_tetrahedron = b.first_tetrahedron, body.tetrahedron_count = b.tetrahedron_count;
   Material& m = body.material;
   m.density = b.density, m.lame_lambda = b.lame_lambda, m.lame_mu = b.lame_mu, m.membrane_damping = b.membrane_damping;
   m.bending_stiffness = b.bending_stiffness, m.bending_damping = b.bending_damping,
   m.contact_stiffness = b.contact_stiffness, m.friction = b.friction;
+  m.solid_density = b.solid_density, m.solid_lambda = b.solid_lambda, m.solid_mu = b.solid_mu,
+  m.solid_damping = b.solid_damping;
   m.membrane = static_cast<MembraneModel>(b.membrane), m.bending = static_cast<BendingModel>(b.bending);
   return body;
 }
@@ -72,6 +77,7 @@ Scene scene_of(const ogc_scene& in) {
   for (Index e = 0; e < t.edge_count; ++e)
     if (t.edge_triangles.offsets[e] == t.edge_triangles.offsets[e + 1])
       scene.mesh.loose_edges.push_back({t.edges[e][0], t.edges[e][1]});
+  for (Index k = 0; k < in.tetrahedron_count; ++k) scene.mesh.tetrahedra.push_back(tetrahedron(in.tetrahedra[k]));
   for (Index k = 0; k < in.body_count; ++k) scene.bodies.push_back(body_of(in.bodies[k]));
   for (Index k = 0; k < in.spring_count; ++k) {
     const ogc_scene_spring& s = in.springs[k];
@@ -89,6 +95,17 @@ Scene scene_of(const ogc_scene& in) {
   scene.gravity = {in.gravity.x, in.gravity.y, in.gravity.z};
   scene.settings = settings_of(in.settings);
   return scene;
+}
+
+void write_solids(const RestStateOut& rest, ogc_rest_state_out& out) {
+  out.tetrahedron_count = static_cast<std::int64_t>(rest.tetrahedra.size());
+  for (std::size_t k = 0; k < rest.tetrahedra.size(); ++k) {
+    const RestTetrahedron& t = rest.tetrahedra[k];
+    std::copy(t.corner.begin(), t.corner.end(), out.solid_corner[k]);
+    out.solid_body[k] = t.body, out.volume[k] = t.volume, out.inverse[k] = t.inverse;
+    std::copy(t.weight.begin(), t.weight.end(), out.solid_weight[k]);
+    for (std::size_t i = 0; i < 3; ++i) std::copy(t.gradient[i].begin(), t.gradient[i].end(), out.solid_gradient[k][i]);
+  }
 }
 
 void write(const RestStateOut& rest, ogc_rest_state_out& out) {
@@ -112,6 +129,7 @@ void write(const RestStateOut& rest, ogc_rest_state_out& out) {
     out.meeting_stiffness[k] = rest.meetings[k].stiffness;
     out.meeting_friction[k] = rest.meetings[k].friction;
   }
+  write_solids(rest, out);
 }
 
 RestStateOut rest_of(const ogc_sweep_in& in) {
@@ -133,6 +151,13 @@ RestStateOut rest_of(const ogc_sweep_in& in) {
   rest.edge_length_squared.assign(r.edge_length_squared, r.edge_length_squared + in.scene.topology.edge_count);
   for (Index k = 0; k < in.scene.body_count * in.scene.body_count; ++k)
     rest.meetings.push_back({r.meeting_stiffness[k], r.meeting_friction[k]});
+  for (Index k = 0; k < r.tetrahedron_count; ++k) {
+    RestTetrahedron t{tetrahedron(r.solid_corner[k]), r.solid_body[k], r.volume[k], r.inverse[k]};
+    std::copy(std::begin(r.solid_weight[k]), std::end(r.solid_weight[k]), t.weight.begin());
+    for (std::size_t i = 0; i < 3; ++i)
+      std::copy(std::begin(r.solid_gradient[k][i]), std::end(r.solid_gradient[k][i]), t.gradient[i].begin());
+    rest.tetrahedra.push_back(t);
+  }
   return rest;
 }
 
@@ -145,6 +170,8 @@ std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& 
   };
   for (const RestTriangle& t : rest.triangles) join(t.corner);
   for (const RestHinge& h : rest.hinges) join(h.vertex);
+  for (const RestTetrahedron& t : rest.tetrahedra)
+    if (!breaks("tetrahedra without colours")) join(t.corner);
   for (const Spring& s : springs)
     s.third < 0 ? join(std::vector{s.first, s.second}) : join(std::vector{s.first, s.second, s.third});
   std::vector<Index> colour(groups.size(), -1);
@@ -209,8 +236,7 @@ class Step {
 
   void run() {
     const Settings& s = scene_.settings;
-    const auto moving = static_cast<double>(
-        std::count_if(groups_.begin(), groups_.end(), [](Index group) { return group != 0; }));
+    const auto moving = static_cast<double>(bounded_count(topology_, groups_));
     const double threshold = std::max(
         1.0, breaks("threshold") ? std::floor(s.redetect_fraction * moving) : std::ceil(s.redetect_fraction * moving));
     for (std::int64_t round = 0;;) {
@@ -339,6 +365,27 @@ class Trace {
 
 }  // namespace
 
+int ogc_tetrahedron(const ogc_tetrahedron_in* in, ogc_force_out* out) {
+  TetrahedronIn question;
+  for (const ogc_tetrahedron_case* c = in->cases; c != in->cases + in->n; ++c) {
+    TetrahedronCase own;
+    std::transform(std::begin(c->corner), std::end(c->corner), own.corner.begin(), point);
+    std::transform(std::begin(c->start), std::end(c->start), own.start.begin(), point);
+    std::copy(std::begin(c->weight), std::end(c->weight), own.weight.begin());
+    for (std::size_t i = 0; i < 3; ++i)
+      std::copy(std::begin(c->gradient[i]), std::end(c->gradient[i]), own.gradient[i].begin());
+    own.inverse = c->inverse, own.volume = c->volume, own.lame_lambda = c->lame_lambda, own.lame_mu = c->lame_mu;
+    own.damping = c->damping, own.damping_form = static_cast<DampingForm>(c->damping_form);
+    if (breaks("corner order")) std::swap(own.corner[2], own.corner[3]);
+    question.cases.push_back(own);
+  }
+  const ForceOut answer = ours().tetrahedron(question);
+  std::transform(answer.force.begin(), answer.force.end(), out->force, plain);
+  for (std::size_t i = 0; i < answer.block.size(); ++i)
+    std::copy(answer.block[i].begin(), answer.block[i].end(), out->block[i]);
+  return 0;
+}
+
 int ogc_rest_state(const ogc_scene* in, ogc_rest_state_out* out) {
   const Scene scene = scene_of(*in);
   const Topology topology = build_topology(scene);
@@ -347,6 +394,10 @@ int ogc_rest_state(const ogc_scene* in, ogc_rest_state_out* out) {
     for (RestHinge& h : rest.hinges) h.rest_angle = -h.rest_angle;
   write(rest, *out);
   if (breaks("area not a number") && !rest.triangles.empty()) out->area[0] = std::numeric_limits<float>::quiet_NaN();
+  if (breaks("mass of a third"))
+    for (const Body& body : scene.bodies)
+      for (Index v = 0; body.is_solid() && v < body.vertex_count; ++v) out->mass[body.first_vertex + v] *= 4.0f / 3;
+  if (breaks("behind the solids")) out->solid_body[in->tetrahedron_count] = 0;
   if (breaks("behind the list")) out->corner[in->topology.triangle_count][0] = 0;
   if (breaks("short list")) ++out->hinge_count;
   return 0;

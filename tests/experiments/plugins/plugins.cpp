@@ -186,8 +186,10 @@ TEST_CASE(
   refuses("nowhere.so", "", "there is no such file");
   refuses(OGC_SOURCE_DIR "/README.md", "", "it can't be loaded");
   refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
-  refuses(folder + "/libplugin_newer.so", "", "built for version 7");
+  refuses(folder + "/libplugin_newer.so", "", "built for version 8");
   refuses(folder + "/libplugin_older.so", "", "built for version 4");
+  refuses(folder + "/libplugin_old_scenes.so", "",
+          "built for version 6 of compare/plugin.h, and ogc_sweep takes what version 7 gives");
   refuses(folder + "/libplugin_odd_memory.so", "", "asks for memory 9");
   refuses(folder + "/libplugin_empty.so", "", "no stage's function");
   refuses(broken, "bound", "no function ogc_bound; its stages: detect_vertex_facet, detect_edge_edge, activation");
@@ -203,12 +205,21 @@ TEST_CASE(
   CHECK(contains(garbage.err, {"its worker sent a message that does not begin as its messages do"}));
 }
 
-TEST_CASE("our own rest state, sweep and step pass as a plug-in, and are timed beside ours", "[agreement]") {
+TEST_CASE("a library of the oldest version is asked about the stages whose structures are as they were",
+          "[agreement]") {
+  const ProgramResult result = run_ogc("compare bound --cases 10 --plugin " OGC_TEST_PLUGINS "/libplugin_old.so");
+  INFO(result.out << result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.out, {"old left unwritten: "}));
+}
+
+TEST_CASE("our own tetrahedra, rest state, sweep and step pass as a plug-in, and are timed beside ours",
+          "[agreement]") {
   const ProgramResult result = compare_ours("", "--cases 1000 --json");
   INFO(result.out << result.err);
   REQUIRE(result.status == 0);
   const auto json = nlohmann::json::parse(result.out);
-  REQUIRE(json.at("stages").size() == 3);
+  REQUIRE(json.at("stages").size() == 4);
   for (const auto& stage : json.at("stages")) {
     CHECK(stage.at("mismatches") == 0);
     CHECK(stage.at("cases") >= 1000);
@@ -225,6 +236,11 @@ TEST_CASE("wrong plug-ins of the stages with scenes are found, and each wrong an
        {"area not a number", "rest_state", "ours returned NaN: "},
        {"behind the list", "rest_state", "no answer: it wrote out of range: behind the end of `corner`"},
        {"short list", "rest_state", "no answer: it "},
+       {"corner order", "tetrahedron", "force"},
+       {"mass of a third", "rest_state --generator solid", "vertex "},
+       {"behind the solids", "rest_state --generator solid",
+        "no answer: it wrote out of range: behind the end of `solid_body`"},
+       {"tetrahedra without colours", "step --generator solid", "colour: vertex "},
        {"one contact dropped", "sweep", " m from the exact position"},
        {"cut", "sweep", "cut: "},
        {"crash", "sweep", "no answer: it crashed: signal 6"},
@@ -233,7 +249,8 @@ TEST_CASE("wrong plug-ins of the stages with scenes are found, and each wrong an
        {"one detection too many", "step", "no answer: it counted "},
        {"no end", "step", "no answer: the contacts of detection 0 are said to end at -1"},
        {"odd event", "step", "no answer: event 0 is of kind 9"}}));
-  const ProgramResult result = compare_ours(how, stage + (stage == "step" ? " --cases 6000" : " --cases 1500"));
+  const std::string cases = stage == "step" ? " --cases 6000" : " --cases 1500";
+  const ProgramResult result = compare_ours(how, stage + cases);
   INFO(how << "\n" << result.out << result.err);
   CHECK(result.status == 1);
   CHECK(contains(result.out, {what}));
@@ -248,6 +265,14 @@ TEST_CASE("indices of a step that name nothing are wrong answers, and no more", 
   INFO(how << "\n" << result.out << result.err);
   CHECK(result.status == 1);
   CHECK(contains(result.out, {what}));
+}
+
+TEST_CASE("a plug-in with the stage tetrahedron is asked about solids", "[agreement]") {
+  const std::string stage = GENERATE("rest_state", "sweep", "step");
+  const ProgramResult result = compare_ours("", stage + " --generator solid --cases 200 --json");
+  INFO(result.out << result.err);
+  CHECK(result.status == 0);
+  CHECK(nlohmann::json::parse(result.out).at("stages").at(0).at("cases") >= 200);
 }
 
 TEST_CASE("a sweep that hangs is ended", "[agreement]") {

@@ -60,8 +60,8 @@ TEST_CASE("contacts that find no room are counted, but not for their buckets and
   tests::TestMesh mesh;
   for (const float height : {0.0F, 0.1F}) mesh.add(tests::sheet(9, 1.0F, height));
   const compare::Topology topology = mesh.topology();
-  std::vector<Place> places;
-  for (const compare::Vec3f& x : mesh.positions) places.emplace_back(Vec{x.x, x.y, x.z});
+  std::vector<PaddedVec> padded;
+  for (const compare::Vec3f& x : mesh.positions) padded.emplace_back(Vec{x.x, x.y, x.z});
   CpuBackend backend;
   Surface<CpuBackend> surface(topology, {});
   const SurfaceView view = surface.view();
@@ -75,8 +75,8 @@ TEST_CASE("contacts that find no room are counted, but not for their buckets and
   }
   REQUIRE(*lists.noted_count <= lists.noted_capacity);
   backend.for_each_counted(lists.noted_count, lists.noted_capacity,
-                           CollectContacts{{view, {places.data()}, 0.3F}, {view, {places.data()}, 0.3F}, lists});
-  CHECK(*lists.cursor == static_cast<int>(lists.slot_mask) + 1);  // all slots are taken
+                           CollectContacts{{view, {padded.data()}, 0.3F}, {view, {padded.data()}, 0.3F}, lists});
+  CHECK(*lists.contact_count == static_cast<int>(lists.slot_mask) + 1);  // all slots are taken
   CHECK(*lists.without_slot > room);
   std::vector<int> records(static_cast<std::size_t>(lists.buckets)),
       incidences(static_cast<std::size_t>(view.vertex_count));

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "fast/kernels/arctangent.hpp"
+#include "fast/kernels/arithmetic/arctangent.hpp"
 #include "fast/kernels/separation.hpp"
 #include "tests/catch.hpp"
 
@@ -92,24 +92,24 @@ TEMPLATE_LIST_TEST_CASE("a number everywhere in a pack keeps its bits", "[proper
   }
 }
 
-TEMPLATE_LIST_TEST_CASE("a mask is false only where none of its places is true, and counts from the first place",
+TEMPLATE_LIST_TEST_CASE("a mask is false only where none of its lanes is true, and counts from the first lane",
                         "[property]", Packs) {
   for (int count = 0; count <= TestType::width + 1; ++count) {
     const auto mask = first_of<TestType>(count);
     const auto got = floats(select(mask, TestType{1.0F}, TestType{}));
     for (int i = 0; i < TestType::width; ++i) CHECK(got[static_cast<std::size_t>(i)] == (i < count ? 1.0F : 0.0F));
     CHECK(is_false(mask) == (count == 0));
-    CHECK(places(mask) == (1U << std::min(count, TestType::width)) - 1U);
+    CHECK(true_lanes(mask) == (1U << std::min(count, TestType::width)) - 1U);
   }
 }
 
-TEMPLATE_LIST_TEST_CASE("places make three packs, coordinate by coordinate", "[property]", Packs) {
+TEMPLATE_LIST_TEST_CASE("positions make three packs, coordinate by coordinate", "[property]", Packs) {
   constexpr std::size_t width = TestType::width;
-  std::array<Place, width> place;
-  std::array<const Place*, width> at;
+  std::array<PaddedVec, width> place;
+  std::array<const PaddedVec*, width> at;
   for (std::size_t k = 0; k < width; ++k) {
     const float first = 3 * static_cast<float>(k);
-    place[k] = Place({first, first + 1, first + 2});
+    place[k] = PaddedVec({first, first + 1, first + 2});
     at[k] = &place[k];
   }
   const Vector<TestType> all = transposed<TestType>(at.data());

@@ -26,7 +26,7 @@ struct Four {
     }
     return packed;
   }
-  /// Places whose weights are those of one contact by itself, bit for bit.
+  /// Lanes whose weights are those of one contact by itself, bit for bit.
   unsigned alike(ContactKind kind, const ContactWeightsOf<Pack>& weights) const {
     unsigned all = 0;
     for (int k = 0; k < Pack::width; ++k) {
@@ -66,7 +66,7 @@ TEST_CASE("edges are computed together unless they have no length or count as pa
     Pack::Mask usual;
     const auto packs = four.packs();
     const ContactWeightsOf<Pack> weights = packed::segment_weights<Pack>(packs.data(), usual);
-    REQUIRE(places(usual) == expected);
+    REQUIRE(true_lanes(usual) == expected);
     REQUIRE((four.alike(ContactKind::segment_segment, weights) & expected) == expected);
   }
 }
@@ -94,7 +94,7 @@ TEST_CASE("points over the interiors of triangles are computed together, at any 
     Pack::Mask usual;
     const auto packs = four.packs();
     const ContactWeightsOf<Pack> weights = packed::triangle_weights<Pack>(packs.data(), usual);
-    REQUIRE(places(usual) == expected);
+    REQUIRE(true_lanes(usual) == expected);
     REQUIRE((four.alike(ContactKind::point_triangle, weights) & expected) == expected);
   }
 }

@@ -7,7 +7,7 @@
 using namespace ogc::fast;
 
 TEST_CASE(
-    "gaps of a node's four lanes at once are those of its boxes one by one, whatever primitives and reaches stand "
+    "gaps of a node's four children at once are those of its boxes one by one, whatever primitives and reaches stand "
     "beside them",
     "[property]") {
   std::mt19937 random(7);
@@ -25,15 +25,15 @@ TEST_CASE(
     for (int k = 0; k < filled; ++k) {
       const Box own = box();
       const int primitive = trial % 3 == 0 ? -1 : (trial % 3 == 1 ? k : (1 << 27) - 1 - k);
-      quad.lane[k] = {own.lower, trial % 2 == 0 ? 0.0F : size(random), own.upper, primitive};
+      quad.child[k] = {own.lower, trial % 2 == 0 ? 0.0F : size(random), own.upper, primitive};
     }
     const Box other = box();
     const float limit = size(random) * size(random);
     const QuadGaps gaps = squared_gaps(quad, other, limit);
     for (int k = 0; k < 4; ++k) {
-      const float expected = squared_gap(quad.lane[k].box(), other);
+      const float expected = squared_gap(quad.child[k].box(), other);
       REQUIRE(gaps[k] == expected);
-      REQUIRE((gaps.near >> k & 1U) == (expected <= larger(limit, quad.lane[k].reach) ? 1U : 0U));
+      REQUIRE((gaps.near >> k & 1U) == (expected <= larger(limit, quad.child[k].reach) ? 1U : 0U));
     }
   }
 }

@@ -10,7 +10,7 @@
 
 #include "compare/problem/error.hpp"
 #include "fast/cuda/backend.cuh"
-#include "fast/kernels/atomic.hpp"
+#include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/team.hpp"
 
 using namespace ogc::fast;
@@ -244,7 +244,7 @@ TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
       backend.exclusive_scans({values.data(), sums.data(), 3}, {values.data(), sums_again.data(), 3});
       backend.for_each(1, Assign{flag.data(), 0});
     });
-    backend.when(Decided{}, flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
+    backend.when(Subtract{flag.data(), 0}, flag.data(), [&] { backend.for_each(1, AddOne{count.data()}); });
   };
   CudaRecording recording;
   for (const int times : {0, 1, 5}) {
@@ -318,7 +318,9 @@ TEST_CASE("a body that throws while it is recorded leaves the backend usable", "
   CudaRecording recording;
   CHECK_THROWS_AS(
       backend.replay(recording, 1,
-                     [&] { backend.when(Decided{}, items.data(), [&] { throw std::runtime_error("body"); }); }),
+                     [&] {
+                       backend.when(Subtract{items.data(), 0}, items.data(), [&] { throw std::runtime_error("body"); });
+                     }),
       std::runtime_error);
   backend.replay(recording, 1, [&] { backend.for_each(4, SetToNumber{items.data()}); });
   backend.synchronize();

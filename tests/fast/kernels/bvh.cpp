@@ -83,7 +83,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   Quad root;
   Box whole;
   for (const Vec& p : positions) whole.include(p);
-  root.lane[0] = {whole.lower, 0, whole.upper, -1};
+  root.child[0] = {whole.lower, 0, whole.upper, -1};
   TreeView tree;
   tree.nodes = &root, tree.levels = 1;
   std::vector<std::uint64_t> keys(7);
@@ -101,7 +101,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   Quad point;
   Box one;
   one.include(positions[3]);
-  point.lane[0] = {one.lower, 0, one.upper, -1};
+  point.child[0] = {one.lower, 0, one.upper, -1};
   tree.nodes = &point;
   HilbertKeys{surface, positions.data(), tree, tree, keys.data(), values.data()}(3);
   CHECK(keys[3] == 0);

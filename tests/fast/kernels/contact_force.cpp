@@ -76,8 +76,9 @@ TEST_CASE("closest points of the closed faces satisfy the conditions of a minimu
   }
 }
 
-TEST_CASE("where the sort of a contact is known its weights are the same, and a slot's weight is found by its number",
-          "[property]") {
+TEST_CASE(
+    "where it is known what pair a contact is of its weights are the same, and a slot's weight is found by its number",
+    "[property]") {
   std::mt19937 random(32);
   const auto same = [](const ContactWeights& a, const ContactWeights& b) {
     bool equal = true;
@@ -88,9 +89,8 @@ TEST_CASE("where the sort of a contact is known its weights are the same, and a 
     for (int i = 0; i < 1000; ++i) {
       const Placement p = random_placement(random, kind, 0.01);
       const ContactWeights any = contact_weights(kind, p.x);
-      if (kind != ContactKind::segment_segment)
-        REQUIRE(same(contact_weights<ContactSort::vertex_facet>(kind, p.x), any));
-      if (kind != ContactKind::point_triangle) REQUIRE(same(contact_weights<ContactSort::edge_edge>(kind, p.x), any));
+      if (kind != ContactKind::segment_segment) REQUIRE(same(contact_weights<PairKind::vertex_facet>(kind, p.x), any));
+      if (kind != ContactKind::point_triangle) REQUIRE(same(contact_weights<PairKind::edge_edge>(kind, p.x), any));
     }
   }
 }
@@ -125,10 +125,10 @@ TEST_CASE("contact forces leave no net force and no net torque, and blocks are g
       double strength = 0;
       for (int k = 0; k < 4; ++k) {
         ForceAndBlock sum;
-        strength = add_contact<float>(ContactActivation::ogc, shape, w.slot[k], w.slot[k] * w.slot[k], 0.05f, 100, sum);
+        strength = add_contact<OgcActivation, float>({}, shape, w.slot[k], w.slot[k] * w.slot[k], 0.05f, 100, sum);
         force += wide(sum.force);
         torque += cross(wide(p.x[k]) - wide(p.x[0]), wide(sum.force));
-        const double curvature = activation_slope(ContactActivation::ogc, shape.distance, 0.05f, 100).curvature *
+        const double curvature = OgcActivation::slope(shape.distance, 0.05f, 100).curvature *
                                  static_cast<double>(w.slot[k]) * w.slot[k];
         const D3 n = wide(shape.normal);
         REQUIRE(largest_difference(dense(sum.block),
@@ -154,7 +154,7 @@ TEST_CASE("a force pushes the two sides apart by the slope of the activation", "
   CHECK(w.slot[3] == Approx(-0.25));
   ForceAndBlock sum;
   // k_c (r − d)
-  CHECK(add_contact<float>(ContactActivation::ogc, contact_shape(weighted_sum(w, x), 0.005f), 1, 1, 0.005f, 10, sum) ==
+  CHECK(add_contact<OgcActivation, float>({}, contact_shape(weighted_sum(w, x), 0.005f), 1, 1, 0.005f, 10, sum) ==
         Approx(10 * 0.002).epsilon(1e-5));
   CHECK(sum.force.y == Approx(0.02).epsilon(1e-5));
   CHECK(sum.block.yy == Approx(10));
@@ -172,8 +172,7 @@ TEST_CASE("nothing is NaN at zero distance, for collapsed edges and triangles, a
       const ContactWeights w = contact_weights(kind, p.x);
       const ContactShape shape = contact_shape(weighted_sum(w, p.x), 0.05f);
       ForceAndBlock sum;
-      if (shape.acts)
-        add_contact<float>(ContactActivation::ogc, shape, w.slot[0], w.slot[0] * w.slot[0], 0.05f, 100, sum);
+      if (shape.acts) add_contact<OgcActivation, float>({}, shape, w.slot[0], w.slot[0] * w.slot[0], 0.05f, 100, sum);
       REQUIRE(std::isfinite(length(sum.force)));
       REQUIRE(std::isfinite(sum.block.xx + sum.block.xy + sum.block.xz + sum.block.yy + sum.block.yz + sum.block.zz));
     }
@@ -182,7 +181,7 @@ TEST_CASE("nothing is NaN at zero distance, for collapsed edges and triangles, a
   CHECK_FALSE(contact_shape({1e-30f, 0, 0}, 1).acts);
   for (const float d : {1e-18f, 1e-12f, 1e-7f}) {
     ForceAndBlock sum;
-    CHECK(add_contact<float>(ContactActivation::ogc, contact_shape({d, 0, 0}, 0.005f), 1, 1, 0.005f, 100, sum) > 0);
+    CHECK(add_contact<OgcActivation, float>({}, contact_shape({d, 0, 0}, 0.005f), 1, 1, 0.005f, 100, sum) > 0);
     CHECK(std::isfinite(sum.block.xx));
   }
 }

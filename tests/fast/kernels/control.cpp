@@ -21,7 +21,7 @@ StepControl running() {
 
 TEST_CASE("another round of the guess needs enough cut vertices and a round left", "[unit]") {
   ControlSettings settings;
-  settings.cut_threshold = 3;
+  settings.redetect_count = 3;
   settings.guess_rounds = 2;
   StepControl c = running();
   CHECK(c.guess == 1);
@@ -41,7 +41,7 @@ TEST_CASE("another round of the guess needs enough cut vertices and a round left
 TEST_CASE("an iteration asks for a detection at the threshold or when it is due, and says how many were cut",
           "[unit]") {
   ControlSettings settings;
-  settings.cut_threshold = 5;
+  settings.redetect_count = 5;
   StepControl c = running();
   const int overflow = 0;
   const auto iterate = [&](int cut) {
@@ -64,7 +64,7 @@ TEST_CASE("an iteration asks for a detection at the threshold or when it is due,
 
 TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once a step where it does not", "[unit]") {
   ControlSettings settings;
-  settings.cut_threshold = 5;
+  settings.redetect_count = 5;
   StepControl c = running();
   const int overflow = 0;
   const auto iterate = [&](bool advances) {
@@ -86,7 +86,7 @@ TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once 
 
 TEST_CASE("iterations take turns, none while a detection is due, and after the last no detection is", "[unit]") {
   ControlSettings settings;
-  settings.cut_threshold = 5;
+  settings.redetect_count = 5;
   settings.iterations = 3;
   StepControl c = running();
   const int overflow = 0;
@@ -180,7 +180,7 @@ TEST_CASE("each coordinate that is not a number or infinite is noticed", "[unit]
 
 TEST_CASE("with a detection due after every iteration each one asks for it, and begins to count anew", "[unit]") {
   ControlSettings settings;
-  settings.cut_threshold = 5;
+  settings.redetect_count = 5;
   settings.redetect_every = 1;
   StepControl c = running();
   c.cut = 2;

@@ -6,7 +6,7 @@ using namespace ogc::fast;
 
 namespace {
 
-// Three vertices on a line, targets 1, 1 and 0.1 away, bounds 0.25; the first is part of a contact.
+// Three vertices on a line, targets 1, 1 and 0.1 away, bounds 0.25; the first is in a contact.
 struct Line {
   Vec target[3] = {{1, 0, 0}, {1, 1, 0}, {0.1f, 2, 0}};
   Vec previous[3] = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
@@ -18,7 +18,7 @@ struct Line {
   void guess(bool hold) {
     control.active = 1;
     control.rounds = hold ? 1 : 0;
-    for (int v = 0; v < 3; ++v) GuessVertex{target, previous, bound, {offsets}, position, &control}(v);
+    for (int v = 0; v < 3; ++v) GuessVertex{target, {previous, bound}, {offsets}, position, &control}(v);
   }
 };
 
@@ -43,7 +43,7 @@ TEST_CASE("from round 2 on a vertex in a contact stays and does not count", "[un
 
 TEST_CASE("in a frame that stopped no vertex moves and none is counted", "[unit]") {
   Line line;
-  GuessVertex{line.target, line.previous, line.bound, {line.offsets}, line.position, &line.control}(1);
+  GuessVertex{line.target, {line.previous, line.bound}, {line.offsets}, line.position, &line.control}(1);
   CHECK(line.position[1].x == 0);
   CHECK(line.control.cut == 0);
 }
@@ -57,7 +57,16 @@ TEST_CASE("a step begins at its start with targets by mobility and the largest m
   control.active = 1;
   control.steps_done = 1;
   BeginStep{&control, ControlSettings{}}(0);
-  const BeginVertex begin{start, velocity, number, targets, 1, {0, -10, 0}, 0.1f, position, target, &control};
+  const BeginVertex begin{.start = start,
+                          .velocity = velocity,
+                          .prescribed_number = number,
+                          .prescribed_targets = targets,
+                          .prescribed_count = 1,
+                          .acceleration = {0, -10, 0},
+                          .step = 0.1f,
+                          .position = position,
+                          .target = target,
+                          .control = &control};
   for (int v = 0; v < 3; ++v) begin(v);
   CHECK(target[0].z == 0.1f);
   CHECK(target[0].y == Approx(-0.1));
@@ -68,12 +77,13 @@ TEST_CASE("a step begins at its start with targets by mobility and the largest m
   CHECK(float_from_bits(control.largest_move) == 0.5f);
 }
 
-TEST_CASE("bounds are certified before they are replaced, but not those of an earlier step", "[unit]") {
+TEST_CASE("regions are certified before they are replaced, but not those of an earlier step", "[unit]") {
   for (const int rounds : {0, 1}) {
     Line line;
     line.control.rounds = rounds;
     line.position[1].x = 0.2500001f;
-    for (int v = 0; v < 3; ++v) BeginBounds{line.position, line.bound, line.previous, &line.control}(v);
+    for (int v = 0; v < 3; ++v)
+      BeginRegions{line.position, {line.previous, line.bound}, line.previous, &line.control}(v);
     CHECK(line.control.violations == rounds);
     CHECK(line.previous[1].x == 0.2500001f);
   }

@@ -19,16 +19,25 @@ struct OneVertex {
   Vec position{2, 5, 9}, start{1, 2, 4}, target{4, 9, 16}, previous{1, 2, 4};
   float mass = 3, bound = 10;
 
+  VertexTerm term(const int& prescribed) const {
+    return {.position = &position,
+            .start = &start,
+            .target = &target,
+            .mass = &mass,
+            .prescribed_number = &prescribed,
+            .acceleration = {-1, 2, -10},
+            .step = 0.5};
+  }
   Sums terms(int prescribed) const {
     Sums sums{};
-    VertexTerm{&position, &start, &target, &mass, &prescribed, {-1, 2, -10}, 0.5}(0, sums.data());
+    term(prescribed)(0, sums.data());
     return sums;
   }
   StepControl checked(int prescribed) const {
     StepControl control;
     control.active = 1;
     BeginStep{&control, ControlSettings{}}(0);
-    CheckVertex{&position, &previous, &bound, &target, &prescribed, &control}(0);
+    CheckVertex{&position, {&previous, &bound}, &target, &prescribed, &control}(0);
     return control;
   }
 };
@@ -60,7 +69,7 @@ TEST_CASE("terms of vertices add up", "[unit]") {
   Sums sums = OneVertex{}.terms(-1);
   const OneVertex other;
   const int prescribed = -1;
-  VertexTerm{&other.position, &other.start, &other.target, &other.mass, &prescribed, {-1, 2, -10}, 0.5}(0, sums.data());
+  other.term(prescribed)(0, sums.data());
   const Sums one = other.terms(-1);
   for (std::size_t k = 0; k < sums.size(); ++k) CHECK(sums[k] == 2 * one[k]);
 }

@@ -25,8 +25,9 @@ Quad along(const Vec& n, const Vec& x) { return Quad(n.x) * x.x + Quad(n.y) * x.
 bool is_exactly_behind(const HalfSpace& plane, const Vec& x) { return along(plane.normal, x) <= Quad(plane.offset); }
 
 bool is_exactly_within(const FeasibleRegion& region, const Vec& x) {
-  const Quad a = Quad(x.x) - region.centre.x, b = Quad(x.y) - region.centre.y, c = Quad(x.z) - region.centre.z;
-  return a * a + b * b + c * c <= Quad(region.radius) * region.radius;
+  const Quad a = Quad(x.x) - region.ball.centre.x, b = Quad(x.y) - region.ball.centre.y,
+             c = Quad(x.z) - region.ball.centre.z;
+  return a * a + b * b + c * c <= Quad(region.ball.radius) * region.ball.radius;
 }
 
 bool is_exactly_in(const FeasibleRegion& region, const Vec& x) {
@@ -74,13 +75,13 @@ PairPoints<m, n> moved(RandomPairs& random, const PairPoints<m, n>& pair, const 
   PairPoints<m, n> to = pair;
   const auto move = [&](Vec& x, const HalfSpace& side, bool is_fixed) {
     if (is_fixed) return;
-    const FeasibleRegion region{x, radius, &side, 1};
+    const FeasibleRegion region{{x, radius}, &side, 1};
     Vec current = x;
     for (int k = 0; k < 3; ++k) {
       const Vec proposal = current + random.point(4 * radius);
       const Truncated kept = held(region, current, proposal, InertiaMetric{});
       counts.broken += !is_exactly_in(region, kept.position);
-      counts.broken += !kept.exceeded && !same_bits(kept.position, proposal);
+      counts.broken += !kept.cut && !same_bits(kept.position, proposal);
       current = kept.position;
     }
     x = current;
@@ -171,7 +172,7 @@ TEST_CASE(
       planes.push_back({n, static_cast<double>(along(n, centre)) + radius * random.size()});
       if (!is_behind(planes.back(), centre)) planes.pop_back();
     }
-    const FeasibleRegion region{centre, radius, planes.data(), static_cast<int>(planes.size())};
+    const FeasibleRegion region{{centre, radius}, planes.data(), static_cast<int>(planes.size())};
     Vec current = centre;
     for (int k = 0; k < 4; ++k) {
       const Vec proposal = centre + random.point(k == 3 ? 1e6f : 4 * radius);
@@ -182,7 +183,7 @@ TEST_CASE(
       const Truncated kept = k == 2 ? held_on_path(region, current, proposal)
                                     : held(region, current, proposal, BlockMetric{block, 1});
       outside += !is_exactly_in(region, kept.position);
-      changed += kept.exceeded == same_bits(kept.position, proposal);
+      changed += kept.cut == same_bits(kept.position, proposal);
       moved += !same_bits(kept.position, current);
       ++cases;
       current = kept.position;
@@ -199,9 +200,9 @@ TEST_CASE("plane: what slides along a wall keeps its way along it", "[unit]") {
   const PairPlane plane = plane_of(pair);
   REQUIRE(plane.exists());
   const HalfSpace wall = plane.of_first();
-  const FeasibleRegion region{pair.first[0], 0.1f, &wall, 1};
+  const FeasibleRegion region{{pair.first[0], 0.1f}, &wall, 1};
   const Truncated slid = held(region, pair.first[0], {0.02f, -0.01f, -0.01f}, InertiaMetric{});
-  CHECK(slid.exceeded);
+  CHECK(slid.cut);
   CHECK(slid.position.x == 0.02f);
   CHECK(slid.position.y == -0.01f);
   CHECK(slid.position.z == Approx(1e-4).epsilon(1e-3));
@@ -210,13 +211,13 @@ TEST_CASE("plane: what slides along a wall keeps its way along it", "[unit]") {
   CHECK(scaled.position.x == Approx(0.011 * 0.9 / 11).epsilon(1e-3));
   CHECK(scaled.position.z == Approx(1e-4).epsilon(1e-3));
   // away from it nothing is cut
-  CHECK_FALSE(held(region, pair.first[0], {0, 0, 0.05f}, InertiaMetric{}).exceeded);
+  CHECK_FALSE(held(region, pair.first[0], {0, 0, 0.05f}, InertiaMetric{}).cut);
 }
 
 TEST_CASE("plane: the least increase of a vertex's energy, not the shortest way", "[unit]") {
   // H is stiff along x: the half-space x + y ≤ 0 is left along y
   const HalfSpace plane{{1, 1, 0}, 0};
-  const FeasibleRegion region{{0, 0, 0}, 1, &plane, 1};
+  const FeasibleRegion region{{{0, 0, 0}, 1}, &plane, 1};
   const Truncated kept = held(region, {-0.1f, 0, 0}, {0.1f, 0.1f, 0}, BlockMetric{{1000, 0, 0, 1, 0, 1}, 1});
   CHECK(kept.position.x == Approx(0.1 - 0.2 / 1001).epsilon(1e-4));
   CHECK(kept.position.y == Approx(0.1 - 200.0 / 1001).epsilon(1e-4));

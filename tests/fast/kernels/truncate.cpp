@@ -38,14 +38,14 @@ TEST_CASE("truncate: the stored position obeys the bound, whatever the sizes of 
     const int e = exponent(random);
     const Vec p = point(e), x = i % 3 == 0 ? point(exponent(random)) : p + point(e - exponent(random) / 3);
     const float b = std::ldexp(std::abs(unit(random)), i % 2 == 0 ? e - 3 : exponent(random));
-    const Truncated cut = truncate(p, x, b);
+    const Truncated cut = truncate({p, b}, x);
     broken += !obeys(p, cut.position, b);
-    flagged_wrongly += cut.exceeded == obeys(p, x, b);
-    moved += !cut.exceeded && !same_bits(cut.position, x);
+    flagged_wrongly += cut.cut == obeys(p, x, b);
+    moved += !cut.cut && !same_bits(cut.position, x);
     const double size = std::max({std::abs(static_cast<double>(p.x)), std::abs(static_cast<double>(p.y)),
                                   std::abs(static_cast<double>(p.z))}) +
                         b;
-    short_by_far += cut.exceeded && static_cast<double>(b) - distance(p, cut.position) > 8 * 0x1p-24 * size;
+    short_by_far += cut.cut && static_cast<double>(b) - distance(p, cut.position) > 8 * 0x1p-24 * size;
   }
   CHECK(broken == 0);
   CHECK(flagged_wrongly == 0);
@@ -54,12 +54,12 @@ TEST_CASE("truncate: the stored position obeys the bound, whatever the sizes of 
 }
 
 TEST_CASE("truncate: hand cases", "[unit]") {
-  CHECK(same_bits(truncate({0, 0, 0}, {3, 4, 0}, 5).position, {3, 4, 0}));
-  CHECK_FALSE(truncate({0, 0, 0}, {3, 4, 0}, 5).exceeded);
-  CHECK(same_bits(truncate({1, 0, 0}, {9, 0, 0}, 2).position, {3, 0, 0}));
-  CHECK(same_bits(truncate({1, 2, 3}, {9, 9, 9}, 0).position, {1, 2, 3}));
-  CHECK(truncate({1, 2, 3}, {9, 9, 9}, 0).exceeded);
-  CHECK_FALSE(truncate({1, 2, 3}, {1, 2, 3}, 0).exceeded);
+  CHECK(same_bits(truncate({{0, 0, 0}, 5}, {3, 4, 0}).position, {3, 4, 0}));
+  CHECK_FALSE(truncate({{0, 0, 0}, 5}, {3, 4, 0}).cut);
+  CHECK(same_bits(truncate({{1, 0, 0}, 2}, {9, 0, 0}).position, {3, 0, 0}));
+  CHECK(same_bits(truncate({{1, 2, 3}, 0}, {9, 9, 9}).position, {1, 2, 3}));
+  CHECK(truncate({{1, 2, 3}, 0}, {9, 9, 9}).cut);
+  CHECK_FALSE(truncate({{1, 2, 3}, 0}, {1, 2, 3}).cut);
 }
 
 TEST_CASE("truncate: a coordinate far too small for two doubles does not pass beside one at the bound", "[property]") {
@@ -67,10 +67,10 @@ TEST_CASE("truncate: a coordinate far too small for two doubles does not pass be
   const float bound = 0x1.97a3p-8f;
   const Vec tie{previous.x - bound, previous.y, 0.0f};
   REQUIRE(previous.x - tie.x == bound);
-  CHECK_FALSE(truncate(previous, tie, bound).exceeded);
+  CHECK_FALSE(truncate({previous, bound}, tie).cut);
   for (const float speck : {0x1p-69f, -0x1.84b0f2p-69f, 0x1p-149f}) {
-    const Truncated kept = truncate(previous, {tie.x, tie.y, speck}, bound);
-    CHECK(kept.exceeded);
+    const Truncated kept = truncate({previous, bound}, {tie.x, tie.y, speck});
+    CHECK(kept.cut);
     CHECK((kept.position.z == 0 || previous.x - kept.position.x < bound));
   }
 }
@@ -82,15 +82,15 @@ TEST_CASE("truncate: a difference that does not fit into a double is beyond the 
     Vec previous{0, 0, 0}, tie{0, 0, 0}, beyond{0, 0, 0};
     (axis == 0 ? previous.x : axis == 1 ? previous.y : previous.z) = large;
     (axis == 0 ? beyond.x : axis == 1 ? beyond.y : beyond.z) = -speck;
-    CHECK(is_exactly_within(previous, tie, large));
-    CHECK_FALSE(is_exactly_within(previous, beyond, large));
+    CHECK(is_exactly_within({previous, large}, tie));
+    CHECK_FALSE(is_exactly_within({previous, large}, beyond));
   }
 }
 
 TEST_CASE("truncate: a position that is not finite goes back to the previous one", "[unit]") {
   for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
-    const Truncated cut = truncate({1, 2, 3}, {0, bad, 0}, 1);
-    CHECK(cut.exceeded);
+    const Truncated cut = truncate({{1, 2, 3}, 1}, {0, bad, 0});
+    CHECK(cut.cut);
     CHECK(same_bits(cut.position, {1, 2, 3}));
   }
 }

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "fast/cpu/backend.hpp"
-#include "fast/stages/contact_engine.hpp"
+#include "fast/probes/contact_engine.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/meshes.hpp"
 
@@ -186,7 +186,7 @@ TEST_CASE("detection: lists grow wherever a contact found no slot", "[unit]") {
   Lists<CpuBackend> lists(mesh.view(), 10);
   const ListsView view = lists.view();
   view.table[3] = {1, 2};
-  *view.cursor = 2, *view.without_slot = 1, *view.overflow = 1;
+  *view.contact_count = 2, *view.without_slot = 1, *view.overflow = 1;
   CHECK(lists.grow());
   CHECK(lists.capacity() == 16);
   const ListsView grown = lists.view();

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "fast/cpu/backend.hpp"
-#include "fast/stages/contact_engine.hpp"
+#include "fast/probes/contact_engine.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/meshes.hpp"
 

@@ -21,7 +21,7 @@ struct Fixture {
   RestState rest;
   Colouring colouring;
   CpuBackend backend;
-  std::vector<Place> places, start_places;
+  std::vector<PaddedVec> padded, padded_start;
   std::vector<Vec> start;
   std::vector<SolidStrain> strain;
   std::unique_ptr<Sweep<CpuBackend>> sweep;
@@ -40,10 +40,10 @@ struct Fixture {
     std::normal_distribution<float> normal(0, 0.02f);
     for (int copy = 0; copy < 2; ++copy)
       for (const compare::Vec3f& p : compare::to_single(scene.mesh.positions))
-        places.emplace_back(Vec{p.x + normal(random), p.y + normal(random), p.z + normal(random)});
+        padded.emplace_back(Vec{p.x + normal(random), p.y + normal(random), p.z + normal(random)});
     for (const compare::Vec3f& p : compare::to_single(scene.mesh.positions)) {
       start.push_back({p.x, p.y, p.z + normal(random)});
-      start_places.emplace_back(start.back());
+      padded_start.emplace_back(start.back());
     }
     strain.resize(rest.tetrahedra.size());
     const BeginTetrahedron begin{rest.tetrahedra.data(), start.data(), strain.data()};
@@ -54,8 +54,8 @@ struct Fixture {
     SweepView view;
     sweep->complete(view);
     view.solid_start = strain.data();
-    view.start = {start_places.data()};
-    view.old = places.data();
+    view.start = {padded_start.data()};
+    view.old = padded.data();
     view.to_fresh = static_cast<int>(start.size());
     return view;
   }
@@ -65,7 +65,7 @@ template <int W, class Gather>
 ForceAndBlock sum_of(Fixture& f, int slot, const Gather& gather) {
   const SweepView view = f.view();
   const SweepVertex vertex = view.vertices[slot];
-  return gather(view, slot, vertex, f.places[static_cast<std::size_t>(vertex.vertex)], SerialTeam<W>{});
+  return gather(view, slot, vertex, f.padded[static_cast<std::size_t>(vertex.vertex)], SerialTeam<W>{});
 }
 
 std::vector<const PackKernels*> all_kernels() {
@@ -118,10 +118,10 @@ TEST_CASE("a solid's damping is not zero and none of a rigid motion", "[property
   // Moved as a whole since the start of the step: Gᵗ is G up to rounding, and the damping's force is nothing beside the
   // elastic one.
   for (Fixture* f : {&damped, &plain}) {
-    f->places.resize(f->start.size());
-    for (std::size_t v = 0; v < f->start.size(); ++v) f->places[v] = Place(f->start[v] + Vec{0.5f, 0, 0});
-    const std::vector<Place> once = f->places;
-    f->places.insert(f->places.end(), once.begin(), once.end());
+    f->padded.resize(f->start.size());
+    for (std::size_t v = 0; v < f->start.size(); ++v) f->padded[v] = PaddedVec(f->start[v] + Vec{0.5f, 0, 0});
+    const std::vector<PaddedVec> once = f->padded;
+    f->padded.insert(f->padded.end(), once.begin(), once.end());
   }
   const ForceAndBlock still = sum_of<4>(damped, 20, GatherSolids{}), elastic = sum_of<4>(plain, 20, GatherSolids{});
   CHECK(static_cast<double>(still.force.z) == Approx(static_cast<double>(elastic.force.z)).margin(0.05));

@@ -2,9 +2,12 @@
 // made wrong before a step looks at them.
 #include <cstring>
 #include <functional>
+#include <string_view>
+#include <typeindex>
 
 #include "fast/cpu/backend.hpp"
-#include "fast/stages/contact_engine.hpp"
+#include "fast/probes/contact_engine.hpp"
+#include "fast/probes/probe_step.hpp"
 #include "fast/stages/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/scenes.hpp"
@@ -17,6 +20,17 @@ namespace {
 
 int broken_margins = 0;
 int strains_begun = 0;  // loops that ask for strains at the start of a step
+
+using Launches = std::vector<std::type_index>;
+Launches* launched = nullptr;  // where functors are noted in the order of their launches
+
+/// Not those of a download, which belong to whoever looks.
+template <class F>
+void note_launch() {
+  const std::type_index functor = typeid(F);
+  if (launched != nullptr && std::string_view(functor.name()).find("CopyItems") == std::string_view::npos)
+    launched->push_back(functor);
+}
 
 /// CpuBuffer with a margin behind its items, in which bits are ones: floats that are not numbers, places below 0.
 template <class T>
@@ -77,11 +91,42 @@ class WatchedBackend : public CpuBackend {
 
   template <class F>
   void for_each(int n, F f) {
+    note_launch<F>();
     if constexpr (std::is_same_v<F, BeginTriangle>) ++strains_begun;
     if constexpr (std::is_same_v<F, CheckVertex>) {
       if (before_check_) before_check_(const_cast<Vec*>(f.position));
     }
     CpuBackend::for_each(n, f);
+  }
+  template <class F>
+  void for_each_counted(const int* n, int capacity, F f) {
+    note_launch<F>();
+    CpuBackend::for_each_counted(n, capacity, f);
+  }
+  template <class F, class G>
+  void for_both(int m, F f, const int* n, int capacity, G g) {
+    note_launch<F>(), note_launch<G>();
+    CpuBackend::for_both(m, f, n, capacity, g);
+  }
+  template <int W, class F>
+  void for_each_team(int n, F f, Start start) {
+    note_launch<F>();
+    CpuBackend::for_each_team<W>(n, f, start);
+  }
+  template <class First, class Second>
+  void search(const Searches<First>& first, const Searches<Second>& second) {
+    note_launch<First>(), note_launch<Second>();
+    CpuBackend::search(first, second);
+  }
+  template <class F, class Body>
+  void when(F decide, const int* flag, Body body) {
+    note_launch<F>();
+    CpuBackend::when(decide, flag, body);
+  }
+  template <class F, class Body, class G>
+  void repeat(F decide, const int* flag, Body body, G decide_again) {
+    note_launch<F>(), note_launch<G>();
+    CpuBackend::repeat(decide, flag, body, decide_again);
   }
   template <class Body>
   void replay(Recording& recording, int times, Body body) {
@@ -228,4 +273,25 @@ TEST_CASE("strains at the start of a step are asked for where something damps, a
     Watched(WatchedBackend{}, scene, {}, "").advance(3);
     CHECK(strains_begun == (membrane + bending > 0 ? 3 : 0));
   }
+}
+
+TEST_CASE("a step that is timed, or observed, makes the launches of one that is neither", "[property]") {
+  const compare::Scene scene = thrown_sheet();
+  const auto launches = [&](bool profile, bool observed) {
+    Launches noted;
+    compare::SimulationOptions options;
+    options.profile = profile;
+    Watched simulation(WatchedBackend{}, scene, options, "");
+    launched = &noted;
+    if (observed)
+      trace_step(simulation);
+    else
+      simulation.advance(1);
+    launched = nullptr;
+    return noted;
+  };
+  const Launches expected = launches(false, false);
+  REQUIRE(std::count(expected.begin(), expected.end(), typeid(RankAndResolve)) > 2);  // also between iterations
+  CHECK((launches(true, false) == expected));
+  CHECK((launches(true, true) == expected));
 }

@@ -52,6 +52,7 @@ class Until(Limit):
 class OneJob(Scratch):
     LONG = Job("long", ("twist", "--scale", "smoke", "--steps", "150", "--set", "iterations=60", "--checkpoint", "0",
                         "--audit", "end"), processor_time=True)
+    ENDLESS = tuple("100000" if word == "150" else word for word in LONG.arguments)
 
     def make(self, job):
         return job.make(OGC, self.folder)
@@ -69,6 +70,24 @@ class OneJob(Scratch):
         self.assertEqual(len((self.folder / "long/steps.csv").read_text().splitlines()), 151)
         after = json.loads((self.folder / "long" / PROCESSOR_TIME).read_text())
         self.assertGreater(after["user [s]"], before["user [s]"], "of all attempts")
+
+    def test_a_run_that_is_given_seconds_is_whole_when_they_are_over_and_it_has_its_steps(self):
+        job = Job("by_time", self.ENDLESS, seconds=0.5, least=3)
+        self.assertEqual([self.make(job), self.make(job)], [FINISHED, KEPT])
+        said = json.loads((self.folder / "by_time" / jobs.ENDED_BY_TIME).read_text())
+        steps = len((self.folder / "by_time/steps.csv").read_text().splitlines()) - 1
+        self.assertEqual((said["seconds"], said["steps"]), (0.5, steps))
+        self.assertGreaterEqual(steps, 3)
+        packed = [path.name for path in job.results(self.folder, 2, 0)]
+        self.assertLessEqual({"run.json", "steps.csv", jobs.ENDED_BY_TIME}, set(packed))
+
+    def test_seconds_end_nothing_that_is_faster_or_that_the_limit_ends(self):
+        job = Job("run", (*SPHERE, "--steps", 2), seconds=200, least=1)
+        self.assertEqual(self.make(job), FINISHED)
+        self.assertFalse((self.folder / "run" / jobs.ENDED_BY_TIME).exists())
+        slow = Job("slow", self.ENDLESS, seconds=200, least=1)
+        self.assertEqual(slow.make(OGC, self.folder, Until(self.folder, "slow/checkpoint.h5")), STOPPED)
+        self.assertFalse((self.folder / "slow" / jobs.ENDED_BY_TIME).exists())
 
     def test_an_attempt_that_nobody_measured_leaves_no_processor_time(self):
         self.assertEqual(self.cut(), STOPPED)
@@ -300,9 +319,11 @@ class Book(Scratch):
         self.assertEqual((fewer[0][1:], fewer[1]), (whole[0][1:], whole[1]))
 
     def test_other_steps_of_fig_17_begin_with_states_that_its_start_stores(self):
-        start, *single = commands.three_cloths("paper", ["cpu"])[0]
-        others = [job for job in single if "_at_" in job.name]
-        self.assertEqual(len(others), len(commands.THREE_CLOTHS_OTHERS["paper"]))
+        (start, *single), double = commands.three_cloths("paper", ["cpu"])
+        others = [job for job in (*single, *double) if "_at_" in job.name]
+        solvers = {job.name.split("_at_")[0] for job in others}
+        self.assertEqual(solvers, {"vbd_cpu_any", "newton_any", "newton_any_pairs"})
+        self.assertEqual(len(others), len(solvers) * len(commands.THREE_CLOTHS_OTHERS["paper"]))
         between = round(100 / 60)  # steps of 1/100 s between two frames, 60 of them a second
         for job in others:
             name, before = job.state

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/files/obj.hpp"
+#include "compare/files/meshes/obj.hpp"
 #include "compare/judge/cases/generators.hpp"
 #include "compare/judge/report/shape.hpp"
 #include "compare/oracle/smallest_distances.hpp"

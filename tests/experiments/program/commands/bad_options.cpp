@@ -123,8 +123,16 @@ TEST_CASE("a setting that a scene can't have is refused by name with its range a
   CHECK(!contains(run_ogc("run --help").out, {"penalty"}));
   const ProgramResult unknown = run_ogc("run twist --scale smoke --set h=0.01");
   CHECK(unknown.status == 2);
-  const std::string first = "unknown setting 'h'; there are: membrane, bending, contact_stiffness, time_step";
+  const std::string first =
+      "unknown setting 'h'; there are: membrane, bending, contact_stiffness, friction, "
+      "solid_density, solid_mu, solid_lambda, solid_damping, solid_young, solid_poisson, "
+      "time_step";
   CHECK(contains(unknown.err, {first, "ipc_iterations", "seed"}));
+  check_refused("run twist --scale smoke --set solid_young=1e5",
+                {"--set solid_young belongs to bodies with tetrahedra, and scene 'twist' has none", ".msh"});
+  check_refused("run mat_twist --scale smoke --set solid_poisson=0.5", {"solid_poisson", "'0.5'", "0 to 0.4999"});
+  check_refused("run mat_twist --scale smoke --set solid_young=-1", {"solid_young", "'-1'", "Young's modulus"});
+  check_refused("run mat_twist --scale smoke --set friction=much", {"friction", "'much'", "0 to 1024"});
 }
 
 TEST_CASE("JSON that nests a hundred thousand levels is refused wherever JSON is read", "[unit]") {

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/record/run_folder.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"

@@ -4,9 +4,9 @@
 
 #include <set>
 
-#include "compare/files/assimp_mesh.hpp"
 #include "compare/files/bytes.hpp"
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/assimp_mesh.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate.hpp"

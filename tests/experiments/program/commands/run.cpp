@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "compare/record/run_folder.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/program/output.hpp"
@@ -187,7 +187,7 @@ TEST_CASE("wrong settings, files and options of a run exit 2 and say what to do"
   fails(file + " --scale smoke", {"--scale"});
 }
 
-TEST_CASE("Newton runs a scene into the same sort of folder, keeps the guarantee and records its iterations",
+TEST_CASE("Newton runs a scene into the same kind of folder, keeps the guarantee and records its iterations",
           "[figure]") {
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();
@@ -211,7 +211,7 @@ TEST_CASE("Newton runs a scene into the same sort of folder, keeps the guarantee
   CHECK(first.find("nan") == std::string::npos);  // the condition numbers are there
 }
 
-TEST_CASE("IPC runs a scene into the same sort of folder, without an intersection, and counts its detections by kind",
+TEST_CASE("IPC runs a scene into the same kind of folder, without an intersection, and counts its detections by kind",
           "[figure]") {
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/files/bytes.hpp"
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/files/mesh_files.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/scene.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/scenes/shapes.hpp"

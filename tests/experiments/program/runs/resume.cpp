@@ -18,8 +18,9 @@ namespace fs = std::filesystem;
 TEST_CASE("a run that kill -9, SIGINT or SIGTERM cut off again and again ends with the bits of one that was left alone",
           "[property]") {
   const TemporaryFolder folder;
-  const std::string scene = GENERATE("cloth_on_sphere --scale smoke --audit every",
-                                     "twist --scale smoke --steps 40 --audit frame --set frame_steps=4");
+  const std::string scene = GENERATE(
+      "cloth_on_sphere --scale smoke --audit every", "twist --scale smoke --steps 40 --audit frame --set frame_steps=4",
+      OGC_SOURCE_DIR "/experiments/examples/solid_on_cloth/solid_on_cloth.json --audit frame");
   check_cut_runs(folder / "runs", scene, {"KILL", "INT", "TERM"});
 }
 

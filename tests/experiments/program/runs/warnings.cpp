@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/files/scene_files.hpp"
+#include "compare/files/scenes/scene_files.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "experiments/scenes/shapes.hpp"
 #include "experiments/scenes/solid_box.hpp"

@@ -1,0 +1,201 @@
+// Everything is written, defaults too: a scene file shows what can be edited. Rows of numbers stay on one line, and
+// numbers that the reader rounds to single precision are written as short as that allows.
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "compare/files/bytes.hpp"
+#include "compare/files/json_reader.hpp"
+#include "compare/files/meshes/mesh_files.hpp"
+#include "compare/files/scenes/keyframes.hpp"
+#include "compare/files/scenes/scene_files.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
+#include "compare/problem/text.hpp"
+
+namespace ogc::compare {
+namespace {
+
+Json to_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json rounded_json(const Vec3& v) { return to_json({as_typed(v.x), as_typed(v.y), as_typed(v.z)}); }
+
+// Bit for bit, so that a negative zero survives.
+bool same_bits(const Vec3& a, const Vec3& b) {
+  using Bits = std::array<std::uint64_t, 3>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+Json settings_json(const Settings& settings) {
+  Json json = Json::object();
+  for (const SettingInfo& info : setting_table()) {
+    Json& value = json[std::string(info.name)];
+    switch (kind_of(info)) {
+      case SettingKind::real: value = as_typed(get_setting(settings, info)); break;
+      case SettingKind::whole: value = static_cast<std::int64_t>(get_setting(settings, info)); break;
+      case SettingKind::choice: value = setting_text(settings, info); break;
+    }
+  }
+  return json;
+}
+
+Json material_json(const Material& material) {
+  Json json = Json::object();
+  for (const MaterialInfo& info : material_table()) json[std::string(info.name)] = as_typed(material.*info.field);
+  json["membrane"] = name_of(material.membrane);
+  json["bending"] = name_of(material.bending);
+  return json;
+}
+
+// The body's faces on any one of the scene's vertex arrays.
+Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& values) {
+  Mesh mesh;
+  const Index first = body.first_vertex, end = first + body.vertex_count;
+  mesh.positions.assign(values.begin() + first, values.begin() + end);
+  for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+    const auto& [a, b, c] = scene.mesh.triangles[static_cast<std::size_t>(t)];
+    mesh.triangles.push_back({a - first, b - first, c - first});
+  }
+  for (const auto& [a, b] : scene.mesh.loose_edges) {
+    if (a >= first && a < end) mesh.loose_edges.push_back({a - first, b - first});
+  }
+  for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t) {
+    const auto& [a, b, c, d] = scene.mesh.tetrahedra[static_cast<std::size_t>(t)];
+    mesh.tetrahedra.push_back({a - first, b - first, c - first, d - first});
+  }
+  return mesh;
+}
+
+Json body_json(const std::filesystem::path& folder, const Scene& scene, const Body& body) {
+  const std::string stem = scene.name + "_" + body.name;
+  const std::string extension = body.is_solid() ? ".msh" : ".ply";
+  const auto write = [&](const std::string& name, const std::vector<Vec3>& values) {
+    write_mesh(folder / name, body_mesh(scene, body, values));
+    return name;
+  };
+  Json json = {{"name", body.name}, {"fixed", body.fixed}, {"mesh", write(stem + extension, scene.mesh.positions)}};
+  const auto start = scene.mesh.positions.begin() + body.first_vertex,
+             rest = scene.rest_positions.begin() + body.first_vertex;
+  if (!std::equal(start, start + body.vertex_count, rest, same_bits))
+    json["rest_mesh"] = write(stem + "_rest" + extension, scene.rest_positions);
+  const auto velocity = scene.velocities.begin() + body.first_vertex;
+  const bool uniform = std::all_of(velocity, velocity + body.vertex_count,
+                                   [&](const Vec3& v) { return same_bits(v, *velocity); });
+  if (uniform) {
+    json["velocity"] = rounded_json(*velocity);
+  } else {
+    json["velocities"] = write(stem + "_velocities" + extension, scene.velocities);
+  }
+  json["material"] = material_json(body.material);
+  return json;
+}
+
+// Runs of vertices of one body, in the order of the motion.
+Json selections_json(const Scene& scene, const std::vector<Index>& vertices) {
+  const std::vector<Index> owner = body_of_vertex(scene);
+  Json selections = Json::array();
+  Index current = -1;
+  for (const Index v : vertices) {
+    const Index b = owner[static_cast<std::size_t>(v)];
+    const Body& body = scene.bodies[static_cast<std::size_t>(b)];
+    if (b != current) selections.push_back({{"body", body.name}, {"indices", Json::array()}});
+    current = b;
+    selections.back()["indices"].push_back(v - body.first_vertex);
+  }
+  return selections;
+}
+
+Json motion_json(const std::filesystem::path& folder, const Scene& scene, const PrescribedMotion& motion) {
+  Json json = {{"name", motion.name}, {"vertices", selections_json(scene, motion.vertices)}};
+  if (!motion.keyframes.empty()) {
+    const std::string name = scene.name + "_" + motion.name + ".h5";
+    write_keyframes(folder / name, motion.keyframes);
+    json["keyframes"] = name;
+    return json;
+  }
+  json.update({{"centre", to_json(motion.centre)},
+               {"axis", to_json(motion.axis)},
+               {"angular_velocity", motion.angular_velocity},
+               {"velocity", to_json(motion.velocity)},
+               {"start", motion.start},
+               {"end", motion.end}});
+  return json;
+}
+
+Json springs_json(const Scene& scene) {
+  const std::vector<Index> owner = body_of_vertex(scene);
+  const auto end = [&](Index v) -> Json {
+    const Body& body = scene.bodies[static_cast<std::size_t>(owner[static_cast<std::size_t>(v)])];
+    return {{"body", body.name}, {"index", v - body.first_vertex}};
+  };
+  Json springs = Json::array();
+  for (const Spring& spring : scene.springs) {
+    springs.push_back({{"first", end(spring.first)},
+                       {"second", end(spring.second)},
+                       {"stiffness", as_typed(spring.stiffness)},
+                       {"rest_length", as_typed(spring.rest_length)},
+                       {"damping", as_typed(spring.damping)}});
+    if (spring.third >= 0) springs.back().update({{"third", end(spring.third)}, {"ratio", as_typed(spring.ratio)}});
+  }
+  return springs;
+}
+
+// Runs of pairs of the same two bodies, in their order.
+Json excluded_json(const Scene& scene) {
+  const std::vector<Index> owner = body_of_vertex(scene);
+  Json runs = Json::array();
+  std::array<Index, 2> current{-1, -1};
+  for (const auto& [a, b] : scene.excluded_pairs) {
+    const std::array<Index, 2> bodies{owner[static_cast<std::size_t>(a)], owner[static_cast<std::size_t>(b)]};
+    const Body &first = scene.bodies[static_cast<std::size_t>(bodies[0])],
+               &second = scene.bodies[static_cast<std::size_t>(bodies[1])];
+    if (bodies != current) runs.push_back({{"bodies", {first.name, second.name}}, {"vertices", Json::array()}});
+    current = bodies;
+    runs.back()["vertices"].push_back({a - first.first_vertex, b - second.first_vertex});
+  }
+  return runs;
+}
+
+void print(const Json& value, const std::string& indent, std::string& text) {
+  const bool is_row = value.is_array() &&
+                      std::all_of(value.begin(), value.end(), [](const Json& x) { return x.is_primitive(); });
+  if (value.is_primitive() || value.empty()) {
+    text += value.dump();
+    return;
+  }
+  const std::string inner = indent + "  ";
+  text += value.is_object() ? "{" : "[";
+  const char* separator = "";
+  for (const auto& [key, item] : value.items()) {
+    text += separator;
+    if (!is_row) text += "\n" + inner;
+    if (value.is_object()) text += Json(key).dump() + ": ";
+    print(item, inner, text);
+    separator = is_row ? ", " : ",";
+  }
+  if (!is_row) text += "\n" + indent;
+  text += value.is_object() ? "}" : "]";
+}
+
+}  // namespace
+
+std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene) {
+  const std::vector<Problem> problems = validate(scene);
+  if (!problems.empty()) throw InputError("a scene that can't be read back is not written: " + describe(problems));
+  Json json = {
+      {"format_version", scene_format_version}, {"name", scene.name}, {"gravity", rounded_json(scene.gravity)}};
+  json["settings"] = settings_json(scene.settings);
+  json["bodies"] = Json::array();
+  for (const Body& body : scene.bodies) json["bodies"].push_back(body_json(folder, scene, body));
+  json["motions"] = Json::array();
+  for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_json(folder, scene, motion));
+  json["springs"] = springs_json(scene);
+  if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = excluded_json(scene);
+  std::string text;
+  print(json, "", text);
+  const std::filesystem::path file = folder / (scene.name + ".json");
+  write_bytes(file, text + "\n");
+  return file;
+}
+
+}  // namespace ogc::compare

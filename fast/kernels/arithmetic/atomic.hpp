@@ -1,0 +1,112 @@
+// Atomics whose result no order of execution can change: integer sums and maxima, and minima of non-negative floats,
+// whose order is that of their bits. Which thread wins a compare-and-exchange does depend on the order: it may decide
+// which thread does a piece of work, not the result.
+#pragma once
+
+#include <cstdint>
+
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+
+#if !defined(__CUDA_ARCH__)
+#include <atomic>
+#endif
+
+namespace ogc::fast {
+
+/// Adds and returns the value before.
+OGC_HD inline int atomic_add(int* target, int value) {
+#if defined(__CUDA_ARCH__)
+  return atomicAdd(target, value);
+#else
+  return std::atomic_ref<int>(*target).fetch_add(value, std::memory_order_relaxed);
+#endif
+}
+
+/// Raises the target to the value.
+OGC_HD inline void atomic_max(int* target, int value) {
+#if defined(__CUDA_ARCH__)
+  atomicMax(target, value);
+#else
+  std::atomic_ref<int> shared(*target);
+  int seen = shared.load(std::memory_order_relaxed);
+  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
+#endif
+}
+
+/// Likewise.
+OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
+#if defined(__CUDA_ARCH__)
+  atomicMax(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
+#else
+  std::atomic_ref<std::uint64_t> shared(*target);
+  std::uint64_t seen = shared.load(std::memory_order_relaxed);
+  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
+#endif
+}
+
+/// Writes `value` where `expected` stands, and returns the value before.
+OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected,
+                                                    std::uint64_t value) {
+#if defined(__CUDA_ARCH__)
+  return atomicCAS(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(expected),
+                   static_cast<unsigned long long>(value));
+#else
+  std::atomic_ref<std::uint64_t>(*target).compare_exchange_strong(expected, value, std::memory_order_relaxed);
+  return expected;
+#endif
+}
+
+/// Whether this thread is the last of `count` to arrive at a counter, which is 0 before the first and after the last.
+/// It then sees what the others wrote before they came. Only the last acquires: an acquire, as in __threadfence,
+/// empties the first-level cache.
+OGC_HD inline bool arrives_last(int* counter, int count) {
+#if defined(__CUDA_ARCH__)
+  int before;
+  asm volatile("atom.add.release.gpu.s32 %0, [%1], 1;" : "=r"(before) : "l"(counter) : "memory");
+  if (before != count - 1) return false;
+  asm volatile("fence.acq_rel.gpu;" ::: "memory");
+  *counter = 0;
+#else
+  std::atomic_ref<int> shared(*counter);
+  if (shared.fetch_add(1, std::memory_order_acq_rel) != count - 1) return false;
+  shared.store(0, std::memory_order_relaxed);
+#endif
+  return true;
+}
+
+/// A value that other threads may be writing.
+OGC_HD inline std::uint64_t atomic_load(const std::uint64_t* source) {
+#if defined(__CUDA_ARCH__)
+  return *const_cast<const volatile std::uint64_t*>(source);
+#else
+  return std::atomic_ref<std::uint64_t>(*const_cast<std::uint64_t*>(source)).load(std::memory_order_relaxed);
+#endif
+}
+
+/// A value that other threads may be lowering.
+OGC_HD inline float atomic_load(const float* source) {
+#if defined(__CUDA_ARCH__)
+  return *const_cast<const volatile float*>(source);
+#else
+  return std::atomic_ref<float>(*const_cast<float*>(source)).load(std::memory_order_relaxed);
+#endif
+}
+
+/// Minimum of non-negative floats: as integers their bits have the same order. Negative values and NaN must not come
+/// here.
+OGC_HD inline void atomic_min(float* target, float value) {
+#if defined(__CUDA_ARCH__)
+  atomicMin(reinterpret_cast<int*>(target), __float_as_int(value));
+#else
+  std::atomic_ref<float> shared(*target);
+  float seen = shared.load(std::memory_order_relaxed);
+  while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
+#endif
+}
+
+/// As atomic_min, for values that seldom lower the target: looks first.
+OGC_HD inline void lower(float* target, float value) {
+  if (value < atomic_load(target)) atomic_min(target, value);
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,29 @@
+// The 3×3 solve of a vertex update.
+#pragma once
+
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
+
+namespace ogc::fast {
+
+/// x of H x = f by LDLᵀ without pivoting. H is symmetric and should be positive definite. Where it is not in single
+/// precision, that is where a pivot is not above 4 u of its diagonal entry (the rounding error of the two products
+/// subtracted from it: the pivot is noise), or an entry is not finite, the answer is f · `fallback`, a step down the
+/// gradient; with fallback = h²/m it is the step of the inertia alone.
+OGC_HD inline Vec solve_symmetric(const Symmetric3& h, const Vec& f, float fallback) {
+  constexpr float noise = 4 * 0x1p-24f;
+  const Vec gradient_step = fallback * f;
+  if (!(h.xx > 0)) return gradient_step;
+  const float l21 = h.xy / h.xx, l31 = h.xz / h.xx;
+  const float d2 = h.yy - l21 * h.xy;
+  if (!(d2 > noise * h.yy)) return gradient_step;
+  const float u32 = h.yz - l31 * h.xy, l32 = u32 / d2;
+  const float d3 = h.zz - l31 * h.xz - l32 * u32;
+  if (!(d3 > noise * h.zz)) return gradient_step;
+  const float y2 = f.y - l21 * f.x, y3 = f.z - l31 * f.x - l32 * y2;
+  const float z = y3 / d3, y = y2 / d2 - l32 * z;
+  return {f.x / h.xx - l21 * y - l31 * z, y, z};
+}
+
+}  // namespace ogc::fast

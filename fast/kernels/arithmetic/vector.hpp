@@ -1,0 +1,76 @@
+// Vectors over any number type: float for the sweep, the types of exact_sign.hpp for detection. `Vec` has the layout of
+// compare::Vec3f, so positions are copied, never converted.
+#pragma once
+
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+
+namespace ogc::fast {
+
+/// Three numbers.
+template <class T>
+struct Vector {
+  T x{}, y{}, z{};
+
+  OGC_HD Vector& operator+=(const Vector& b) {
+    x = x + b.x, y = y + b.y, z = z + b.z;
+    return *this;
+  }
+  OGC_HD Vector& operator-=(const Vector& b) {
+    x = x - b.x, y = y - b.y, z = z - b.z;
+    return *this;
+  }
+};
+
+/// A point or vector in single precision [unit given where it is used].
+using Vec = Vector<float>;
+
+/// A position where it is gathered again and again: sixteen bytes are one read on a device, and one register on a CPU.
+struct alignas(16) PaddedVec {
+  float x = 0, y = 0, z = 0, unused = 0;  ///< `unused` fills it up to 16 B
+
+  PaddedVec() = default;
+  OGC_HD explicit PaddedVec(const Vec& a) : x(a.x), y(a.y), z(a.z) {}
+  OGC_HD operator Vec() const { return {x, y, z}; }
+};
+
+/// Such positions, read whole.
+struct PaddedVecs {
+  const PaddedVec* at = nullptr;  ///< by vertex [m]
+
+  OGC_HD Vec operator[](int v) const {
+    const PaddedVec whole = at[v];
+    return whole;
+  }
+};
+
+template <class T>
+OGC_HD Vector<T> operator+(const Vector<T>& a, const Vector<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+OGC_HD Vector<T> operator-(const Vector<T>& a, const Vector<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+OGC_HD Vector<T> operator-(const Vector<T>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class T>
+OGC_HD Vector<T> operator*(const T& s, const Vector<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+OGC_HD Vector<T> operator*(const Vector<T>& a, const T& s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+/// Products are added from the left: where operations are rounded by themselves the order decides the bits.
+template <class T>
+OGC_HD T dot(const Vector<T>& a, const Vector<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+OGC_HD Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+}  // namespace ogc::fast

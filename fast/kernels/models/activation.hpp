@@ -1,0 +1,149 @@
+// The activations (method.md §4.2), one functor each: two stages (Eq. 18, 20; Eq. 19 corrected to k'_c = τ k_c (r − τ),
+// method.md §1.1, with τ = r/2: k'_c = k_c r²/4) and the variants of the ablation.
+#pragma once
+
+#include <cmath>
+
+#include "compare/problem/settings.hpp"
+#include "fast/kernels/arithmetic/logarithm.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+
+namespace ogc::fast {
+
+using compare::ContactActivation;
+
+/// g' [N] and g'' [N/m] at a distance: what a position needs, and no library function in it.
+template <class T>
+struct ActivationSlopeOf {
+  T slope{}, curvature{};
+};
+using ActivationSlope = ActivationSlopeOf<float>;
+
+/// An activation by its formulas within the radius: nothing acts for d ≥ r. Distances d > 0 and radii r [m], stiffness
+/// k_c [N/m].
+template <class Formulas>
+struct ActivationOf {
+  /// g' and g''.
+  OGC_HD static ActivationSlope slope(float d, float r, float k) {
+    return d < r ? Formulas::slope_within(d, r, k) : ActivationSlope{};
+  }
+  /// g [J].
+  OGC_HD static float energy(float d, float r, float k) { return d < r ? Formulas::energy_within(d, r, k) : 0.0F; }
+};
+
+/// Quadratic from τ = r/2 on (at d = τ, too), logarithmic below with the stiffness k'_c of `Stage`. b of Eq. 20 is
+/// folded in: g = k'_c (log τ − log d) + k_c/2 (r − τ)².
+template <class Stage>
+struct TwoStages : ActivationOf<TwoStages<Stage>> {
+  /// g' and g'' for 0 < d < r.
+  OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
+    if (d >= 0.5F * r) return {-k * (r - d), k};
+    const float slope = Stage::logarithmic_stiffness(r, k) / d;
+    return {-slope, slope / d};
+  }
+  /// g for 0 < d < r.
+  OGC_HD static float energy_within(float d, float r, float k) {
+    if (d >= 0.5F * r) {
+      const float depth = r - d;
+      return 0.5F * k * depth * depth;
+    }
+    return Stage::logarithmic_stiffness(r, k) * log_ratio(0.5F * r, d) + 0.125F * k * r * r;
+  }
+};
+
+/// ContactActivation::ogc, the default.
+struct OgcActivation : TwoStages<OgcActivation> {
+  /// k'_c [J].
+  template <class T>
+  OGC_HD static T logarithmic_stiffness(float r, const T& k) {
+    return 0.25F * k * r * r;
+  }
+};
+
+/// ContactActivation::ogc_as_printed: k'_c of Eq. 19 as it is printed, k_c r³/8.
+struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
+  /// k'_c as Eq. 19 prints it: its unit is J m, not J (method.md §1.1).
+  OGC_HD static float logarithmic_stiffness(float r, float k) {
+    const float stiffness = 0.25F * k * r * r;
+    return 0.5F * r * stiffness;
+  }
+};
+
+/// ContactActivation::quadratic: k_c/2 (r − d)².
+struct QuadraticActivation : ActivationOf<QuadraticActivation> {
+  /// g' = −k_c (r − d), g'' = k_c, and g.
+  OGC_HD static ActivationSlope slope_within(float d, float r, float k) { return {-k * (r - d), k}; }
+  OGC_HD static float energy_within(float d, float r, float k) {
+    const float depth = r - d;
+    return 0.5F * k * depth * depth;
+  }
+};
+
+/// ContactActivation::ipc_log: k_c (r − d)² log(r/d).
+struct IpcLogActivation : ActivationOf<IpcLogActivation> {
+  /// With s = (r − d)/d: g' = −k_c (r − d) (2 ln(r/d) + s), g'' = k_c (2 ln(r/d) + s (4 + s)), and g.
+  OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
+    const float depth = r - d, share = depth / d, log = 2.0F * log_ratio(r, d);
+    return {-k * (depth * (log + share)), k * (log + share * (4.0F + share))};
+  }
+  OGC_HD static float energy_within(float d, float r, float k) {
+    const float depth = r - d;
+    return k * depth * depth * log_ratio(r, d);
+  }
+};
+
+/// ContactActivation::cubic: 2 k_c/(3 r) (r − d)³.
+struct CubicActivation : ActivationOf<CubicActivation> {
+  /// g' = −2 k_c/r (r − d)², g'' = 4 k_c/r (r − d), and g.
+  OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
+    const float depth = r - d, slope = 2.0F * k / r * depth;
+    return {-slope * depth, 2.0F * slope};
+  }
+  OGC_HD static float energy_within(float d, float r, float k) {
+    const float depth = r - d;
+    return 2.0F * k / (3.0F * r) * depth * depth * depth;
+  }
+};
+
+/// use(functor of the activation). A `switch` without `default`: a new one does not compile until it stands here.
+template <class Use>
+OGC_HD auto with_activation(ContactActivation activation, const Use& use) {
+  switch (activation) {
+    case ContactActivation::ogc: return use(OgcActivation{});
+    case ContactActivation::ogc_as_printed: return use(OgcAsPrinted{});
+    case ContactActivation::quadratic: return use(QuadraticActivation{});
+    case ContactActivation::ipc_log: return use(IpcLogActivation{});
+    case ContactActivation::cubic: return use(CubicActivation{});
+  }
+  __builtin_unreachable();
+}
+
+/// An activation that is known at run time only.
+struct AnyActivation {
+  ContactActivation activation = ContactActivation::ogc;  ///< whose functor `slope` and `energy` call
+
+  /// g' and g'', as ActivationOf::slope.
+  OGC_HD ActivationSlope slope(float d, float r, float k) const {
+    return d < r ? with_activation(activation, SlopeWithin{d, r, k}) : ActivationSlope{};
+  }
+  /// g [J].
+  OGC_HD float energy(float d, float r, float k) const { return with_activation(activation, EnergyAt{d, r, k}); }
+
+ private:
+  struct SlopeWithin {
+    float d, r, k;
+    template <class Activation>
+    OGC_HD ActivationSlope operator()(Activation) const {
+      return Activation::slope_within(d, r, k);
+    }
+  };
+  struct EnergyAt {
+    float d, r, k;
+    template <class Activation>
+    OGC_HD float operator()(Activation) const {
+      return Activation::energy(d, r, k);
+    }
+  };
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,40 @@
+// Every bending model by its name. A `switch` without `default`: a new model does not compile until it stands here.
+#pragma once
+
+#include "fast/kernels/models/discrete_hinge.hpp"
+#include "fast/kernels/models/isometric_quadratic.hpp"
+
+namespace ogc::fast {
+
+/// BendingModel::none: hinges without energy, which no rest state holds.
+struct NoBending {
+  /// There is no stencil to add, so GatherDefault serves, and nothing is read.
+  static constexpr bool is_default = true, reads_weights = false;
+  OGC_HD static void add(const HingeSeen&, float, ForceAndBlock&) {}
+  OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
+  OGC_HD static double energy(const HingeRest&, const HingeWeights&, const Vec*) { return 0; }
+};
+
+/// use(functor of the model).
+template <class Use>
+OGC_HD auto with_bending(compare::BendingModel model, const Use& use) {
+  switch (model) {
+    case compare::BendingModel::none: return use(NoBending{});
+    case compare::BendingModel::discrete_hinge: return use(DiscreteHinge{});
+    case compare::BendingModel::isometric_quadratic: return use(IsometricQuadratic{});
+  }
+  __builtin_unreachable();
+}
+
+/// Whether GatherDefault has this bending and its damping.
+OGC_HD inline bool has_default_bending(const SurfaceModels& models) {
+  const auto is_default = [](auto model) { return decltype(model)::is_default; };
+  return models.damping == compare::DampingForm::strain && with_bending(models.bending, is_default);
+}
+
+/// Whether the model needs HingeWeights.
+OGC_HD inline bool reads_weights(compare::BendingModel model) {
+  return with_bending(model, [](auto functor) { return decltype(functor)::reads_weights; });
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,22 @@
+// Damping by vertex (method.md §4.9): k_d/h times a stencil's own block, on the motion of the vertex since the start of
+// the step. The other form, of strains, is each model's own.
+#pragma once
+
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
+
+namespace ogc::fast {
+
+/// Adds an elastic stencil with damping k = k_d/h by vertex: its force less k B moved, and its block B (1 + k) times.
+OGC_HD inline void add_damped_by_vertex(const ForceAndBlock& elastic, float damping, const Vec& moved,
+                                        ForceAndBlock& sum) {
+  const Symmetric3& b = elastic.block;
+  const Vec resisted{b.xx * moved.x + b.xy * moved.y + b.xz * moved.z, b.xy * moved.x + b.yy * moved.y + b.yz * moved.z,
+                     b.xz * moved.x + b.yz * moved.y + b.zz * moved.z};
+  const float grown = 1.0f + damping;
+  sum += ForceAndBlock{elastic.force - damping * resisted,
+                       {grown * b.xx, grown * b.xy, grown * b.xz, grown * b.yy, grown * b.yz, grown * b.zz}};
+}
+
+}  // namespace ogc::fast

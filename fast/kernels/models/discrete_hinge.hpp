@@ -1,0 +1,43 @@
+// Discrete hinge: c/2 (θ − θ₀)², c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md §4.7), damping c k_d/(2h) (θ − θᵗ)², seen from one
+// vertex. The block is Gauss–Newton's.
+#pragma once
+
+#include "fast/kernels/models/hinge.hpp"
+
+namespace ogc::fast {
+
+/// BendingModel::discrete_hinge.
+struct DiscreteHinge {
+  static constexpr bool is_default = true;      ///< GatherDefault and the packs of the CPU have it
+  static constexpr bool reads_weights = false;  ///< of HingeWeights
+
+  /// Adds −∂/∂x of energy and damping and c (1 + k_d/h) ∇θ ∇θᵀ, for a vertex whose ∂θ/∂x is `gradient`. `angle_start`
+  /// is θᵗ; `damping` k_d/h.
+  template <class T>
+  OGC_HD static void add(const HingeStencilOf<T>& stencil, float damping, const T& angle, const T& angle_start,
+                         const Vector<T>& gradient, ForceAndBlockOf<T>& sum) {
+    const T moment = stencil.stiffness * ((angle - stencil.rest_angle) + damping * (angle - angle_start));
+    sum.add_force(-moment, gradient);
+    sum.add_outer(stencil.stiffness * (1.0f + damping), gradient);
+  }
+
+  /// The same of a hinge whose shape is not known yet; nothing where it is not defined.
+  OGC_HD static void add(const HingeSeen& hinge, float damping, ForceAndBlock& sum) {
+    const HingeShape shape = hinge_shape_seen<float>(hinge.opposite, hinge.p, hinge.own);
+    if (!shape.defined) return;
+    add(hinge.stencil, damping, shape.angle, hinge.angle_start, hinge_gradient(shape, hinge.opposite), sum);
+  }
+
+  /// `add` leaves nothing out.
+  OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
+
+  /// [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
+  OGC_HD static double energy(const HingeRest& rest, const HingeWeights&, const Vec* to) {
+    const HingeShape shape = hinge_shape(to[0], to[1], to[2]);
+    if (!shape.defined) return 0;
+    const double change = static_cast<double>(shape.angle) - rest.angle;
+    return 0.5 * rest.stiffness * change * change;
+  }
+};
+
+}  // namespace ogc::fast

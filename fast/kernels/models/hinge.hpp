@@ -1,0 +1,120 @@
+// What all bending models share: a hinge's rest data, its angle θ and the angle's gradients. With e = x1 − x0,
+// a = o0 − x0, b = o1 − x0, n_a = e × a, n_b = b × e:
+//
+//          o0         θ = atan2(−‖e‖ n_a·b⊥, n_a·n_b): the sine as a volume, because the cross product of two nearly
+//         /  \        equal normals cancels, and of b's component across e alone: along e the errors of two needles
+//       x0 ── x1      multiply
+//         \  /        ∂θ/∂o0 = −‖e‖ n_a/‖n_a‖²,  ∂θ/∂o1 = −‖e‖ n_b/‖n_b‖²
+//          o1         ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1,  s_a = a·e/‖e‖² (where o0's foot lies on the
+//                     edge); ∂θ/∂x1 with s instead of 1 − s
+//
+// Exchanging x0 with x1 and o0 with o1 at once keeps θ, so the two roles below serve all four vertices.
+#pragma once
+
+#include <cmath>
+
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/arctangent.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
+#include "fast/kernels/models/material.hpp"
+
+namespace ogc::fast {
+
+/// A hinge at rest.
+struct HingeRest {
+  int vertex[4] = {-1, -1, -1, -1};  ///< x0, x1, o0, o1
+  int body = -1;
+  float angle = 0;      ///< θ₀ [rad]
+  float stiffness = 0;  ///< c [J]
+};
+
+/// w of x1, o0, o1 [1/m], of the isometric model; that of x0 is minus their sum.
+struct HingeWeights {
+  float weight[3] = {};  ///< of x1, o0, o1
+};
+
+/// Angle of a hinge and what its gradients need of the present shape.
+template <class T>
+struct HingeShapeOf {
+  Vector<T> normal_a, normal_b;  ///< n_a, n_b
+  T length_squared{};            ///< ‖e‖²
+  T beyond_a{}, beyond_b{};      ///< (1 − s) ‖e‖²: how far the feet lie from x1, times ‖e‖
+  T divisor_a{}, divisor_b{};    ///< ‖e‖ ‖n‖²
+  T angle{};                     ///< θ
+  /// false where a triangle or the edge collapsed: then nothing below ‖e‖² means anything
+  Mask<T> defined{};
+};
+using HingeShape = HingeShapeOf<float>;
+
+/// The cross product of two rounded differences has an error of up to 4 u ‖e‖‖a‖ (two differences, two products). A
+/// triangle has collapsed where its doubled area is below eight times that: its normal is known to no better than an
+/// eighth, and its square, by which gradients are divided, to no better than a quarter. The hinge then exerts no force,
+/// and the membrane alone opens it again.
+template <class T>
+OGC_HD Mask<T> hinge_side_collapsed(const T& normal_squared, const T& length_squared, const T& side_squared) {
+  constexpr float relative = 1024 * 0x1p-48f;  // (8 · 4 u)²
+  return !(normal_squared > relative * length_squared * side_squared);
+}
+
+/// The shape of a hinge with these e, a and b.
+template <class T>
+OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, const Vector<T>& b) {
+  HingeShapeOf<T> shape;
+  shape.normal_a = cross(edge, a);
+  shape.normal_b = cross(b, edge);
+  shape.length_squared = dot(edge, edge);
+  const T squared_a = dot(shape.normal_a, shape.normal_a), squared_b = dot(shape.normal_b, shape.normal_b);
+  shape.defined = !(hinge_side_collapsed(squared_a, shape.length_squared, dot(a, a)) ||
+                    hinge_side_collapsed(squared_b, shape.length_squared, dot(b, b)));
+  if (is_false(shape.defined)) return shape;
+  const T length = root(shape.length_squared), along = dot(b, edge);
+  const Vector<T> across = b - (along / shape.length_squared) * edge;
+  shape.angle = arctangent2(-length * dot(shape.normal_a, across), dot(shape.normal_a, shape.normal_b));
+  shape.beyond_a = shape.length_squared - dot(a, edge);
+  shape.beyond_b = shape.length_squared - along;
+  shape.divisor_a = length * squared_a;
+  shape.divisor_b = length * squared_b;
+  return shape;
+}
+
+/// ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators: the threads of a warp hold both roles
+/// at once.
+template <class T>
+OGC_HD Vector<T> hinge_gradient(const HingeShapeOf<T>& shape, const Mask<T>& opposite) {
+  const T a = select(opposite, -shape.length_squared, shape.beyond_a), b = select(opposite, T{}, shape.beyond_b);
+  return (a / shape.divisor_a) * shape.normal_a + (b / shape.divisor_b) * shape.normal_b;
+}
+
+/// A hinge as one of its vertices sees it. `p`: for an end of the edge, as x0: x1, o0, o1; for an opposite vertex, as
+/// o0: x0, x1, o1.
+template <class T>
+OGC_HD HingeShapeOf<T> hinge_shape_seen(const Mask<T>& opposite, const Vector<T>* p, const Vector<T>& own) {
+  const Vector<T> base = select(opposite, p[0], own), end = select(opposite, p[1], p[0]),
+                  side = select(opposite, own, p[1]);
+  return hinge_shape(end - base, side - base, p[2] - base);
+}
+
+/// A hinge's constants in the discrete model.
+template <class T>
+struct HingeStencilOf {
+  T stiffness, rest_angle;  ///< c [J], θ₀ [rad]
+};
+using HingeStencil = HingeStencilOf<float>;
+
+/// Weights in the isometric model: of the vertex itself and of the others in the order of its hinge incidence [1/m].
+struct IsometricStencil {
+  float own = 0, other[3] = {};
+};
+
+/// All that a bending model reads of a hinge, seen from the vertex that is solved.
+struct HingeSeen {
+  HingeStencil stencil;        ///< c and θ₀
+  IsometricStencil isometric;  ///< where the body bends so
+  bool opposite;               ///< the vertex is none of the edge
+  Vec own, p[3];               ///< positions; p as in hinge_shape_seen
+  float angle_start;           ///< θᵗ
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,41 @@
+// Isometric quadratic bending of a flat rest shape: c/2 ‖ℓ‖², ℓ = Σ w_i x_i (compare/stages/bending.hpp), seen from one
+// vertex. The weights add up to 0, so ℓ is formed from differences to that vertex. Damping is the hinge's, with θᵗ for
+// a rest angle.
+#pragma once
+
+#include "fast/kernels/models/discrete_hinge.hpp"
+
+namespace ogc::fast {
+
+/// BendingModel::isometric_quadratic.
+struct IsometricQuadratic {
+  /// GatherDefault and the packs of the CPU lack it, and it reads HingeWeights.
+  static constexpr bool is_default = false;
+  static constexpr bool reads_weights = true;
+
+  /// Adds −c w ℓ and c w² I, without damping.
+  OGC_HD static void add(const HingeSeen& hinge, float, ForceAndBlock& sum) {
+    const Vec to[3] = {hinge.p[0] - hinge.own, hinge.p[1] - hinge.own, hinge.p[2] - hinge.own};
+    const float* w = hinge.isometric.other;
+    const Vec curvature = w[0] * to[0] + w[1] * to[1] + w[2] * to[2];
+    const float pull = hinge.stencil.stiffness * hinge.isometric.own;
+    sum.add_force(-pull, curvature);
+    sum.add_identity(pull * hinge.isometric.own);
+  }
+
+  /// Adds the damping; `damping` is k_d/h.
+  OGC_HD static void add_damper(const HingeSeen& hinge, float damping, ForceAndBlock& sum) {
+    if (!(damping > 0)) return;
+    HingeSeen damper = hinge;
+    damper.stencil = {damping * hinge.stencil.stiffness, hinge.angle_start};
+    DiscreteHinge::add(damper, 0.0f, sum);
+  }
+
+  /// [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
+  OGC_HD static double energy(const HingeRest& rest, const HingeWeights& weights, const Vec* to) {
+    const Vec curvature = weights.weight[0] * to[0] + weights.weight[1] * to[1] + weights.weight[2] * to[2];
+    return 0.5 * rest.stiffness * static_cast<double>(dot(curvature, curvature));
+  }
+};
+
+}  // namespace ogc::fast

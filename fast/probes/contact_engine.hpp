@@ -1,0 +1,53 @@
+// A detection that grows its lists until nothing is missing: what the judge's probes and ContactFinder run. The
+// simulation does the same with whole steps.
+#pragma once
+
+#include <span>
+
+#include "fast/contact_sets.hpp"
+#include "fast/probes/download.hpp"
+
+namespace ogc::fast {
+
+/// The engine of one surface on one backend.
+template <class Backend>
+class BackendContactEngine : public ContactEngine {
+ public:
+  /// `topology` must outlive the engine. `capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
+  BackendContactEngine(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
+                       int capacity = 0)
+      : backend_(backend), topology_(topology), detection_(backend, topology, exclusions, capacity, usual_skin) {}
+
+  ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) override {
+    positions_.upload(reinterpret_cast<const Vec*>(positions.data()), positions.size());
+    run(positions_.data(), query);
+    return download_contacts(backend_, detection_, topology_);
+  }
+
+  ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
+    run(reinterpret_cast<const Vec*>(positions), query);
+    return detection_.view();
+  }
+
+  /// What it runs.
+  const Detection<Backend>& detection() const { return detection_; }
+
+ private:
+  void run(const Vec* positions, const ContactQuery& query) {
+    query_radius_.upload(&query.query_radius, 1);
+    detection_.rebuild(positions);
+    do {
+      detection_.detect(positions, query.contact_radius, query_radius_.data(), query.bound_relaxation);
+      backend_.synchronize();
+    } while (detection_.grow());
+    detection_.make_room();
+  }
+
+  Backend& backend_;
+  const compare::Topology& topology_;
+  Detection<Backend> detection_;
+  typename Backend::template Buffer<Vec> positions_;
+  typename Backend::template Buffer<float> query_radius_;
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,121 @@
+// The judge's way in to contacts: each case becomes one record of a detection, which makes its incidence as the sweep's
+// stream does, mollifier included, and is added by the functions that the sweep uses. Friction is asked about alone: a
+// difference of sums with and without it would hold their rounding.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "compare/stages/contact_force.hpp"
+#include "compare/stages/friction_force.hpp"
+#include "fast/kernels/contact_stream.hpp"
+#include "fast/probes/probe_forces.hpp"
+#include "fast/probes/probe_memory.hpp"
+
+namespace ogc::fast {
+
+/// Cases as records: case i has the vertices 4 i … 4 i + 3, the body i and the edges 2 i and 2 i + 1.
+struct ContactBatch {
+  /// By case, of which is_edge_edge says which of the two counts.
+  std::vector<VertexFacetRecord> vertex_facet;
+  std::vector<EdgeEdgeRecord> edge_edge;
+  std::vector<ContactMaterial> materials;                       ///< by body: k_c [N/m], μ [1]
+  std::vector<compare::Vec3f> positions, previous, start;       ///< by vertex: x, X_prev, xᵗ [m]
+  std::vector<float> rest_squared, contact_radius, slip_limit;  ///< by edge [m²]; by case: r, ε_v h [m]
+  std::vector<int> body, role;                                  ///< by vertex; by case, as in contact_view.hpp
+  /// by case; bit k of `together`: the vertex of role k has the own one's colour
+  std::vector<std::uint8_t> is_edge_edge, together;
+  std::vector<AnyActivation> activation;  ///< by case
+};
+
+/// Adds a case and its friction.
+void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start,
+            float friction, float slip_limit);
+
+/// Each contact alone, at its positions.
+struct ProbeContact {
+  SweepView view;  ///< positions and xᵗ; radius and slip limit are those of the case
+  ContactTables tables;
+  /// The arrays of a ContactBatch on the backend.
+  const VertexFacetRecord* vertex_facet;
+  const EdgeEdgeRecord* edge_edge;
+  const float *contact_radius, *slip_limit;
+  const int* role;
+  const std::uint8_t *is_edge_edge, *together;
+  const AnyActivation* activation;
+  bool friction;    ///< of friction alone, or of the normal force alone
+  ForceArrays out;  ///< by case, written
+
+  OGC_HD void operator()(int i) const {
+    SweepView here = view;
+    here.contact_radius = contact_radius[i];
+    here.friction_limit = slip_limit[i];
+    ContactIncidence incidence = is_edge_edge[i] != 0 ? contact_of(tables, edge_edge[i])
+                                                      : contact_of(tables, vertex_facet[i]);
+    incidence.own = slot_of_role(is_edge_edge[i] != 0, incidence.kind, role[i]);
+    for (int k = 0; k < 4; ++k) {
+      const int slot = slot_of_role(is_edge_edge[i] != 0, incidence.kind, k);
+      if (k != role[i] && (together[i] >> k & 1) != 0) incidence.together |= static_cast<std::uint8_t>(1 << slot);
+    }
+    ForceAndBlock sum;
+    const ContactReads reads = read_contact(here, incidence);
+    const ContactAt at = contact_at(incidence, reads, here.contact_radius);
+    if (at.acts()) {
+      ForceAndBlock normal;
+      const float normal_force = add_contact(activation[i], at.shape, at.weight, at.majorant, here.contact_radius,
+                                             incidence.stiffness, normal);
+      if (friction)
+        add_contact_friction(incidence, reads, at, normal_force, here.friction_limit, sum);
+      else
+        sum = normal;
+    }
+    out.store(i, sum);
+  }
+};
+
+/// All cases of a batch: their friction alone, or their normal forces alone.
+template <class Backend>
+compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bool friction) {
+  ProbeMemory<Backend> memory(backend);
+  compare::ForceOut out;
+  SweepView view;
+  view.old = memory.padded(batch.positions);
+  view.start = {memory.padded(batch.start)};
+  // Without a body count the material of a pair is that of its second body, here of its case.
+  const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials),
+                             0, memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.previous)};
+  const std::size_t n = batch.role.size();
+  backend.for_each(static_cast<int>(n),
+                   ProbeContact{.view = view,
+                                .tables = tables,
+                                .vertex_facet = memory.template in<VertexFacetRecord>(batch.vertex_facet),
+                                .edge_edge = memory.template in<EdgeEdgeRecord>(batch.edge_edge),
+                                .contact_radius = memory.template in<float>(batch.contact_radius),
+                                .slip_limit = memory.template in<float>(batch.slip_limit),
+                                .role = memory.template in<int>(batch.role),
+                                .is_edge_edge = memory.template in<std::uint8_t>(batch.is_edge_edge),
+                                .together = memory.template in<std::uint8_t>(batch.together),
+                                .activation = memory.template in<AnyActivation>(batch.activation),
+                                .friction = friction,
+                                .out = force_arrays(memory, out, n)});
+  memory.fetch();
+  return out;
+}
+
+/// The stage `contact_force`.
+template <class Backend>
+compare::ForceOut probe_contact_force(Backend& backend, const compare::ContactForceIn& in) {
+  ContactBatch batch;
+  for (const compare::ContactForceCase& c : in.cases) append(batch, c, c.vertex, 0, 1);
+  return probe_contacts(backend, batch, false);
+}
+
+/// The stage `friction_force`.
+template <class Backend>
+compare::ForceOut probe_friction_force(Backend& backend, const compare::FrictionForceIn& in) {
+  ContactBatch batch;
+  for (const compare::FrictionForceCase& c : in.cases) append(batch, c.contact, c.start, c.friction, c.slip_limit);
+  return probe_contacts(backend, batch, true);
+}
+
+}  // namespace ogc::fast

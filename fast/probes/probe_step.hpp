@@ -1,0 +1,45 @@
+// The judge's way in to a step: a resident simulation of the scene takes one, and tells.
+#pragma once
+
+#include <utility>
+
+#include "fast/probes/download.hpp"
+#include "fast/probes/trace.hpp"
+#include "fast/stages/simulation.hpp"
+
+namespace ogc::fast {
+
+/// One step of a simulation, told event by event: of a step that was repeated because a list grew, the last attempt.
+/// Needs SimulationOptions::profile; changes no bit.
+template <class Backend>
+compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
+  StepState<Backend>& state = simulation.state();
+  StepTrace<Backend> trace(simulation.backend(), state, simulation.detection(), simulation.topology());
+  simulation.observe(&trace);
+  simulation.advance(1);
+  simulation.observe(nullptr);
+  const auto positions = [&](const auto& buffer) {
+    return download_positions(simulation.backend(), buffer.data(), buffer.size());
+  };
+  compare::StepOut out;
+  out.colour = simulation.colouring().colour;
+  out.rest = rest_state_out({&simulation.scene(), &simulation.topology()});
+  out.query_radius = simulation.query_radius();
+  out.events = trace.take();
+  out.target = positions(state.target);
+  out.position = positions(state.start);
+  out.velocity = positions(state.velocity);
+  return out;
+}
+
+/// `list_capacity` as in ResidentSimulation.
+template <class Backend>
+compare::StepOut probe_step(const compare::StepIn& in, int list_capacity = 0, Backend backend = Backend{}) {
+  compare::SimulationOptions options;
+  options.profile = true;
+  options.energies = false;
+  ResidentSimulation<Backend> simulation(std::move(backend), *in.scene, options, "probe", list_capacity);
+  return trace_step(simulation);
+}
+
+}  // namespace ogc::fast

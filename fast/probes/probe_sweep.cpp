@@ -1,0 +1,71 @@
+#include "fast/probes/probe_sweep.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ogc::fast {
+namespace {
+
+/// Vertices of a face in the order of a detection's records; those that it lacks are −1.
+std::array<int, 3> corners_of(const compare::Face& face, const compare::Topology& topology) {
+  const auto i = static_cast<std::size_t>(face.index);
+  switch (face.kind) {
+    case compare::FaceKind::vertex: return {face.index, -1, -1};
+    case compare::FaceKind::edge: return {topology.edges[i][0], topology.edges[i][1], -1};
+    case compare::FaceKind::triangle: return topology.triangles[i];
+  }
+  __builtin_unreachable();
+}
+
+class IncidenceCounts {
+ public:
+  explicit IncidenceCounts(std::size_t vertices) : counts_(vertices, 0) {}
+  void add(int vertex) {
+    if (vertex >= 0) ++counts_[static_cast<std::size_t>(vertex)];
+  }
+  std::vector<int> offsets() const {
+    std::vector<int> offsets{0};
+    for (const int count : counts_) offsets.push_back(offsets.back() + count);
+    return offsets;
+  }
+
+ private:
+  std::vector<int> counts_;
+};
+
+}  // namespace
+
+ContactRecords contact_records(const compare::SweepIn& in) {
+  ContactRecords records;
+  IncidenceCounts counts(in.old.size());
+  for (const compare::VertexFacetContact& contact : in.vertex_facet) {
+    const auto corner = corners_of(contact.face, *in.topology);
+    records.vertex_facet.push_back({contact.vertex, {corner[0], corner[1], corner[2]}});
+    counts.add(contact.vertex);
+    for (const int v : corner) counts.add(v);
+  }
+  for (const compare::EdgeEdgeContact& contact : in.edge_edge) {
+    const auto p = corners_of(contact.first, *in.topology), q = corners_of(contact.second, *in.topology);
+    records.edge_edge.push_back({{p[0], p[1]}, {q[0], q[1]}, contact.first_edge, contact.second_edge});
+    for (std::size_t k = 0; k < 2; ++k) counts.add(p[k]), counts.add(q[k]);
+  }
+  records.offsets = counts.offsets();
+  return records;
+}
+
+Colouring colouring_of(std::span<const compare::Index> colour) {
+  Colouring colouring;
+  colouring.colour.assign(colour.begin(), colour.end());
+  for (const int c : colouring.colour) colouring.count = std::max(colouring.count, c + 1);
+  std::vector<std::vector<int>> classes(static_cast<std::size_t>(colouring.count));
+  for (std::size_t v = 0; v < colouring.colour.size(); ++v) {
+    if (colouring.colour[v] >= 0) classes[static_cast<std::size_t>(colouring.colour[v])].push_back(static_cast<int>(v));
+  }
+  for (const std::vector<int>& members : classes) {
+    colouring.order.insert(colouring.order.end(), members.begin(), members.end());
+    colouring.begin.push_back(static_cast<int>(colouring.order.size()));
+  }
+  return colouring;
+}
+
+}  // namespace ogc::fast

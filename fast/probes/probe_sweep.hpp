@@ -1,0 +1,166 @@
+// The judge's way in to the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of
+// the question in place of its own. Incidences are filled and ordered by the functors of the detection (FillIncidences,
+// RankIncidences), so the sums have the order that they have in a step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compare/stages/sweep.hpp"
+#include "fast/kernels/initial_guess.hpp"
+#include "fast/kernels/lists.hpp"
+#include "fast/probes/probe_memory.hpp"
+#include "fast/stages/step.hpp"
+#include "fast/stages/sweep.hpp"
+
+namespace ogc::fast {
+
+/// The contacts of a question as a detection would leave them.
+struct ContactRecords {
+  std::vector<VertexFacetRecord> vertex_facet;  ///< by record
+  std::vector<EdgeEdgeRecord> edge_edge;        ///< by record
+  std::vector<int> offsets;                     ///< of the incidences by vertex, vertex_count + 1
+};
+
+/// Those of a question.
+ContactRecords contact_records(const compare::SweepIn& in);
+
+/// The order of a sweep whose colours are given; −1: not free.
+Colouring colouring_of(std::span<const compare::Index> colour);
+
+/// Records on the backend with their incidences.
+template <class Backend>
+class ProbeContacts {
+ public:
+  ProbeContacts(Backend& backend, const ContactRecords& records, int vertex_count)
+      : backend_(backend), count_(records.offsets.back()) {
+    const auto facets = static_cast<int>(records.vertex_facet.size()),
+               edges = static_cast<int>(records.edge_edge.size());
+    overflow_.resize(1);
+    overflow_.fill_zero();
+    vertex_facet_.upload(records.vertex_facet.data(), records.vertex_facet.size());
+    edge_edge_.upload(records.edge_edge.data(), records.edge_edge.size());
+    offsets_.upload(records.offsets.data(), records.offsets.size());
+    filled_.resize(static_cast<std::size_t>(vertex_count));
+    filled_.fill_zero();
+    loose_.resize(static_cast<std::size_t>(count_)), incidences_.resize(static_cast<std::size_t>(count_));
+    fill(facets, edges);
+  }
+
+  /// Of all vertices.
+  int incidences() const { return count_; }
+
+  /// As a detection's.
+  ContactView view() const {
+    ContactView view;
+    view.vertex_facet = vertex_facet_.data();
+    view.edge_edge = edge_edge_.data();
+    view.incidence_offsets = offsets_.data();
+    view.incidences = incidences_.data();
+    return view;
+  }
+
+ private:
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  /// Of the lists of a detection, what its last two kernels read.
+  void fill(int facets, int edges) {
+    ListsView lists;
+    lists.overflow = overflow_.data();
+    lists.vertex_facet = vertex_facet_.data();
+    lists.edge_edge = edge_edge_.data();
+    lists.incidence_offsets = offsets_.data();
+    lists.incidence_filled = filled_.data();
+    lists.loose = loose_.data();
+    lists.incidences = incidences_.data();
+    backend_.for_each(facets + edges, FillIncidences{lists, facets});
+    backend_.for_each(count_, RankIncidences{lists});
+  }
+
+  Backend& backend_;
+  int count_;
+  Buffer<int> overflow_, offsets_, filled_;  ///< `overflow_`: one flag, not set
+  Buffer<VertexFacetRecord> vertex_facet_;
+  Buffer<EdgeEdgeRecord> edge_edge_;
+  Buffer<LooseIncidence> loose_;
+  Buffer<Incidence> incidences_;
+};
+
+/// Gᵗ and θᵗ as the start of a step leaves them.
+template <class Backend>
+class ProbeStart {
+ public:
+  ProbeStart(Backend& backend, const RestState& rest, const Vec* start) {
+    triangles_.upload(rest.triangles.data(), rest.triangles.size());
+    hinges_.upload(rest.hinges.data(), rest.hinges.size());
+    strain_.resize(rest.triangles.size());
+    angle_.resize(rest.hinges.size());
+    backend.for_each(static_cast<int>(rest.triangles.size()), BeginTriangle{triangles_.data(), start, strain_.data()});
+    backend.for_each(static_cast<int>(rest.hinges.size()), BeginHinge{hinges_.data(), start, angle_.data()});
+    tetrahedra_.upload(rest.tetrahedra.data(), rest.tetrahedra.size());
+    solid_.resize(rest.tetrahedra.size());
+    backend.for_each(static_cast<int>(rest.tetrahedra.size()),
+                     BeginTetrahedron{tetrahedra_.data(), start, solid_.data()});
+  }
+  /// On the backend: Gᵗ by triangle, θᵗ by hinge [rad], Gᵗ by tetrahedron.
+  const Symmetric2* strain() const { return strain_.data(); }
+  const float* angle() const { return angle_.data(); }
+  const SolidStrain* solid() const { return solid_.data(); }
+
+ private:
+  typename Backend::template Buffer<TriangleRest> triangles_;
+  typename Backend::template Buffer<HingeRest> hinges_;
+  typename Backend::template Buffer<Symmetric2> strain_;
+  typename Backend::template Buffer<float> angle_;
+  typename Backend::template Buffer<TetrahedronRest> tetrahedra_;
+  typename Backend::template Buffer<SolidStrain> solid_;
+};
+
+/// One iteration of the resident sweep.
+template <class Backend>
+compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
+  ProbeMemory<Backend> memory(backend);
+  const auto whole = [](std::span<const compare::Vec3f> x) { return std::vector<compare::Vec3f>(x.begin(), x.end()); };
+  const auto vectors = [&](std::span<const compare::Vec3f> x) { return memory.template in<Vec>(whole(x)); };
+  const RestState rest = rest_state_of({in.scene, in.topology}, *in.rest);
+  const StepSettings settings = step_settings(*in.scene, in.old.size(), false);
+  Sweep<Backend> sweep(backend, rest, colouring_of(in.colour), *in.topology, *in.scene);
+  StepControl control;
+  control.active = 1;
+  typename Backend::template Buffer<StepControl> control_buffer;
+  control_buffer.upload(&control, 1);
+  typename Backend::template Buffer<Vec> position;
+  position.upload(reinterpret_cast<const Vec*>(in.old.data()), in.old.size());
+
+  SweepView view;
+  view.start = {memory.padded(whole(in.start))};
+  view.target = vectors(in.target);
+  const Vec* previous = vectors(in.previous);
+  view.regions = {previous, memory.template in<float>(std::vector<float>(in.bound.begin(), in.bound.end()))};
+  view.old = memory.padded(whole(in.old), 2);
+  view.to_fresh = static_cast<int>(in.old.size());
+  view.position = position.data();
+  view.control = control_buffer.data();
+  view.contact_radius = settings.contact_radius;
+  view.friction_limit = settings.friction_limit;
+  const ProbeStart<Backend> start(backend, rest, vectors(in.start));
+  view.strain_start = start.strain();
+  view.angle_start = start.angle();
+  view.solid_start = start.solid();
+  const ProbeContacts<Backend> contacts(backend, contact_records(in), static_cast<int>(in.old.size()));
+  sweep.reserve_contacts(contacts.incidences());
+  sweep.resolve_contacts(contacts.view(), previous);
+  sweep.complete(view);
+  sweep.iterate(view);
+
+  backend.synchronize();
+  compare::SweepOut out;
+  out.position.resize(in.old.size());
+  position.download(reinterpret_cast<Vec*>(out.position.data()), out.position.size());
+  control_buffer.download(&control, 1);
+  out.cut = control.cut;
+  return out;
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,77 @@
+// What the judge sees of a step: the resident simulation's own, event by event. Only what took place becomes an event;
+// the control's counters tell.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "compare/stages/step.hpp"
+#include "fast/probes/download.hpp"
+#include "fast/stages/step.hpp"
+
+namespace ogc::fast {
+
+/// The trace of one simulation.
+template <class Backend>
+class StepTrace : public StepObserver {
+ public:
+  StepTrace(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection,
+            const compare::Topology& topology)
+      : backend_(backend), state_(state), detection_(detection), topology_(topology) {}
+
+  void begin() override {
+    events_.clear();
+    seen_ = {};
+  }
+
+  void after(compare::StepEventKind kind, const Vec* position) override {
+    backend_.synchronize();
+    StepControl control;
+    state_.control.download(&control, 1);
+    const int counted = count_of(kind, control);
+    if (std::exchange(seen_[static_cast<std::size_t>(kind)], counted) < counted)
+      events_.push_back(event(kind, position, control));
+  }
+
+  /// The events of the last step.
+  std::vector<compare::StepEvent> take() { return std::move(events_); }
+
+ private:
+  static int count_of(compare::StepEventKind kind, const StepControl& control) {
+    switch (kind) {
+      case compare::StepEventKind::detection: return control.detections;
+      case compare::StepEventKind::guess: return control.rounds;
+      case compare::StepEventKind::sweep: return control.iterations;
+    }
+    __builtin_unreachable();
+  }
+
+  compare::StepEvent event(compare::StepEventKind kind, const Vec* position, const StepControl& control) {
+    const auto n = static_cast<std::size_t>(state_.vertex_count);
+    compare::StepEvent event;
+    event.kind = kind;
+    if (kind != compare::StepEventKind::detection) {
+      event.position = download_positions(backend_, position, n);
+      event.cut = control.cut_last;
+      return event;
+    }
+    const Vec* previous = state_.previous.data();
+    event.position = download_positions(backend_, previous, n);
+    ContactSets sets = download_contacts(backend_, detection_, topology_);
+    event.vertex_facet = {std::move(sets.vertex_facet), std::move(sets.d_min_vertex), std::move(sets.d_min_triangle)};
+    event.edge_edge = {std::move(sets.edge_edge), std::move(sets.d_min_edge)};
+    event.bound = std::move(sets.bound);
+    event.planes = detection_.download_planes();
+    return event;
+  }
+
+  Backend& backend_;
+  StepState<Backend>& state_;
+  Detection<Backend>& detection_;
+  const compare::Topology& topology_;
+  std::array<int, 3> seen_{};  ///< by kind: events counted at the last look
+  std::vector<compare::StepEvent> events_;
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,106 @@
+// A trace tells of the simulation's own step, and looking changes nothing.
+#include "fast/probes/probe_step.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "fast/cpu/backend.hpp"
+#include "fast/cpu/simulation.hpp"
+#include "tests/catch.hpp"
+#include "tests/fast/scenes.hpp"
+
+using namespace ogc;
+using namespace ogc::fast;
+using namespace ogc::fast::test;
+
+namespace {
+
+bool same_bits(const std::vector<compare::Vec3f>& a, const std::vector<compare::Vec3f>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(compare::Vec3f)) == 0;
+}
+
+// A sheet thrown askew at a fixed one: several rounds, contacts, detections between iterations.
+compare::Scene thrown_sheet() {
+  compare::Scene scene = empty_scene();
+  add_sheet(scene, 7, 0.06, 0.006, false);
+  add_sheet(scene, 6, 0.08, 0, true);
+  for (std::size_t v = 0; v < 49; ++v) {
+    scene.mesh.positions[v].y += 0.05 * scene.mesh.positions[v].x;
+    scene.velocities[v] = {0.2, -1.5, 0.1};
+  }
+  scene.settings.iterations = 7;
+  compare::round_to_single(scene);
+  return scene;
+}
+
+compare::StepOut traced(const compare::Scene& scene, int list_capacity = 0) {
+  const compare::Topology topology = compare::build_topology(scene);
+  return probe_step<CpuBackend>({&scene, &topology}, list_capacity);
+}
+
+std::int64_t count(const compare::StepOut& out, compare::StepEventKind kind) {
+  return std::count_if(out.events.begin(), out.events.end(),
+                       [&](const compare::StepEvent& event) { return event.kind == kind; });
+}
+
+}  // namespace
+
+TEST_CASE("a traced step gives the bits of an untraced one, and as many events as its row counts", "[property]") {
+  const compare::Scene scene = thrown_sheet();
+  const auto untraced = start_cpu(scene, {});
+  const compare::StepMetrics row = untraced->advance(1).at(0);
+  const compare::Snapshot end = untraced->snapshot();
+  const compare::StepOut trace = traced(scene);
+  CHECK(same_bits(trace.position, end.positions));
+  CHECK(same_bits(trace.velocity, end.velocities));
+  CHECK(trace.query_radius == end.query_radius);
+  CHECK(count(trace, compare::StepEventKind::detection) == row.discrete_detections);
+  CHECK(count(trace, compare::StepEventKind::guess) == row.guess_rounds);
+  CHECK(count(trace, compare::StepEventKind::sweep) == 7);
+  CHECK(row.guess_rounds > 1);
+  CHECK(row.discrete_detections > row.guess_rounds);
+  CHECK(trace.events.back().cut == row.vertices_cut);
+  CHECK(same_bits(trace.events.back().position, end.positions));
+}
+
+TEST_CASE("the last detection of a trace is the one that the state's certificate names", "[property]") {
+  const compare::Scene scene = thrown_sheet();
+  const auto untraced = start_cpu(scene, {});
+  untraced->advance(1);
+  const compare::Snapshot end = untraced->snapshot();
+  const compare::StepOut trace = traced(scene);
+  const auto last = std::find_if(trace.events.rbegin(), trace.events.rend(),
+                                 [](const auto& e) { return e.kind == compare::StepEventKind::detection; });
+  CHECK(same_bits(last->position, end.previous));
+  CHECK(last->bound == end.bounds);
+}
+
+TEST_CASE("of a step that was repeated because its lists grew the trace tells the last attempt", "[property]") {
+  const compare::Scene scene = thrown_sheet();
+  const compare::StepOut roomy = traced(scene), tight = traced(scene, 1);
+  REQUIRE(tight.events.size() == roomy.events.size());
+  CHECK(same_bits(tight.position, roomy.position));
+  std::size_t contacts = 0;
+  for (std::size_t i = 0; i < tight.events.size(); ++i) {
+    const compare::StepEvent &a = tight.events[i], &b = roomy.events[i];
+    CHECK(a.kind == b.kind);
+    CHECK(a.cut == b.cut);
+    CHECK(same_bits(a.position, b.position));
+    CHECK(a.vertex_facet.contacts == b.vertex_facet.contacts);
+    CHECK(a.edge_edge.contacts == b.edge_edge.contacts);
+    CHECK(a.vertex_facet.d_min_triangle == b.vertex_facet.d_min_triangle);
+    CHECK(a.bound == b.bound);
+    contacts += a.vertex_facet.contacts.size();
+  }
+  CHECK(contacts > 10);
+}
+
+TEST_CASE("a scene in which nothing is free has a trace of one round and idle sweeps", "[unit]") {
+  compare::Scene scene = empty_scene();
+  add_sheet(scene, 3, 0.1, 0, true);
+  scene.settings.iterations = 2;
+  const compare::StepOut trace = traced(scene);
+  CHECK(trace.events.size() == 4);
+  CHECK(same_bits(trace.position, compare::to_single(scene.mesh.positions)));
+  CHECK(trace.colour == std::vector<compare::Index>(9, -1));
+}
