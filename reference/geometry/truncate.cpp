@@ -2,9 +2,11 @@
 // double.
 #include "reference/geometry/truncate.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference/geometry/margin.hpp"
+#include "reference/geometry/plane.hpp"
 #include "reference/geometry/truncate_region.hpp"
 
 namespace ogc::reference {
@@ -62,6 +64,25 @@ compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f
   while (sign(gap_points(previous, x, bound)) > 0)
     x = {std::nextafter(x.x, previous.x), std::nextafter(x.y, previous.y), std::nextafter(x.z, previous.z)};
   return x;
+}
+
+compare::Vec3f stored_in_region(const compare::Vec3& position, const compare::TruncateIn& in, std::size_t i) {
+  constexpr int attempts = 4;  // each leaves the half-spaces by as much as storing may move the point
+  const auto half_spaces = in.half_spaces.of(i);
+  const auto is_kept = [](const compare::HalfSpace& h, const Vec3f& x) { return keeps({{}, h.normal, h.offset}, x); };
+  compare::Vec3 y = position;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const Vec3f x = stored_within(y, in.previous[i], in.bound[i]);
+    if (std::ranges::all_of(half_spaces, [&](const compare::HalfSpace& h) { return is_kept(h, x); })) return x;
+    for (const compare::HalfSpace& h : half_spaces) {
+      if (is_kept(h, x)) continue;
+      const double nx = h.normal.x, ny = h.normal.y, nz = h.normal.z;
+      const double back = compare::unit_roundoff * (std::abs(nx * x.x) + std::abs(ny * x.y) + std::abs(nz * x.z)) /
+                          (nx * nx + ny * ny + nz * nz);
+      y = {y.x - back * nx, y.y - back * ny, y.z - back * nz};
+    }
+  }
+  return in.half_spaces.current[i];
 }
 
 }  // namespace ogc::reference

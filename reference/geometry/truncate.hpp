@@ -20,4 +20,7 @@ compare::HalfSpacesIn half_spaces_of(std::span<const compare::VertexPlane> plane
 /// The nearest single-precision position, stepped towards X_prev until it obeys the bound.
 compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound);
 
+/// The same in the region of case i: stepped back from half-spaces, too. Where that does not help, where the vertex is.
+compare::Vec3f stored_in_region(const compare::Vec3& position, const compare::TruncateIn& in, std::size_t i);
+
 }  // namespace ogc::reference

@@ -6,7 +6,6 @@
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
 #include "reference/geometry/pair_planes.hpp"
-#include "reference/geometry/plane.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/colouring.hpp"
 #include "reference/solvers/contacts.hpp"
@@ -109,18 +108,17 @@ class ReferenceStep {
     return flags;
   }
 
-  /// Where v goes on its way to its target; counts a cut. Where half-spaces do not hold what is stored, it stays.
+  /// Where v goes on its way to its target; counts a cut.
   Vec3f truncated(std::size_t v, Index& cut) const {
     const auto planes = planes_.of(static_cast<Index>(v));
-    const compare::TruncateTruth truth = truncate(
-        {{previous_[v]},
-         {out_.target[v]},
-         {bound_[v]},
-         half_spaces_of(planes, x_[v], inertia_block, exclusions_.groups[v] > 0)});
+    const compare::TruncateIn question{{previous_[v]},
+                                       {out_.target[v]},
+                                       {bound_[v]},
+                                       half_spaces_of(planes, x_[v], inertia_block, exclusions_.groups[v] > 0)};
+    const compare::TruncateTruth truth = truncate(question);
     if (truth.cut[0] == 0) return out_.target[v];
     ++cut;
-    const Vec3f x = stored_within(truth.position[0], previous_[v], bound_[v]);
-    return std::ranges::all_of(planes, [&](const compare::VertexPlane& plane) { return keeps(plane, x); }) ? x : x_[v];
+    return stored_in_region(truth.position[0], question, 0);
   }
 
   void guess(StepEvent& event, bool hold_contacts) {

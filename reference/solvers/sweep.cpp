@@ -6,7 +6,6 @@
 #include <tbb/parallel_for.h>
 
 #include "reference/geometry/margin.hpp"
-#include "reference/geometry/plane.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/vertex_update.hpp"
 
@@ -72,12 +71,13 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
 
 namespace {
 
-/// Where half-spaces do not hold the position that is stored, the vertex stays where it is.
-compare::Vec3f stored_in_region(const compare::Vec3& position, const compare::SweepIn& in, std::size_t v) {
-  const compare::Vec3f x = stored_within(position, in.previous[v], in.bound[v]);
-  const auto planes = planes_of(in, static_cast<Index>(v));
-  return std::ranges::all_of(planes, [&](const compare::VertexPlane& plane) { return keeps(plane, x); }) ? x
-                                                                                                         : in.old[v];
+compare::Vec3f stored(const compare::Vec3& position, const compare::SweepIn& in, std::size_t v) {
+  const compare::TruncateIn region{
+      {in.previous[v]},
+      {in.old[v]},
+      {in.bound[v]},
+      half_spaces_of(planes_of(in, static_cast<Index>(v)), in.old[v], inertia_block, true)};
+  return stored_in_region(position, region, 0);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ compare::Vec3f stored_in_region(const compare::Vec3& position, const compare::Sw
 compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencils& stencils) {
   compare::SweepOut out{{in.old.begin(), in.old.end()}, 0};
   const auto store = [&](std::size_t v, const VertexUpdate& update) {
-    out.position[v] = stored_in_region(update.position, in, v);
+    out.position[v] = stored(update.position, in, v);
     out.cut += update.cut == Cut::yes;
   };
   const std::vector<Index> groups = rigid_groups(*in.scene);

@@ -65,29 +65,6 @@ float single_height(const Vec3f& n, const Vec3f& x) { return n.x * x.x + n.y * x
 
 }  // namespace
 
-Vec3f stored_in_region(const Vec3& exact, const TruncateIn& in, std::size_t i) {
-  const auto half_spaces = in.half_spaces.of(i);
-  const auto obeys = [&](const Vec3f& x) {
-    return obeys_bound(x, in.previous[i], in.bound[i]) &&
-           std::ranges::all_of(half_spaces, [&](const HalfSpace& h) { return obeys_half_space(x, h); });
-  };
-  Vec3 y = exact;
-  for (int attempt = 0; attempt < 4; ++attempt) {
-    Vec3f x{static_cast<float>(y.x), static_cast<float>(y.y), static_cast<float>(y.z)};
-    for (int step = 0; step < 2 && !obeys_bound(x, in.previous[i], in.bound[i]); ++step)
-      x = {std::nextafter(x.x, in.previous[i].x), std::nextafter(x.y, in.previous[i].y),
-           std::nextafter(x.z, in.previous[i].z)};
-    if (obeys(x)) return x;
-    for (const HalfSpace& h : half_spaces) {
-      const Vec3f& n = h.normal;
-      if (obeys_half_space(x, h)) continue;
-      const double t = 0x1p-24 * size(n, x) / height(n, n);
-      y = {y.x - t * n.x, y.y - t * n.y, y.z - t * n.z};
-    }
-  }
-  return in.half_spaces.current[i];
-}
-
 std::vector<Fault> region_faults() {
   return {
       lost_half_spaces("a vertex on its plane is released",

@@ -37,9 +37,6 @@ void add_right_sets(compare::Contestant& exact, const compare::Authority& author
 std::vector<Fault> plane_faults();
 void add_right_planes(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> region_faults();
-/// The exact position stored in the region of case i: rounded, stepped back from what it violates; where that does not
-/// help, where the vertex is.
-compare::Vec3f stored_in_region(const compare::Vec3& exact, const compare::TruncateIn& in, std::size_t i);
 std::vector<Fault> scalar_faults();
 void add_right_scalars(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> contact_faults();
