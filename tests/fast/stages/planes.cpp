@@ -124,6 +124,19 @@ TEST_CASE("planes: no vertex has a smaller ball than without planes, and some ha
   CHECK(larger > 100);
 }
 
+TEST_CASE("planes: nothing bounds a vertex inside a solid, and it bounds nothing", "[unit]") {
+  // beside the middle of a triangle, nearer to it than anything else
+  const std::vector<compare::Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3F, 0.3F, 0.01F}};
+  compare::Topology topology = compare::build_topology(4, std::vector<compare::Triangle>{{0, 1, 2}});
+  const std::vector<std::uint8_t> none(4, 0);
+  CHECK(detect(topology, positions, none, 0.1F, 0.1F).out.planes.of(3).size() == 1);
+  topology.inside_solid = {0, 0, 0, 1};
+  const Held held = detect(topology, positions, none, 0.1F, 0.1F);
+  CHECK(held.out.planes.items.empty());
+  CHECK(held.out.bound[3] == largest_float);
+  CHECK(held.out.bound[0] == round_down(static_cast<double>(0.45F) * static_cast<double>(0.1F)));
+}
+
 TEST_CASE("planes: lists that start with room for one contact, and one thread, give the same bits", "[property]") {
   const tests::TestMesh surface = layers(5);
   const compare::Topology topology = surface.topology();
