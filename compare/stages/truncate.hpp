@@ -35,7 +35,8 @@ struct HalfSpacesIn {
   }
 };
 
-/// The question: vertices that have nothing to do with each other. X_prev and the current position keep each half-space with 2⁻⁵⁰ (Σ|n_k x_k| + |o|) to spare, and the ball.
+/// The question: vertices that have nothing to do with each other. X_prev and the current position keep each half-space
+/// with 2⁻⁵⁰ (Σ|n_k x_k| + |o|) to spare, and the ball.
 struct TruncateIn {
   std::vector<Vec3f> previous, position;  ///< X_prev and x [m]
   std::vector<float> bound;               ///< b_v ≥ 0 [m]

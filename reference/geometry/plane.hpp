@@ -6,6 +6,15 @@
 
 namespace ogc::reference {
 
+/// n·x + o of numbers that are known without error.
+struct Height {
+  compare::Vec3f normal, point;
+  double offset = 0;  ///< [m] times the length of n
+};
+
+/// The sign of a − b, exactly. All must be finite.
+int compared(const Height& a, const Height& b);
+
 /// Both parts of the truth about an answer whose arrays have one entry each vertex and whose numbers are finite.
 compare::PlaneTruth plane(const compare::PlaneIn& in, const compare::PlaneOut& out);
 

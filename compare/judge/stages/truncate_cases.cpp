@@ -1,4 +1,4 @@
-// Vertices that moved, and what holds them: a ball, and regions with half-spaces. Ladders lead to the bound, to a
+// Cases of stage truncate: vertices that moved, and what holds them: a ball, and regions with half-spaces. Ladders lead to the bound, to a
 // half-space and to where several meet, to proposals far outside, and to regions thinner than the spacing of numbers.
 #include <algorithm>
 #include <array>
