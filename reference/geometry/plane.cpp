@@ -2,9 +2,9 @@
 // fractions. Distances are asked only of pairs that no plane separates and that are not surely beyond what their
 // vertices' balls need.
 //
-// What it leaves to the vertices is measured in double. Distances (within 2⁻⁴⁰ of their scale) and rooms have errors far
-// below the units in which they are judged; which pair is due is asked with the tolerances of a single-precision kernel,
-// so that no rounding of its distances decides.
+// What it leaves to the vertices is measured in double. Distances (within 2⁻⁴⁰ of their scale) and rooms have errors
+// far below the units in which they are judged; which pair is due is asked with the tolerances of a single-precision
+// kernel, so that no rounding of its distances decides.
 #include "reference/geometry/plane.hpp"
 
 #include <CGAL/Gmpq.h>

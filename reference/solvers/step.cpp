@@ -17,9 +17,9 @@ double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
 }  // namespace
 
-StepOrder::Lag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
-                      const std::vector<Index>& groups, const compare::Settings& settings) {
-  StepOrder::Lag lag;
+StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
+               const std::vector<Index>& groups, const compare::Settings& settings) {
+  StepLag lag;
   if (settings.bounds != compare::Bounds::planes) return lag;
   for (std::size_t v = 0; v < x.size(); ++v) {
     if (groups[v] <= 0 || x[v] == target[v]) continue;
@@ -58,9 +58,9 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     truth.events.push_back(*kind);
     const bool is_there = i < answer.events.size();
     if (is_there && *kind == compare::StepEventKind::detection) previous = &answer.events[i].position;
-    order.took_place(is_there ? answer.events[i].cut : 0,
-                     is_there ? lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings)
-                              : StepOrder::Lag{});
+    order.took_place(
+        is_there ? answer.events[i].cut : 0,
+        is_there ? lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings) : StepLag{});
   }
   return truth;
 }

@@ -9,6 +9,13 @@
 
 namespace ogc::reference {
 
+/// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since the
+/// last detection (method.md §5.6, Asking).
+struct StepLag {
+  compare::Index lagging = 0;
+  bool has_advanced = false;
+};
+
 /// Says what comes next, given how many vertices each event cut. K, of bounded_count, is `moving`.
 class StepOrder {
  public:
@@ -22,15 +29,8 @@ class StepOrder {
     return found_ ? compare::StepEventKind::sweep : compare::StepEventKind::detection;
   }
 
-  /// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since
-  /// the last detection (method.md §5.6, Asking).
-  struct Lag {
-    compare::Index lagging = 0;
-    bool has_advanced = false;
-  };
-
   /// The event that was next took place; `cut`: of a round or an iteration, all that were cut.
-  void took_place(compare::Index cut, const Lag& lag = {}) {
+  void took_place(compare::Index cut, const StepLag& lag = {}) {
     switch (*next()) {
       case compare::StepEventKind::detection:
         found_ = true;
@@ -52,7 +52,7 @@ class StepOrder {
   bool holds_contacts() const { return rounds_ > 0; }
 
  private:
-  bool asks(compare::Index cut, const Lag& lag) {
+  bool asks(compare::Index cut, const StepLag& lag) {
     const bool lag_asks = lag.lagging > 0 && (lag.has_advanced || !lag_asked_);
     lag_asked_ = lag_asked_ || lag_asks;
     return cut - lag.lagging >= redetect_count_ || lag_asks;

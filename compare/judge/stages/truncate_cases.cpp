@@ -1,5 +1,6 @@
-// Cases of stage truncate: vertices that moved, and what holds them: a ball, and regions with half-spaces. Ladders lead to the bound, to a
-// half-space and to where several meet, to proposals far outside, and to regions thinner than the spacing of numbers.
+// Cases of stage truncate: vertices that moved, and what holds them: a ball, and regions with half-spaces. Ladders lead
+// to the bound, to a half-space and to where several meet, to proposals far outside, and to regions thinner than the
+// spacing of numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>
