@@ -21,7 +21,7 @@ namespace ogc::reference {
 
 /// A vertex and a triangle: what they are, and how far apart.
 struct FacetPair {
-  compare::PrimitivePair name;
+  compare::PrimitivePair name;  ///< by numbers
   std::array<Index, 1> first;   ///< the vertex
   std::array<Index, 3> second;  ///< the corners
   Vec3f point;                  ///< [m]
@@ -34,7 +34,7 @@ struct FacetPair {
         point(mesh.at(v)),
         corners{mesh.at(second[0]), mesh.at(second[1]), mesh.at(second[2])} {}
 
-  /// Of the triangle, which is closest to the vertex.
+  /// The feature of the triangle that is closest to the vertex.
   TriangleFeature closest() const { return closest_feature(corners, point); }
   /// Their distance, as a gap.
   Margin gap() const { return feature_gap(corners, closest(), point); }
@@ -46,7 +46,7 @@ struct FacetPair {
 
 /// Two edges: likewise.
 struct EdgesPair {
-  compare::PrimitivePair name;
+  compare::PrimitivePair name;         ///< by numbers
   std::array<Index, 2> first, second;  ///< ends
   EdgePair ends;                       ///< [m]
 
@@ -56,9 +56,11 @@ struct EdgesPair {
         second(mesh.edge(f)),
         ends{{mesh.at(first[0]), mesh.at(first[1])}, {mesh.at(second[0]), mesh.at(second[1])}} {}
 
-  /// Of both, which are closest.
+  /// The closest features of both.
   EdgeFeatures closest() const { return closest_features(ends); }
+  /// Their distance, as a gap.
   Margin gap() const { return feature_gap(ends, closest()); }
+  /// As of FacetPair.
   bool surely_beyond(double distance) const {
     return surely_beyond_edge({ends.first[0], ends.first[1], ends.second[0], ends.second[1]}, distance);
   }

@@ -8,8 +8,8 @@ namespace ogc::reference {
 
 /// n·x + o of numbers that are known without error.
 struct Height {
-  compare::Vec3f normal, point;
-  double offset = 0;  ///< [m] times the length of n
+  compare::Vec3f normal, point;  ///< n [1], x [m]
+  double offset = 0;             ///< [m] times the length of n
 };
 
 /// The sign of a − b, exactly. All must be finite.

@@ -12,8 +12,8 @@ namespace ogc::reference {
 /// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since the
 /// last detection (method.md §5.6, Asking).
 struct StepLag {
-  compare::Index lagging = 0;
-  bool has_advanced = false;
+  compare::Index lagging = 0;  ///< how many
+  bool has_advanced = false;   ///< whether one of them did
 };
 
 /// Says what comes next, given how many vertices each event cut. K, of bounded_count, is `moving`.
