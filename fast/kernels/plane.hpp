@@ -212,6 +212,13 @@ OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
   return x;
 }
 
+/// The stored position, nudged where storing took it out of the region; whether that helps, `is_within` says.
+OGC_HD inline Vec stored_inside(const FeasibleRegion& region, const Point& y) {
+  Vec x = stored(y);
+  for (int nudge = 0; nudge < nudges && !is_within(region, x); ++nudge) x = nudged(region, x);
+  return x;
+}
+
 /// The share of the way from `from`, which is in the region, to y that stays in it.
 OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& from, const Point& y) {
   const Point step = y - from, away = from - wide(region.ball.centre);
@@ -233,7 +240,7 @@ OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Po
   const Point start = wide(from);
   double share = share_inside(region, start, y);
   for (int attempt = 0; attempt < 3 && share > 0; ++attempt, share *= 0.5) {
-    const Vec x = stored(start + share * (y - start));
+    const Vec x = stored_inside(region, start + share * (y - start));
     if (is_within(region, x)) return x;
   }
   return from;
@@ -246,8 +253,7 @@ OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Po
 template <class Metric>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric) {
   const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric);
-  Vec x = slide::stored(y);
-  for (int nudge = 0; nudge < slide::nudges && !is_within(region, x); ++nudge) x = slide::nudged(region, x);
+  const Vec x = slide::stored_inside(region, y);
   return {is_within(region, x) ? x : slide::scaled(region, current, y), true};
 }
 
