@@ -40,8 +40,8 @@ struct OwnVertex {
 
 /// Adds a triangle with damping of strains, given the functor of its model.
 struct AddMembrane {
-  /// Arguments of a membrane model's `add` (models/membrane_models.hpp): edges to the other corners [m], Gᵗ. `moved` is
-  /// x − xᵗ of the vertex [m], for damping by vertex; `sum` takes force and block.
+  /// Arguments of a membrane model's `add` (models/membrane_models.hpp): edges to the other corners [m], Gᵗ; `sum`
+  /// takes force and block.
   const MembraneStencil& stencil;
   const SurfaceMaterial& material;
   Vec to_b, to_c;
@@ -86,8 +86,8 @@ OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneInciden
 
 /// Adds a hinge, given the functor of its model; `damping` is k_d/h.
 struct AddHinge {
-  /// Arguments of a bending model's `add_damped` (models/bending_models.hpp); k_d/h [1]; x − xᵗ of the vertex [m], for
-  /// damping by vertex; `sum` takes force and block.
+  /// Arguments of a bending model's `add` (models/bending_models.hpp): k_d/h [1], 0 for damping by vertex; `sum` takes
+  /// force and block.
   const HingeSeen& hinge;
   float damping;
   ForceAndBlock& sum;

@@ -7,6 +7,7 @@ nothing in the others.
 
 import itertools
 import json
+import signal
 import struct
 import subprocess
 import sys
@@ -129,6 +130,24 @@ def check_vtp(folder):
         assert verdict["states"][0]["smallest_distances"]["vertex_triangle"]["distance"] == frames[0, 3, 2], options
 
 
+def check_interrupted(folder):
+    """An interrupt ends the audit long before the last frame; what was found until then is said."""
+    count, side = 400, 80
+    x, y = numpy.meshgrid(numpy.arange(side) * 0.01, numpy.arange(side) * 0.01)
+    sheet = numpy.stack([x.ravel(), y.ravel(), 0.01 * numpy.sin(9 * x.ravel())], axis=1)
+    corner = numpy.arange(side * side).reshape(side, side)
+    a, b, c, d = (part.ravel() for part in (corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]))
+    faces = numpy.concatenate([numpy.stack([a, b, c], axis=1), numpy.stack([a, c, d], axis=1)])
+    numpy.savez(folder / "long.npz", x=numpy.repeat(sheet[None].astype("f"), count, axis=0), faces=faces)
+    process = subprocess.Popen([PROGRAM, "audit", str(folder / "long.npz"), "--json"], stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True)
+    process.stderr.readline()  # the first frames are done
+    process.send_signal(signal.SIGINT)
+    said = json.loads(process.communicate()[0])
+    assert process.returncode == 130 and not said["complete"], process.returncode
+    assert 0 < len(said["states"]) < count, len(said["states"])
+
+
 def check_refused(folder):
     """Damage is named by file, frame and byte, and what could be read before it is reported."""
     frames = positions()
@@ -160,4 +179,5 @@ def check_refused(folder):
 with tempfile.TemporaryDirectory() as scratch:
     check_arrays(Path(scratch))
     check_vtp(Path(scratch))
+    check_interrupted(Path(scratch))
     check_refused(Path(scratch))
