@@ -1,7 +1,8 @@
 #include "compare/oracle/box_tree.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
-#include <numeric>
 
 namespace ogc::compare {
 
@@ -20,11 +21,6 @@ void Box::add(const Box& box) {
   }
 }
 
-bool Box::meets(const Box& other) const {
-  return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
-         low[2] <= other.high[2] && other.low[2] <= high[2];
-}
-
 Box box_of(std::initializer_list<Vec3> points) {
   Box box;
   for (const Vec3& point : points) box.add(point);
@@ -33,34 +29,39 @@ Box box_of(std::initializer_list<Vec3> points) {
 
 BoxTree::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
-  std::vector<Index> items(boxes.size());
-  std::iota(items.begin(), items.end(), 0);
-  nodes_.reserve(2 * boxes.size() - 1);
-  build(boxes, items);
+  std::vector<Item> items(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) items[i].centre[k] = boxes[i].low[k] / 2 + boxes[i].high[k] / 2;
+    items[i].box = static_cast<Index>(i);
+  }
+  nodes_.resize(2 * boxes.size() - 1);
+  build(boxes, items, 0);
 }
 
-Index BoxTree::build(std::span<const Box> boxes, std::span<Index> items) {
-  const auto number = static_cast<Index>(nodes_.size());
-  Node& fresh = nodes_.emplace_back();
-  for (const Index i : items) fresh.box.add(boxes[static_cast<std::size_t>(i)]);
+void BoxTree::build(std::span<const Box> boxes, std::span<Item> items, Index number) {
+  constexpr std::size_t alone = 4096;  // items below which a task of its own costs more than it saves
+  Node& node = nodes_[static_cast<std::size_t>(number)];
   if (items.size() == 1) {
-    fresh.item = items[0];
-    return number;
+    node.item = items[0].box;
+    node.box = boxes[static_cast<std::size_t>(node.item)];
+    return;
   }
+  for (const Item& item : items) node.box.add(boxes[static_cast<std::size_t>(item.box)]);
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k)
-    if (fresh.box.high[k] - fresh.box.low[k] > fresh.box.high[axis] - fresh.box.low[axis]) axis = k;
-  const auto key = [&](Index i) {
-    return boxes[static_cast<std::size_t>(i)].low[axis] / 2 + boxes[static_cast<std::size_t>(i)].high[axis] / 2;
-  };
+    if (node.box.high[k] - node.box.low[k] > node.box.high[axis] - node.box.low[axis]) axis = k;
   const std::size_t half = items.size() / 2;
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
-                   [&](Index a, Index b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  const Index left = build(boxes, items.first(half));
-  const Index right = build(boxes, items.subspan(half));
-  nodes_[static_cast<std::size_t>(number)].left = left;
-  nodes_[static_cast<std::size_t>(number)].right = right;
-  return number;
+                   [axis](const Item& a, const Item& b) {
+                     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.box < b.box;
+                   });
+  node.right = number + static_cast<Index>(2 * half);
+  const auto left = [&] { build(boxes, items.first(half), number + 1); };
+  const auto right = [&] { build(boxes, items.subspan(half), node.right); };
+  if (items.size() > alone)
+    tbb::parallel_invoke(left, right);
+  else
+    left(), right();
 }
 
 }  // namespace ogc::compare

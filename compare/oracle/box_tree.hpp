@@ -18,13 +18,18 @@ struct Box {
   std::array<double, 3> low{1e308, 1e308, 1e308}, high{-1e308, -1e308, -1e308};  ///< corners [m]
   void add(const Vec3& point);                                                   ///< grows to hold the point
   void add(const Box& box);                                                      ///< grows to hold the box
-  bool meets(const Box& other) const;                                            ///< closed boxes
+  /// Whether the closed boxes share a point. Here, because it is asked far more often than anything else.
+  bool meets(const Box& other) const {
+    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
+           low[2] <= other.high[2] && other.low[2] <= high[2];
+  }
 };
 
 /// Box of the given points.
 Box box_of(std::initializer_list<Vec3> points);
 
-/// Binary tree over boxes, split at the median centre along the longest side; the same boxes give the same tree.
+/// Binary tree over boxes, split at the median centre along the longest side; the same boxes give the same tree on any
+/// number of threads.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes);
@@ -37,23 +42,30 @@ class BoxTree {
     std::size_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
-      const Node& node = nodes_[static_cast<std::size_t>(stack[--depth])];
+      const Index number = stack[--depth];
+      const Node& node = nodes_[static_cast<std::size_t>(number)];
       if (!node.box.meets(query)) continue;
       if (node.item >= 0) {
         visit(node.item);
       } else {
         stack[depth++] = node.right;
-        stack[depth++] = node.left;
+        stack[depth++] = number + 1;
       }
     }
   }
 
  private:
+  /// A leaf holds one item. The left child stands behind its parent, the right one behind the left one's subtree.
   struct Node {
     Box box;
-    Index left = -1, right = -1, item = -1;  ///< a leaf holds one item
+    Index right = -1, item = -1;
   };
-  Index build(std::span<const Box> boxes, std::span<Index> items);
+  /// What a split asks of an item, gathered in one place.
+  struct Item {
+    std::array<double, 3> centre{};
+    Index box = 0;
+  };
+  void build(std::span<const Box> boxes, std::span<Item> items, Index number);
   std::vector<Node> nodes_;
 };
 

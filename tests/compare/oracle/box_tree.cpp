@@ -1,5 +1,7 @@
 #include "compare/oracle/box_tree.hpp"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <random>
 
@@ -30,7 +32,7 @@ std::vector<Index> meeting(const BoxTree& tree, const Box& query) {
 
 TEST_CASE("a box tree visits each box that meets the query once, and no other", "[property]") {
   std::mt19937 random(3);
-  for (const std::size_t count : {0, 1, 2, 3, 5, 10, 50, 1000}) {
+  for (const std::size_t count : {0, 1, 2, 3, 5, 10, 50, 1000, 20'000}) {  // the last is built by several tasks
     const std::vector<Box> boxes = random_boxes(random, count);
     const BoxTree tree(boxes);
     for (const Box& query : random_boxes(random, 100)) {
@@ -53,4 +55,18 @@ TEST_CASE("boxes are closed: a shared corner meets, a gap of one unit in the las
 TEST_CASE("a tree over many equal boxes is built and finds all of them", "[unit]") {
   const std::vector<Box> boxes(5000, box_of({{1, 1, 1}}));
   CHECK(meeting(BoxTree(boxes), boxes[0]).size() == boxes.size());
+}
+
+TEST_CASE("one thread and several build the same tree: boxes are visited in the same order", "[property]") {
+  std::mt19937 random(4);
+  const std::vector<Box> boxes = random_boxes(random, 50'000);
+  const auto order = [](const BoxTree& tree) {
+    std::vector<Index> visited;
+    tree.for_each_meeting(box_of({{-1, -1, -1}, {30, 30, 30}}), [&](Index i) { visited.push_back(i); });
+    return visited;
+  };
+  const std::vector<Index> together = order(BoxTree(boxes));
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  CHECK(together.size() == boxes.size());
+  CHECK(order(BoxTree(boxes)) == together);
 }
