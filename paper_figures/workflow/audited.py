@@ -81,7 +81,7 @@ def together(before, said, seconds, frames):
 def audit(program, run, limit=Limit()):
     """Exit status, and what is known now; kept in RUN/audit.json after each round of some seconds."""
     run = Path(run).resolve()
-    frames, found = sorted((run / "frames").glob("frame_*")), found_before(run)
+    frames, found = sorted((run / "frames").glob("frame_*.h5")), found_before(run)
     size = len(os.sched_getaffinity(0))
     while not found["complete"]:
         if limit.left() == 0:
