@@ -165,6 +165,15 @@ OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
   return dot(n, y) - plane.offset + 0x1p-24 * size;
 }
 
+/// The radius within which a position may be stored anywhere. Storing moves each coordinate by 2⁻²⁴ of itself, at most
+/// ‖X_prev‖_∞ + b, and so the point by √3 times that: 2⁻²³ of it leaves some for the arithmetic here.
+OGC_HD inline double safe_radius(const FeasibleRegion& region) {
+  const Point centre = wide(region.ball.centre);
+  const double radius = static_cast<double>(region.ball.radius);
+  const double size = larger(larger(modulus(centre.x), modulus(centre.y)), modulus(centre.z)) + radius;
+  return larger(0.0, radius - 0x1p-23 * size);
+}
+
 /// Along the violated half-spaces in their order, then into the ball.
 template <class Metric>
 OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric) {
@@ -181,7 +190,7 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
       moved = true;
     }
     const Point away = y - centre;
-    const double length = std::sqrt(dot(away, away)), radius = static_cast<double>(region.ball.radius) * (1 - 0x1p-22);
+    const double length = std::sqrt(dot(away, away)), radius = safe_radius(region);
     if (length > radius) y = centre + (radius / length) * away, moved = true;
     if (!moved) break;
   }
@@ -203,6 +212,13 @@ OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
   return x;
 }
 
+/// The stored position, nudged where storing took it out of the region; whether that helps, `is_within` says.
+OGC_HD inline Vec stored_inside(const FeasibleRegion& region, const Point& y) {
+  Vec x = stored(y);
+  for (int nudge = 0; nudge < nudges && !is_within(region, x); ++nudge) x = nudged(region, x);
+  return x;
+}
+
 /// The share of the way from `from`, which is in the region, to y that stays in it.
 OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& from, const Point& y) {
   const Point step = y - from, away = from - wide(region.ball.centre);
@@ -212,10 +228,10 @@ OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& fro
     const double out = beyond(region.planes[k], y), rise = dot(n, step);
     if (out > 0 && rise > 0) share = smaller(share, larger(0.0, 1 - out / rise));
   }
-  const double bb = dot(step, step), ab = dot(away, step),
-               left = static_cast<double>(region.ball.radius) * region.ball.radius - dot(away, away);
-  if (bb > 0 && ab + ab + bb > left)
-    share = smaller(share, left > 0 ? (std::sqrt(ab * ab + bb * left) - ab) / bb * (1 - 0x1p-22) : 0.0);
+  // ‖a + s b‖ = R; where a lies beyond the safe radius, too, as long as the way leads inward first
+  const double radius = safe_radius(region), bb = dot(step, step), ab = dot(away, step),
+               left = radius * radius - dot(away, away), root = ab * ab + bb * left;
+  if (bb > 0 && ab + ab + bb > left) share = smaller(share, root > 0 ? larger(0.0, (std::sqrt(root) - ab) / bb) : 0.0);
   return share;
 }
 
@@ -224,7 +240,7 @@ OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Po
   const Point start = wide(from);
   double share = share_inside(region, start, y);
   for (int attempt = 0; attempt < 3 && share > 0; ++attempt, share *= 0.5) {
-    const Vec x = stored(start + share * (y - start));
+    const Vec x = stored_inside(region, start + share * (y - start));
     if (is_within(region, x)) return x;
   }
   return from;
@@ -237,8 +253,7 @@ OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Po
 template <class Metric>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric) {
   const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric);
-  Vec x = slide::stored(y);
-  for (int nudge = 0; nudge < slide::nudges && !is_within(region, x); ++nudge) x = slide::nudged(region, x);
+  const Vec x = slide::stored_inside(region, y);
   return {is_within(region, x) ? x : slide::scaled(region, current, y), true};
 }
 

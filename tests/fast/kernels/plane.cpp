@@ -223,6 +223,28 @@ TEST_CASE("plane: the least increase of a vertex's energy, not the shortest way"
   CHECK(kept.position.y == Approx(0.1 - 200.0 / 1001).epsilon(1e-4));
 }
 
+TEST_CASE("plane: where the ball ends a way, all of the way to it is gone, sliding or not", "[property]") {
+  RandomPairs random;
+  const HalfSpace beyond{{0, 0, 1}, 10};
+  int at_end = 0, count = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec centre = random.point(1), way = random.point(1);
+    const float length = std::sqrt(dot(way, way));
+    if (!(length > 0.1f)) continue;
+    const FeasibleRegion region{{centre, 1e-3f}, &beyond, 1};
+    const Vec proposal = centre + (3e-3f / length) * way;
+    for (const Truncated& kept :
+         {held(region, centre, proposal, InertiaMetric{}), held_on_path(region, centre, proposal)}) {
+      CHECK(kept.cut);
+      CHECK(is_exactly_in(region, kept.position));
+      const Vec gone = kept.position - centre;
+      at_end += std::sqrt(dot(gone, gone)) > 0.999e-3f;  // storing costs 2^-22 of a coordinate of 1
+      ++count;
+    }
+  }
+  CHECK(at_end == count);
+}
+
 TEST_CASE("plane: touching pairs have none", "[unit]") {
   CHECK_FALSE(plane_of(PairPoints<1, 3>{{{0, 0, 0}}, {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}, false, false}).exists());
   CHECK_FALSE(plane_of(PairPoints<2, 2>{{{-1, 0, 0}, {1, 0, 0}}, {{0, -1, 0}, {0, 1, 0}}, false, false}).exists());

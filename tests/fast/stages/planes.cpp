@@ -99,7 +99,7 @@ TEST_CASE("planes: each pair within r_q has a plane or is covered by balls, exac
     for (const float r_q : {0.3F, 1.2F}) {
       const Held held = detect(topology, surface.positions, is_fixed, 0.3F, r_q);
       const compare::PlaneIn in{&topology, {}, surface.positions, is_fixed, r_q, 0.45F};
-      const compare::PlaneTruth truth = reference::plane(in, held.out);
+      const compare::PlaneGuarantee truth = reference::plane_guarantee(in, held.out);
       CHECK(truth.kept());
       separated += truth.separated;
       for (compare::Index v = 0; v < topology.vertex_count; ++v)
@@ -122,6 +122,19 @@ TEST_CASE("planes: no vertex has a smaller ball than without planes, and some ha
   }
   CHECK(smaller == 0);
   CHECK(larger > 100);
+}
+
+TEST_CASE("planes: nothing bounds a vertex inside a solid, and it bounds nothing", "[unit]") {
+  // beside the middle of a triangle, nearer to it than anything else
+  const std::vector<compare::Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3F, 0.3F, 0.01F}};
+  compare::Topology topology = compare::build_topology(4, std::vector<compare::Triangle>{{0, 1, 2}});
+  const std::vector<std::uint8_t> none(4, 0);
+  CHECK(detect(topology, positions, none, 0.1F, 0.1F).out.planes.of(3).size() == 1);
+  topology.inside_solid = {0, 0, 0, 1};
+  const Held held = detect(topology, positions, none, 0.1F, 0.1F);
+  CHECK(held.out.planes.items.empty());
+  CHECK(held.out.bound[3] == largest_float);
+  CHECK(held.out.bound[0] == round_down(static_cast<double>(0.45F) * static_cast<double>(0.1F)));
 }
 
 TEST_CASE("planes: lists that start with room for one contact, and one thread, give the same bits", "[property]") {

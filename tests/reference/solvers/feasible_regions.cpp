@@ -61,7 +61,7 @@ std::size_t half_spaces_of_held_run(StartSolver start, const compare::Scene& sce
     half_spaces += state.planes.items.size();
     const compare::PlaneIn in{&topology,       exclusions,         state.previous,
                               fixed_of(scene), state.query_radius, static_cast<float>(scene.settings.bound_relaxation)};
-    CHECK(plane(in, {state.planes, state.bounds}).kept());
+    CHECK(plane_guarantee(in, {state.planes, state.bounds}).kept());
     CHECK(broken_planes(state.planes, state.positions) == 0);
     CHECK(compare::audit(topology, compare::to_double(state.positions), exclusions).count == 0);
   }
