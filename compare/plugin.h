@@ -28,9 +28,9 @@
 
 /* Of this interface. A library built for a newer one is refused by name; so is one that is older than the oldest whose
  * structures have this layout, and one with a stage of scenes (rest_state, sweep, step) that is older than the oldest
- * whose scenes have it. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`. 7 has solids,
- * ogc_plane, and half-spaces in ogc_truncate_in.) */
-#define OGC_PLUGIN_VERSION 7
+ * whose scenes have it. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`. 7 has solids.
+ * 8 has ogc_plane, and half-spaces behind the members that ogc_truncate_in had.) */
+#define OGC_PLUGIN_VERSION 8
 #define OGC_PLUGIN_OLDEST_VERSION 5
 #define OGC_PLUGIN_OLDEST_SCENE_VERSION 7
 
@@ -223,13 +223,13 @@ typedef struct ogc_vertex_plane {
 } ogc_vertex_plane;
 
 /* Pairs nearer than the 17th nearest of each of their vertices need a plane; more may have one. `planes` and `offset`
- * have room for `capacity`, as lists of contacts do; in any order, each vertex of each pair once. */
+ * have room for `capacity`, as lists of contacts do; in any order, each vertex of each pair once. A bound is never
+ * above gamma_p times r_q, nor times the distance of a pair of the vertex that no plane holds apart. */
 typedef struct ogc_plane_out {
   ogc_vertex_plane* planes;
   double* offset; /* of each of them */
   int64_t capacity, count;
-  float*
-      bound; /* [vertex_count] never above gamma_p times r_q and the distances of the vertex's pairs without a plane */
+  float* bound; /* [vertex_count] */
 } ogc_plane_out;
 
 OGC_PLUGIN_EXPORT int ogc_plane(const ogc_plane_in* in, ogc_plane_out* out);
@@ -265,7 +265,7 @@ typedef struct ogc_half_space {
   double offset;
 } ogc_half_space;
 
-/* Libraries without ogc_plane are asked about balls alone; all that follows `bound` is then to be left unread. */
+/* Libraries without ogc_plane are asked about balls alone. What follows `bound` is there since version 8. */
 typedef struct ogc_truncate_in {
   int64_t n;
   const ogc_vec3 *previous, *position; /* [n] */

@@ -8,6 +8,7 @@
 
 #include "compare/problem/mesh.hpp"
 #include "compare/stages/detect.hpp"
+#include "compare/stages/truncate.hpp"
 
 namespace ogc::compare {
 
@@ -41,6 +42,19 @@ struct VertexPlanes {
   }
 };
 
+/// What stage truncate is asked about a vertex that bears these planes and that inertia alone holds; empty where it
+/// bears none.
+inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Vec3f& current, bool is_prescribed) {
+  if (planes.empty()) return {};
+  HalfSpacesIn all{.offsets = {0, static_cast<Index>(planes.size())},
+                   .items = {},
+                   .current = {current},
+                   .block = {inertia_block},
+                   .is_prescribed = {static_cast<std::uint8_t>(is_prescribed)}};
+  for (const VertexPlane& plane : planes) all.items.push_back({plane.normal, plane.offset});
+  return all;
+}
+
 /// A state, and what decides which pairs count.
 struct PlaneIn {
   const Topology* topology = nullptr;      ///< of the whole scene
@@ -50,6 +64,14 @@ struct PlaneIn {
   float query_radius = 0;                  ///< r_q [m]
   float bound_relaxation = 0.45f;          ///< γ_p
 };
+
+/// PlaneIn::is_fixed of a scene: by vertex, 1 where its rigid group is 0.
+inline std::vector<std::uint8_t> fixed_flags(std::span<const Index> groups) {
+  std::vector<std::uint8_t> flags;
+  flags.reserve(groups.size());
+  for (const Index group : groups) flags.push_back(group == 0 ? 1 : 0);
+  return flags;
+}
 
 /// What a vertex may do until the next detection: K_v is its ball and its half-spaces (method.md §5.6).
 struct PlaneOut {

@@ -19,6 +19,9 @@ struct HalfSpace {
   double offset = 0;  ///< o [m] times the length of n
 };
 
+/// H of a vertex that inertia alone holds: it slides by the shortest way.
+inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
+
 /// Half-spaces, and how a vertex goes along them. All arrays are empty where no case has any.
 struct HalfSpacesIn {
   std::vector<Index> offsets;  ///< [cases + 1]: those of case i are items[offsets[i]] … items[offsets[i + 1] − 1]
@@ -49,7 +52,8 @@ struct TruncateIn {
 /// Where half-spaces cut, no more than that is asked of a vertex that violates two or more of them. One that violates a
 /// single one slides along it, x − H⁻¹n (n·x − o)/(nᵀH⁻¹n), then goes into the ball, towards X_prev; where another
 /// half-space does not interfere, this is its position. A prescribed vertex goes as far along the straight way from its
-/// current position to x as the region allows.
+/// current position to x as the region allows; where two half-spaces lie along that way, nearer than storing moves a
+/// position, anywhere on it is right.
 struct TruncateOut {
   std::vector<Vec3f> position;    ///< x [m]
   std::vector<std::uint8_t> cut;  ///< 1 where x lay outside

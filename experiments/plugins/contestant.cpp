@@ -159,16 +159,22 @@ ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
   return out;
 }
 
+/// One entry a case, also where no case has half-spaces.
+HalfSpacesIn half_spaces_by_case(const TruncateIn& in) {
+  if (!in.half_spaces.offsets.empty()) return in.half_spaces;
+  const std::size_t n = in.bound.size();
+  return {.offsets = std::vector<Index>(n + 1, 0),
+          .items = {},
+          .current = in.previous,
+          .block = std::vector(n, inertia_block),
+          .is_prescribed = std::vector<std::uint8_t>(n, 0)};
+}
+
 TruncateOut ask_truncate(PluginProcess& plugin, const TruncateIn& in) {
-  const std::vector<Index> none(in.half_spaces.offsets.empty() ? in.bound.size() + 1 : 0, 0);
-  const std::vector<Bytes> inputs{bytes_of(in.previous),
-                                  bytes_of(in.position),
-                                  bytes_of(in.bound),
-                                  bytes_of(none.empty() ? in.half_spaces.offsets : none),
-                                  bytes_of(in.half_spaces.items),
-                                  bytes_of(in.half_spaces.current),
-                                  bytes_of(in.half_spaces.block),
-                                  bytes_of(in.half_spaces.is_prescribed)};
+  const HalfSpacesIn all = half_spaces_by_case(in);
+  const std::vector<Bytes> inputs{bytes_of(in.previous), bytes_of(in.position),      bytes_of(in.bound),
+                                  bytes_of(all.offsets), bytes_of(all.items),        bytes_of(all.current),
+                                  bytes_of(all.block),   bytes_of(all.is_prescribed)};
   const auto answer = plugin.ask("truncate", sizes_of(in.bound.size()), inputs);
   TruncateOut out;
   Outputs(answer).to(out.position, out.cut);

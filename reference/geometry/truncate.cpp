@@ -163,8 +163,19 @@ class RegionCheck {
       const double until = static_cast<double>(std::max(Long{0}, (root - ab) / bb));
       allow(until, root > 0 ? stored_ * static_cast<double>(std::sqrt(bb) * bound_ / root) : infinity);
     }
-    truth_.position = narrow(plus(current_, Long{share}, step));
+    const Point end = plus(current_, Long{share}, step);
+    if (beside(end, step) > 1) least = 0;
+    truth_.position = narrow(end);
     truth_.accepted = (share - std::max(0.0, least)) * whole + stored_;
+  }
+
+  /// Half-spaces that the way does not climb, and that are so near to it that storing its end may leave them. From one
+  /// the stored position may be stepped away; between two or more there may be no room for that anywhere.
+  std::ptrdiff_t beside(const Point& end, const Point& step) const {
+    return std::ranges::count_if(half_spaces_, [&](const HalfSpace& h) {
+      const Point n = wide(h.normal);
+      return !(inner(n, step) > 0) && excess_at(h, end) > -Long{stored_ * length(n) + standoff(h, end)};
+    });
   }
 
   /// The half-space that alone is violated, or so nearly that a kernel may take it for violated; null where there are
@@ -250,18 +261,6 @@ compare::TruncateTruth truncate(const compare::TruncateIn& in) {
     truth.position.push_back(cut ? scaled_back(from, to, in.bound[i]) : compare::Vec3{to.x, to.y, to.z});
   }
   return truth;
-}
-
-compare::HalfSpacesIn half_spaces_of(std::span<const compare::VertexPlane> planes, const Vec3f& current,
-                                     const std::array<float, 6>& block, bool is_prescribed) {
-  compare::HalfSpacesIn all;
-  if (planes.empty()) return all;
-  for (const compare::VertexPlane& plane : planes) all.items.push_back({plane.normal, plane.offset});
-  all.offsets = {0, static_cast<compare::Index>(planes.size())};
-  all.current = {current};
-  all.block = {block};
-  all.is_prescribed = {static_cast<std::uint8_t>(is_prescribed)};
-  return all;
 }
 
 compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound) {

@@ -1,21 +1,13 @@
 // Stage truncate: Eq. 27.
 #pragma once
 
-#include "compare/stages/plane.hpp"
 #include "compare/stages/truncate.hpp"
 
 namespace ogc::reference {
 
 /// Cut exactly where ‖x − x_prev‖ > b_v or a half-space is violated. Without half-spaces a cut position is x_prev +
-/// (x − x_prev) b_v / ‖x − x_prev‖; with them that of truncate_region.
+/// (x − x_prev) b_v / ‖x − x_prev‖; with them as TruncateOut says.
 compare::TruncateTruth truncate(const compare::TruncateIn& in);
-
-/// The block of a vertex that inertia alone holds: it slides by the shortest way.
-inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
-
-/// The question's half-spaces of one vertex that bears these planes; empty where it bears none.
-compare::HalfSpacesIn half_spaces_of(std::span<const compare::VertexPlane> planes, const compare::Vec3f& current,
-                                     const std::array<float, 6>& block, bool is_prescribed);
 
 /// The nearest single-precision position, stepped towards X_prev until it obeys the bound.
 compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound);

@@ -92,8 +92,9 @@ class ReferenceStep {
                          event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bound_relaxation)})
                       .exact.bound;
     if (settings_.bounds == compare::Bounds::planes) {
-      compare::PlaneOut held = pair_planes({in_.topology, exclusions_, x_, is_fixed(), out_.query_radius,
-                                            static_cast<float>(settings_.bound_relaxation)});
+      const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions_.groups);
+      compare::PlaneOut held = pair_planes(
+          {in_.topology, exclusions_, x_, is_fixed, out_.query_radius, static_cast<float>(settings_.bound_relaxation)});
       event.bound = std::move(held.bound);
       event.planes = std::move(held.planes);
     }
@@ -102,19 +103,11 @@ class ReferenceStep {
     contacts_ = {event.vertex_facet.contacts, event.edge_edge.contacts};
   }
 
-  std::vector<std::uint8_t> is_fixed() const {
-    std::vector<std::uint8_t> flags;
-    for (const Index group : exclusions_.groups) flags.push_back(group == 0 ? 1 : 0);
-    return flags;
-  }
-
   /// Where v goes on its way to its target; counts a cut.
   Vec3f truncated(std::size_t v, Index& cut) const {
     const auto planes = planes_.of(static_cast<Index>(v));
-    const compare::TruncateIn question{{previous_[v]},
-                                       {out_.target[v]},
-                                       {bound_[v]},
-                                       half_spaces_of(planes, x_[v], inertia_block, exclusions_.groups[v] > 0)};
+    const compare::TruncateIn question{
+        {previous_[v]}, {out_.target[v]}, {bound_[v]}, half_spaces_of(planes, x_[v], exclusions_.groups[v] > 0)};
     const compare::TruncateTruth truth = truncate(question);
     if (truth.cut[0] == 0) return out_.target[v];
     ++cut;

@@ -29,11 +29,10 @@ VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& an
 
 /// y, truncated: the very question of the stage truncate.
 VertexUpdate prescribed_vertex(const compare::SweepIn& in, std::size_t i) {
-  const compare::TruncateIn question{
-      {in.previous[i]},
-      {in.target[i]},
-      {in.bound[i]},
-      half_spaces_of(planes_of(in, static_cast<Index>(i)), in.old[i], inertia_block, true)};
+  const compare::TruncateIn question{{in.previous[i]},
+                                     {in.target[i]},
+                                     {in.bound[i]},
+                                     half_spaces_of(planes_of(in, static_cast<Index>(i)), in.old[i], true)};
   const compare::TruncateTruth truth = truncate(question);
   const bool cut = truth.cut[0] != 0, grey = truth.grey[0] != 0;
   const compare::Vec3f& p = in.previous[i];
@@ -72,11 +71,10 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
 namespace {
 
 compare::Vec3f stored(const compare::Vec3& position, const compare::SweepIn& in, std::size_t v) {
-  const compare::TruncateIn region{
-      {in.previous[v]},
-      {in.old[v]},
-      {in.bound[v]},
-      half_spaces_of(planes_of(in, static_cast<Index>(v)), in.old[v], inertia_block, true)};
+  const compare::TruncateIn region{{in.previous[v]},
+                                   {in.old[v]},
+                                   {in.bound[v]},
+                                   half_spaces_of(planes_of(in, static_cast<Index>(v)), in.old[v], true)};
   return stored_in_region(position, region, 0);
 }
 

@@ -13,8 +13,6 @@ using namespace compare;
 
 namespace {
 
-constexpr std::array<float, 6> identity{1, 0, 0, 1, 0, 1};
-
 double height(const Vec3f& n, const Vec3f& x) { return double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z; }
 double size(const Vec3f& n, const Vec3f& x) {
   return std::abs(double{n.x} * x.x) + std::abs(double{n.y} * x.y) + std::abs(double{n.z} * x.z);
@@ -93,12 +91,12 @@ std::vector<Fault> region_faults() {
                     }),
       asked_wrongly("scaled in place of slid",
                     [](TruncateIn& in) { std::ranges::fill(in.half_spaces.is_prescribed, std::uint8_t{1}); }),
-      asked_wrongly("slid by distance", [](TruncateIn& in) { std::ranges::fill(in.half_spaces.block, identity); }),
+      asked_wrongly("slid by distance", [](TruncateIn& in) { std::ranges::fill(in.half_spaces.block, inertia_block); }),
       asked_wrongly("a prescribed vertex slides",
                     [](TruncateIn& in) {
                       for (std::size_t i = 0; i < in.half_spaces.is_prescribed.size(); ++i)
                         if (std::exchange(in.half_spaces.is_prescribed[i], std::uint8_t{0}) != 0)
-                          in.half_spaces.block[i] = identity;
+                          in.half_spaces.block[i] = inertia_block;
                     }),
       spoiled("slid without the final test",
               [](const TruncateIn& in, std::size_t i, TruncateOut& out) {

@@ -83,13 +83,6 @@ struct PlaneCase {
   std::vector<std::uint8_t> is_fixed;  ///< by vertex: of group 0
 };
 
-/// By vertex, whether its group is 0.
-inline std::vector<std::uint8_t> fixed_flags(const std::vector<Index>& groups) {
-  std::vector<std::uint8_t> flags;
-  for (const Index group : groups) flags.push_back(group == 0 ? 1 : 0);
-  return flags;
-}
-
 /// A mesh and what is asked about it.
 struct BlockCase {
   std::shared_ptr<const Topology> topology;  ///< of the mesh

@@ -10,6 +10,7 @@
 #include "compare/judge/cases/solid_block.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/tetrahedra.hpp"
+#include "compare/stages/plane.hpp"
 
 namespace ogc::compare {
 

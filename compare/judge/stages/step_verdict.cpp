@@ -199,19 +199,6 @@ class StepVerdict {
     });
   }
 
-  /// What half-spaces ask of vertex v in a round of the guess loop, where inertia alone holds it.
-  HalfSpacesIn half_spaces(std::size_t v) const {
-    HalfSpacesIn all;
-    const auto planes = detection_->planes.of(static_cast<Index>(v));
-    if (planes.empty()) return all;
-    for (const VertexPlane& plane : planes) all.items.push_back({plane.normal, plane.offset});
-    all.offsets = {0, static_cast<Index>(planes.size())};
-    all.current = {at_[v]};
-    all.block = {{1, 0, 0, 1, 0, 1}};
-    all.is_prescribed = {static_cast<std::uint8_t>(groups_[v] > 0)};
-    return all;
-  }
-
   /// Vertices that are part of an active contact; each contact is active, as X_prev = x.
   std::vector<std::uint8_t> touched() const {
     std::vector<std::uint8_t> touched(start_.size(), 0);
@@ -242,7 +229,10 @@ class StepVerdict {
       }
       const bool is_cut = !(event.position[v] == out_.target[v]);
       cut += is_cut;
-      const TruncateIn question{{at_[v]}, {out_.target[v]}, {detection_->bound[v]}, half_spaces(v)};
+      // in the guess loop inertia alone holds it
+      const auto planes = detection_->planes.of(static_cast<Index>(v));
+      const TruncateIn question{
+          {at_[v]}, {out_.target[v]}, {detection_->bound[v]}, half_spaces_of(planes, at_[v], groups_[v] > 0)};
       part(where(i) + vertex(v), Stage::truncate, [&](Tally& own) {
         judge_truncate({&test_, 1}, question, authority_.truncate(question), {{event.position[v]}, {is_cut}}, own);
       });

@@ -172,14 +172,11 @@ std::vector<WrongForm> truncate_forms() {
       asked("scaled_in_place_of_slid", "a vertex stops on its way to a half-space in place of sliding along it",
             &Authority::truncate, [](TruncateIn& in) { std::ranges::fill(in.half_spaces.is_prescribed, 1); }),
       asked("slid_by_distance", "the shortest way out of a half-space in place of that of H", &Authority::truncate,
-            [](TruncateIn& in) {
-              std::ranges::fill(in.half_spaces.block, std::array<float, 6>{1, 0, 0, 1, 0, 1});
-            }),
+            [](TruncateIn& in) { std::ranges::fill(in.half_spaces.block, inertia_block); }),
       asked("prescribed_slides", "a prescribed vertex slides by the shortest way", &Authority::truncate,
             [](TruncateIn& in) {
               for (std::size_t i = 0; i < in.half_spaces.is_prescribed.size(); ++i)
-                if (std::exchange(in.half_spaces.is_prescribed[i], 0) != 0)
-                  in.half_spaces.block[i] = {1, 0, 0, 1, 0, 1};
+                if (std::exchange(in.half_spaces.is_prescribed[i], 0) != 0) in.half_spaces.block[i] = inertia_block;
             })};
 }
 

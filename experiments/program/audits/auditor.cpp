@@ -46,9 +46,8 @@ StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& 
       names_(scene, sources),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
       bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)),
-      bounds_(scene.settings.bounds) {
-  for (const compare::Index group : compare::rigid_groups(scene)) is_fixed_.push_back(group == 0 ? 1 : 0);
-}
+      bounds_(scene.settings.bounds),
+      is_fixed_(compare::fixed_flags(exclusions_.groups)) {}
 
 compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positions, std::size_t limit) const {
   return compare::audit(topology_, compare::to_double(positions), exclusions_, {.limit = limit});

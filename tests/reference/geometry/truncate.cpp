@@ -75,10 +75,10 @@ constexpr std::array<float, 6> leaning{2, 0, 1, 1, 0, 1};  // H⁻¹(0, 0, 1) = 
 }  // namespace
 
 TEST_CASE("truncate: a vertex slides along a half-space in the metric of its block, then into the ball", "[unit]") {
-  check_near(reference::truncate(below_a_ceiling(10, reference::inertia_block, false)), {3, 0, 1});
+  check_near(reference::truncate(below_a_ceiling(10, compare::inertia_block, false)), {3, 0, 1});
   check_near(reference::truncate(below_a_ceiling(10, leaning, false)), {5, 0, 1});
   const double share = 2 / std::sqrt(10.0);
-  check_near(reference::truncate(below_a_ceiling(2, reference::inertia_block, false)), {3 * share, 0, share});
+  check_near(reference::truncate(below_a_ceiling(2, compare::inertia_block, false)), {3 * share, 0, share});
 }
 
 TEST_CASE("truncate: a prescribed vertex stops on its way", "[unit]") {
