@@ -115,6 +115,17 @@ std::vector<Fault> region_faults() {
               [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
                 if (out.cut[i] != 0) out.position[i] = in.previous[i];
               }),
+      spoiled("a way along a half-space halved",
+              [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
+                const Vec3f& x = in.half_spaces.current[i];
+                const auto is_on = [&](const HalfSpace& h) {
+                  return height(h.normal, x) >= h.offset - 0x1p-40 * size(h.normal, x);
+                };
+                if (out.cut[i] == 0 || in.half_spaces.is_prescribed[i] == 0) return;
+                if (std::ranges::none_of(in.half_spaces.of(i), is_on)) return;
+                Vec3f& to = out.position[i];
+                to = {0.5f * (x.x + to.x), 0.5f * (x.y + to.y), 0.5f * (x.z + to.z)};
+              }),
       spoiled("vertices that half-spaces cut are not counted",
               [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
                 out.cut[i] = obeys_bound(in.position[i], in.previous[i], in.bound[i]) ? 0 : 1;

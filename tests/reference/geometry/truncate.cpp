@@ -90,6 +90,19 @@ TEST_CASE("truncate: a prescribed vertex stops on its way", "[unit]") {
   check_near(reference::truncate(below_a_ceiling(0.5f, leaning, true)), {3 * share, 0, 5 * share});
 }
 
+TEST_CASE("truncate: beside a half-space a prescribed vertex goes on to its end, between two it may stop", "[unit]") {
+  // at (0, 0, 1), on z ≤ 1, along x into the ball
+  compare::TruncateIn in = below_a_ceiling(2, leaning, true);
+  in.previous = in.half_spaces.current = {{0, 0, 1}};
+  in.position = {{3, 0, 1}};
+  check_near(reference::truncate(in), {2, 0, 1});
+  CHECK(reference::truncate(in).accepted[0] < 1e-5);
+  in.half_spaces.items.push_back({{0, 0, -1}, -1});
+  in.half_spaces.offsets[1] = 2;
+  CHECK(reference::truncate(in).accepted[0] >= 2);
+  CHECK(reference::truncate(in).accepted[0] < 2.00001);
+}
+
 TEST_CASE("truncate: where two half-spaces hold a vertex it may choose; inside of all it stays", "[unit]") {
   compare::TruncateIn in = below_a_ceiling(10, leaning, false);
   in.half_spaces.items.push_back({{1, 0, 0}, 2});
