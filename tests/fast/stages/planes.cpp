@@ -246,12 +246,12 @@ TEST_CASE("planes: two hooked corners stay hooked, however far they are pulled",
     CHECK(compare::audit(topology, compare::to_double(state.positions), compare::exclusions(scene)).count == 0);
     CHECK(reference::broken_planes(state.planes, state.positions) == 0);
   }
-  // the middle of the first fold is held by that of the second, four times as far as the hooks are long
+  // the middle of the first fold is held by that of the second; the ends, 0.2 m apart at first, lag in the end
   const auto end = simulation->snapshot().positions;
   CHECK(contacts > 0);
   CHECK(end[4].x > end[13].x);
-  CHECK(end[0].x < -0.4f);
-  CHECK(end[9].x > 0.4f);
+  CHECK(end[0].x < -0.2f);
+  CHECK(end[9].x > 0.2f);
 }
 
 TEST_CASE("planes: renumbered vertices have the planes of the same pairs, and the same balls but for rounding",
@@ -279,7 +279,7 @@ TEST_CASE("planes: renumbered vertices have the planes of the same pairs, and th
     CHECK(pairs == pairs_of(other_topology, b, there(v), [](compare::Index u) { return u; }));
     planes += pairs.size();
   }
-  CHECK(planes > 1000);
+  CHECK(planes > 500);
 }
 
 // Planes of the step before must decide nothing: each step is taken by a simulation that has seen no other.
