@@ -377,7 +377,8 @@ class Trace {
 int ogc_plane(const ogc_plane_in* in, ogc_plane_out* out) {
   const auto n = static_cast<std::size_t>(in->topology.vertex_count);
   const std::vector<Vec3f> positions = points(in->positions, n);
-  Mesh mesh{to_double(positions)};
+  Mesh mesh;
+  mesh.positions = to_double(positions);
   add_faces(in->topology, mesh);
   Topology topology = build_topology(mesh);
   topology.inside_solid.assign(in->inside_solid, in->inside_solid + n);

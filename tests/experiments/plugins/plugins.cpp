@@ -280,7 +280,7 @@ TEST_CASE("a plug-in's planes are judged by what they hold, and it is asked to t
   const auto [how, question, status, what] = GENERATE(table<std::string, std::string, int, std::string>(
       {{"", "truncate --generator regions", 0, "truncate: passed"},
        {"", "plane --generator solid", 0, "plane: passed"},
-       {"all slide", "truncate --generator regions", 1, "your answer equals `prescribed_slides`"},
+       {"all slide", "truncate --generator regions", 1, " m from where it slides, or its way ends"},
        {"normals turned", "plane --generator few", 1, " half-spaces that their vertex does not keep where it is"},
        {"plane of nobody", "plane --generator few", 1, "no answer: plane 0 is of vertex "},
        {"plane of no pair", "plane --generator few", 1, " and of a pair of kind 7"}}));
