@@ -139,12 +139,15 @@ struct ContestantFailure : std::runtime_error {
 /// Empty functions are stages that the contestant does not have.
 struct Contestant {
   std::string name;  ///< for reports
+  /// Whether its steps know bounds=planes. A plug-in's do not: compare/plugin.h has no planes in its trace.
+  bool has_steps_with_planes = true;
   /// By stage: compare/stages/STAGE.hpp says what is asked.
   std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
   std::function<ClosestPointsOut(const ClosestPointsIn&)> closest_points;
   std::function<DetectVertexFacetOut(const DetectIn&)> detect_vertex_facet;
   std::function<DetectEdgeEdgeOut(const DetectIn&)> detect_edge_edge;
   std::function<BoundOut(const BoundIn&)> bound;
+  std::function<PlaneOut(const PlaneIn&)> plane;
   std::function<ActivationOut(const ActivationIn&)> activation;
   std::function<TruncateOut(const TruncateIn&)> truncate;
   std::function<ForceOut(const MembraneIn&)> membrane;
@@ -171,6 +174,7 @@ constexpr void visit_stages(Visit visit) {
   visit("detect_vertex_facet", &Contestant::detect_vertex_facet);
   visit("detect_edge_edge", &Contestant::detect_edge_edge);
   visit("bound", &Contestant::bound);
+  visit("plane", &Contestant::plane);
   visit("initial_guess", &Contestant::initial_guess);
   visit("activation", &Contestant::activation);
   visit("contact_force", &Contestant::contact_force);
@@ -205,7 +209,8 @@ struct Authority {
   std::function<BlockTruth(const BlockIn&)> block;
   std::function<RestStateTruth(const RestStateIn&)> rest_state;
   std::function<InitialGuessTruth(const InitialGuessIn&)> initial_guess;
-  /// Of sweep and step the truth follows the answer (compare/stages/sweep.hpp, step.hpp).
+  /// Of plane, sweep and step the truth follows the answer (compare/stages/plane.hpp, sweep.hpp, step.hpp).
+  std::function<PlaneTruth(const PlaneIn&, const PlaneOut&)> plane;
   std::function<SweepTruth(const SweepIn&, const SweepOut&)> sweep;
   std::function<StepTruth(const StepIn&, const StepOut&)> step;
 };

@@ -28,9 +28,9 @@
 
 /* Of this interface. A library built for a newer one is refused by name; so is one that is older than the oldest whose
  * structures have this layout, and one with a stage of scenes (rest_state, sweep, step) that is older than the oldest
- * whose scenes have it. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`. 7 has solids.)
- */
-#define OGC_PLUGIN_VERSION 7
+ * whose scenes have it. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`. 7 has solids.
+ * 8 has ogc_plane, and half-spaces behind the members that ogc_truncate_in had.) */
+#define OGC_PLUGIN_VERSION 8
 #define OGC_PLUGIN_OLDEST_VERSION 5
 #define OGC_PLUGIN_OLDEST_SCENE_VERSION 7
 
@@ -198,6 +198,42 @@ typedef struct ogc_bound_out {
 
 OGC_PLUGIN_EXPORT int ogc_bound(const ogc_bound_in* in, ogc_bound_out* out);
 
+/* ---- plane: half-spaces of near pairs, a ball for the others ---------------------------------------------------- */
+
+typedef struct ogc_plane_in {
+  ogc_topology topology;
+  const int32_t* rigid_groups; /* as in ogc_detect_in */
+  ogc_rows excluded_partners;  /* likewise */
+  const ogc_vec3* positions;   /* [vertex_count] */
+  const uint8_t* is_fixed;     /* [vertex_count] 1: never moves, and bears no plane */
+  float query_radius;          /* r_q */
+  float bound_relaxation;      /* gamma_p */
+  const uint8_t* inside_solid; /* [vertex_count] as in ogc_detect_in */
+} ogc_plane_in;
+
+/* Values of `kind` of a pair: `first` is a vertex and `second` a triangle, or both are edges, first < second. */
+enum { OGC_VERTEX_TRIANGLE_PAIR, OGC_EDGE_EDGE_PAIR };
+
+/* normal . x <= offset, borne by a vertex of the pair: the vertices of one side have a normal n, those of the other -n,
+ * bit by bit. */
+typedef struct ogc_vertex_plane {
+  int32_t vertex;
+  int32_t kind, first, second;
+  ogc_vec3 normal;
+} ogc_vertex_plane;
+
+/* Pairs nearer than the 17th nearest of each of their vertices need a plane; more may have one. `planes` and `offset`
+ * have room for `capacity`, as lists of contacts do; in any order, each vertex of each pair once. A bound is never
+ * above gamma_p times r_q, nor times the distance of a pair of the vertex that no plane holds apart. */
+typedef struct ogc_plane_out {
+  ogc_vertex_plane* planes;
+  double* offset; /* of each of them */
+  int64_t capacity, count;
+  float* bound; /* [vertex_count] */
+} ogc_plane_out;
+
+OGC_PLUGIN_EXPORT int ogc_plane(const ogc_plane_in* in, ogc_plane_out* out);
+
 /* ---- activation: contact energy over distance -------------------------------------------------------------------- */
 
 /* Which energy. */
@@ -223,16 +259,28 @@ OGC_PLUGIN_EXPORT int ogc_activation(const ogc_activation_in* in, ogc_activation
 
 /* ---- truncate: a vertex kept within its bound -------------------------------------------------------------------- */
 
+/* normal . x <= offset */
+typedef struct ogc_half_space {
+  ogc_vec3 normal;
+  double offset;
+} ogc_half_space;
+
+/* Libraries without ogc_plane are asked about balls alone. What follows `bound` is there since version 8. */
 typedef struct ogc_truncate_in {
   int64_t n;
   const ogc_vec3 *previous, *position; /* [n] */
   const float* bound;                  /* [n] b >= 0 */
+  const int32_t* half_space_offsets;   /* [n + 1] those of case i: half_spaces[offsets[i]] ... [offsets[i + 1] - 1] */
+  const ogc_half_space* half_spaces;
+  const ogc_vec3* current;      /* [n] where the vertex is, in its region */
+  const float (*block)[6];      /* [n] H: xx, xy, xz, yy, yz, zz; positive definite */
+  const uint8_t* is_prescribed; /* [n] 1: it does not slide, and H is not to be read */
 } ogc_truncate_in;
 
 typedef struct ogc_truncate_out {
-  ogc_vec3* position; /* [n] as stored, |position - previous| <= bound exactly; bit for bit what came in where nothing
-                         is cut */
-  uint8_t* cut;       /* [n] 1 where the given position was farther than the bound */
+  ogc_vec3* position; /* [n] as stored, |position - previous| <= bound and each half-space kept exactly; bit for bit
+                         what came in where nothing is cut */
+  uint8_t* cut;       /* [n] 1 where the given position was farther than the bound, or beyond a half-space */
 } ogc_truncate_out;
 
 OGC_PLUGIN_EXPORT int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out);

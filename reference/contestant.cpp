@@ -15,6 +15,7 @@
 #include "reference/geometry/closest_points.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/geometry/plane.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/ipc/simulation.hpp"
 #include "reference/simulation.hpp"
@@ -32,6 +33,7 @@ compare::Authority authority() {
   authority.detect_vertex_facet = detect_vertex_facet;
   authority.detect_edge_edge = detect_edge_edge;
   authority.bound = bound;
+  authority.plane = plane;
   authority.activation = activation;
   authority.truncate = truncate;
   authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };

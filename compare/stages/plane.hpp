@@ -8,6 +8,7 @@
 
 #include "compare/problem/mesh.hpp"
 #include "compare/stages/detect.hpp"
+#include "compare/stages/truncate.hpp"
 
 namespace ogc::compare {
 
@@ -41,6 +42,19 @@ struct VertexPlanes {
   }
 };
 
+/// What stage truncate is asked about a vertex that bears these planes and that inertia alone holds; empty where it
+/// bears none.
+inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Vec3f& current, bool is_prescribed) {
+  if (planes.empty()) return {};
+  HalfSpacesIn all{.offsets = {0, static_cast<Index>(planes.size())},
+                   .items = {},
+                   .current = {current},
+                   .block = {inertia_block},
+                   .is_prescribed = {static_cast<std::uint8_t>(is_prescribed)}};
+  for (const VertexPlane& plane : planes) all.items.push_back({plane.normal, plane.offset});
+  return all;
+}
+
 /// A state, and what decides which pairs count.
 struct PlaneIn {
   const Topology* topology = nullptr;      ///< of the whole scene
@@ -51,23 +65,73 @@ struct PlaneIn {
   float bound_relaxation = 0.45f;          ///< γ_p
 };
 
+/// PlaneIn::is_fixed of a scene: by vertex, 1 where its rigid group is 0.
+inline std::vector<std::uint8_t> fixed_flags(std::span<const Index> groups) {
+  std::vector<std::uint8_t> flags;
+  flags.reserve(groups.size());
+  for (const Index group : groups) flags.push_back(group == 0 ? 1 : 0);
+  return flags;
+}
+
 /// What a vertex may do until the next detection: K_v is its ball and its half-spaces (method.md §5.6).
 struct PlaneOut {
-  VertexPlanes planes;       ///< by vertex, ascending by pair
-  std::vector<float> bound;  ///< radius of each vertex's ball [m]
+  VertexPlanes planes;  ///< by vertex, ascending by pair
+  /// Radius of each vertex's ball [m]. Of a vertex inside a solid, which nothing bounds, the largest finite number; of
+  /// fixed ones it says nothing.
+  std::vector<float> bound;
 };
 
-/// The truth follows the answer. A pair is *separated* if one plane of it holds both sides: each of its vertices that
-/// can move bears it and keeps it at X, and between the two offsets (of a fixed vertex: where it is) there is room.
-/// Every other pair within r_q must be *covered*: b_v ≤ γ_p d for each of its vertices that can move. All is exact.
-struct PlaneTruth {
+/// Planes that the method gives a vertex: those of its nearest pairs. An answer may have more of them.
+inline constexpr std::size_t planes_of_vertex = 16;
+
+/// Whether the answer holds every pair apart, decided exactly. A pair is *separated* if one plane of it holds both
+/// sides: each of its vertices that can move bears it and keeps it at X, and between the two offsets (of a fixed
+/// vertex: where it is) there is room. Every other pair within r_q must be *covered*: b_v ≤ γ_p d for each of its
+/// vertices that can move. Which normals and offsets do so is free.
+struct PlaneGuarantee {
   std::size_t separated = 0;  ///< pairs within r_q
   std::size_t uncovered = 0;  ///< pairs that are neither
   PrimitivePair worst;        ///< the first of these, by kind, first and second
   std::size_t broken = 0;     ///< half-spaces that their vertex does not keep at X
-  std::size_t too_large = 0;  ///< vertices with b_v > γ_p r_q
+  std::size_t too_large = 0;  ///< vertices of the surface with b_v > γ_p r_q
   /// Whether the answer keeps the guarantee.
   bool kept() const { return uncovered == 0 && broken == 0 && too_large == 0; }
 };
+
+/// What the vertices may still do. Planes are there for the freedom that balls take; so a pair that is nearer than the
+/// 17th of each of its vertices that can move must have one (*due*), as far as single precision holds it:
+/// d ≥ 2⁻¹⁸ Σ|δ|, δ the coordinates relative to the pair's first vertex, and γ_p d, (1 − 2γ_p) d ≥ 2⁻⁴⁵ of the largest
+/// modulus of a coordinate. (n rounded turns by u, which moves a shadow of the pair by u Σ|δ| at most, and of a gap 64
+/// times that leaves nearly all. Heights n·x and offsets err by a few 2⁻⁵³ of the coordinates.) Which distance is the
+/// 17th may depend on rounding; a pair is due only if it is nearer by `detect_below_tolerance`.
+struct PlaneFreedom {
+  std::size_t pairs = 0;        ///< within r_q
+  std::size_t due = 0;          ///< pairs that must have a plane
+  std::size_t missing = 0;      ///< pairs that are due and that no plane separates
+  PrimitivePair first_missing;  ///< of these, by kind, first and second
+  /// Both sides of a separated pair together may come 2γ_p d closer, as with balls: by how much less they may at most,
+  /// in units of u · max(d, Σ|δ|).
+  double narrowing = 0;
+  PrimitivePair narrowest;  ///< of which that is
+  /// By vertex, by how much b_v is smaller than γ_p min(r_q, smallest d of its pairs that no plane separates), in units
+  /// of u γ_p · max(d, Σ|δ|) of the pair that excuses it best; 0 of vertices that cannot move and inside solids.
+  std::vector<double> ball_shortfall;
+  std::size_t needless = 0;        ///< half-spaces of pairs that are none within r_q
+  std::size_t bounded_inside = 0;  ///< vertices inside solids whose ball is not the largest finite number
+};
+
+/// The truth follows the answer: anybody's planes are judged by what they hold, not by whose they are.
+struct PlaneTruth {
+  PlaneGuarantee guarantee;  ///< may nothing meet?
+  PlaneFreedom freedom;      ///< may the vertices move?
+};
+
+/// In units of u · max(d, Σ|δ|), twice γ_p < 1/2 of: n rounded (1), which turns it, so that other points than the
+/// closest ones face each other; its length (1); the offsets' and the judge's arithmetic in double (less than 1 of
+/// both). A direction that is computed in single precision does not stay below.
+inline constexpr double plane_narrowing_tolerance = 3;
+/// In units of u γ_p · max(d, Σ|δ|): a smallest distance (`detect_below_tolerance`), one product, rounded down (2), in
+/// a kernel that may round to nearest and step down once more (4).
+inline constexpr double plane_ball_tolerance = detect_below_tolerance + 4;
 
 }  // namespace ogc::compare

@@ -20,11 +20,12 @@ enum class StepEventKind : std::uint8_t {
 struct StepEvent {
   StepEventKind kind = StepEventKind::detection;  ///< what was done
   std::vector<Vec3f> position;  ///< x after the event [m]; of a detection X_prev as later events read it
-  Index cut = 0;                ///< guess, sweep: how many vertices it cut
+  Index cut = 0;                ///< guess, sweep: how many vertices it cut, prescribed ones included
   // detection alone
   DetectVertexFacetOut vertex_facet;  ///< of a detection
   DetectEdgeEdgeOut edge_edge;        ///< of a detection
   std::vector<float> bound;           ///< b_v [m]
+  VertexPlanes planes{};              ///< where bounds are planes; smallest distances are then not asked for
 };
 
 /// A step from X⁰, V⁰ of a rounded scene to its first targets of prescribed vertices.

@@ -11,6 +11,7 @@
 
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/plane.hpp"
 #include "compare/stages/rest_state.hpp"
 
 namespace ogc::compare {
@@ -31,12 +32,14 @@ struct SweepIn {
   std::span<const float> bound;                         ///< b_v [m]
   std::span<const VertexFacetContact> vertex_facet;     ///< canonical order
   std::span<const EdgeEdgeContact> edge_edge;
+  /// Half-spaces that the vertices bear since that detection; null: they have balls alone
+  const VertexPlanes* planes = nullptr;
 };
 
 /// The answer.
 struct SweepOut {
-  std::vector<Vec3f> position;  ///< [m]; each obeys its bound exactly
-  Index cut = 0;                ///< vertices, prescribed ones included, whose proposal lay beyond its bound
+  std::vector<Vec3f> position;  ///< [m]; each lies in its region exactly
+  Index cut = 0;                ///< vertices, prescribed ones included, whose proposal lay outside of its region
 };
 
 /// By vertex: the exact update from the answer's own lower colours, and how far a right answer may be from it [m], in
@@ -45,7 +48,8 @@ struct SweepOut {
 /// the vertex has more than one accepted answer (`position` then comes from the combination nearest to the answer), or
 /// the vertex is *ill-conditioned*: the errors of H alone could make it singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2. No single-precision
 /// solve can then be held to a position, and a solver may fall back to a step down the gradient: `accepted` is
-/// infinite, unless the vertex was not cut and moved against its force beyond all error: then 0.
+/// infinite, unless the vertex was not cut and moved against its force beyond all error: then 0. Infinite, too, where
+/// half-spaces cut a free vertex, or may: the judge then asks that it lies in its region. How it slides, truncate asks.
 struct SweepTruth {
   std::vector<Vec3> position;       ///< that follows from the answer's own neighbours [m]
   std::vector<double> accepted;     ///< largest error [m]

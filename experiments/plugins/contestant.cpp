@@ -1,7 +1,10 @@
 // The judge's questions as arrays, in the order of stages.cpp, and the arrays that come back as answers.
 #include "experiments/plugins/contestant.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "experiments/plugins/arrays.hpp"
@@ -15,6 +18,8 @@ using namespace ogc::compare;
 
 // One layout on both sides: a question's structures are the plug-in's.
 static_assert(sizeof(Vec3f) == sizeof(ogc_vec3));
+static_assert(sizeof(HalfSpace) == sizeof(ogc_half_space) &&
+              offsetof(HalfSpace, offset) == offsetof(ogc_half_space, offset));
 static_assert(sizeof(MembraneCase) == sizeof(ogc_membrane_case) &&
               offsetof(MembraneCase, damping_form) == offsetof(ogc_membrane_case, damping_form));
 static_assert(sizeof(BendingCase) == sizeof(ogc_bending_case) &&
@@ -99,6 +104,52 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
   return out;
 }
 
+/// One after another as the plug-in wrote them, put into rows.
+VertexPlanes planes_of(const std::vector<ogc_vertex_plane>& all, const std::vector<double>& offsets, Index vertices) {
+  std::vector<std::pair<Index, VertexPlane>> planes;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ogc_vertex_plane& p = all[i];
+    if (p.vertex < 0 || p.vertex >= vertices || p.kind < OGC_VERTEX_TRIANGLE_PAIR || p.kind > OGC_EDGE_EDGE_PAIR)
+      throw ContestantFailure("plane " + std::to_string(i) + " is of vertex " + std::to_string(p.vertex) +
+                              " and of a pair of kind " + std::to_string(p.kind) + "; there are " +
+                              std::to_string(vertices) + " vertices and kinds 0 and 1");
+    const PrimitivePair pair{static_cast<PrimitivePair::Kind>(p.kind), p.first, p.second};
+    planes.push_back({p.vertex, {pair, {p.normal.x, p.normal.y, p.normal.z}, offsets[i]}});
+  }
+  std::ranges::sort(planes, {}, [](const auto& plane) {
+    const PrimitivePair& pair = plane.second.pair;
+    return std::tuple(plane.first, pair.kind, pair.first, pair.second);
+  });
+  VertexPlanes rows;
+  rows.offsets.assign(static_cast<std::size_t>(vertices) + 1, 0);
+  for (const auto& [vertex, plane] : planes) {
+    ++rows.offsets[static_cast<std::size_t>(vertex) + 1];
+    rows.items.push_back(plane);
+  }
+  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
+  return rows;
+}
+
+PlaneOut ask_plane(PluginProcess& plugin, const PlaneIn& in) {
+  std::vector<Bytes> inputs = inputs_of(*in.topology);
+  const CompressedRows partners = rows_by_vertex(in.exclusions.partners, in.positions.size());
+  for (const Bytes& array : {bytes_of(in.exclusions.groups), bytes_of(partners.offsets), bytes_of(partners.items),
+                             bytes_of(in.positions), bytes_of(in.is_fixed)})
+    inputs.push_back(array);
+  const std::vector<std::uint8_t> inside = inside_solid(*in.topology);
+  inputs.push_back(bytes_of(inside));
+  QuestionSizes sizes = sizes_of(*in.topology);
+  sizes.first = in.query_radius;
+  sizes.second = in.bound_relaxation;
+  const auto answer = plugin.ask("plane", sizes, inputs);
+  PlaneOut out;
+  std::vector<ogc_vertex_plane> planes;
+  std::vector<double> offsets;
+  Outputs(answer).to(planes, offsets, out.bound);
+  out.planes = planes_of(planes, offsets, in.topology->vertex_count);
+  return out;
+}
+
 ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
   const std::vector<Bytes> inputs{bytes_of(in.distance), bytes_of(in.contact_radius), bytes_of(in.stiffness),
                                   bytes_of(in.activation)};
@@ -108,8 +159,22 @@ ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
   return out;
 }
 
+/// One entry a case, also where no case has half-spaces.
+HalfSpacesIn half_spaces_by_case(const TruncateIn& in) {
+  if (!in.half_spaces.offsets.empty()) return in.half_spaces;
+  const std::size_t n = in.bound.size();
+  return {.offsets = std::vector<Index>(n + 1, 0),
+          .items = {},
+          .current = in.previous,
+          .block = std::vector(n, inertia_block),
+          .is_prescribed = std::vector<std::uint8_t>(n, 0)};
+}
+
 TruncateOut ask_truncate(PluginProcess& plugin, const TruncateIn& in) {
-  const std::vector<Bytes> inputs{bytes_of(in.previous), bytes_of(in.position), bytes_of(in.bound)};
+  const HalfSpacesIn all = half_spaces_by_case(in);
+  const std::vector<Bytes> inputs{bytes_of(in.previous), bytes_of(in.position),      bytes_of(in.bound),
+                                  bytes_of(all.offsets), bytes_of(all.items),        bytes_of(all.current),
+                                  bytes_of(all.block),   bytes_of(all.is_prescribed)};
   const auto answer = plugin.ask("truncate", sizes_of(in.bound.size()), inputs);
   TruncateOut out;
   Outputs(answer).to(out.position, out.cut);
@@ -163,12 +228,14 @@ std::function<Out(const In&)> timed(std::function<Out(const In&)> plugin, const 
 Contestant plugin_contestant(Plugin plugin) {
   Contestant c;
   c.name = plugin->name();
+  c.has_steps_with_planes = false;
   c.closest_face = [plugin](const ClosestFaceIn& in) { return ask_closest_face(*plugin, in); };
   c.closest_points = [plugin](const ClosestPointsIn& in) { return ask_closest_points(*plugin, in); };
   c.block = [plugin](const BlockIn& in) { return ask_block(*plugin, in); };
   c.detect_vertex_facet = [plugin](const DetectIn& in) { return ask_detect_vertex_facet(*plugin, in); };
   c.detect_edge_edge = [plugin](const DetectIn& in) { return ask_detect_edge_edge(*plugin, in); };
   c.bound = [plugin](const BoundIn& in) { return ask_bound(*plugin, in); };
+  c.plane = [plugin](const PlaneIn& in) { return ask_plane(*plugin, in); };
   c.initial_guess = [plugin](const InitialGuessIn& in) { return ask_initial_guess(*plugin, in); };
   c.activation = [plugin](const ActivationIn& in) { return ask_activation(*plugin, in); };
   c.contact_force = [plugin](const ContactForceIn& in) { return ask_force(*plugin, "contact_force", in); };

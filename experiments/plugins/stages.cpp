@@ -76,6 +76,17 @@ int call_bound(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
+constexpr std::array plane_outputs{OutputInfo{"planes", Element::index, 7, Per::one, List::planes},
+                                   OutputInfo{"offset", Element::real, 1, Per::one, List::planes},
+                                   OutputInfo{"bound", Element::number, 1, Per::vertex}};
+int call_plane(void* function, CallArrays& a) {
+  const ogc_plane_in in{topology(a), a.in(), rows(a), a.in(), a.in(), a.sizes.first, a.sizes.second, a.in()};
+  ogc_plane_out out{a.out(), a.out(), a.capacity(List::planes), -1, a.out()};
+  const int status = call(function, in, out);
+  a.count(List::planes) = out.count;
+  return status;
+}
+
 constexpr std::array activation_outputs{OutputInfo{"energy", Element::number, 1, Per::item},
                                         OutputInfo{"slope", Element::number, 1, Per::item},
                                         OutputInfo{"curvature", Element::number, 1, Per::item}};
@@ -88,7 +99,7 @@ int call_activation(void* function, CallArrays& a) {
 constexpr std::array truncate_outputs{OutputInfo{"position", Element::number, 3, Per::item},
                                       OutputInfo{"cut", Element::byte, 1, Per::item}};
 int call_truncate(void* function, CallArrays& a) {
-  const ogc_truncate_in in{a.sizes.cases, a.in(), a.in(), a.in()};
+  const ogc_truncate_in in{a.sizes.cases, a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in(), a.in()};
   ogc_truncate_out out{a.out(), a.out()};
   return call(function, in, out);
 }
@@ -282,6 +293,7 @@ constexpr std::array table{
     PluginStage{"detect_vertex_facet", topology_inputs + 5, facet_outputs, call_detect_vertex_facet},
     PluginStage{"detect_edge_edge", topology_inputs + 5, edge_outputs, call_detect_edge_edge},
     PluginStage{"bound", topology_inputs + 4, bound_outputs, call_bound},
+    PluginStage{"plane", topology_inputs + 6, plane_outputs, call_plane},
     PluginStage{"initial_guess", 1, guess_outputs, call_initial_guess},
     PluginStage{"activation", 4, activation_outputs, call_activation},
     PluginStage{"contact_force", 1, force_outputs, call_force<ogc_contact_force_in>},
@@ -290,7 +302,7 @@ constexpr std::array table{
     PluginStage{"bending", 1, force_outputs, call_force<ogc_bending_in>},
     PluginStage{"spring", 1, force_outputs, call_force<ogc_spring_in>},
     PluginStage{"tetrahedron", 1, force_outputs, call_force<ogc_tetrahedron_in>},
-    PluginStage{"truncate", 3, truncate_outputs, call_truncate},
+    PluginStage{"truncate", 8, truncate_outputs, call_truncate},
     PluginStage{"rest_state", scene_inputs, rest_outputs, call_rest_state, OGC_PLUGIN_OLDEST_SCENE_VERSION},
     PluginStage{"sweep", scene_inputs + rest_inputs + 8, sweep_outputs, call_sweep, OGC_PLUGIN_OLDEST_SCENE_VERSION},
     PluginStage{"step", scene_inputs + 3, step_outputs, call_step, OGC_PLUGIN_OLDEST_SCENE_VERSION},
@@ -313,17 +325,19 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Room for contacts is a guess; for events and detections it holds all that Algorithm 3 can have, with a detection
-// before each round and each iteration.
+// Room for contacts, and for planes of so many pairs, is a guess; for events and detections it holds all that Algorithm
+// 3 can have, with a detection before each round and each iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
-  return {1, contacts, contacts, sizes.triangles, sizes.hinges, sizes.tetrahedra, 2 * rounds + 1, rounds + 1};
+  return {1,          contacts,    contacts, sizes.triangles, sizes.hinges, sizes.tetrahedra, 2 * rounds + 1,
+          rounds + 1, 4 * contacts};
 }
 
 // Contacts at most: each vertex with each triangle, each edge with each other one as first and as second, at each
 // detection; and those of the guess above, so that contacts which are listed twice in a small mesh are told as what
-// they are. The products fit into 64 bits: sizes do into 31, and 2^40 ends them.
+// they are. Planes: one for each vertex of each of these pairs. The products fit into 64 bits: sizes do into 31, and
+// 2^40 ends them.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);
@@ -335,12 +349,14 @@ ListSizes most_entries(const QuestionSizes& sizes) {
   };
   add_pairs(List::vertex_facet, sizes.vertices, sizes.triangles);
   add_pairs(List::edge_edge, sizes.edges, sizes.edges);
+  add_pairs(List::planes, 4.0 * sizes.vertices, sizes.triangles);
+  add_pairs(List::planes, 4.0 * sizes.edges, sizes.edges);
   return entries;
 }
 
 std::string_view list_name(List list) {
-  constexpr std::array<std::string_view, list_count> names{"",       "contacts",   "contacts", "triangles",
-                                                           "hinges", "tetrahedra", "events",   "detections"};
+  constexpr std::array<std::string_view, list_count> names{
+      "", "contacts", "contacts", "triangles", "hinges", "tetrahedra", "events", "detections", "planes"};
   return names[static_cast<std::size_t>(list)];
 }
 

@@ -26,11 +26,21 @@ struct QuestionSizes {
 };
 
 /// What the elements of an output are, and of what there is one group of them.
-enum class Element : std::uint8_t { number, byte, index };
+enum class Element : std::uint8_t { number, byte, index, real };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
 /// Outputs whose length the plug-in decides.
-enum class List : std::uint8_t { none, vertex_facet, edge_edge, triangles, hinges, tetrahedra, events, detections };
-inline constexpr std::size_t list_count = 8;
+enum class List : std::uint8_t {
+  none,
+  vertex_facet,
+  edge_edge,
+  triangles,
+  hinges,
+  tetrahedra,
+  events,
+  detections,
+  planes
+};
+inline constexpr std::size_t list_count = 9;
 /// For each list its number of entries, or the room for them; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
@@ -44,7 +54,9 @@ struct OutputInfo {
 };
 
 /// Bytes of one element, and of one group.
-constexpr std::size_t bytes_of(Element element) { return element == Element::byte ? 1 : 4; }
+constexpr std::size_t bytes_of(Element element) {
+  return element == Element::byte ? 1 : element == Element::real ? 8 : 4;
+}
 constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info.element) * info.elements; }
 /// How many groups there are.
 std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);

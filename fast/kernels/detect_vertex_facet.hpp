@@ -33,9 +33,14 @@ struct DetectVertexFacet {
   OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
 
   /// A vertex inside a solid looks where nothing is: its squared gap to any box is finite, and beyond any limit.
+  OGC_HD Vec searched_from(int v) const {
+    return surface.is_inside_solid(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
+  }
+
+  /// The search of the i-th vertex along the Hilbert curve.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
-    const Vec x = surface.is_inside_solid(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
+    const Vec x = searched_from(v);
     const float margin = skin.search_margin();
     return {{x, x}, v, 0, larger(gap_limit(add(contact_radius, margin)), vertex_limit[v]), margin};
   }

@@ -17,7 +17,7 @@ struct NearVertexFacet : DetectVertexFacet {
   /// The search of the i-th vertex along the Hilbert curve. Its limit is that of r_q and never falls.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
-    const Vec x = positions[v];
+    const Vec x = searched_from(v);
     return {{x, x}, v, 0, gap_limit(*query_radius), 0};
   }
 

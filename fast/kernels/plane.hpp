@@ -157,12 +157,27 @@ OGC_HD inline Vec stored(const Point& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// How far y lies beyond the plane, and as much farther as storing it in single precision can move it. Guides the
-/// search for a position; whether that one is taken `is_within` decides.
-OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
+/// How far across the plane storing y in single precision, 2⁻²⁴ of each coordinate, and `steps` of `nudged`, at most
+/// 2⁻²³ of one of them each, can move it.
+OGC_HD inline double room_to_store(const HalfSpace& plane, const Point& y, int steps) {
   const Point n = wide(plane.normal);
-  const double size = modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z);
-  return dot(n, y) - plane.offset + 0x1p-24 * size;
+  return (1 + 2 * steps) * 0x1p-24 * (modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z));
+}
+
+/// How far y lies beyond the plane, and as much farther as storing it can move it. Guides the search for a position;
+/// whether that one is taken `is_within` decides.
+OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
+  return dot(wide(plane.normal), y) - plane.offset + room_to_store(plane, y, 0);
+}
+
+/// The radius within which a position may be stored, and moved by `steps`, anywhere. Storing moves each coordinate by
+/// 2⁻²⁴ of itself, at most ‖X_prev‖_∞ + b, and so the point by √3 times that: twice that leaves some for the arithmetic
+/// here.
+OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
+  const Point centre = wide(region.ball.centre);
+  const double radius = static_cast<double>(region.ball.radius);
+  const double size = larger(larger(modulus(centre.x), modulus(centre.y)), modulus(centre.z)) + radius;
+  return larger(0.0, radius - (2 + 2 * steps) * 0x1p-24 * size);
 }
 
 /// Along the violated half-spaces in their order, then into the ball.
@@ -181,14 +196,16 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
       moved = true;
     }
     const Point away = y - centre;
-    const double length = std::sqrt(dot(away, away)), radius = static_cast<double>(region.ball.radius) * (1 - 0x1p-22);
+    const double length = std::sqrt(dot(away, away)), radius = safe_radius(region);
     if (length > radius) y = centre + (radius / length) * away, moved = true;
     if (!moved) break;
   }
   return y;
 }
 
-/// One coordinate by one float towards the inside of what x violates first.
+/// One coordinate by one float towards the inside of what x violates first: the coordinate that leads farthest inside.
+/// Storing takes a point out of a half-space by half a spacing of each coordinate times |n_k| at most, so that two
+/// steps of the best coordinate take it back; those of a small coordinate, whose spacing is small, would lead nowhere.
 OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
   Vec outward = x - region.ball.centre;
   for (int k = 0; k < region.count; ++k) {
@@ -196,36 +213,49 @@ OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
     outward = region.planes[k].normal;
     break;
   }
-  const float a = fabsf(outward.x), b = fabsf(outward.y), c = fabsf(outward.z);
+  const auto inner = [](float c, float along) { return nextafterf(c, along > 0 ? -0x1p127f : 0x1p127f); };
+  const Vec moved{inner(x.x, outward.x), inner(x.y, outward.y), inner(x.z, outward.z)};
+  const float a = (x.x - moved.x) * outward.x, b = (x.y - moved.y) * outward.y, c = (x.z - moved.z) * outward.z;
   float& coordinate = a >= b && a >= c ? x.x : (b >= c ? x.y : x.z);
-  const float along = a >= b && a >= c ? outward.x : (b >= c ? outward.y : outward.z);
-  coordinate = along > 0 ? nextafterf(coordinate, -3.40282347e38f) : nextafterf(coordinate, 3.40282347e38f);
+  coordinate = a >= b && a >= c ? moved.x : (b >= c ? moved.y : moved.z);
   return x;
 }
 
-/// The share of the way from `from`, which is in the region, to y that stays in it.
-OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& from, const Point& y) {
+/// The stored position, nudged where storing took it out of the region; whether that helps, `is_within` says.
+OGC_HD inline Vec stored_inside(const FeasibleRegion& region, const Point& y) {
+  Vec x = stored(y);
+  for (int nudge = 0; nudge < nudges && !is_within(region, x); ++nudge) x = nudged(region, x);
+  return x;
+}
+
+/// The share of the way from `from`, which is in the region, to y that stays in it, with room for `steps` at its end.
+OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& from, const Point& y, int steps) {
   const Point step = y - from, away = from - wide(region.ball.centre);
   double share = 1;
   for (int k = 0; k < region.count; ++k) {
-    const Point n = wide(region.planes[k].normal);
-    const double out = beyond(region.planes[k], y), rise = dot(n, step);
+    const HalfSpace& plane = region.planes[k];
+    const Point n = wide(plane.normal);
+    const double room = larger(room_to_store(plane, from, steps), room_to_store(plane, y, steps)),
+                 out = dot(n, y) - plane.offset + room, rise = dot(n, step);
     if (out > 0 && rise > 0) share = smaller(share, larger(0.0, 1 - out / rise));
   }
-  const double bb = dot(step, step), ab = dot(away, step),
-               left = static_cast<double>(region.ball.radius) * region.ball.radius - dot(away, away);
-  if (bb > 0 && ab + ab + bb > left)
-    share = smaller(share, left > 0 ? (std::sqrt(ab * ab + bb * left) - ab) / bb * (1 - 0x1p-22) : 0.0);
+  // ‖a + s b‖ = R; where a lies beyond the safe radius, too, as long as the way leads inward first
+  const double radius = safe_radius(region, steps), bb = dot(step, step), ab = dot(away, step),
+               left = radius * radius - dot(away, away), root = ab * ab + bb * left;
+  if (bb > 0 && ab + ab + bb > left) share = smaller(share, root > 0 ? larger(0.0, (std::sqrt(root) - ab) / bb) : 0.0);
   return share;
 }
 
-/// The farthest stored position of the region on the way to y, or just short of it; `from` where there is none.
+/// The farthest stored position of the region on the way to y, or just short of it; `from` where there is none. Where
+/// the way leads along one half-space and ends at another, or at the ball, a step out of one may lead out of the other:
+/// then it ends so much earlier that it does not.
 OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y) {
   const Point start = wide(from);
-  double share = share_inside(region, start, y);
-  for (int attempt = 0; attempt < 3 && share > 0; ++attempt, share *= 0.5) {
-    const Vec x = stored(start + share * (y - start));
+  double share = share_inside(region, start, y, 0);
+  for (int attempt = 0; attempt < 4 && share > 0; ++attempt) {
+    const Vec x = stored_inside(region, start + share * (y - start));
     if (is_within(region, x)) return x;
+    share = attempt == 0 ? share_inside(region, start, y, nudges) : 0.5 * share;
   }
   return from;
 }
@@ -237,8 +267,7 @@ OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Po
 template <class Metric>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric) {
   const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric);
-  Vec x = slide::stored(y);
-  for (int nudge = 0; nudge < slide::nudges && !is_within(region, x); ++nudge) x = slide::nudged(region, x);
+  const Vec x = slide::stored_inside(region, y);
   return {is_within(region, x) ? x : slide::scaled(region, current, y), true};
 }
 

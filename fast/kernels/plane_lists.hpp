@@ -11,6 +11,7 @@
 // vertices bear no plane and have no row.
 #pragma once
 
+#include "fast/kernels/bound.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/plane.hpp"
@@ -182,7 +183,9 @@ struct WriteHalfSpaces {
       lists.pairs[row + k] = lists.pair(place[k]);
     }
     lists.counts[v] = count;
-    lists.bound[v] = round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
+    lists.bound[v] = lists.surface.is_inside_solid(v)
+                         ? largest_float
+                         : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
   }
 
  private:

@@ -18,6 +18,7 @@
 #include "fast/probes/probe_forces.hpp"
 #include "fast/probes/probe_guess.hpp"
 #include "fast/probes/probe_memory.hpp"
+#include "fast/probes/probe_planes.hpp"
 #include "fast/probes/probe_step.hpp"
 #include "fast/probes/probe_sweep.hpp"
 #include "fast/stages/rest_state.hpp"
@@ -182,6 +183,7 @@ struct ProbeTruncate {
 /// The stage `truncate`.
 template <class Backend>
 compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn& in) {
+  if (!in.half_spaces.offsets.empty()) return probe_regions(backend, in);
   ProbeMemory<Backend> memory(backend);
   compare::TruncateOut out;
   const std::size_t n = in.position.size();
@@ -214,6 +216,7 @@ compare::Contestant probe_contestant(
     return compare::DetectEdgeEdgeOut{std::move(sets.edge_edge), std::move(sets.d_min_edge)};
   };
   contestant.bound = [backend](const compare::BoundIn& in) { return probe_bound(*backend, in); };
+  contestant.plane = [backend](const compare::PlaneIn& in) { return probe_plane(*backend, in); };
   contestant.activation = [backend](const compare::ActivationIn& in) { return probe_activation(*backend, in); };
   contestant.truncate = [backend](const compare::TruncateIn& in) { return probe_truncate(*backend, in); };
   contestant.membrane = [backend](const compare::MembraneIn& in) { return probe_membrane(*backend, in); };

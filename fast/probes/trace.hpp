@@ -62,6 +62,7 @@ class StepTrace : public StepObserver {
     event.vertex_facet = {std::move(sets.vertex_facet), std::move(sets.d_min_vertex), std::move(sets.d_min_triangle)};
     event.edge_edge = {std::move(sets.edge_edge), std::move(sets.d_min_edge)};
     event.bound = std::move(sets.bound);
+    event.planes = detection_.download_planes();
     return event;
   }
 

@@ -1,6 +1,8 @@
 // All pairs of primitives within a distance, for what may not leave one out.
 #pragma once
 
+#include "compare/stages/plane.hpp"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -10,9 +12,59 @@
 
 #include "reference/geometry/blocks.hpp"
 #include "reference/geometry/box_tree.hpp"
+#include "reference/geometry/closest_face.hpp"
+#include "reference/geometry/closest_points.hpp"
+#include "reference/geometry/separation.hpp"
 #include "reference/geometry/smallest.hpp"
 
 namespace ogc::reference {
+
+/// A vertex and a triangle: what they are, and how far apart.
+struct FacetPair {
+  compare::PrimitivePair name;  ///< by numbers
+  std::array<Index, 1> first;   ///< the vertex
+  std::array<Index, 3> second;  ///< the corners
+  Vec3f point;                  ///< [m]
+  Corners corners;              ///< [m]
+
+  FacetPair(const Complex& mesh, Index v, Index t)
+      : name{compare::PrimitivePair::Kind::vertex_triangle, v, t},
+        first{v},
+        second(mesh.triangle(t)),
+        point(mesh.at(v)),
+        corners{mesh.at(second[0]), mesh.at(second[1]), mesh.at(second[2])} {}
+
+  /// The feature of the triangle that is closest to the vertex.
+  TriangleFeature closest() const { return closest_feature(corners, point); }
+  /// Their distance, as a gap.
+  Margin gap() const { return feature_gap(corners, closest(), point); }
+  /// Whether they are certainly farther apart than this [m].
+  bool surely_beyond(double distance) const {
+    return surely_beyond_triangle({point, corners[0], corners[1], corners[2]}, distance);
+  }
+};
+
+/// Two edges: likewise.
+struct EdgesPair {
+  compare::PrimitivePair name;         ///< by numbers
+  std::array<Index, 2> first, second;  ///< ends
+  EdgePair ends;                       ///< [m]
+
+  EdgesPair(const Complex& mesh, Index e, Index f)
+      : name{compare::PrimitivePair::Kind::edge_edge, e, f},
+        first(mesh.edge(e)),
+        second(mesh.edge(f)),
+        ends{{mesh.at(first[0]), mesh.at(first[1])}, {mesh.at(second[0]), mesh.at(second[1])}} {}
+
+  /// The closest features of both.
+  EdgeFeatures closest() const { return closest_features(ends); }
+  /// Their distance, as a gap.
+  Margin gap() const { return feature_gap(ends, closest()); }
+  /// As of FacetPair.
+  bool surely_beyond(double distance) const {
+    return surely_beyond_edge({ends.first[0], ends.first[1], ends.second[0], ends.second[1]}, distance);
+  }
+};
 
 /// The pairs of a mesh that are no farther apart than `reach` [m], and some that are; adjacent and excluded ones are
 /// left out. Threads share the work: visitors must bear that.
@@ -21,7 +73,14 @@ class NearPairs {
   NearPairs(const Complex& mesh, const compare::ExclusionView& exclusions, double reach)
       : mesh_(mesh), exclusions_(exclusions), reach_(reach * search_margin) {}
 
-  /// visit(v, t) for vertices and triangles.
+  /// visit(pair) with each as a FacetPair or an EdgesPair, e < f.
+  template <class Visit>
+  void each(Visit visit) const {
+    facets(visit);
+    edges(visit);
+  }
+
+ private:
   template <class Visit>
   void facets(Visit visit) const {
     std::vector<Box> points, triangles;
@@ -29,11 +88,11 @@ class NearPairs {
     for (const compare::Triangle& t : mesh_.topology.triangles) triangles.push_back(box_of(t));
     for_near(points, triangles, [&](Index v, Index t) {
       const compare::Triangle& c = mesh_.triangle(t);
-      if (std::find(c.begin(), c.end(), v) == c.end() && !is_excluded(exclusions_, {&v, 1}, c)) visit(v, t);
+      if (!mesh_.topology.on_surface(v) || std::find(c.begin(), c.end(), v) != c.end()) return;
+      if (!is_excluded(exclusions_, {&v, 1}, c)) visit(FacetPair(mesh_, v, t));
     });
   }
 
-  /// visit(e, f) for edges e < f.
   template <class Visit>
   void edges(Visit visit) const {
     std::vector<Box> boxes;
@@ -41,11 +100,10 @@ class NearPairs {
     for_near(boxes, boxes, [&](Index e, Index f) {
       const compare::Edge &a = mesh_.edge(e), &b = mesh_.edge(f);
       const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
-      if (e < f && !adjacent && !is_excluded(exclusions_, a, b)) visit(e, f);
+      if (e < f && !adjacent && !is_excluded(exclusions_, a, b)) visit(EdgesPair(mesh_, e, f));
     });
   }
 
- private:
   template <class Vertices>
   Box box_of(const Vertices& vertices) const {
     Box box;

@@ -12,11 +12,9 @@
 #include <utility>
 
 #include "reference/geometry/bound.hpp"
-#include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/edge_parameters.hpp"
 #include "reference/geometry/near_pairs.hpp"
 #include "reference/geometry/plane.hpp"
-#include "reference/geometry/separation.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -43,7 +41,10 @@ Direction cross(const Direction& a, const Direction& b) {
 Direction along(const Direction& line, const Direction& way) { return inner(line, way) < 0 ? times(-1, line) : line; }
 
 /// From the point to the triangle's feature closest to it.
-Direction to_feature(const Corners& c, TriangleFeature feature, const Vec3f& x) {
+Direction to_closest(const FacetPair& pair) {
+  const TriangleFeature feature = pair.closest();
+  const Corners& c = pair.corners;
+  const Vec3f& x = pair.point;
   const auto k = static_cast<std::size_t>(feature);
   if (k < 3) return minus(c[k], x);
   if (feature == TriangleFeature::interior) return along(cross(minus(c[1], c[0]), minus(c[2], c[0])), minus(c[0], x));
@@ -53,7 +54,9 @@ Direction to_feature(const Corners& c, TriangleFeature feature, const Vec3f& x) 
 }
 
 /// From the first edge's feature closest to the second to the latter's.
-Direction to_feature(const EdgePair& pair, EdgeFeatures on) {
+Direction to_closest(const EdgesPair& edges) {
+  const EdgeFeatures on = edges.closest();
+  const EdgePair& pair = edges.ends;
   const Direction e = minus(pair.first[1], pair.first[0]), f = minus(pair.second[1], pair.second[0]);
   if (on.first == EdgeFeature::interior && on.second == EdgeFeature::interior)
     return along(cross(e, f), minus(pair.second[0], pair.first[0]));
@@ -91,31 +94,14 @@ class PlaneMaker {
 
   void find_pairs() {
     tbb::combinable<std::vector<NearPair>> found;
-    near_.facets([&](Index v, Index t) {
-      const compare::Triangle& c = mesh_.triangle(t);
-      const Corners corners{mesh_.at(c[0]), mesh_.at(c[1]), mesh_.at(c[2])};
-      if (surely_beyond_triangle({mesh_.at(v), corners[0], corners[1], corners[2]}, double{in_.query_radius})) return;
-      const TriangleFeature feature = closest_feature(corners, mesh_.at(v));
-      NearPair pair{{PrimitivePair::Kind::vertex_triangle, v, t},
-                    {v, c[0], c[1], c[2]},
-                    1,
-                    distance_below(feature_gap(corners, feature, mesh_.at(v)))};
+    near_.each([&](const auto& of) {
+      if (of.surely_beyond(double{in_.query_radius})) return;
+      NearPair pair{of.name};
+      std::ranges::copy(of.second, std::ranges::copy(of.first, pair.vertices.begin()).out);
+      pair.second_from = of.first.size();
+      pair.below = distance_below(of.gap());
       if (pair.below >= in_.query_radius) return;
-      place(pair, to_feature(corners, feature, mesh_.at(v)));
-      found.local().push_back(pair);
-    });
-    near_.edges([&](Index e, Index f) {
-      const compare::Edge &a = mesh_.edge(e), &b = mesh_.edge(f);
-      const EdgePair ends{{mesh_.at(a[0]), mesh_.at(a[1])}, {mesh_.at(b[0]), mesh_.at(b[1])}};
-      if (surely_beyond_edge({ends.first[0], ends.first[1], ends.second[0], ends.second[1]}, double{in_.query_radius}))
-        return;
-      const EdgeFeatures features = closest_features(ends);
-      NearPair pair{{PrimitivePair::Kind::edge_edge, e, f},
-                    {a[0], a[1], b[0], b[1]},
-                    2,
-                    distance_below(feature_gap(ends, features))};
-      if (pair.below >= in_.query_radius) return;
-      place(pair, to_feature(ends, features));
+      place(pair, to_closest(of));
       found.local().push_back(pair);
     });
     found.combine_each([&](const auto& part) { pairs_.insert(pairs_.end(), part.begin(), part.end()); });
@@ -164,8 +150,8 @@ class PlaneMaker {
       for (const Index v : pair.vertices) distances[at(v)].push_back(pair.below);
     std::vector<float> threshold(in_.positions.size(), infinity);
     for (std::size_t v = 0; v < distances.size(); ++v) {
-      if (distances[v].size() <= most_planes || in_.is_fixed[v] != 0) continue;
-      const auto place = distances[v].begin() + most_planes;
+      if (distances[v].size() <= compare::planes_of_vertex || in_.is_fixed[v] != 0) continue;
+      const auto place = distances[v].begin() + compare::planes_of_vertex;
       std::nth_element(distances[v].begin(), place, distances[v].end());
       threshold[v] = *place;
     }
@@ -174,12 +160,14 @@ class PlaneMaker {
   }
 
   std::vector<float> balls() const {
-    std::vector<float> nearest(in_.positions.size(), in_.query_radius);
+    std::vector<float> nearest(in_.positions.size(), in_.query_radius), bounds;
     for (const NearPair& pair : pairs_)
       for (const Index v : pair.vertices)
         if (!pair.has_plane) nearest[at(v)] = std::min(nearest[at(v)], pair.below);
-    for (float& d : nearest) d = product_below(in_.bound_relaxation, d);
-    return nearest;
+    for (Index v = 0; v < in_.topology->vertex_count; ++v)
+      bounds.push_back(in_.topology->on_surface(v) ? product_below(in_.bound_relaxation, nearest[at(v)])
+                                                   : std::numeric_limits<float>::max());
+    return bounds;
   }
 
   const PlaneIn& in_;

@@ -8,9 +8,6 @@
 
 namespace ogc::reference {
 
-/// Planes that a vertex bears at most.
-inline constexpr std::size_t most_planes = 16;
-
 /// A pair within r_q: its vertices, those of the second side from `second_from` on; its distance, rounded down; its
 /// plane, if it has one.
 struct NearPair {

@@ -1,5 +1,10 @@
-// n·x − o in double first; where its rounding could hide the sign, in fractions. Distances are asked only of pairs that
-// no plane separates and that are not surely beyond what their vertices' balls need.
+// What an answer holds apart is decided exactly: n·x − o in double first, where its rounding could hide the sign in
+// fractions. Distances are asked only of pairs that no plane separates and that are not surely beyond what their
+// vertices' balls need.
+//
+// What it leaves to the vertices is measured in double. Distances (within 2⁻⁴⁰ of their scale) and rooms have errors
+// far below the units in which they are judged; which pair is due is asked with the tolerances of a single-precision
+// kernel, so that no rounding of its distances decides.
 #include "reference/geometry/plane.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -12,57 +17,89 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "compare/problem/error.hpp"
-#include "reference/geometry/closest_face.hpp"
-#include "reference/geometry/closest_points.hpp"
 #include "reference/geometry/near_pairs.hpp"
-#include "reference/geometry/separation.hpp"
 
 namespace ogc::reference {
 namespace {
 
+using compare::PlaneFreedom;
+using compare::PlaneGuarantee;
 using compare::PlaneIn;
 using compare::PlaneOut;
-using compare::PlaneTruth;
 using compare::PrimitivePair;
 using compare::VertexPlane;
 using Rational = CGAL::Gmpq;
 
+constexpr double u = compare::unit_roundoff, infinity = std::numeric_limits<double>::infinity();
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// n·x, or an offset (x = 0): a number that is known without error.
-struct Height {
-  Vec3f normal, point;
-  double offset = 0;
-
-  Rational exact() const {
-    return Rational(double{normal.x}) * Rational(double{point.x}) +
-           Rational(double{normal.y}) * Rational(double{point.y}) +
-           Rational(double{normal.z}) * Rational(double{point.z}) + Rational(offset);
-  }
-};
-
-/// The sign of a − b. Seven terms, the products exact, are summed up with at most 2⁻⁵³ of their moduli lost by each
-/// addition: under 2⁻⁴⁹ of the sum of the moduli.
-int compared(const Height& a, const Height& b) {
-  double sum = a.offset - b.offset, size = std::abs(a.offset) + std::abs(b.offset);
-  const auto add = [&](float n, float x, double sign) {
-    const double product = double{n} * double{x};
-    sum += sign * product;
-    size += std::abs(product);
-  };
-  for (const auto& [height, sign] : {std::pair{&a, 1.0}, std::pair{&b, -1.0}}) {
-    add(height->normal.x, height->point.x, sign);
-    add(height->normal.y, height->point.y, sign);
-    add(height->normal.z, height->point.z, sign);
-  }
-  if (std::abs(sum) > 0x1p-49 * size) return sum > 0 ? 1 : -1;
-  const Rational exact = a.exact() - b.exact();
-  return exact > 0 ? 1 : (exact < 0 ? -1 : 0);
+Rational exact(const Height& height) {
+  const Vec3f &n = height.normal, &x = height.point;
+  return Rational(double{n.x}) * Rational(double{x.x}) + Rational(double{n.y}) * Rational(double{x.y}) +
+         Rational(double{n.z}) * Rational(double{x.z}) + Rational(height.offset);
 }
 
-Vec3f opposite(const Vec3f& n) { return {-n.x, -n.y, -n.z}; }
+/// An answer, asked about pairs.
+class AnsweredPlanes {
+ public:
+  AnsweredPlanes(const compare::PlaneIn& in, const compare::PlaneOut& out) : in_(in), out_(out) {}
+
+  bool moves(Index v) const { return in_.is_fixed[static_cast<std::size_t>(v)] == 0; }
+
+  /// The offset that v has of the pair's plane, which it bears.
+  double offset(Index v, const compare::PrimitivePair& pair) const { return plane_of(v, pair)->offset; }
+
+  /// The normal of the plane that holds the pair apart, as its first side has it; empty where no plane does: a vertex
+  /// that can move bears none or one of other bits, or there is no room between the sides.
+  template <class Pair>
+  std::optional<Vec3f> separating_normal(const Pair& pair) const {
+    const std::optional<Vec3f> normal = common_normal(pair);
+    if (!normal) return std::nullopt;
+    for (const Index v : pair.first)
+      for (const Index w : pair.second)
+        if (compared(limit(v, pair.name, *normal, false), limit(w, pair.name, *normal, true)) >= 0) return std::nullopt;
+    return normal;
+  }
+
+ private:
+  const compare::VertexPlane* plane_of(Index v, const compare::PrimitivePair& pair) const {
+    for (const compare::VertexPlane& plane : out_.planes.of(v))
+      if (plane.pair == pair) return &plane;
+    return nullptr;
+  }
+
+  template <class Pair>
+  std::optional<Vec3f> common_normal(const Pair& pair) const {
+    std::optional<Vec3f> normal;
+    const auto agrees = [&](Index v, bool is_second) {
+      if (!moves(v)) return true;
+      const compare::VertexPlane* plane = plane_of(v, pair.name);
+      if (plane == nullptr) return false;
+      const Vec3f& n = plane->normal;
+      const Vec3f own = is_second ? Vec3f{-n.x, -n.y, -n.z} : n;
+      if (!normal) normal = own;
+      return own == *normal;
+    };
+    for (const Index v : pair.first)
+      if (!agrees(v, false)) return std::nullopt;
+    for (const Index v : pair.second)
+      if (!agrees(v, true)) return std::nullopt;
+    return normal;
+  }
+
+  /// How far along n a vertex may come: its offset, or where it is for good.
+  Height limit(Index v, const compare::PrimitivePair& pair, const Vec3f& normal, bool is_second) const {
+    if (!moves(v)) return {normal, in_.positions[static_cast<std::size_t>(v)], 0};
+    return {{}, {}, is_second ? -offset(v, pair) : offset(v, pair)};
+  }
+
+  const compare::PlaneIn& in_;
+  const compare::PlaneOut& out_;
+};
 
 /// Pairs that are neither separated nor covered, and the first of them.
 struct Findings {
@@ -79,131 +116,215 @@ struct Findings {
 
 class PlaneCheck {
  public:
-  PlaneCheck(const PlaneIn& in, const PlaneOut& out)
-      : in_(in), out_(out), mesh_{*in.topology, in.positions}, pairs_(mesh_, in.exclusions, double{in.query_radius}) {}
+  PlaneCheck(const PlaneIn& in, const PlaneOut& out) : in_(in), out_(out), answered_(in, out) {}
 
-  PlaneTruth run() {
-    facets();
-    edges();
+  PlaneGuarantee run() {
+    const Complex mesh{*in_.topology, in_.positions};
+    NearPairs(mesh, in_.exclusions, double{in_.query_radius}).each([this](const auto& pair) { look(pair); });
     Findings all;
     findings_.combine_each([&](const Findings& part) { all.add(part); });
-    PlaneTruth truth{all.separated, all.uncovered, all.worst};
-    truth.broken = broken_planes(out_.planes, in_.positions);
-    for (Index v = 0; v < in_.topology->vertex_count; ++v) truth.too_large += is_too_large(v) ? 1 : 0;
-    return truth;
+    PlaneGuarantee found{all.separated, all.uncovered, all.worst};
+    found.broken = broken_planes(out_.planes, in_.positions);
+    for (Index v = 0; v < in_.topology->vertex_count; ++v) found.too_large += is_too_large(v) ? 1 : 0;
+    return found;
   }
 
  private:
-  bool moves(Index v) const { return in_.is_fixed[at(v)] == 0; }
-
   /// Of single-precision numbers the product is exact in double. What is not finite is too large.
   bool is_too_large(Index v) const {
-    return moves(v) && !(double{out_.bound[at(v)]} <= double{in_.bound_relaxation} * double{in_.query_radius});
-  }
-
-  const VertexPlane* plane_of(Index v, const PrimitivePair& pair) const {
-    for (const VertexPlane& plane : out_.planes.of(v))
-      if (plane.pair == pair) return &plane;
-    return nullptr;
-  }
-
-  /// The normal that the first side's vertices have of the pair's plane; empty where a vertex that can move has none or
-  /// another.
-  template <std::size_t M, std::size_t N>
-  std::optional<Vec3f> common_normal(const PrimitivePair& pair, const std::array<Index, M>& first,
-                                     const std::array<Index, N>& second) const {
-    std::optional<Vec3f> normal;
-    const auto agrees = [&](Index v, bool is_second) {
-      if (!moves(v)) return true;
-      const VertexPlane* plane = plane_of(v, pair);
-      if (plane == nullptr) return false;
-      const Vec3f own = is_second ? opposite(plane->normal) : plane->normal;
-      if (!normal) normal = own;
-      return own.x == normal->x && own.y == normal->y && own.z == normal->z;
-    };
-    for (const Index v : first)
-      if (!agrees(v, false)) return std::nullopt;
-    for (const Index v : second)
-      if (!agrees(v, true)) return std::nullopt;
-    return normal;
-  }
-
-  /// How far along n a vertex may come: its offset, or where it is for good.
-  Height limit(Index v, const PrimitivePair& pair, const Vec3f& normal, bool is_second) const {
-    if (!moves(v)) return {normal, mesh_.at(v), 0};
-    const double offset = plane_of(v, pair)->offset;
-    return {{}, {}, is_second ? -offset : offset};
-  }
-
-  template <std::size_t M, std::size_t N>
-  bool is_separated(const PrimitivePair& pair, const std::array<Index, M>& first,
-                    const std::array<Index, N>& second) const {
-    const std::optional<Vec3f> normal = common_normal(pair, first, second);
-    if (!normal) return false;
-    for (const Index v : first)
-      for (const Index w : second)
-        if (compared(limit(v, pair, *normal, false), limit(w, pair, *normal, true)) >= 0) return false;
-    return true;
+    return answered_.moves(v) && in_.topology->on_surface(v) &&
+           !(double{out_.bound[at(v)]} <= double{in_.bound_relaxation} * double{in_.query_radius});
   }
 
   /// The largest ball of the vertices, which must fit into γ_p d.
-  template <std::size_t M, std::size_t N>
-  float largest_bound(const std::array<Index, M>& first, const std::array<Index, N>& second) const {
+  template <class Pair>
+  float largest_bound(const Pair& pair) const {
     float largest = 0;
     const auto consider = [&](Index v) {
       const float b = out_.bound[at(v)];
-      if (moves(v) && !(b <= largest)) largest = b;
+      if (answered_.moves(v) && !(b <= largest)) largest = b;
     };
-    for (const Index v : first) consider(v);
-    for (const Index v : second) consider(v);
+    for (const Index v : pair.first) consider(v);
+    for (const Index v : pair.second) consider(v);
     return largest;
   }
 
-  /// gap(): the distance of the pair, a Margin; beyond(d): it is surely farther apart than d.
-  template <std::size_t M, std::size_t N, class Gap, class Beyond>
-  void look(const PrimitivePair& pair, const std::array<Index, M>& first, const std::array<Index, N>& second, Gap gap,
-            Beyond beyond) {
+  template <class Pair>
+  void look(const Pair& pair) {
     Findings& found = findings_.local();
-    if (is_separated(pair, first, second)) {
+    if (answered_.separating_normal(pair)) {
       found.add({1, 0, {}});
       return;
     }
-    const float b = largest_bound(first, second);
+    const float b = largest_bound(pair);
     const double needed = double{b} / double{in_.bound_relaxation} * (1 + 0x1p-50);
-    if (b == 0 || beyond(needed)) return;
-    if (!std::isfinite(b) || scaled_distance_less(gap(), in_.bound_relaxation, b)) found.add({0, 1, pair});
-  }
-
-  void facets() {
-    pairs_.facets([&](Index v, Index t) {
-      const compare::Triangle& c = mesh_.triangle(t);
-      const Corners corners{mesh_.at(c[0]), mesh_.at(c[1]), mesh_.at(c[2])};
-      look(
-          {PrimitivePair::Kind::vertex_triangle, v, t}, std::array{v}, c,
-          [&] { return feature_gap(corners, closest_feature(corners, mesh_.at(v)), mesh_.at(v)); },
-          [&](double d) {
-            return surely_beyond_triangle({mesh_.at(v), corners[0], corners[1], corners[2]}, d);
-          });
-    });
-  }
-
-  void edges() {
-    pairs_.edges([&](Index e, Index f) {
-      const compare::Edge &a = mesh_.edge(e), &b = mesh_.edge(f);
-      const EdgePair pair{{mesh_.at(a[0]), mesh_.at(a[1])}, {mesh_.at(b[0]), mesh_.at(b[1])}};
-      look(
-          {PrimitivePair::Kind::edge_edge, e, f}, a, b, [&] { return feature_gap(pair, closest_features(pair)); },
-          [&](double d) {
-            return surely_beyond_edge({pair.first[0], pair.first[1], pair.second[0], pair.second[1]}, d);
-          });
-    });
+    if (b == 0 || pair.surely_beyond(needed)) return;
+    if (!std::isfinite(b) || scaled_distance_less(pair.gap(), in_.bound_relaxation, b)) found.add({0, 1, pair.name});
   }
 
   const PlaneIn& in_;
   const PlaneOut& out_;
-  Complex mesh_;
-  NearPairs pairs_;
+  AnsweredPlanes answered_;
   tbb::combinable<Findings> findings_;
+};
+
+std::tuple<PrimitivePair::Kind, Index, Index> order(const PrimitivePair& pair) {
+  return {pair.kind, pair.first, pair.second};
+}
+
+/// A pair within r_q, or one that a kernel may take for such a pair.
+struct MeasuredPair {
+  PrimitivePair name;
+  std::array<Index, 4> vertices{};
+  double distance = 0;        ///< d [m]
+  double scale = 0;           ///< max(d, Σ|δ|) [m]
+  bool has_room = false;      ///< for a plane in single precision
+  bool is_separated = false;  ///< by the answer
+  double together = 0;        ///< how far both sides may come together along the plane that separates them [m]
+
+  /// Not above what a kernel may take for its distance, d less its tolerance.
+  double surely_above() const { return std::max(0.0, distance - compare::detect_below_tolerance * u * scale); }
+};
+
+/// Whether single precision can hold a plane of the pair (PlaneFreedom).
+bool has_room_for_plane(double distance, double scale, double largest_coordinate, double share) {
+  return distance > 0 && distance >= 0x1p-18 * scale &&
+         std::min(share, 1 - 2 * share) * distance >= 0x1p-45 * largest_coordinate;
+}
+
+class FreedomCheck {
+ public:
+  FreedomCheck(const PlaneIn& in, const PlaneOut& out) : in_(in), out_(out), answered_(in, out) {}
+
+  PlaneFreedom run() {
+    const Complex mesh{*in_.topology, in_.positions};
+    NearPairs(mesh, in_.exclusions, double{in_.query_radius}).each([this](const auto& pair) { measure_pair(pair); });
+    measured_.combine_each([this](const auto& part) { pairs_.insert(pairs_.end(), part.begin(), part.end()); });
+    std::ranges::sort(pairs_, {}, [](const MeasuredPair& pair) { return order(pair.name); });
+    for (const MeasuredPair& pair : pairs_) freedom_.pairs += is_within(pair.distance) ? 1 : 0;
+    for (const compare::VertexPlane& plane : out_.planes.items) freedom_.needless += may_have_plane(plane.pair) ? 0 : 1;
+    judge_planes(thresholds());
+    judge_balls();
+    return freedom_;
+  }
+
+ private:
+  /// Whether a kernel may take them for a pair within r_q. Of pairs so slender that their distance has no bits to spare
+  /// the search for all pairs does not find each.
+  bool may_have_plane(const PrimitivePair& name) const {
+    const auto found = std::ranges::lower_bound(pairs_, order(name), {},
+                                                [](const MeasuredPair& pair) { return order(pair.name); });
+    if (found != pairs_.end() && found->name == name) return true;
+    const Complex mesh{*in_.topology, in_.positions};
+    const auto is_near = [&](const auto& pair) {
+      return !is_excluded(in_.exclusions, pair.first, pair.second) && is_within(measurement(pair).surely_above());
+    };
+    return name.kind == PrimitivePair::Kind::edge_edge ? is_near(EdgesPair(mesh, name.first, name.second))
+                                                       : is_near(FacetPair(mesh, name.first, name.second));
+  }
+  bool is_within(double distance) const { return distance < double{in_.query_radius}; }
+
+  template <class Pair>
+  void measure_pair(const Pair& pair) {
+    if (pair.surely_beyond(double{in_.query_radius} * search_margin)) return;
+    const MeasuredPair found = measurement(pair);
+    if (is_within(found.surely_above())) measured_.local().push_back(found);
+  }
+
+  template <class Pair>
+  MeasuredPair measurement(const Pair& pair) const {
+    MeasuredPair measured{pair.name};
+    measured.distance = measure(pair.gap()).distance;
+    std::ranges::copy(pair.second, std::ranges::copy(pair.first, measured.vertices.begin()).out);
+    double largest = 0;
+    const Vec3f& origin = in_.positions[at(pair.first[0])];
+    for (const Index v : measured.vertices) {
+      const Vec3f& x = in_.positions[at(v)];
+      measured.scale += std::abs(double{x.x} - origin.x) + std::abs(double{x.y} - origin.y) +
+                        std::abs(double{x.z} - origin.z);
+      largest = std::max({largest, std::abs(double{x.x}), std::abs(double{x.y}), std::abs(double{x.z})});
+    }
+    measured.scale = std::max(measured.scale, measured.distance);
+    measured.has_room = has_room_for_plane(measured.distance, measured.scale, largest, double{in_.bound_relaxation});
+    if (const auto normal = answered_.separating_normal(pair)) {
+      measured.is_separated = true;
+      measured.together = (room(pair.name, pair.first, *normal, 1) + room(pair.name, pair.second, *normal, -1)) /
+                          std::hypot(double{normal->x}, double{normal->y}, double{normal->z});
+    }
+    return measured;
+  }
+
+  /// How far a side may come along `sign` n, times the length of n: as far as the vertex that is next to its offset; 0
+  /// where none can move.
+  template <class Vertices>
+  double room(const PrimitivePair& name, const Vertices& side, const Vec3f& n, double sign) const {
+    double least = infinity;
+    for (const Index v : side) {
+      if (!answered_.moves(v)) continue;
+      const Vec3f& x = in_.positions[at(v)];
+      const long double height = static_cast<long double>(n.x) * x.x + static_cast<long double>(n.y) * x.y +
+                                 static_cast<long double>(n.z) * x.z;
+      least = std::min(least, static_cast<double>(answered_.offset(v, name) - sign * height));
+    }
+    return least < infinity ? least : 0;
+  }
+
+  /// By vertex: nearer pairs than this are among its nearest, whatever rounding says.
+  std::vector<double> thresholds() const {
+    constexpr std::size_t most = compare::planes_of_vertex;
+    std::vector<std::vector<double>> distances(in_.positions.size());
+    for (const MeasuredPair& pair : pairs_)
+      for (const Index v : pair.vertices) distances[at(v)].push_back(pair.surely_above());
+    std::vector<double> threshold(in_.positions.size(), infinity);
+    for (std::size_t v = 0; v < distances.size(); ++v) {
+      if (distances[v].size() <= most || in_.is_fixed[v] != 0) continue;
+      std::ranges::nth_element(distances[v], distances[v].begin() + most);
+      threshold[v] = distances[v][most];
+    }
+    return threshold;
+  }
+
+  void judge_planes(const std::vector<double>& threshold) {
+    for (const MeasuredPair& pair : pairs_) {
+      const auto is_among_nearest = [&](Index v) { return pair.distance < threshold[at(v)]; };
+      const bool is_due = pair.has_room && is_within(pair.distance) &&
+                          std::ranges::all_of(pair.vertices, is_among_nearest);
+      freedom_.due += is_due ? 1 : 0;
+      if (is_due && !pair.is_separated && freedom_.missing++ == 0) freedom_.first_missing = pair.name;
+      if (!pair.is_separated) continue;
+      const double narrowing = (2 * double{in_.bound_relaxation} * pair.distance - pair.together) / (u * pair.scale);
+      if (!(narrowing > freedom_.narrowing)) continue;
+      freedom_.narrowing = narrowing;
+      freedom_.narrowest = pair.name;
+    }
+  }
+
+  void judge_balls() {
+    std::vector<double>& shortfall = freedom_.ball_shortfall;
+    const double share = double{in_.bound_relaxation}, reach = double{in_.query_radius};
+    const auto units = [share](double d, double scale, float bound) {
+      const double missing = share * d - double{bound};
+      return missing > 0 ? missing / (u * (share * scale + 0x1p-126)) : 0;
+    };
+    for (const float bound : out_.bound) shortfall.push_back(units(reach, reach, bound));
+    for (const MeasuredPair& pair : pairs_)
+      for (const Index v : pair.vertices)
+        if (!pair.is_separated)
+          shortfall[at(v)] = std::min(shortfall[at(v)], units(pair.distance, pair.scale, out_.bound[at(v)]));
+    for (Index v = 0; v < in_.topology->vertex_count; ++v) {
+      if (answered_.moves(v) && in_.topology->on_surface(v)) continue;
+      shortfall[at(v)] = 0;
+      freedom_.bounded_inside += !in_.topology->on_surface(v) && answered_.moves(v) &&
+                                 out_.bound[at(v)] != std::numeric_limits<float>::max();
+    }
+  }
+
+  const PlaneIn& in_;
+  const PlaneOut& out_;
+  AnsweredPlanes answered_;
+  tbb::combinable<std::vector<MeasuredPair>> measured_;
+  std::vector<MeasuredPair> pairs_;
+  PlaneFreedom freedom_;
 };
 
 void require(bool holds, const char* what, std::size_t count, std::size_t vertices) {
@@ -213,6 +334,25 @@ void require(bool holds, const char* what, std::size_t count, std::size_t vertic
 }
 
 }  // namespace
+
+/// Seven terms, the products exact, are summed up with at most 2⁻⁵³ of their moduli lost by each addition: under 2⁻⁴⁹
+/// of the sum of the moduli.
+int compared(const Height& a, const Height& b) {
+  double sum = a.offset - b.offset, size = std::abs(a.offset) + std::abs(b.offset);
+  const auto add = [&](float n, float x, double sign) {
+    const double product = double{n} * double{x};
+    sum += sign * product;
+    size += std::abs(product);
+  };
+  for (const auto& [height, sign] : {std::pair{&a, 1.0}, std::pair{&b, -1.0}}) {
+    add(height->normal.x, height->point.x, sign);
+    add(height->normal.y, height->point.y, sign);
+    add(height->normal.z, height->point.z, sign);
+  }
+  if (std::abs(sum) > 0x1p-49 * size) return sum > 0 ? 1 : -1;
+  const Rational difference = exact(a) - exact(b);
+  return difference > 0 ? 1 : (difference < 0 ? -1 : 0);
+}
 
 bool keeps(const VertexPlane& plane, const Vec3f& x) {
   return compared({plane.normal, x, 0}, {{}, {}, plane.offset}) <= 0;
@@ -225,13 +365,19 @@ std::size_t broken_planes(const compare::VertexPlanes& planes, std::span<const V
   return broken;
 }
 
-PlaneTruth plane(const PlaneIn& in, const PlaneOut& out) {
+PlaneGuarantee plane_guarantee(const PlaneIn& in, const PlaneOut& out) {
   const std::size_t vertices = in.positions.size();
   require(out.bound.size() == vertices, "bounds", out.bound.size(), vertices);
   require(in.is_fixed.size() == vertices, "fixed flags", in.is_fixed.size(), vertices);
   const std::size_t rows = out.planes.offsets.empty() ? vertices : out.planes.offsets.size() - 1;
   require(rows == vertices, "rows of planes", rows, vertices);
   return PlaneCheck(in, out).run();
+}
+
+PlaneFreedom plane_freedom(const PlaneIn& in, const PlaneOut& out) { return FreedomCheck(in, out).run(); }
+
+compare::PlaneTruth plane(const PlaneIn& in, const PlaneOut& out) {
+  return {plane_guarantee(in, out), plane_freedom(in, out)};
 }
 
 }  // namespace ogc::reference

@@ -26,13 +26,6 @@ ContactSets sets_within(compare::DetectIn in, float contact_radius) {
   return {exact_vertex_facet(in).contacts, exact_edge_edge(in).contacts};
 }
 
-/// By vertex; group 0 is that of all fixed ones.
-std::vector<std::uint8_t> fixed_vertices(std::span<const compare::Index> groups) {
-  std::vector<std::uint8_t> fixed;
-  for (const compare::Index group : groups) fixed.push_back(group == 0 ? 1 : 0);
-  return fixed;
-}
-
 }  // namespace
 
 std::vector<compare::Vec3f> rounded(const State& x) {
@@ -85,7 +78,7 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
   result.bound =
       bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;
   if (scene.settings.bounds == compare::Bounds::planes) {
-    const std::vector<std::uint8_t> is_fixed = fixed_vertices(exclusions.groups);
+    const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions.groups);
     compare::PlaneOut held = pair_planes({&topology, exclusions, positions, is_fixed, query_radius, relaxation});
     result.bound = std::move(held.bound);
     result.planes = std::move(held.planes);
@@ -104,7 +97,7 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
 std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                                    const std::vector<compare::Vec3f>& positions, float query_radius,
                                    double bound_relaxation) {
-  const std::vector<std::uint8_t> is_fixed = fixed_vertices(exclusions.groups);
+  const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions.groups);
   const auto relaxation = static_cast<float>(bound_relaxation);
   return near_pairs_with_planes({&topology, exclusions, positions, is_fixed, query_radius, relaxation});
 }

@@ -5,6 +5,7 @@
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/geometry/pair_planes.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/colouring.hpp"
 #include "reference/solvers/contacts.hpp"
@@ -48,7 +49,7 @@ class ReferenceStep {
         guess(event, order.holds_contacts());
       else
         sweep(event);
-      order.took_place(event.cut);
+      order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_));
       event.position = x_;
       out_.events.push_back(std::move(event));
     }
@@ -90,16 +91,27 @@ class ReferenceStep {
     event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
                          event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bound_relaxation)})
                       .exact.bound;
+    if (settings_.bounds == compare::Bounds::planes) {
+      const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions_.groups);
+      compare::PlaneOut held = pair_planes(
+          {in_.topology, exclusions_, x_, is_fixed, out_.query_radius, static_cast<float>(settings_.bound_relaxation)});
+      event.bound = std::move(held.bound);
+      event.planes = std::move(held.planes);
+    }
     bound_ = event.bound;
+    planes_ = event.planes;
     contacts_ = {event.vertex_facet.contacts, event.edge_edge.contacts};
   }
 
   /// Where v goes on its way to its target; counts a cut.
   Vec3f truncated(std::size_t v, Index& cut) const {
-    const compare::TruncateTruth truth = truncate({{previous_[v]}, {out_.target[v]}, {bound_[v]}});
+    const auto planes = planes_.of(static_cast<Index>(v));
+    const compare::TruncateIn question{
+        {previous_[v]}, {out_.target[v]}, {bound_[v]}, half_spaces_of(planes, x_[v], exclusions_.groups[v] > 0)};
+    const compare::TruncateTruth truth = truncate(question);
     if (truth.cut[0] == 0) return out_.target[v];
     ++cut;
-    return stored_within(truth.position[0], previous_[v], bound_[v]);
+    return stored_in_region(truth.position[0], question, 0);
   }
 
   void guess(StepEvent& event, bool hold_contacts) {
@@ -112,8 +124,8 @@ class ReferenceStep {
   void sweep(StepEvent& event) {
     const std::vector<Vec3f> old = x_;
     const compare::SweepIn question{
-        in_.scene, in_.topology,           &out_.rest,         out_.colour, old, start_, out_.target, previous_,
-        bound_,    contacts_.vertex_facet, contacts_.edge_edge};
+        in_.scene, in_.topology,           &out_.rest,          out_.colour, old, start_, out_.target, previous_,
+        bound_,    contacts_.vertex_facet, contacts_.edge_edge, &planes_};
     compare::SweepOut answer = reference_sweep(question, SweepStencils(question));
     x_ = std::move(answer.position);
     event.cut = answer.cut;
@@ -124,6 +136,7 @@ class ReferenceStep {
   compare::Exclusions exclusions_;
   std::vector<Vec3f> start_, x_, previous_;
   std::vector<float> bound_;
+  compare::VertexPlanes planes_;
   ContactSets contacts_;
   compare::StepOut out_;
 };

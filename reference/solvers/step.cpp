@@ -17,6 +17,18 @@ double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
 }  // namespace
 
+StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
+               const std::vector<Index>& groups, const compare::Settings& settings) {
+  StepLag lag;
+  if (settings.bounds != compare::Bounds::planes) return lag;
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    if (groups[v] <= 0 || x[v] == target[v]) continue;
+    ++lag.lagging;
+    lag.has_advanced = lag.has_advanced || !(x[v] == previous[v]);
+  }
+  return lag;
+}
+
 compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answer) {
   const compare::Scene& scene = *in.scene;
   const compare::Settings& settings = scene.settings;
@@ -40,10 +52,15 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
   truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest,
                                                            settings.query_radius_cap * settings.contact_radius);
   StepOrder order(settings, compare::bounded_count(*in.topology, groups));
+  const std::vector<Vec3f>* previous = &start;
   for (auto kind = order.next(); kind; kind = order.next()) {
     const std::size_t i = truth.events.size();
     truth.events.push_back(*kind);
-    order.took_place(i < answer.events.size() ? answer.events[i].cut : 0);
+    const bool is_there = i < answer.events.size();
+    if (is_there && *kind == compare::StepEventKind::detection) previous = &answer.events[i].position;
+    order.took_place(
+        is_there ? answer.events[i].cut : 0,
+        is_there ? lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings) : StepLag{});
   }
   return truth;
 }

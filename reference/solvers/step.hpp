@@ -3,8 +3,14 @@
 #pragma once
 
 #include "compare/stages/step.hpp"
+#include "reference/solvers/step_order.hpp"
 
 namespace ogc::reference {
+
+/// Prescribed vertices at x that are behind their targets; nothing where bounds are no planes.
+StepLag lag_of(const std::vector<compare::Vec3f>& x, const std::vector<compare::Vec3f>& previous,
+               const std::vector<compare::Vec3f>& target, const std::vector<compare::Index>& groups,
+               const compare::Settings& settings);
 
 /// r_q, prescribed targets, the order of events, velocities. The answer's target, position and velocity must have one
 /// entry a vertex, its events may be any.

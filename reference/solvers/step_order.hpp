@@ -9,6 +9,13 @@
 
 namespace ogc::reference {
 
+/// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since the
+/// last detection (method.md §5.6, Asking).
+struct StepLag {
+  compare::Index lagging = 0;  ///< how many
+  bool has_advanced = false;   ///< whether one of them did
+};
+
 /// Says what comes next, given how many vertices each event cut. K, of bounded_count, is `moving`.
 class StepOrder {
  public:
@@ -22,22 +29,21 @@ class StepOrder {
     return found_ ? compare::StepEventKind::sweep : compare::StepEventKind::detection;
   }
 
-  /// The event that was next took place; `cut`: of a round or an iteration.
-  void took_place(compare::Index cut) {
+  /// The event that was next took place; `cut`: of a round or an iteration, all that were cut.
+  void took_place(compare::Index cut, const StepLag& lag = {}) {
     switch (*next()) {
       case compare::StepEventKind::detection:
         found_ = true;
         since_detection_ = 0;
         break;
       case compare::StepEventKind::guess:
-        guessing_ = cut >= redetect_count_ && ++rounds_ < settings_.guess_rounds;
+        guessing_ = asks(cut, lag) && ++rounds_ < settings_.guess_rounds;
         found_ = !guessing_;
         break;
       case compare::StepEventKind::sweep:
         ++iterations_;
         ++since_detection_;
-        found_ = cut < redetect_count_ &&
-                 (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
+        found_ = !asks(cut, lag) && (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
         break;
     }
   }
@@ -46,10 +52,17 @@ class StepOrder {
   bool holds_contacts() const { return rounds_ > 0; }
 
  private:
+  bool asks(compare::Index cut, const StepLag& lag) {
+    const bool lag_asks = lag.lagging > 0 && (lag.has_advanced || !lag_asked_);
+    lag_asked_ = lag_asked_ || lag_asks;
+    return cut - lag.lagging >= redetect_count_ || lag_asks;
+  }
+
   const compare::Settings& settings_;
-  double redetect_count_;  ///< max(1, ⌈γ_e K⌉)
-  bool guessing_ = true;   ///< in the guess loop
-  bool found_ = false;     ///< contacts and bounds hold for what comes next
+  double redetect_count_;   ///< max(1, ⌈γ_e K⌉)
+  bool guessing_ = true;    ///< in the guess loop
+  bool lag_asked_ = false;  ///< a lag has asked for a detection in this step
+  bool found_ = false;      ///< contacts and bounds hold for what comes next
   std::int64_t rounds_ = 0, iterations_ = 0, since_detection_ = 0;
 };
 

@@ -14,21 +14,31 @@ namespace {
 
 using compare::Index;
 
+std::span<const compare::VertexPlane> planes_of(const compare::SweepIn& in, Index v) {
+  return in.planes != nullptr ? in.planes->of(v) : std::span<const compare::VertexPlane>{};
+}
+
 VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& answer, const SweepStencils& stencils,
                          Index v) {
   const auto i = static_cast<std::size_t>(v);
   const double step = in.scene->settings.time_step;
-  const FreeVertex vertex{in.old[i], in.target[i], in.previous[i], in.bound[i], in.rest->mass[i] / (step * step)};
+  const FreeVertex vertex{in.old[i],       in.target[i], in.previous[i], in.bound[i], in.rest->mass[i] / (step * step),
+                          planes_of(in, v)};
   return update_of(terms_of_vertex(in, stencils, SweepPositions(in, answer, v), v), vertex, answer.position[i]);
 }
 
 /// y, truncated: the very question of the stage truncate.
 VertexUpdate prescribed_vertex(const compare::SweepIn& in, std::size_t i) {
-  const compare::TruncateTruth truth = truncate({{in.previous[i]}, {in.target[i]}, {in.bound[i]}});
+  const compare::TruncateIn question{{in.previous[i]},
+                                     {in.target[i]},
+                                     {in.bound[i]},
+                                     half_spaces_of(planes_of(in, static_cast<Index>(i)), in.old[i], true)};
+  const compare::TruncateTruth truth = truncate(question);
   const bool cut = truth.cut[0] != 0, grey = truth.grey[0] != 0;
   const compare::Vec3f& p = in.previous[i];
   const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + in.bound[i];
-  const double accepted = cut || grey ? compare::truncate_position_tolerance * compare::unit_roundoff * size : 0;
+  const double to_ball = cut || grey ? compare::truncate_position_tolerance * compare::unit_roundoff * size : 0,
+               accepted = question.half_spaces.offsets.empty() ? to_ball : truth.accepted[0];
   return {truth.position[0], accepted, grey, grey ? Cut::doubtful : cut ? Cut::yes : Cut::no};
 }
 
@@ -58,10 +68,22 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
   return truth;
 }
 
+namespace {
+
+compare::Vec3f stored(const compare::Vec3& position, const compare::SweepIn& in, std::size_t v) {
+  const compare::TruncateIn region{{in.previous[v]},
+                                   {in.old[v]},
+                                   {in.bound[v]},
+                                   half_spaces_of(planes_of(in, static_cast<Index>(v)), in.old[v], true)};
+  return stored_in_region(position, region, 0);
+}
+
+}  // namespace
+
 compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencils& stencils) {
   compare::SweepOut out{{in.old.begin(), in.old.end()}, 0};
   const auto store = [&](std::size_t v, const VertexUpdate& update) {
-    out.position[v] = stored_within(update.position, in.previous[v], in.bound[v]);
+    out.position[v] = stored(update.position, in, v);
     out.cut += update.cut == Cut::yes;
   };
   const std::vector<Index> groups = rigid_groups(*in.scene);

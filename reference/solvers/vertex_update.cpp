@@ -5,7 +5,8 @@
 //
 // Stored, the proposal is off by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no
 // farther apart; what it does to single directions depends on where they lie, so a vertex that may be cut is held to
-// the largest of the three errors.
+// the largest of the three errors. One that half-spaces cut, or may, is held to its region alone, which the judge
+// checks.
 #include "reference/solvers/vertex_update.hpp"
 
 #include <algorithm>
@@ -77,10 +78,21 @@ double truncation_error(const FreeVertex& vertex) {
          (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + vertex.bound);
 }
 
+/// How far beyond the nearest of its half-spaces x lies [m]; negative inside all, minus infinity without any.
+double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
+  double beyond = -infinity;
+  for (const compare::VertexPlane& plane : vertex.planes) {
+    const Vec3 n = wide(plane.normal);
+    beyond = std::max(beyond, (inner(n, x) - plane.offset) / norm(n));
+  }
+  return beyond;
+}
+
 /// What an ill-conditioned vertex is held to: dx·f ≥ −‖dx‖(φ + η‖dx‖) and what storing adds, where nothing was cut.
 double accepted_without_position(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Vec3 moved = minus(wide(answer), wide(vertex.old));
-  const bool may_be_cut = norm(minus(wide(answer), wide(vertex.previous))) + truncation_error(vertex) >= vertex.bound;
+  const bool may_be_cut = norm(minus(wide(answer), wide(vertex.previous))) + truncation_error(vertex) >= vertex.bound ||
+                          beyond_planes(vertex, wide(answer)) + truncation_error(vertex) >= 0;
   if (may_be_cut) return infinity;
   const double stored = u * norm(wide(answer)), length = norm(moved) + stored;
   const double slack = length * (system.force_error + system.block_error * length) + stored * norm(system.force);
@@ -121,6 +133,12 @@ VertexUpdate update_with(const System& system, const FreeVertex& vertex, const V
   std::array<double, 3> along;
   for (std::size_t i = 0; i < 3; ++i) along[i] = numerator / stiffness[i] + stored;
   const double largest = numerator / *least + stored, reach = norm(minus(proposal, wide(vertex.previous)));
+  const double beyond = beyond_planes(vertex, proposal), slack = largest + truncation_error(vertex);
+  if (beyond > -slack) {
+    update.cut = beyond > slack || reach - largest > vertex.bound ? Cut::yes : Cut::doubtful;
+    update.accepted = infinity;
+    return update;
+  }
   if (reach + largest <= vertex.bound) {
     update.accepted = accepted_along(minus(wide(answer), update.position), eigen, along);
     return update;

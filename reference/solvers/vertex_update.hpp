@@ -2,17 +2,20 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "compare/problem/vector.hpp"
+#include "compare/stages/plane.hpp"
 #include "reference/solvers/vertex_terms.hpp"
 
 namespace ogc::reference {
 
 /// Where a free vertex is and what holds it.
 struct FreeVertex {
-  compare::Vec3f old, target, previous;  ///< x, y, X_prev [m]
-  float bound = 0;                       ///< b_v [m]
-  double inertia = 0;                    ///< m/h² [N/m]
+  compare::Vec3f old, target, previous;            ///< x, y, X_prev [m]
+  float bound = 0;                                 ///< b_v [m]
+  double inertia = 0;                              ///< m/h² [N/m]
+  std::span<const compare::VertexPlane> planes{};  ///< that the vertex bears
 };
 
 /// Whether truncation changes an update; doubtful where both are right.

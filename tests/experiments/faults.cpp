@@ -14,14 +14,16 @@ struct FaultFile {
 };
 
 /// In the order of the faults' numbers. Of initial_guess the right answer uses that of truncate.
-constexpr std::array<FaultFile, 8> files{{{pair_faults, add_right_pairs},
-                                          {set_faults, add_right_sets},
-                                          {scalar_faults, add_right_scalars},
-                                          {contact_faults, add_right_contacts},
-                                          {force_faults, add_right_forces},
-                                          {rest_faults, add_right_rest},
-                                          {step_faults, add_right_step},
-                                          {sweep_faults, add_right_sweep}}};
+constexpr std::array<FaultFile, 10> files{{{pair_faults, add_right_pairs},
+                                           {set_faults, add_right_sets},
+                                           {plane_faults, add_right_planes},
+                                           {scalar_faults, add_right_scalars},
+                                           {region_faults, [](Contestant&, const Authority&) {}},
+                                           {contact_faults, add_right_contacts},
+                                           {force_faults, add_right_forces},
+                                           {rest_faults, add_right_rest},
+                                           {step_faults, add_right_step},
+                                           {sweep_faults, add_right_sweep}}};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "compare/judge/engine/exact_sum.hpp"
+#include "reference/geometry/truncate.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {
@@ -99,7 +100,9 @@ void add_right_scalars(Contestant& exact, const Authority& authority) {
     const TruncateTruth truth = authority.truncate(in);
     TruncateOut out{in.position, truth.cut};
     for (std::size_t i = 0; i < in.position.size(); ++i)
-      if (truth.cut[i]) out.position[i] = stored(truth.position[i], in.previous[i], in.bound[i]);
+      if (truth.cut[i])
+        out.position[i] = in.half_spaces.of(i).empty() ? stored(truth.position[i], in.previous[i], in.bound[i])
+                                                       : reference::stored_in_region(truth.position[i], in, i);
     return out;
   };
 }

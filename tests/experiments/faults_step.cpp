@@ -115,6 +115,12 @@ std::vector<Fault> step_faults() {
               [](const StepIn&, StepOut& out) {
                 for (StepEvent& event : out.events) event.cut = std::max(0, event.cut - 1);
               }),
+      spoiled("planes of the first detection kept",
+              [](const StepIn&, StepOut& out) {
+                for (StepEvent& event : out.events)
+                  if (is_detection(event)) event.planes = out.events.front().planes;
+              }),
+      asked_wrongly("balls where planes are asked for", [](Scene& scene) { scene.settings.bounds = Bounds::ball; }),
       spoiled("two corners of a tetrahedron of one colour", share_a_colour),
       spoiled("a ball for vertices inside solids", bound_what_is_inside),
       spoiled("two neighbours of one colour",

@@ -5,8 +5,10 @@
 #include "reference/geometry/pair_planes.hpp"
 #include "reference/geometry/primitive_distances.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
@@ -51,13 +53,13 @@ struct TwoSheets {
             topology.edges[f]);
   }
 
-  compare::PlaneTruth truth() const {
+  compare::PlaneGuarantee truth() const {
     compare::PlaneOut out{{{0}, {}}, bound};
     for (const auto& row : rows) {
       out.planes.items.insert(out.planes.items.end(), row.begin(), row.end());
       out.planes.offsets.push_back(static_cast<Index>(out.planes.items.size()));
     }
-    return reference::plane({&topology, {}, surface.positions, is_fixed, query_radius, relaxation}, out);
+    return reference::plane_guarantee({&topology, {}, surface.positions, is_fixed, query_radius, relaxation}, out);
   }
 
  private:
@@ -80,7 +82,7 @@ struct TwoSheets {
 
 TEST_CASE("plane: two sheets with planes between them, each vertex as free as its own sheet leaves it", "[unit]") {
   const TwoSheets sheets;
-  const compare::PlaneTruth truth = sheets.truth();
+  const compare::PlaneGuarantee truth = sheets.truth();
   CHECK(truth.kept());
   CHECK(truth.separated > 100);
 }
@@ -174,7 +176,7 @@ TEST_CASE("pair_planes: of every mesh they hold all pairs within r_q, and no ver
     const float r_q = 2 * specimen.radius;
     const compare::PlaneIn in{&topology, specimen.surface.groups, specimen.surface.positions, is_fixed, r_q, 0.45f};
     const compare::PlaneOut out = reference::pair_planes(in);
-    CHECK(reference::plane(in, out).kept());
+    CHECK(reference::plane_guarantee(in, out).kept());
     const auto balls = reference::exact_bounds(question(specimen.surface, topology, specimen.radius, r_q), 0.45f);
     std::size_t narrower = 0, most = 0;
     for (std::size_t v = 0; v < balls.size(); ++v) {
@@ -182,6 +184,79 @@ TEST_CASE("pair_planes: of every mesh they hold all pairs within r_q, and no ver
       most = std::max(most, out.planes.of(static_cast<Index>(v)).size());
     }
     CHECK(narrower == 0);
-    CHECK(most <= reference::most_planes);
+    CHECK(most <= compare::planes_of_vertex);
   }
+}
+
+namespace {
+
+/// Two triangles above one another, few enough that all their pairs are due.
+struct TwoTriangles {
+  compare::Topology topology = compare::build_topology(6, std::vector<compare::Triangle>{{0, 1, 2}, {3, 4, 5}});
+  std::vector<Vec3f> positions{{0, 0, 0},           {1, 0, 0},           {0, 1, 0},
+                               {0.25f, 0.25f, gap}, {1.25f, 0.25f, gap}, {0.25f, 1.25f, gap}};
+  std::vector<std::uint8_t> is_fixed = std::vector<std::uint8_t>(6, 0);
+
+  compare::PlaneIn in() const { return {&topology, {}, positions, is_fixed, 0.25f, relaxation}; }
+};
+
+}  // namespace
+
+TEST_CASE("plane: what an answer takes from the vertices is told", "[unit]") {
+  TwoTriangles two;
+  compare::PlaneOut out = reference::pair_planes(two.in());
+  SECTION("nothing") {
+    const compare::PlaneFreedom free = reference::plane_freedom(two.in(), out);
+    CHECK(free.due > 0);
+    CHECK(free.missing == 0);
+    CHECK(free.needless == 0);
+    CHECK(free.narrowing <= compare::plane_narrowing_tolerance);
+    CHECK(std::ranges::max(free.ball_shortfall) <= compare::plane_ball_tolerance);
+  }
+  SECTION("planes that are due") {
+    const std::size_t due = reference::plane_freedom(two.in(), out).due;
+    out.planes = {};
+    CHECK(reference::plane_freedom(two.in(), out).missing == due);
+  }
+  SECTION("room between two sides, however little") {
+    const double height = 0x1p-18 * gap;  // of both sides 2⁻¹⁷, where Σ|δ| is up to 23 gaps, 69 u are accepted
+    for (VertexPlane& plane : out.planes.items) plane.offset -= height;
+    CHECK(reference::plane_freedom(two.in(), out).narrowing > compare::plane_narrowing_tolerance);
+  }
+  SECTION("a ball") {
+    out.bound[3] *= 1 - 0x1p-16f;
+    CHECK(reference::plane_freedom(two.in(), out).ball_shortfall[3] > compare::plane_ball_tolerance);
+    CHECK(reference::plane_freedom(two.in(), out).ball_shortfall[2] <= compare::plane_ball_tolerance);
+  }
+  SECTION("half-spaces of pairs that are none") {
+    // vertex 1 and the upper triangle, which are 0.28 m apart
+    out.planes.items.front().pair = {compare::PrimitivePair::Kind::vertex_triangle, 1, 1};
+    CHECK(reference::plane_freedom(two.in(), out).needless == 1);
+  }
+}
+
+TEST_CASE("plane: a fixed side leaves the other all the room", "[unit]") {
+  TwoTriangles two;
+  std::fill(two.is_fixed.begin(), two.is_fixed.begin() + 3, std::uint8_t{1});
+  compare::PlaneOut out = reference::pair_planes(two.in());
+  CHECK(reference::plane_guarantee(two.in(), out).kept());
+  CHECK(reference::plane_freedom(two.in(), out).narrowing <= compare::plane_narrowing_tolerance);
+  // γ_p of the gap alone: less by 0.45 · 2²⁴ u of the gap, and Σ|δ| is up to 23 gaps
+  for (VertexPlane& plane : out.planes.items) plane.offset -= double{relaxation} * double{gap};
+  CHECK(reference::plane_freedom(two.in(), out).narrowing > 1e5);
+}
+
+TEST_CASE("plane: nothing bounds a vertex inside a solid, and no pair has one", "[unit]") {
+  TwoTriangles two;
+  two.positions.push_back({0.3f, 0.3f, 0.0625f});
+  two.is_fixed.push_back(0);
+  two.topology.vertex_count = 7;
+  two.topology.inside_solid = {0, 0, 0, 0, 0, 0, 1};
+  compare::PlaneOut out = reference::pair_planes(two.in());
+  CHECK(out.bound[6] == std::numeric_limits<float>::max());
+  CHECK(out.planes.of(6).empty());
+  CHECK(reference::plane_guarantee(two.in(), out).kept());
+  CHECK(reference::plane_freedom(two.in(), out).bounded_inside == 0);
+  out.bound[6] = 0.1f;
+  CHECK(reference::plane_freedom(two.in(), out).bounded_inside == 1);
 }

@@ -16,6 +16,7 @@
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/spring.hpp"
 #include "compare/stages/tetrahedron.hpp"
+#include "compare/stages/truncate.hpp"
 
 namespace ogc::compare {
 
@@ -70,6 +71,18 @@ struct BoundCase {
   float bound_relaxation = 0.45f;                               ///< γ_p, Eq. 21
 };
 
+/// A state that is asked for planes.
+struct PlaneCase {
+  std::shared_ptr<const Topology> topology;  ///< of the mesh
+  /// By vertex, as in Exclusions; those of group 0 never move. Pairs inside one group are left out.
+  std::vector<Index> rigid_groups;
+  std::vector<Vec3f> positions;        ///< by vertex [m]
+  float query_radius = 0;              ///< r_q [m]
+  float bound_relaxation = 0.45f;      ///< γ_p
+  CompressedRows partners{};           ///< as in Exclusions
+  std::vector<std::uint8_t> is_fixed;  ///< by vertex: of group 0
+};
+
 /// A mesh and what is asked about it.
 struct BlockCase {
   std::shared_ptr<const Topology> topology;  ///< of the mesh
@@ -107,8 +120,12 @@ struct ActivationCase {
 
 /// A vertex that moved.
 struct TruncateCase {
-  Vec3f previous, position;  ///< X_prev, x [m]
-  float bound = 0;           ///< b_v [m]
+  Vec3f previous, position;              ///< X_prev, x [m]
+  float bound = 0;                       ///< b_v [m]
+  std::vector<HalfSpace> half_spaces{};  ///< none: a ball alone, and what follows is not read
+  Vec3f current{};                       ///< in the region [m]
+  std::array<float, 6> block{};          ///< H [N/m]
+  std::uint8_t is_prescribed = 0;        ///< 1: it does not slide
 };
 
 /// The data of a case; its type is that of the stage (compare/judge/stages).

@@ -267,8 +267,8 @@ constexpr std::array<Generator, 18> table{{{soup, 15, true, of<soup>},
                                            {"isometric", 10, true, isometric<of<cloth>>},
                                            {"ladder.isometric_flat", 3, false, isometric<flat>},
                                            {"ladder.isometric_needle", 6, false, isometric<needle>},
-                                           {"solid", 10, true, solid, 0, true},
-                                           {"ladder.sliver", 6, false, sliver, 0, true}}};
+                                           {"solid", 10, true, solid, 0, Stage::tetrahedron},
+                                           {"ladder.sliver", 6, false, sliver, 0, Stage::tetrahedron}}};
 
 }  // namespace
 

@@ -381,7 +381,17 @@ CaseData models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 12> table{{{"fall", 12, true, fall},
+/// Half-spaces in place of balls.
+CaseData planes(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 4> scenes{onto, collide, handle, at_rest};
+  StepCase test = case_of<StepCase>(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
+  Scene scene = *test.scene;
+  scene.settings.bounds = Bounds::planes;
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
+constexpr std::array<Generator, 13> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -391,8 +401,9 @@ constexpr std::array<Generator, 12> table{{{"fall", 12, true, fall},
                                            {"ladder.rest", 18, false, at_rest},
                                            {"bits", 6, false, bits},
                                            {"lattice", 10, false, lattice},
-                                           {"solid", 8, false, solid, 0, true},
-                                           {"models", 5, false, models}}};
+                                           {"solid", 8, false, solid, 0, Stage::tetrahedron},
+                                           {"models", 5, false, models},
+                                           {"planes", 20, false, planes, 0, Stage::plane}}};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 // index). At least half of all cases lie close to a decision boundary (lattice, ladder.*).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -20,7 +21,8 @@ struct Generator {
   CaseData (*make)(Random&);
   /// runs of fewer cases than this leave the row out, as one of its meshes would be too large a share
   std::uint64_t least = 0;
-  bool solids = false;  ///< scenes with tetrahedra, which only a contestant with that stage is asked about
+  /// A stage that the contestant must have, too: `tetrahedron` for cases about solids, `plane` for half-spaces
+  std::optional<Stage> also_needs = std::nullopt;
 };
 
 /// The generators of a stage, without those that take real states: `states` as they are, `mutated`
@@ -45,6 +47,8 @@ std::span<const Generator> rest_state_generators();
 std::span<const Generator> block_generators();
 std::span<const Generator> detect_generators();
 std::span<const Generator> bound_generators();
+std::span<const Generator> plane_generators();
+std::span<const Generator> truncate_generators();
 std::span<const Generator> contact_force_generators();
 std::span<const Generator> friction_force_generators();
 std::span<const Generator> membrane_generators();

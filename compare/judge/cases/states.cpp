@@ -175,6 +175,11 @@ MeshCase States::whole(std::size_t frame, Random& random) const {
           partners_};
 }
 
+PlaneCase States::plane(std::size_t frame, Random& random) const {
+  const MeshCase mesh = whole(frame, random);
+  return {topology_, groups_, mesh.positions, mesh.query_radius, bound_relaxation_, partners_, fixed_flags(groups_)};
+}
+
 BlockCase States::block(std::size_t frame, Random& random) const {
   const std::vector<Vec3f>& x = states_[frame].positions;
   return {topology_, x, block_questions(random, *topology_, x, questions)};

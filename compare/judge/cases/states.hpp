@@ -43,6 +43,7 @@ class States {
 
   /// A frame, whole: for detection with r_q = r × 1 … cap, and asked about blocks.
   MeshCase whole(std::size_t frame, Random& random) const;
+  PlaneCase plane(std::size_t frame, Random& random) const;
   BlockCase block(std::size_t frame, Random& random) const;
   RestStateCase rest_state() const { return {scene_, topology_}; }
   /// The smallest distances of the frame, asked of the authority once.

@@ -51,6 +51,18 @@ class Bits {
     add(out.contacts);
     add(out.d_min_edge);
   }
+  void add(const VertexPlane& plane) {
+    add(plane.pair.kind);
+    add(plane.pair.first);
+    add(plane.pair.second);
+    add(plane.normal);
+    add(plane.offset);
+  }
+  void add(const PlaneOut& out) {
+    add(out.planes.offsets);
+    add(out.planes.items);
+    add(out.bound);
+  }
   void add(const RestStateOut& out) {
     add(out.mass);
     add(out.triangles);
@@ -69,6 +81,7 @@ class Bits {
     add(event.vertex_facet);
     add(event.edge_edge);
     add(event.bound);
+    add(event.planes.items);
   }
   void add(const StepOut& out) {
     add(out.colour);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/problem/vector.hpp"
+#include "compare/stages/truncate.hpp"
 
 namespace ogc::compare {
 
@@ -48,6 +49,17 @@ inline bool obeys_bound(const Vec3f& x, const Vec3f& p, float b) {
     margin.add(double{c} * c);
   }
   margin.add(-(double{b} * b));
+  return margin.sign() <= 0;
+}
+
+/// n·x ≤ o, exactly. All must be finite.
+inline bool obeys_half_space(const Vec3f& x, const HalfSpace& half_space) {
+  const Vec3f& n = half_space.normal;
+  ExactSum margin;
+  margin.add(double{n.x} * x.x);
+  margin.add(double{n.y} * x.y);
+  margin.add(double{n.z} * x.z);
+  margin.add(-half_space.offset);
   return margin.sign() <= 0;
 }
 

@@ -54,6 +54,12 @@ std::string contact_name(const EdgeEdgeContact& c, const Topology& topology) {
          std::to_string(c.first_edge) + " and " + std::to_string(c.second_edge);
 }
 
+std::string pair_name(const PrimitivePair& pair, const Topology& topology) {
+  const bool is_of_edges = pair.kind == PrimitivePair::Kind::edge_edge;
+  return face_name({is_of_edges ? FaceKind::edge : FaceKind::vertex, pair.first}, topology) + " and " +
+         face_name({is_of_edges ? FaceKind::edge : FaceKind::triangle, pair.second}, topology);
+}
+
 std::string question_name(const BlockQuestion& question, const Topology& topology) {
   const std::string face = face_name(question.face, topology);
   if (question.kind == BlockQuestion::Kind::vertex_in_surface)

@@ -9,6 +9,7 @@
 #include "compare/stages/closest_points.hpp"
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/plane.hpp"
 
 namespace ogc::compare {
 
@@ -24,6 +25,8 @@ std::string face_name(const Face& face, const Topology& topology);
 std::string contact_name(const VertexFacetContact& contact, const Topology& topology);
 /// "vertex 2 and edge 5 (vertices 1, 4), of edges 0 and 5".
 std::string contact_name(const EdgeEdgeContact& contact, const Topology& topology);
+/// "vertex 7 and triangle 3 (vertices 0, 1, 4)", "edge 2 (vertices 0, 3) and edge 5 (vertices 1, 4)".
+std::string pair_name(const PrimitivePair& pair, const Topology& topology);
 /// "vertex 7 in the block of triangle 3 (vertices 0, 1, 4)".
 std::string question_name(const BlockQuestion& question, const Topology& topology);
 

@@ -142,12 +142,21 @@ class GeneratorRun {
   std::exception_ptr failure_;
 };
 
+bool has_stage(const Contestant& contestant, Stage stage) {
+  bool has = false;
+  visit_stages([&](const char* name, auto member) { has = has || (stage_name(stage) == name && contestant.*member); });
+  return has;
+}
+
 /// The generators to run, with their shares.
 std::vector<Generator> chosen(Stage stage, const Contestant& contestant, const JudgeOptions& options) {
   if (!options.generator.empty()) return {find_generator(stage, options.generator)};
   std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());
-  std::erase_if(
-      rows, [&](const Generator& row) { return row.least > options.cases || (row.solids && !contestant.tetrahedron); });
+  std::erase_if(rows, [&](const Generator& row) {
+    const bool is_step_with_planes = stage == Stage::step && row.also_needs == Stage::plane;
+    return row.least > options.cases || (row.also_needs && !has_stage(contestant, *row.also_needs)) ||
+           (is_step_with_planes && !contestant.has_steps_with_planes);
+  });
   if (options.states && options.states->missing(stage).empty())
     for (const std::string_view name : {"states", "mutated"}) rows.push_back(find_generator(stage, name));
   return rows;

@@ -34,6 +34,21 @@ inline float number(const Json& json) {
   return x;
 }
 
+/// The same of numbers of double precision.
+inline std::string hexadecimal_of(double x) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%a", x);
+  return buffer;
+}
+inline double number_of_double(const Json& json) {
+  const std::string text = json.get<std::string>();
+  char* end = nullptr;
+  const double x = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0')
+    throw InputError("'" + text + "' is not a number; write it as in 0x1.8p-3 or 0.1875");
+  return x;
+}
+
 /// [x, y, z], and back.
 inline Json to_json(const Vec3f& p) { return {hexadecimal(p.x), hexadecimal(p.y), hexadecimal(p.z)}; }
 inline Vec3f to_point(const Json& json) { return {number(json.at(0)), number(json.at(1)), number(json.at(2))}; }

@@ -157,16 +157,46 @@ class StepVerdict {
                                  static_cast<float>(in_.scene->settings.contact_radius), out_.query_radius, partners_}};
     const DetectIn question = detect_question(case_of<MeshCase>(mesh.data));
     part(where(i), Stage::detect_vertex_facet, [&](Tally& own) {
-      judge_detect_vertex_facet(mesh, authority_.detect_vertex_facet(question), event.vertex_facet, own);
+      const DetectVertexFacetTruth truth = authority_.detect_vertex_facet(question);
+      judge_detect_vertex_facet(mesh, truth,
+                                has_planes() ? with_distances(event.vertex_facet, truth) : event.vertex_facet, own);
     });
     part(where(i), Stage::detect_edge_edge, [&](Tally& own) {
-      judge_detect_edge_edge(mesh, authority_.detect_edge_edge(question), event.edge_edge, own);
+      const DetectEdgeEdgeTruth truth = authority_.detect_edge_edge(question);
+      judge_detect_edge_edge(mesh, truth, has_planes() ? with_distances(event.edge_edge, truth) : event.edge_edge, own);
     });
     if (!right()) return;
+    ++detections_;
+    if (has_planes()) return judge_planes(i, question);
     const BoundIn bounds{in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
                          event.vertex_facet.d_min_triangle, static_cast<float>(in_.scene->settings.bound_relaxation)};
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
-    ++detections_;
+  }
+
+  bool has_planes() const { return in_.scene->settings.bounds == Bounds::planes; }
+
+  /// With planes nobody is asked for smallest distances: those of the truth stand in.
+  static DetectVertexFacetOut with_distances(DetectVertexFacetOut out, const DetectVertexFacetTruth& truth) {
+    out.d_min_vertex = truth.exact.d_min_vertex;
+    out.d_min_triangle = truth.exact.d_min_triangle;
+    return out;
+  }
+  static DetectEdgeEdgeOut with_distances(DetectEdgeEdgeOut out, const DetectEdgeEdgeTruth& truth) {
+    out.d_min_edge = truth.exact.d_min_edge;
+    return out;
+  }
+
+  void judge_planes(std::size_t i, const DetectIn& detection) {
+    const StepEvent& event = out_.events[i];
+    const std::vector<std::uint8_t> is_fixed = fixed_flags(groups_);
+    const PlaneIn question{in_.topology,      detection.exclusions,
+                           event.position,    is_fixed,
+                           out_.query_radius, static_cast<float>(in_.scene->settings.bound_relaxation)};
+    const PlaneOut answer{event.planes, event.bound};
+    part(where(i), Stage::plane, [&](Tally& own) {
+      if (can_judge_plane(test_, question, answer, own))
+        judge_plane(test_, question, authority_.plane(question, answer), answer, own);
+    });
   }
 
   /// Vertices that are part of an active contact; each contact is active, as X_prev = x.
@@ -199,7 +229,10 @@ class StepVerdict {
       }
       const bool is_cut = !(event.position[v] == out_.target[v]);
       cut += is_cut;
-      const TruncateIn question{{at_[v]}, {out_.target[v]}, {detection_->bound[v]}};
+      // in the guess loop inertia alone holds it
+      const auto planes = detection_->planes.of(static_cast<Index>(v));
+      const TruncateIn question{
+          {at_[v]}, {out_.target[v]}, {detection_->bound[v]}, half_spaces_of(planes, at_[v], groups_[v] > 0)};
       part(where(i) + vertex(v), Stage::truncate, [&](Tally& own) {
         judge_truncate({&test_, 1}, question, authority_.truncate(question), {{event.position[v]}, {is_cut}}, own);
       });
@@ -221,7 +254,8 @@ class StepVerdict {
                            detection_->position,
                            detection_->bound,
                            detection_->vertex_facet.contacts,
-                           detection_->edge_edge.contacts};
+                           detection_->edge_edge.contacts,
+                           has_planes() ? &detection_->planes : nullptr};
     const SweepOut answer{event.position, event.cut};
     part(where(i), Stage::sweep, [&](Tally& own) {
       if (can_judge_sweep(test_, question, answer, own))

@@ -8,6 +8,7 @@
 #include "compare/judge/cases/dust.hpp"
 #include "compare/judge/cases/mutate.hpp"
 #include "compare/judge/engine/exact_sum.hpp"
+#include "compare/judge/engine/features.hpp"
 #include "compare/judge/engine/scene_json.hpp"
 #include "compare/judge/engine/sweep_question.hpp"
 #include "compare/judge/engine/units.hpp"
@@ -19,11 +20,23 @@ namespace ogc::compare {
 
 namespace {
 
-/// Whether each free or prescribed vertex obeys its bound; fixed ones stay whatever theirs is. The first that does not
-/// is a mismatch.
+bool judge_half_spaces(const SweepIn& in, const SweepOut& out, std::size_t v, Tally& tally) {
+  if (in.planes == nullptr) return true;
+  for (const VertexPlane& plane : in.planes->of(static_cast<Index>(v))) {
+    if (obeys_half_space(out.position[v], {plane.normal, plane.offset})) continue;
+    tally.mismatch("vertex " + std::to_string(v) + ": the stored position leaves the half-space of " +
+                   pair_name(plane.pair, *in.topology));
+    return false;
+  }
+  return true;
+}
+
+/// Whether each free or prescribed vertex lies in its region; fixed ones stay whatever theirs is. The first that does
+/// not is a mismatch.
 bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Index>& groups, Tally& tally) {
   for (std::size_t v = 0; v < in.old.size(); ++v) {
     if (in.colour[v] < 0 && groups[v] <= 0) continue;
+    if (!judge_half_spaces(in, out, v, tally)) return false;
     if (obeys_bound(out.position[v], in.previous[v], in.bound[v])) continue;
     const Vec3f &x = out.position[v], &p = in.previous[v];
     const double moved = std::hypot(double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z);

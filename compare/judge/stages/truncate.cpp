@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "compare/judge/cases/dust.hpp"
 #include "compare/judge/cases/mutate.hpp"
-#include "compare/judge/cases/placement.hpp"
 #include "compare/judge/engine/exact_sum.hpp"
 #include "compare/judge/engine/numbers_json.hpp"
 #include "compare/judge/engine/units.hpp"
@@ -14,74 +14,6 @@
 #include "compare/judge/stages/stage_of.hpp"
 
 namespace ogc::compare {
-
-namespace {
-
-using namespace placement;
-
-/// A vertex at `previous` moved by `step`.
-CaseData moved(const Vec3& previous, const Vec3& step, float bound) {
-  const Vec3f from = single(previous);
-  return TruncateCase{from, single(sum({from.x, from.y, from.z}, step)), bound};
-}
-
-double length(const Vec3& a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
-
-CaseData truncate_uniform(Random& random) {
-  const Vec3 step = scaled(in_box(random, -1, 1), random.magnitude(-4, 0));
-  return moved(in_box(random, -1, 1), step, static_cast<float>(length(step) * random.between(0.05, 2)));
-}
-
-CaseData truncate_bits(Random& random) {
-  const auto coordinate = [&] { return static_cast<float>(random.sign()) * random.pattern(); };
-  const Vec3f a{coordinate(), coordinate(), coordinate()}, b{coordinate(), coordinate(), coordinate()};
-  return TruncateCase{a, b, random.pattern()};
-}
-
-/// Steps of rational length, so that ‖x − x_prev‖ = b exactly or misses it by one bit.
-CaseData truncate_lattice(Random& random) {
-  constexpr std::array<Vec3, 6> steps{{{3, 4, 0}, {1, 2, 2}, {2, 3, 6}, {1, 4, 8}, {4, 4, 7}, {5, 0, 0}}};
-  constexpr std::array<double, 6> lengths{5, 3, 7, 9, 9, 5};
-  const int k = random.below(6);
-  const double scale = std::ldexp(1.0, random.below(21) - 10);
-  std::array<Vec3, 1> step{scaled(steps[k], scale)};
-  permute(random, step);
-  return moved(scaled(on_lattice(random, 3), random.one_in(2) ? scale : 1), step[0],
-               beside(random, static_cast<float>(lengths[k] * scale)));
-}
-
-/// ‖x − x_prev‖ → b.
-CaseData truncate_bound(Random& random) {
-  const TruncateCase c = case_of<TruncateCase>(
-      moved(in_box(random, -1, 1), scaled(in_box(random, -1, 1), random.magnitude(-6, 0)), 0));
-  const Vec3 step{double{c.position.x} - c.previous.x, double{c.position.y} - c.previous.y,
-                  double{c.position.z} - c.previous.z};
-  return TruncateCase{c.previous, c.position, beside(random, static_cast<float>(length(step)))};
-}
-
-/// A bound that tends to the spacing of the coordinates and below.
-CaseData truncate_far(Random& random) {
-  const Vec3 step = scaled(in_box(random, -1, 1), random.magnitude(-3, 0));
-  return moved(scaled(in_box(random, -1, 1), random.magnitude(0, 6)), step,
-               static_cast<float>(length(step) * random.magnitude(-5, 0.5)));
-}
-
-/// Bound or step zero or almost.
-CaseData truncate_zero(Random& random) {
-  const Vec3 step = random.one_in(3) ? Vec3{} : scaled(in_box(random, -1, 1), std::abs(random.rung()));
-  return moved(random.one_in(2) ? Vec3{} : in_box(random, -1, 1), step,
-               static_cast<float>(random.one_in(3) ? 0 : std::abs(random.rung())));
-}
-
-constexpr std::array<Generator, 7> truncate_table{{{"uniform", 20, true, truncate_uniform},
-                                                   {"bits", 20, false, truncate_bits},
-                                                   {"dust", 8, false, truncate_uniform},
-                                                   {"lattice", 20, false, truncate_lattice},
-                                                   {"ladder.bound", 60, false, truncate_bound},
-                                                   {"ladder.far", 10, false, truncate_far},
-                                                   {"ladder.zero", 10, false, truncate_zero}}};
-
-}  // namespace
 
 void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, const Vec3& exact, const Vec3f& stored,
                     bool cut, std::size_t metric, Tally& tally) {
@@ -105,6 +37,36 @@ void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, cons
               [&] { return text("%.4g from the exact position, bound %.9g", error, bound); });
 }
 
+namespace {
+
+/// A position that half-spaces hold.
+void judge_region(const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out, std::size_t i,
+                  Tally& tally) {
+  const Vec3f &stored = out.position[i], &previous = in.previous[i];
+  if (!is_finite(stored)) return tally.mismatch("region: the position is not finite");
+  if (!obeys_bound(stored, previous, in.bound[i]))
+    return tally.mismatch(
+        text("region: the stored position leaves the ball of %.9g m, %.9g m from X_prev", in.bound[i],
+             std::hypot(double{stored.x} - previous.x, double{stored.y} - previous.y, double{stored.z} - previous.z)));
+  const auto half_spaces = in.half_spaces.of(i);
+  for (std::size_t k = 0; k < half_spaces.size(); ++k) {
+    const HalfSpace& h = half_spaces[k];
+    if (obeys_half_space(stored, h)) continue;
+    const double height = double{h.normal.x} * stored.x + double{h.normal.y} * stored.y + double{h.normal.z} * stored.z;
+    return tally.mismatch("region: the stored position leaves half-space " + std::to_string(k) +
+                          text(", n·x = %.17g, o = %.17g", height, h.offset));
+  }
+  if (out.cut[i] == 0 && !(stored == in.position[i]))
+    return tally.mismatch("region: nothing is cut, but the position did not come back bit for bit");
+  const Vec3& exact = truth.position[i];
+  const double error = std::hypot(stored.x - exact.x, stored.y - exact.y, stored.z - exact.z);
+  tally.error(1, error == 0 ? 0 : error / truth.accepted[i], [&] {
+    return text("%.4g m from where it slides, or its way ends; %.4g accepted", error, truth.accepted[i]);
+  });
+}
+
+}  // namespace
+
 void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out,
                     Tally& tally) {
   tally.begin(cases[0].name);
@@ -120,8 +82,11 @@ void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& trut
       continue;
     }
     if (out.cut[i] != truth.cut[i]) tally.answered_not_exactly();
-    judge_position(in.previous[i], in.position[i], in.bound[i], truth.position[i], out.position[i], out.cut[i], 0,
-                   tally);
+    if (!in.half_spaces.of(i).empty())
+      judge_region(in, truth, out, i, tally);
+    else
+      judge_position(in.previous[i], in.position[i], in.bound[i], truth.position[i], out.position[i], out.cut[i], 0,
+                     tally);
   }
 }
 
@@ -134,6 +99,20 @@ TruncateIn truncate_question(Cases cases) {
     in.previous.push_back(c.previous);
     in.position.push_back(c.position);
     in.bound.push_back(c.bound);
+  }
+  const auto has_half_spaces = [](const TestCase& test) {
+    return !case_of<TruncateCase>(test.data).half_spaces.empty();
+  };
+  if (!std::ranges::any_of(cases, has_half_spaces)) return in;
+  HalfSpacesIn& all = in.half_spaces;
+  all.offsets.push_back(0);
+  for (const TestCase& test : cases) {
+    const auto& c = case_of<TruncateCase>(test.data);
+    all.items.insert(all.items.end(), c.half_spaces.begin(), c.half_spaces.end());
+    all.offsets.push_back(static_cast<Index>(all.items.size()));
+    all.current.push_back(c.current);
+    all.block.push_back(c.block);
+    all.is_prescribed.push_back(c.is_prescribed);
   }
   return in;
 }
@@ -178,7 +157,8 @@ std::vector<WrongForm> truncate_forms() {
                   const auto clamped = [b](double from, double to) { return from + std::clamp(to - from, -b, b); };
                   return Vec3{clamped(p.x, x.x), clamped(p.y, x.y), clamped(p.z, x.z)};
                 }),
-      {"flag_inverted", "`cut` says the opposite", [](const Evidence& evidence, const Authority& authority) {
+      {"flag_inverted", "`cut` says the opposite",
+       [](const Evidence& evidence, const Authority& authority) {
          const TruncateIn in = truncate_question({&evidence.test, 1});
          const TruncateOut out = evidence.answered.truncate(in);
          Evidence flipped = evidence;
@@ -188,31 +168,85 @@ std::vector<WrongForm> truncate_forms() {
            return other;
          };
          return agrees(flipped, authority);
-       }}};
+       }},
+      asked("scaled_in_place_of_slid", "a vertex stops on its way to a half-space in place of sliding along it",
+            &Authority::truncate, [](TruncateIn& in) { std::ranges::fill(in.half_spaces.is_prescribed, 1); }),
+      asked("slid_by_distance", "the shortest way out of a half-space in place of that of H", &Authority::truncate,
+            [](TruncateIn& in) { std::ranges::fill(in.half_spaces.block, inertia_block); }),
+      asked("prescribed_slides", "a prescribed vertex slides by the shortest way", &Authority::truncate,
+            [](TruncateIn& in) {
+              for (std::size_t i = 0; i < in.half_spaces.is_prescribed.size(); ++i)
+                if (std::exchange(in.half_spaces.is_prescribed[i], 0) != 0) in.half_spaces.block[i] = inertia_block;
+            })};
 }
 
-struct Truncate : BatchStage<Truncate, &Contestant::truncate, &Authority::truncate>,
-                  TakenWhole,
-                  ParametersOfCase<Truncate>,
-                  InEveryRun {
+/// Whether it keeps the half-space with 2⁻⁵⁰ of its terms to spare.
+bool keeps_with_room(const HalfSpace& h, const Vec3f& x) {
+  const double a = double{h.normal.x} * x.x, b = double{h.normal.y} * x.y, c = double{h.normal.z} * x.z;
+  return a + b + c + 0x1p-50 * (std::abs(a) + std::abs(b) + std::abs(c) + std::abs(h.offset)) <= h.offset;
+}
+
+void check_region(const TruncateCase& c, FirstProblem& problem) {
+  problem.vector("a coordinate", c.current);
+  problem.require(obeys_bound(c.current, c.previous, c.bound), "the current position lies outside of the ball");
+  for (const HalfSpace& h : c.half_spaces) {
+    problem.vector("a normal", h.normal);
+    problem.require(std::isfinite(h.offset) && keeps_with_room(h, c.previous) && keeps_with_room(h, c.current),
+                    "X_prev or the current position does not keep a half-space");
+  }
+  for (const float h : c.block) problem.number("an entry of H", h, -vast, vast);
+  const auto& [xx, xy, xz, yy, yz, zz] = c.block;
+  const double minor = double{xx} * yy - double{xy} * xy,
+               determinant = zz * minor - double{yz} * (double{xx} * yz - double{xy} * xz) +
+                             double{xz} * (double{xy} * yz - double{yy} * xz);
+  problem.require(xx > 0 && minor > 0 && determinant > 0, "H is not positive definite");
+}
+
+Json region_to_json(const TruncateCase& c) {
+  Json half_spaces = Json::array(), block = Json::array();
+  for (const HalfSpace& h : c.half_spaces)
+    half_spaces.push_back({{"normal", to_json(h.normal)}, {"offset", hexadecimal_of(h.offset)}});
+  for (const float h : c.block) block.push_back(hexadecimal(h));
+  return {{"half_spaces", half_spaces},
+          {"current", to_json(c.current)},
+          {"block", block},
+          {"is_prescribed", c.is_prescribed}};
+}
+
+void read_region(const Json& data, TruncateCase& c) {
+  for (const Json& h : data.at("half_spaces"))
+    c.half_spaces.push_back({to_point(h.at("normal")), number_of_double(h.at("offset"))});
+  c.current = to_point(data.at("current"));
+  for (std::size_t k = 0; k < c.block.size(); ++k) c.block[k] = number(data.at("block").at(k));
+  c.is_prescribed = data.at("is_prescribed").get<std::uint8_t>();
+}
+
+struct Truncate : BatchStage<Truncate, &Contestant::truncate, &Authority::truncate>, TakenWhole, InEveryRun {
   using Case = TruncateCase;
   static constexpr StageInfo info{.name = "truncate",
-                                  .question = "a position kept within its bound",
+                                  .question = "a position kept within its bound, or its region",
                                   .unit = "vertex",
                                   .reference = "reference/geometry/truncate.cpp",
                                   .kind = CaseKind::single,
                                   .has_boundary = true,
                                   .determinism = Determinism::cpu_to_gpu};
-  static constexpr std::array metrics{MetricInfo{"position", "u (|x_prev| + b)", truncate_position_tolerance}};
+  static constexpr std::array metrics{MetricInfo{"position", "u (|x_prev| + b)", truncate_position_tolerance},
+                                      MetricInfo{"region", "accepted error", 1}};
   static constexpr std::array parameters{ranges::bound};
-  static float* parameter(Case& c, std::string_view) { return &c.bound; }
+  /// With another ball the vertex is where that is sure to hold it.
+  static std::string set(Case& c, std::span<const Override> values) {
+    for (const Override& value : values) c.bound = value.value;
+    c.current = c.previous;
+    return "";
+  }
 
-  static std::span<const Generator> generators() { return truncate_table; }
+  static std::span<const Generator> generators() { return truncate_generators(); }
 
   static void check(const Case& c, FirstProblem& problem) {
     problem.vector("a coordinate", c.previous);
     problem.vector("a coordinate", c.position);
     problem.number("a bound", c.bound, 0, std::numeric_limits<float>::max());
+    if (!c.half_spaces.empty()) check_region(c, problem);
   }
   static void mutate(Random& random, Case& c) {
     mutate_together(random, std::span(&c.previous, 1), std::span(&c.position, 1));
@@ -227,10 +261,14 @@ struct Truncate : BatchStage<Truncate, &Contestant::truncate, &Authority::trunca
   }
 
   static Json write(const Case& c) {
-    return {{"previous", to_json(c.previous)}, {"position", to_json(c.position)}, {"bound", hexadecimal(c.bound)}};
+    Json json{{"previous", to_json(c.previous)}, {"position", to_json(c.position)}, {"bound", hexadecimal(c.bound)}};
+    if (!c.half_spaces.empty()) json["region"] = region_to_json(c);
+    return json;
   }
   static Case read(const Json& data) {
-    return {to_point(data.at("previous")), to_point(data.at("position")), number(data.at("bound"))};
+    Case c{to_point(data.at("previous")), to_point(data.at("position")), number(data.at("bound"))};
+    if (data.contains("region")) read_region(data.at("region"), c);
+    return c;
   }
 
   static Shape shape(const Case& c) {
@@ -241,8 +279,16 @@ struct Truncate : BatchStage<Truncate, &Contestant::truncate, &Authority::trunca
     return shape;
   }
   static std::vector<Quantity> inputs(const Case& c) {
-    return {points("previous", "m", std::array{c.previous}), points("position", "m", std::array{c.position}),
-            scalar("bound", "m", c.bound)};
+    std::vector<Quantity> all{points("previous", "m", std::array{c.previous}),
+                              points("position", "m", std::array{c.position}), scalar("bound", "m", c.bound)};
+    if (c.half_spaces.empty()) return all;
+    std::vector<Vec3f> normals;
+    std::vector<double> offsets;
+    for (const HalfSpace& h : c.half_spaces) normals.push_back(h.normal), offsets.push_back(h.offset);
+    return joined(std::move(all),
+                  std::vector{points("normals", "1", normals), compare::numbers("offsets", "m", offsets),
+                              points("current", "m", std::array{c.current}), compare::numbers("block", "N/m", c.block),
+                              flag("is_prescribed", c.is_prescribed)});
   }
 
   static constexpr auto question = truncate_question;

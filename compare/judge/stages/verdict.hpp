@@ -61,6 +61,11 @@ void judge_step(const TestCase& test, const StepIn& in, const StepTruth& truth, 
                 const Authority& authority, Tally& tally);
 /// Whether each array by vertex has one entry a vertex. Where not, a mismatch.
 bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, Tally& tally);
+/// Whether the truth can follow the answer: one row and one ball for each vertex, finite numbers, planes of pairs that
+/// their vertex is part of. Where not, a mismatch.
+bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
+/// Every pair must be held apart, and no vertex by more than that.
+void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);
 /// Never above γ_p · min(…).
 void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& out, Tally& tally);
 

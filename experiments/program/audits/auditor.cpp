@@ -46,9 +46,8 @@ StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& 
       names_(scene, sources),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
       bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)),
-      bounds_(scene.settings.bounds) {
-  for (const compare::Index group : compare::rigid_groups(scene)) is_fixed_.push_back(group == 0 ? 1 : 0);
-}
+      bounds_(scene.settings.bounds),
+      is_fixed_(compare::fixed_flags(exclusions_.groups)) {}
 
 compare::AuditResult StateJudge::audit(const std::vector<compare::Vec3f>& positions, std::size_t limit) const {
   return compare::audit(topology_, compare::to_double(positions), exclusions_, {.limit = limit});
@@ -76,7 +75,7 @@ Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
 void StateJudge::judge_planes(const compare::Snapshot& snapshot, Verdict& verdict) const {
   const compare::PlaneIn in{&topology_, exclusions_,           snapshot.previous,
                             is_fixed_,  snapshot.query_radius, bound_relaxation_};
-  verdict.planes = reference::plane(in, {snapshot.planes, snapshot.bounds});
+  verdict.planes = reference::plane_guarantee(in, {snapshot.planes, snapshot.bounds});
   verdict.broken_planes = reference::broken_planes(snapshot.planes, snapshot.positions);
 }
 
@@ -119,7 +118,7 @@ std::string StateJudge::describe(const Verdict& verdict) const {
     text += counted(verdict.unsafe_bounds, "bound") +
             " larger than the exact one; the worst: " + names_.vertex(verdict.worst_vertex) + ", " +
             number(verdict.worst_bound, 9) + " m instead of " + number(verdict.exact_bound, 9) + " m\n";
-  const compare::PlaneTruth& planes = verdict.planes;
+  const compare::PlaneGuarantee& planes = verdict.planes;
   if (planes.uncovered > 0)
     text += counted(planes.uncovered, "pair") +
             " that neither a plane nor balls hold apart; the first: " + name_of(planes.worst) + "\n";

@@ -39,7 +39,7 @@ struct Verdict {
   std::size_t unsafe_bounds = 0;            ///< vertices whose b_v is above the exact bound of X_prev
   compare::Index worst_vertex = -1;         ///< of the largest b_v / exact bound among them
   double worst_bound = 0, exact_bound = 0;  ///< [m], of that vertex
-  compare::PlaneTruth planes;               ///< with planes, in place of the exact bounds
+  compare::PlaneGuarantee planes;           ///< with planes, in place of the exact bounds
   std::size_t broken_planes = 0;            ///< half-spaces that the state does not keep
   /// Whether the state keeps the guarantee.
   bool kept() const {

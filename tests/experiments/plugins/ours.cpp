@@ -1,6 +1,6 @@
-// Our own kernels behind the C interface, in the stages that are asked about a whole scene: a right plug-in, so that
-// what the structures carry is known to be enough, and wrong where the environment variable OGC_BROKEN says. The step
-// is put together here, from detection, truncation and sweeps.
+// Our own kernels behind the C interface, in the stages that are asked about a whole scene, and in those of planes: a
+// right plug-in, so that what the structures carry is known to be enough, and wrong where the environment variable
+// OGC_BROKEN says. The step is put together here, from detection, truncation and sweeps.
 #include <unistd.h>
 
 #include <algorithm>
@@ -65,6 +65,22 @@ Settings settings_of(const ogc_settings& s) {
   return settings;
 }
 
+void add_faces(const ogc_topology& t, Mesh& mesh) {
+  for (Index k = 0; k < t.triangle_count; ++k)
+    mesh.triangles.push_back({t.triangles[k][0], t.triangles[k][1], t.triangles[k][2]});
+  for (Index e = 0; e < t.edge_count; ++e)
+    if (t.edge_triangles.offsets[e] == t.edge_triangles.offsets[e + 1])
+      mesh.loose_edges.push_back({t.edges[e][0], t.edges[e][1]});
+}
+
+std::vector<std::array<Index, 2>> pairs_of_rows(const ogc_rows& partners, Index vertices) {
+  std::vector<std::array<Index, 2>> pairs;
+  for (Index v = 0; v < vertices; ++v)
+    for (Index i = partners.offsets[v]; i < partners.offsets[v + 1]; ++i)
+      if (partners.items[i] > v) pairs.push_back({v, partners.items[i]});
+  return pairs;
+}
+
 /// Motions are known by their vertices alone; where they lead stands in targets.
 Scene scene_of(const ogc_scene& in) {
   Scene scene;
@@ -72,11 +88,7 @@ Scene scene_of(const ogc_scene& in) {
   scene.rest_positions = to_double(points(in.rest_positions, static_cast<std::size_t>(t.vertex_count)));
   scene.mesh.positions = scene.rest_positions;
   scene.velocities.resize(scene.rest_positions.size());
-  for (Index k = 0; k < t.triangle_count; ++k)
-    scene.mesh.triangles.push_back({t.triangles[k][0], t.triangles[k][1], t.triangles[k][2]});
-  for (Index e = 0; e < t.edge_count; ++e)
-    if (t.edge_triangles.offsets[e] == t.edge_triangles.offsets[e + 1])
-      scene.mesh.loose_edges.push_back({t.edges[e][0], t.edges[e][1]});
+  add_faces(t, scene.mesh);
   for (Index k = 0; k < in.tetrahedron_count; ++k) scene.mesh.tetrahedra.push_back(tetrahedron(in.tetrahedra[k]));
   for (Index k = 0; k < in.body_count; ++k) scene.bodies.push_back(body_of(in.bodies[k]));
   for (Index k = 0; k < in.spring_count; ++k) {
@@ -88,10 +100,7 @@ Scene scene_of(const ogc_scene& in) {
     if (group > scene.motions.size()) scene.motions.resize(group);
     if (group > 0) scene.motions[group - 1].vertices.push_back(v);
   }
-  const ogc_rows& partners = in.excluded_partners;
-  for (Index v = 0; v < t.vertex_count; ++v)
-    for (Index i = partners.offsets[v]; i < partners.offsets[v + 1]; ++i)
-      if (partners.items[i] > v) scene.excluded_pairs.push_back({v, partners.items[i]});
+  scene.excluded_pairs = pairs_of_rows(in.excluded_partners, t.vertex_count);
   scene.gravity = {in.gravity.x, in.gravity.y, in.gravity.z};
   scene.settings = settings_of(in.settings);
   return scene;
@@ -364,6 +373,57 @@ class Trace {
 };
 
 }  // namespace
+
+int ogc_plane(const ogc_plane_in* in, ogc_plane_out* out) {
+  const auto n = static_cast<std::size_t>(in->topology.vertex_count);
+  const std::vector<Vec3f> positions = points(in->positions, n);
+  Mesh mesh;
+  mesh.positions = to_double(positions);
+  add_faces(in->topology, mesh);
+  Topology topology = build_topology(mesh);
+  topology.inside_solid.assign(in->inside_solid, in->inside_solid + n);
+  const auto pairs = pairs_of_rows(in->excluded_partners, in->topology.vertex_count);
+  const CompressedRows partners = partner_rows(n, pairs);
+  const PlaneOut answer = ours().plane({&topology,
+                                        {{in->rigid_groups, n}, pairs.empty() ? nullptr : &partners},
+                                        positions,
+                                        {in->is_fixed, n},
+                                        in->query_radius,
+                                        in->bound_relaxation});
+  std::copy(answer.bound.begin(), answer.bound.end(), out->bound);
+  out->count = static_cast<std::int64_t>(answer.planes.items.size());
+  if (out->count > out->capacity) return 0;
+  std::size_t i = 0;
+  for (Index v = in->topology.vertex_count - 1; v >= 0; --v)  // in any order
+    for (const VertexPlane& plane : answer.planes.of(v)) {
+      const bool is_turned = breaks("normals turned") && i == 0;
+      const Vec3f n_of_first = is_turned ? Vec3f{-plane.normal.x, -plane.normal.y, -plane.normal.z} : plane.normal;
+      out->planes[i] = {v, static_cast<std::int32_t>(plane.pair.kind), plane.pair.first, plane.pair.second,
+                        plain(n_of_first)};
+      out->offset[i++] = plane.offset;
+    }
+  if (breaks("plane of nobody") && i > 0) out->planes[0].vertex = in->topology.vertex_count;
+  if (breaks("plane of no pair") && i > 0) out->planes[0].kind = 7;
+  return 0;
+}
+
+int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out) {
+  const auto n = static_cast<std::size_t>(in->n);
+  TruncateIn question{points(in->previous, n), points(in->position, n), {in->bound, in->bound + n}};
+  HalfSpacesIn& all = question.half_spaces;
+  all.offsets.assign(in->half_space_offsets, in->half_space_offsets + n + 1);
+  for (Index k = 0; k < all.offsets.back(); ++k)
+    all.items.push_back({point(in->half_spaces[k].normal), in->half_spaces[k].offset});
+  all.current = points(in->current, n);
+  for (std::size_t i = 0; i < n; ++i)
+    std::copy(std::begin(in->block[i]), std::end(in->block[i]), all.block.emplace_back().begin());
+  all.is_prescribed.assign(in->is_prescribed, in->is_prescribed + n);
+  if (breaks("all slide")) all.is_prescribed.assign(n, 0);
+  const TruncateOut answer = ours().truncate(question);
+  std::transform(answer.position.begin(), answer.position.end(), out->position, plain);
+  std::copy(answer.cut.begin(), answer.cut.end(), out->cut);
+  return 0;
+}
 
 int ogc_tetrahedron(const ogc_tetrahedron_in* in, ogc_force_out* out) {
   TetrahedronIn question;

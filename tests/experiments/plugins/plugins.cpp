@@ -186,7 +186,7 @@ TEST_CASE(
   refuses("nowhere.so", "", "there is no such file");
   refuses(OGC_SOURCE_DIR "/README.md", "", "it can't be loaded");
   refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
-  refuses(folder + "/libplugin_newer.so", "", "built for version 8");
+  refuses(folder + "/libplugin_newer.so", "", "built for version 9");
   refuses(folder + "/libplugin_older.so", "", "built for version 4");
   refuses(folder + "/libplugin_old_scenes.so", "",
           "built for version 6 of compare/plugin.h, and ogc_sweep takes what version 7 gives");
@@ -213,13 +213,13 @@ TEST_CASE("a library of the oldest version is asked about the stages whose struc
   CHECK(contains(result.out, {"old left unwritten: "}));
 }
 
-TEST_CASE("our own tetrahedra, rest state, sweep and step pass as a plug-in, and are timed beside ours",
+TEST_CASE("our own planes, regions, tetrahedra, rest state, sweep and step pass as a plug-in, timed beside ours",
           "[agreement]") {
   const ProgramResult result = compare_ours("", "--cases 1000 --json");
   INFO(result.out << result.err);
   REQUIRE(result.status == 0);
   const auto json = nlohmann::json::parse(result.out);
-  REQUIRE(json.at("stages").size() == 4);
+  REQUIRE(json.at("stages").size() == 6);
   for (const auto& stage : json.at("stages")) {
     CHECK(stage.at("mismatches") == 0);
     CHECK(stage.at("cases") >= 1000);
@@ -273,6 +273,21 @@ TEST_CASE("a plug-in with the stage tetrahedron is asked about solids", "[agreem
   INFO(result.out << result.err);
   CHECK(result.status == 0);
   CHECK(nlohmann::json::parse(result.out).at("stages").at(0).at("cases") >= 200);
+}
+
+TEST_CASE("a plug-in's planes are judged by what they hold, and it is asked to truncate by half-spaces",
+          "[agreement]") {
+  const auto [how, question, status, what] = GENERATE(table<std::string, std::string, int, std::string>(
+      {{"", "truncate --generator regions", 0, "truncate: passed"},
+       {"", "plane --generator solid", 0, "plane: passed"},
+       {"all slide", "truncate --generator regions", 1, " m from where it slides, or its way ends"},
+       {"normals turned", "plane --generator few", 1, " half-spaces that their vertex does not keep where it is"},
+       {"plane of nobody", "plane --generator few", 1, "no answer: plane 0 is of vertex "},
+       {"plane of no pair", "plane --generator few", 1, " and of a pair of kind 7"}}));
+  const ProgramResult result = compare_ours(how, question + " --cases 400");
+  INFO(how << "\n" << result.out << result.err);
+  CHECK(result.status == status);
+  CHECK(contains(result.out, {what}));
 }
 
 TEST_CASE("a sweep that hangs is ended", "[agreement]") {

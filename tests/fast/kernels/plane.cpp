@@ -223,6 +223,84 @@ TEST_CASE("plane: the least increase of a vertex's energy, not the shortest way"
   CHECK(kept.position.y == Approx(0.1 - 200.0 / 1001).epsilon(1e-4));
 }
 
+TEST_CASE("plane: where the ball ends a way, all of the way to it is gone, sliding or not", "[property]") {
+  RandomPairs random;
+  const HalfSpace beyond{{0, 0, 1}, 10};
+  int at_end = 0, count = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec centre = random.point(1), way = random.point(1);
+    const float length = std::sqrt(dot(way, way));
+    if (!(length > 0.1f)) continue;
+    const FeasibleRegion region{{centre, 1e-3f}, &beyond, 1};
+    const Vec proposal = centre + (3e-3f / length) * way;
+    for (const Truncated& kept :
+         {held(region, centre, proposal, InertiaMetric{}), held_on_path(region, centre, proposal)}) {
+      CHECK(kept.cut);
+      CHECK(is_exactly_in(region, kept.position));
+      const Vec gone = kept.position - centre;
+      at_end += std::sqrt(dot(gone, gone)) > 0.999e-3f;  // storing costs 2^-22 of a coordinate of 1
+      ++count;
+    }
+  }
+  CHECK(at_end == count);
+}
+
+TEST_CASE("plane: what goes along its half-space gets to the end, whichever coordinate is small", "[property]") {
+  // the half-space leans on a coordinate whose floats are too fine to bring a stored position back
+  RandomPairs random;
+  int short_of_end = 0, outside = 0, count = 0;
+  for (int i = 0; i < 6000; ++i) {
+    Vec x = random.point(1), n = random.point(1), way = random.point(1e-2f);
+    float* const coordinates[] = {&x.x, &x.y, &x.z};
+    float* const normals[] = {&n.x, &n.y, &n.z};
+    *coordinates[i % 3] *= 1e-3f;
+    *normals[i % 3] = 1;
+    way = way - (dot(way, n) / dot(n, n)) * n;
+    const double height = static_cast<double>(along(n, x));
+    const HalfSpace beside{n, height + 0x1p-49 * std::abs(height)};
+    const Vec target = x + way;
+    // rounding makes half of the ways climb
+    if (!is_behind(beside, x) || along(n, target) > along(n, x) || !(std::sqrt(dot(way, way)) > 5e-3f)) continue;
+    const FeasibleRegion region{{x, 4e-3f}, &beside, 1};
+    const Truncated kept = held_on_path(region, x, target);
+    const Vec gone = kept.position - x;
+    outside += !is_exactly_in(region, kept.position);
+    // 8 · 2⁻²⁴ of a coordinate of 1 for the steps, storing, three steps of a spacing
+    short_of_end += std::sqrt(dot(gone, gone)) < 4e-3f - 16 * 0x1p-24f;
+    ++count;
+  }
+  CHECK(count > 1000);
+  CHECK(outside == 0);
+  CHECK(short_of_end == 0);
+}
+
+TEST_CASE("plane: turned axes turn the answer, but for the spacing of stored numbers", "[property]") {
+  RandomPairs random;
+  const auto turned = [](const Vec& a) { return Vec{a.y, a.z, a.x}; };
+  int far = 0, outside = 0, cut = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec centre = random.point(1), n = random.point(1);
+    const float radius = 1e-2f;
+    const HalfSpace side{n, static_cast<double>(along(n, centre)) + 1e-3}, other{turned(n), side.offset};
+    const Vec proposal = centre + random.point(4 * radius);
+    const FeasibleRegion region{{centre, radius}, &side, 1}, region_turned{{turned(centre), radius}, &other, 1};
+    for (const bool is_prescribed : {false, true}) {
+      const auto hold = [is_prescribed](const FeasibleRegion& in, const Vec& from, const Vec& to) {
+        return is_prescribed ? held_on_path(in, from, to) : held(in, from, to, InertiaMetric{});
+      };
+      const Truncated a = hold(region, centre, proposal), b = hold(region_turned, turned(centre), turned(proposal));
+      const Vec apart = turned(a.position) - b.position;
+      cut += a.cut;
+      outside += a.cut != b.cut;
+      // each is stored within half a spacing of 2⁻²³, and stepped back by three of them
+      far += std::sqrt(dot(apart, apart)) > 7 * 0x1p-23f;
+    }
+  }
+  CHECK(cut > 20000);
+  CHECK(outside == 0);
+  CHECK(far == 0);
+}
+
 TEST_CASE("plane: touching pairs have none", "[unit]") {
   CHECK_FALSE(plane_of(PairPoints<1, 3>{{{0, 0, 0}}, {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}, false, false}).exists());
   CHECK_FALSE(plane_of(PairPoints<2, 2>{{{-1, 0, 0}, {1, 0, 0}}, {{0, -1, 0}, {0, 1, 0}}, false, false}).exists());

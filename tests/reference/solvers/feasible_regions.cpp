@@ -41,16 +41,11 @@ StartSolver start_reference_vbd = [](const compare::Scene& scene, const compare:
   return start_vbd(scene, options, {});
 };
 
-std::vector<std::uint8_t> fixed_of(const compare::Scene& scene) {
-  std::vector<std::uint8_t> fixed;
-  for (const compare::Index group : compare::rigid_groups(scene)) fixed.push_back(group == 0 ? 1 : 0);
-  return fixed;
-}
-
 /// Runs the scene and holds each state to the guarantee; how many half-spaces the states had, all in all.
 std::size_t half_spaces_of_held_run(StartSolver start, const compare::Scene& scene, int steps) {
   const compare::Topology topology = compare::build_topology(scene);
   const compare::Exclusions exclusions = compare::exclusions(scene);
+  const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions.groups);
   const auto simulation = start(scene, {});
   std::size_t half_spaces = 0;
   for (int step = 1; step <= steps; ++step) {
@@ -59,9 +54,9 @@ std::size_t half_spaces_of_held_run(StartSolver start, const compare::Scene& sce
     REQUIRE(row.status == compare::step_clean);
     const compare::Snapshot state = simulation->snapshot();
     half_spaces += state.planes.items.size();
-    const compare::PlaneIn in{&topology,       exclusions,         state.previous,
-                              fixed_of(scene), state.query_radius, static_cast<float>(scene.settings.bound_relaxation)};
-    CHECK(plane(in, {state.planes, state.bounds}).kept());
+    const compare::PlaneIn in{&topology, exclusions,         state.previous,
+                              is_fixed,  state.query_radius, static_cast<float>(scene.settings.bound_relaxation)};
+    CHECK(plane_guarantee(in, {state.planes, state.bounds}).kept());
     CHECK(broken_planes(state.planes, state.positions) == 0);
     CHECK(compare::audit(topology, compare::to_double(state.positions), exclusions).count == 0);
   }

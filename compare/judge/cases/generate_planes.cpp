@@ -1,0 +1,196 @@
+// States that are asked for planes, in units of one edge length. The general ones are those of detection, whose pairs
+// are all within r_q of one another. Ladders lead to where planes cease to exist (a gap of a few ulp, a collapsed
+// triangle, a far origin), to where a vertex has more pairs than planes, to sides that are fixed, whole or in part.
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "compare/judge/cases/generators.hpp"
+#include "compare/judge/cases/mesh_builder.hpp"
+#include "compare/judge/cases/solid_block.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/tetrahedra.hpp"
+#include "compare/stages/plane.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+using namespace placement;
+
+float relaxation(Random& random) {
+  constexpr std::array<float, 5> usual{0.45f, 0.45f, 0.25f, 0.49f, 1.0f / 3};
+  return random.one_in(2) ? random.pick(std::span<const float>(usual)) : static_cast<float>(random.between(0.01, 0.49));
+}
+
+PlaneCase with_planes(Random& random, const MeshCase& mesh, float query_radius) {
+  return {mesh.topology,
+          mesh.rigid_groups,
+          mesh.positions,
+          query_radius,
+          relaxation(random),
+          mesh.partners,
+          fixed_flags(mesh.rigid_groups)};
+}
+
+/// A case of detection by the name of its generator, with r in the place of r_q: more than that would be pairs without
+/// end.
+CaseData of_detection(Random& random, std::string_view generator) {
+  for (const Generator& row : detect_generators()) {
+    if (row.name != generator) continue;
+    const MeshCase mesh = case_of<MeshCase>(row.make(random));
+    return with_planes(random, mesh, mesh.contact_radius);
+  }
+  throw InputError("detection has no generator '" + std::string(generator) + "'");
+}
+
+CaseData soup(Random& random) { return of_detection(random, "soup"); }
+CaseData cloth(Random& random) { return of_detection(random, "cloth"); }
+CaseData few(Random& random) { return of_detection(random, "few"); }
+CaseData bits(Random& random) { return of_detection(random, "bits"); }
+CaseData lattice(Random& random) { return of_detection(random, "lattice"); }
+CaseData sheets(Random& random) { return of_detection(random, "ladder.sheets"); }
+CaseData stack(Random& random) { return of_detection(random, "ladder.stack"); }
+CaseData needles(Random& random) { return of_detection(random, "ladder.needles"); }
+CaseData parallel(Random& random) { return of_detection(random, "ladder.parallel"); }
+CaseData strands(Random& random) { return of_detection(random, "ladder.strands"); }
+CaseData seams(Random& random) { return of_detection(random, "ladder.seams"); }
+CaseData groups(Random& random) { return of_detection(random, "ladder.groups"); }
+
+/// finish, with r_q in edge lengths.
+CaseData finished(Random& random, const MeshBuilder& builder, double query_radius, double jitter) {
+  const MeshCase mesh = finish(random, builder, {jitter, query_radius});
+  return with_planes(random, mesh, mesh.contact_radius);
+}
+
+/// Two patches whose distance goes down to 0, in register, shifted, turned, or corner to corner.
+CaseData gap(Random& random) {
+  MeshBuilder builder;
+  const double height = std::abs(random.rung()), turn = random.one_in(2) ? 0.8 : 1;
+  builder.grid(1 + random.below(2), 1, {}, {1, 0, 0}, {0, 1, 0});
+  const double shift = random.one_in(3) ? 0 : random.between(-1, 1);
+  const double tilt = random.one_in(2) ? 0 : random.between(0, 1);
+  builder.grid(1, 1, {shift, 0.3 * shift, height}, {turn, std::sqrt(1 - turn * turn), tilt},
+               {-std::sqrt(1 - turn * turn), turn, 0});
+  return finished(random, builder, random.between(0.1, 1), random.one_in(2) ? 0 : std::abs(random.rung()));
+}
+
+/// Triangles without area and edges without length, beside whole ones.
+CaseData collapsed(Random& random) {
+  MeshBuilder builder;
+  const double apart = random.magnitude(-3, 0);
+  for (int i = 3 + random.below(6); i > 0; --i) {
+    const Vec3 a = in_box(random, 0, 1.5), along = in_box(random, -1, 1);
+    const Vec3 b = random.one_in(4) ? a : sum(a, along);
+    const Vec3 c = random.one_in(2) ? sum(a, scaled(along, random.one_in(3) ? 1 : random.between(-0.5, 1.5)))
+                                    : sum(b, scaled(in_box(random, -1, 1), random.one_in(2) ? random.rung() : 1));
+    const Index first = builder.add(a);
+    builder.add(b);
+    builder.add(c);
+    builder.triangles.push_back({first, first + 1, first + 2});
+    if (random.one_in(3)) builder.loose_edges.push_back({builder.add(sum(a, scaled(along, apart))), first + 1});
+  }
+  for (Edge& e : builder.loose_edges) e = {std::min(e[0], e[1]), std::max(e[0], e[1])};
+  return finished(random, builder, random.between(0.1, 1), 0);
+}
+
+/// Layers of fans whose hubs and rims have hundreds of pairs each, many of them at one distance.
+CaseData crowd(Random& random) {
+  MeshBuilder builder;
+  const int layers = 2 + random.below(3), rim = 12 + random.below(30);
+  const double apart = random.magnitude(-3, -0.7);
+  for (int k = 0; k < layers; ++k) builder.fan(rim, {0, 0, k * apart}, random.one_in(2), 0.2 * random.unit());
+  return finished(random, builder, apart * random.between(1.05, layers), random.one_in(3) ? 0 : 0.3 * apart);
+}
+
+/// A sheet above another that is fixed, whole or in part, as are vertices of the upper one.
+CaseData fixed(Random& random) {
+  MeshBuilder builder;
+  const double height = random.one_in(3) ? std::abs(random.rung()) : random.magnitude(-2, 0);
+  builder.grid(1 + random.below(3), 1 + random.below(3), {}, {1, 0, 0}, {0, 1, 0});
+  builder.group(0, random.one_in(4) ? -1 : 0);
+  const auto first = static_cast<Index>(builder.points.size());
+  builder.grid(1 + random.below(3), 1 + random.below(2), {0.3, 0.2, height}, {1, 0, 0}, {0, 1, 0});
+  builder.group(first, -1);
+  const bool is_mixed = random.one_in(2);
+  for (Index& group : builder.groups)
+    if (is_mixed && random.one_in(3)) group = random.below(3) - 1;
+  return finished(random, builder, random.between(0.2, 1), random.one_in(3) ? 0 : std::abs(random.rung()));
+}
+
+/// A corner of a small triangle in the corner of three walls, a rung from each.
+CaseData corner(Random& random) {
+  MeshBuilder builder;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<Vec3, 3> wall{Vec3{-0.2, -0.3, 0}, Vec3{3, 0, 0}, Vec3{0, 3, 0}};
+    for (Vec3& p : wall) p = axis == 0 ? p : axis == 1 ? Vec3{0, p.x, p.y} : Vec3{p.y, 0, p.x};
+    const Index first = builder.add(wall[0]);
+    builder.add(wall[1]);
+    builder.add(wall[2]);
+    builder.triangles.push_back({first, first + 1, first + 2});
+  }
+  builder.group(0, random.one_in(2) ? 0 : -1);
+  const auto near = [&] { return std::max(std::abs(random.rung()), 1e-7); };
+  const Vec3 tip{near(), near(), near()};
+  const Index first = builder.add(tip);
+  builder.add(sum(tip, in_box(random, 0.2, 1)));
+  builder.add(sum(tip, in_box(random, 0.2, 1)));
+  builder.group(first, -1);
+  builder.triangles.push_back({first, first + 1, first + 2});
+  return finished(random, builder, random.between(0.2, 1), 0);
+}
+
+/// Sheets so far from the origin that a few ulp of a coordinate lie between them, or none.
+CaseData far(Random& random) {
+  MeshBuilder builder;
+  const double height = random.magnitude(-4, -1);
+  builder.grid(1 + random.below(2), 1, {}, {1, 0, 0}, {0, 1, 0});
+  builder.grid(1, 1, {random.between(-0.5, 0.5), 0.3, height}, {0.8, 0.6, 0}, {-0.6, 0.8, 0});
+  const Vec3 shift = scaled(in_box(random, -1, 1), height * std::pow(2, 16 + random.below(9)));
+  for (Vec3& p : builder.points) p = sum(p, shift);
+  return finished(random, builder, random.between(0.1, 1), 0);
+}
+
+/// A block with a vertex inside, below a sheet.
+CaseData solid(Random& random) {
+  Mesh block = jittered_block(random, 1, random.between(0.3, 1));
+  block.triangles = boundary_triangles(block.tetrahedra);
+  const auto above = static_cast<Index>(block.positions.size());
+  const double height = random.magnitude(-2, 0);
+  for (const Vec3& p : {Vec3{0, 0, 2}, Vec3{2, 0.5, 2}, Vec3{0.5, 2, 2}})
+    block.positions.push_back(sum(p, {0, 0, height}));
+  block.triangles.push_back({above, above + 1, above + 2});
+  permute(random, block.positions);
+  MeshCase mesh;
+  mesh.topology = std::make_shared<Topology>(build_topology(block));
+  mesh.positions = to_single(block.positions);
+  mesh.rigid_groups.assign(mesh.positions.size(), -1);
+  return with_planes(random, mesh, static_cast<float>(random.magnitude(-2, 0)));
+}
+
+constexpr std::array<Generator, 20> table{{{"soup", 20, true, soup},
+                                           {"cloth", 20, true, cloth},
+                                           {"few", 4, true, few},
+                                           {"bits", 10, false, bits},
+                                           {"dust", 6, false, soup},
+                                           {"lattice", 12, false, lattice},
+                                           {"ladder.sheets", 6, false, sheets},
+                                           {"ladder.stack", 6, false, stack},
+                                           {"ladder.needles", 6, false, needles},
+                                           {"ladder.parallel", 6, false, parallel},
+                                           {"ladder.strands", 4, false, strands},
+                                           {"ladder.seams", 4, false, seams},
+                                           {"ladder.groups", 4, false, groups},
+                                           {"ladder.gap", 12, false, gap},
+                                           {"ladder.collapsed", 10, false, collapsed},
+                                           {"ladder.crowd", 12, false, crowd},
+                                           {"ladder.fixed", 10, false, fixed},
+                                           {"ladder.corner", 8, false, corner},
+                                           {"ladder.far", 8, false, far},
+                                           {"solid", 4, false, solid, 0, Stage::tetrahedron}}};
+
+}  // namespace
+
+std::span<const Generator> plane_generators() { return table; }
+
+}  // namespace ogc::compare

@@ -1,0 +1,299 @@
+// Stage plane. Whose planes they are is free: the truth follows the answer and says what it holds apart, and what it
+// leaves to the vertices.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "compare/judge/cases/dust.hpp"
+#include "compare/judge/cases/mutate.hpp"
+#include "compare/judge/engine/features.hpp"
+#include "compare/judge/engine/units.hpp"
+#include "compare/judge/report/form_tools.hpp"
+#include "compare/judge/stages/mesh_case.hpp"
+#include "compare/judge/stages/parameter_ranges.hpp"
+#include "compare/judge/stages/stage_of.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+std::string vertex(std::size_t v) { return "vertex " + std::to_string(v); }
+
+bool has(std::span<const Index> vertices, Index v) { return std::ranges::find(vertices, v) != vertices.end(); }
+
+/// Whether v is part of the pair, which has no vertex on both sides.
+bool is_part(const Topology& topology, const PrimitivePair& pair, Index v) {
+  const auto is_one_of = [](Index i, auto count) { return i >= 0 && i < static_cast<Index>(count); };
+  if (pair.kind == PrimitivePair::Kind::edge_edge) {
+    if (!is_one_of(pair.first, topology.edges.size()) || !is_one_of(pair.second, topology.edges.size())) return false;
+    const Edge &e = topology.edges[static_cast<std::size_t>(pair.first)],
+               &f = topology.edges[static_cast<std::size_t>(pair.second)];
+    return pair.first < pair.second && has(e, v) != has(f, v);
+  }
+  if (!is_one_of(pair.first, topology.vertex_count) || !is_one_of(pair.second, topology.triangles.size())) return false;
+  const Triangle& t = topology.triangles[static_cast<std::size_t>(pair.second)];
+  return pair.kind == PrimitivePair::Kind::vertex_triangle && !has(t, pair.first) && (pair.first == v || has(t, v));
+}
+
+/// Rows of the right number, one after another.
+bool are_rows(const VertexPlanes& planes, std::size_t count) {
+  const std::vector<Index>& offsets = planes.offsets;
+  if (offsets.empty()) return planes.items.empty();
+  return offsets.size() == count + 1 && offsets.front() == 0 && std::ranges::is_sorted(offsets) &&
+         offsets.back() == static_cast<Index>(planes.items.size());
+}
+
+/// What is wrong with a row; nothing where it is one of the vertex.
+std::string problem_of_row(const PlaneIn& in, std::span<const VertexPlane> row, Index v) {
+  const auto order = [](const VertexPlane& p) { return std::tuple(p.pair.kind, p.pair.first, p.pair.second); };
+  if (!row.empty() && in.is_fixed[static_cast<std::size_t>(v)] != 0) return "is fixed, and bears a plane";
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (!is_part(*in.topology, row[i].pair, v)) return "bears a plane of a pair that it is no part of";
+    if (i > 0 && !(order(row[i - 1]) < order(row[i]))) return "bears planes that do not ascend by pair";
+    if (!is_finite(row[i].normal) || !std::isfinite(row[i].offset)) return "bears a plane that is not finite";
+  }
+  return "";
+}
+
+}  // namespace
+
+bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally) {
+  tally.begin(test.name);
+  const std::size_t count = in.positions.size();
+  if (!right_length(out.bound.size(), count, "bound", tally)) return false;
+  if (!are_rows(out.planes, count)) {
+    tally.mismatch("planes: the rows are not one for each vertex, one after another");
+    return false;
+  }
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto i = static_cast<Index>(v);
+    const std::string problem = problem_of_row(in, out.planes.of(i), i);
+    if (problem.empty()) continue;
+    tally.mismatch("planes: " + vertex(v) + " " + problem);
+    return false;
+  }
+  return true;
+}
+
+void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally) {
+  tally.begin(test.name);
+  const PlaneGuarantee& held = truth.guarantee;
+  const PlaneFreedom& free = truth.freedom;
+  tally.count(in.positions.size(), free.pairs, 0);
+  const auto name = [&](const PrimitivePair& pair) { return pair_name(pair, *in.topology); };
+  if (held.broken > 0)
+    tally.mismatch("planes: " + std::to_string(held.broken) +
+                   " half-spaces that their vertex does not keep where it is");
+  if (held.uncovered > 0)
+    tally.mismatch("planes: " + std::to_string(held.uncovered) +
+                   " pairs that neither a plane nor balls hold apart; the first: " + name(held.worst));
+  if (held.too_large > 0) tally.mismatch("bound: " + std::to_string(held.too_large) + " balls are larger than γ_p r_q");
+  if (free.missing > 0)
+    tally.mismatch("planes: " + std::to_string(free.missing) + " of " + std::to_string(free.due) +
+                   " pairs that must have a plane have none; the first: " + name(free.first_missing));
+  if (free.needless > 0)
+    tally.mismatch("planes: " + std::to_string(free.needless) + " half-spaces of pairs that are none within r_q");
+  if (free.bounded_inside > 0)
+    tally.mismatch("bound: " + std::to_string(free.bounded_inside) + " vertices inside a solid have a bound");
+  tally.error(0, free.narrowing, [&] { return name(free.narrowest) + " may not come as close as with balls"; });
+  for (std::size_t v = 0; v < free.ball_shortfall.size(); ++v)
+    tally.error(1, free.ball_shortfall[v], [&] {
+      return vertex(v) + ": " +
+             text("the ball of %.9g is smaller than need be, γ_p %.9g", out.bound[v], in.bound_relaxation);
+    });
+}
+
+namespace {
+
+/// A change of the question about an answer.
+template <class Change>
+WrongForm plane_asked(std::string name, std::string meaning, Change change) {
+  return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
+    Authority wrong = authority;
+    wrong.plane = [right = authority.plane, change](const PlaneIn& in, const PlaneOut& out) {
+      return change(right, in, out);
+    };
+    return wrong;
+  });
+}
+
+using AskPlane = std::function<PlaneTruth(const PlaneIn&, const PlaneOut&)>;
+
+std::vector<WrongForm> plane_forms() {
+  return {plane_asked("groups_ignored", "pairs inside one rigid group are kept",
+                      [](const AskPlane& right, PlaneIn in, const PlaneOut& out) {
+                        in.exclusions.groups = {};
+                        return right(in, out);
+                      }),
+          plane_asked("excluded_pairs_ignored", "pairs beside a stitch are kept",
+                      [](const AskPlane& right, PlaneIn in, const PlaneOut& out) {
+                        in.exclusions.partners = nullptr;
+                        return right(in, out);
+                      }),
+          plane_asked("balls_alone", "no planes: each vertex has the ball of its nearest pair",
+                      [](const AskPlane& right, const PlaneIn& in, const PlaneOut& out) {
+                        PlaneTruth truth = right(in, out);
+                        if (out.planes.items.empty()) truth.freedom.missing = 0;
+                        return truth;
+                      }),
+          plane_asked("ball_of_all_pairs", "the ball is that of the nearest pair, whether it has a plane or not",
+                      [](const AskPlane& right, const PlaneIn& in, const PlaneOut& out) {
+                        PlaneTruth truth = right(in, out);
+                        std::ranges::fill(truth.freedom.ball_shortfall, 0.0);
+                        return truth;
+                      }),
+          plane_asked("inside_bounded", "vertices inside solids are bounded like those of the surface",
+                      [](const AskPlane& right, const PlaneIn& in, const PlaneOut& out) {
+                        PlaneTruth truth = right(in, out);
+                        truth.freedom.bounded_inside = 0;
+                        return truth;
+                      })};
+}
+
+struct Plane : Numbered, InEveryRun {
+  using Case = PlaneCase;
+  using In = PlaneIn;
+  static constexpr StageInfo info{.name = "plane",
+                                  .question = "half-spaces of near pairs, a ball for the others",
+                                  .unit = "vertex",
+                                  .reference = "reference/geometry/plane.cpp",
+                                  .kind = CaseKind::mesh,
+                                  .has_boundary = false,
+                                  .determinism = Determinism::cpu_to_gpu};
+  static constexpr std::array metrics{MetricInfo{"narrowing", "u max(d, Σ|δ|)", plane_narrowing_tolerance},
+                                      MetricInfo{"ball", "u γ_p max(d, Σ|δ|)", plane_ball_tolerance}};
+  static constexpr std::array parameters{ranges::query_radius, ranges::bound_relaxation};
+  static std::string set(Case& c, std::span<const Override> values) {
+    for (const Override& value : values)
+      (value.name == ranges::query_radius.name ? c.query_radius : c.bound_relaxation) = value.value;
+    return "";
+  }
+
+  static std::span<const Generator> generators() { return plane_generators(); }
+
+  static void check(const Case& c, FirstProblem& problem) {
+    const auto n = static_cast<std::size_t>(c.topology->vertex_count);
+    problem.require(c.positions.size() == n && c.rigid_groups.size() == n,
+                    "an array does not have one entry for each vertex");
+    problem.require(c.is_fixed == fixed_flags(c.rigid_groups), "fixed vertices are not those of group 0");
+    problem.vectors("a coordinate", c.positions);
+    problem.number("a query radius", c.query_radius, 0x1p-60f, vast);
+    problem.number("a bound relaxation", c.bound_relaxation, 0x1p-10f, 0.5f - 0x1p-10f);
+  }
+  static void mutate(Random& random, Case& c) { mutate_points(random, c.positions); }
+  static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.positions}); }
+  static Case of_state(const States& states, std::uint64_t index, Random& random) {
+    return states.plane(states.frame(index), random);
+  }
+  static Case of_scene(const Scene& scene, const Contestant&) {
+    MeshCase c = case_at_start(scene);
+    std::vector<std::uint8_t> is_fixed = fixed_flags(c.rigid_groups);
+    return {std::move(c.topology),
+            std::move(c.rigid_groups),
+            std::move(c.positions),
+            c.query_radius,
+            static_cast<float>(scene.settings.bound_relaxation),
+            std::move(c.partners),
+            std::move(is_fixed)};
+  }
+
+  /// As a state whose r is r_q.
+  static MeshCase as_state(const Case& c) {
+    return {c.topology, c.rigid_groups, c.positions, c.query_radius, c.query_radius, c.partners};
+  }
+  static Json write(const Case& c) {
+    Json json = mesh_case_to_json(as_state(c));
+    json["bound_relaxation"] = hexadecimal(c.bound_relaxation);
+    return json;
+  }
+  static Case read(const Json& data) {
+    MeshCase state = to_mesh_case(data);
+    std::vector<std::uint8_t> is_fixed = fixed_flags(state.rigid_groups);
+    return {std::move(state.topology), std::move(state.rigid_groups),       std::move(state.positions),
+            state.query_radius,        number(data.at("bound_relaxation")), std::move(state.partners),
+            std::move(is_fixed)};
+  }
+
+  static Shape shape(const Case& c) {
+    Shape shape;
+    shape.add(*c.topology, c.positions);
+    return shape;
+  }
+  static std::vector<Quantity> inputs(const Case& c) {
+    std::vector<Quantity> all = joined(
+        {scalar("query_radius", "m", c.query_radius), scalar("bound_relaxation", "1", c.bound_relaxation)},
+        mesh_quantities(*c.topology),
+        std::vector{points("positions", "m", c.positions), indices("rigid_groups", c.rigid_groups)});
+    if (c.partners.rows() > 0) all.push_back(indices("excluded_pairs", pairs_of(c.partners)));
+    return all;
+  }
+
+  static const Topology* mesh(const Case& c) { return c.topology.get(); }
+  static Case part(const Case& c, const MeshPart& part) {
+    return {part.topology,
+            MeshPart::picked(c.rigid_groups, part.vertices),
+            MeshPart::picked(c.positions, part.vertices),
+            c.query_radius,
+            c.bound_relaxation,
+            part.partners(c.partners),
+            MeshPart::picked(c.is_fixed, part.vertices)};
+  }
+  static ShortenedNumbers numbers(Case& c) { return {coordinates(c), {&c.query_radius}}; }
+
+  static In question(const Case& c) {
+    return {c.topology.get(), {c.rigid_groups, c.partners.rows() > 0 ? &c.partners : nullptr},
+            c.positions,      c.is_fixed,
+            c.query_radius,   c.bound_relaxation};
+  }
+  static In question_of(const TestCase& test) { return question(case_of<Case>(test.data)); }
+  static bool can_judge(const Contestant& c, const Authority& a) { return c.plane && a.plane; }
+  /// The truth follows the answer.
+  static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
+    for (const TestCase& test : cases) {
+      const In in = question_of(test);
+      const PlaneOut out = asker.answer(in, c.plane);
+      if (!can_judge_plane(test, in, out, tally)) continue;
+      const std::function<PlaneTruth(const In&)> about_answer = [&](const In& asked) { return a.plane(asked, out); };
+      judge_plane(test, in, asker.truth(in, about_answer), out, tally);
+    }
+  }
+  static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
+    std::vector<std::string> all;
+    for (const TestCase& test : cases) {
+      Bits bits;
+      bits.add(c.plane(question_of(test)));
+      all.push_back(bits.take());
+    }
+    return all;
+  }
+  static BenchmarkCall benchmark(Cases cases, const Contestant& c, const Authority&) {
+    const auto test = std::make_shared<const TestCase>(cases.front());
+    return {[test, in = question_of(*test), stage = c.plane] { stage(in); }, in_vertices(*test)};
+  }
+  static std::int64_t in_vertices(const TestCase& test) { return case_of<Case>(test.data).topology->vertex_count; }
+
+  /// Of both sides the same numbers; what is wrong with them the verdict says.
+  static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
+    const In in = question_of(test);
+    std::string note;
+    const auto out = answer_or_note(c.plane, in, note);
+    Tally tally(Stage::plane);
+    if (!out || !can_judge_plane(test, in, *out, tally)) return {{}, out ? tally.mismatches[0].message : note};
+    const PlaneTruth truth = a.plane(in, *out);
+    return paired(
+        {compare::numbers("bound", "m", out->bound), count("pairs without a separator", 0),
+         count("due pairs without a plane", 0), count("planes", out->planes.items.size())},
+        {compare::numbers("bound", "m", out->bound), count("pairs without a separator", truth.guarantee.uncovered),
+         count("due pairs without a plane", truth.freedom.missing), count("planes", out->planes.items.size())},
+        note);
+  }
+  static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return plane_forms(); }
+};
+
+}  // namespace
+
+constinit const StageTraits stages::plane = make_traits<Plane>();
+
+}  // namespace ogc::compare

@@ -1,0 +1,77 @@
+// The judge's way in to planes: a detection whose bounds are planes, and truncation by ball and half-spaces.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compare/stages/plane.hpp"
+#include "compare/stages/truncate.hpp"
+#include "fast/kernels/plane.hpp"
+#include "fast/probes/download.hpp"
+#include "fast/probes/probe_memory.hpp"
+
+namespace ogc::fast {
+
+/// The stage `plane`. `list_capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
+template <class Backend>
+compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int list_capacity = 0) {
+  Detection<Backend> detection(backend, *in.topology, in.exclusions, list_capacity, 0, compare::Bounds::planes,
+                               {in.is_fixed.begin(), in.is_fixed.end()});
+  ProbeMemory<Backend> memory(backend);
+  const Vec* positions = memory.template in<Vec>(std::vector<compare::Vec3f>(in.positions.begin(), in.positions.end()));
+  const float* query_radius = memory.template in<float>(std::vector<float>{in.query_radius});
+  detection.rebuild(positions);
+  do {
+    // Nobody asks which of the pairs are contacts.
+    detection.detect(positions, in.query_radius, query_radius, in.bound_relaxation);
+    backend.synchronize();
+  } while (detection.grow());
+  return {detection.download_planes(), download_items(backend, detection.view().bound, in.positions.size())};
+}
+
+/// Truncation of a proposal by its region, case by case.
+struct ProbeRegion {
+  FeasibleRegions balls;    ///< by case
+  const HalfSpace* planes;  ///< of all cases
+  const int* offsets;       ///< by case, and the end
+  const Vec* current;       ///< by case [m], in its region
+  const Symmetric3* block;  ///< by case, of free vertices [N/m]
+  const std::uint8_t* is_prescribed;
+  const Vec* position;  ///< proposals by case [m]
+  Vec* result;          ///< by case [m], written
+  std::uint8_t* cut;    ///< by case: 1 where the proposal was changed, written
+
+  OGC_HD void operator()(int i) const {
+    const FeasibleRegion region{balls.ball(i), planes + offsets[i], offsets[i + 1] - offsets[i]};
+    // H is positive definite; where its pivots are noise the shortest way out serves.
+    const Truncated kept = is_prescribed[i] != 0 ? held_on_path(region, current[i], position[i])
+                                                 : held(region, current[i], position[i], BlockMetric{block[i], 1.0F});
+    result[i] = kept.position;
+    cut[i] = kept.cut;
+  }
+};
+
+/// The stage `truncate` where cases have half-spaces.
+template <class Backend>
+compare::TruncateOut probe_regions(Backend& backend, const compare::TruncateIn& in) {
+  ProbeMemory<Backend> memory(backend);
+  compare::TruncateOut out;
+  const std::size_t n = in.position.size();
+  const compare::HalfSpacesIn& all = in.half_spaces;
+  const ProbeRegion probe{
+      .balls = {memory.template in<Vec>(in.previous), memory.template in<float>(in.bound)},
+      .planes = memory.template in<HalfSpace>(all.items),
+      .offsets = memory.template in<int>(all.offsets),
+      .current = memory.template in<Vec>(all.current),
+      .block = memory.template in<Symmetric3>(all.block),
+      .is_prescribed = memory.template in<std::uint8_t>(all.is_prescribed),
+      .position = memory.template in<Vec>(in.position),
+      .result = memory.template out<Vec>(out.position, n),
+      .cut = memory.template out<std::uint8_t>(out.cut, n),
+  };
+  backend.for_each(static_cast<int>(n), probe);
+  memory.fetch();
+  return out;
+}
+
+}  // namespace ogc::fast

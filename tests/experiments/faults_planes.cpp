@@ -1,0 +1,252 @@
+// Faults of the planes: what lets a pair pass, and what holds vertices that nothing holds.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "reference/geometry/closest_face.hpp"
+#include "reference/geometry/pair_planes.hpp"
+#include "tests/compare/judge/faults.hpp"
+
+namespace ogc::tests {
+
+using namespace compare;
+
+namespace {
+
+using Kind = PrimitivePair::Kind;
+using Rows = std::vector<std::vector<VertexPlane>>;
+
+Rows rows_of(const PlaneOut& out) {
+  Rows rows;
+  for (std::size_t v = 0; v < out.bound.size(); ++v) {
+    const auto row = out.planes.of(static_cast<Index>(v));
+    rows.emplace_back(row.begin(), row.end());
+  }
+  return rows;
+}
+
+VertexPlanes planes_of(const Rows& rows) {
+  VertexPlanes planes{{0}, {}};
+  for (const auto& row : rows) {
+    planes.items.insert(planes.items.end(), row.begin(), row.end());
+    planes.offsets.push_back(static_cast<Index>(planes.items.size()));
+  }
+  return planes;
+}
+
+/// Whether v is on the pair's second side.
+bool is_second(const PlaneIn& in, const PrimitivePair& pair, Index v) {
+  if (pair.kind == Kind::vertex_triangle) return v != pair.first;
+  return std::ranges::find(in.topology->edges[static_cast<std::size_t>(pair.first)], v) ==
+         in.topology->edges[static_cast<std::size_t>(pair.first)].end();
+}
+
+/// The right rows, spoiled.
+Fault row_fault(const std::string& name, const std::function<void(const PlaneIn&, Rows&)>& spoil) {
+  return {"plane: " + name, Stage::plane, [spoil](Contestant& contestant, const Authority&) {
+            contestant.plane = [right = contestant.plane, spoil](const PlaneIn& in) {
+              PlaneOut out = right(in);
+              Rows rows = rows_of(out);
+              spoil(in, rows);
+              out.planes = planes_of(rows);
+              return out;
+            };
+          }};
+}
+
+/// The same, each half-space for itself.
+Fault plane_fault(const std::string& name, const std::function<void(const PlaneIn&, Index, VertexPlane&)>& spoil) {
+  return row_fault(name, [spoil](const PlaneIn& in, Rows& rows) {
+    for (std::size_t v = 0; v < rows.size(); ++v)
+      for (VertexPlane& plane : rows[v]) spoil(in, static_cast<Index>(v), plane);
+  });
+}
+
+Fault ball_fault(const std::string& name, const std::function<void(const PlaneIn&, PlaneOut&)>& spoil) {
+  return {"plane: " + name, Stage::plane, [spoil](Contestant& contestant, const Authority&) {
+            contestant.plane = [right = contestant.plane, spoil](const PlaneIn& in) {
+              PlaneOut out = right(in);
+              spoil(in, out);
+              return out;
+            };
+          }};
+}
+
+/// The right answer to a question that is changed first.
+Fault asked_wrongly(const std::string& name, const std::function<void(PlaneIn&)>& change) {
+  return {"plane: " + name, Stage::plane, [change](Contestant& contestant, const Authority&) {
+            contestant.plane = [right = contestant.plane, change](const PlaneIn& in) {
+              PlaneIn other = in;
+              change(other);
+              return right(other);
+            };
+          }};
+}
+
+/// The corners of a triangle that the closest point does not depend on bear no plane: "their approach does not matter".
+void weight_zero_ignored(const PlaneIn& in, Rows& rows) {
+  const auto at = [&](Index v) { return in.positions[static_cast<std::size_t>(v)]; };
+  for (std::size_t v = 0; v < rows.size(); ++v)
+    std::erase_if(rows[v], [&](const VertexPlane& plane) {
+      const auto own = static_cast<Index>(v);
+      if (plane.pair.kind != Kind::vertex_triangle || plane.pair.first == own) return false;
+      const Triangle& t = in.topology->triangles[static_cast<std::size_t>(plane.pair.second)];
+      const auto feature = static_cast<std::size_t>(
+          reference::closest_feature({at(t[0]), at(t[1]), at(t[2])}, at(plane.pair.first)));
+      const std::size_t k = static_cast<std::size_t>(std::ranges::find(t, own) - t.begin());
+      if (feature < 3) return k != feature;
+      return feature < 6 && k != feature - 3 && k != (feature - 2) % 3;
+    });
+}
+
+/// Each vertex keeps the planes of its sixteen nearest pairs, whatever the pair's other vertices do.
+void asymmetric_cap(const PlaneIn&, Rows& rows) {
+  for (auto& row : rows)
+    if (row.size() == planes_of_vertex) row.pop_back();
+}
+
+std::vector<Fault> plane_by_plane() {
+  return {
+      plane_fault("normal of the second side not turned",
+                  [](const PlaneIn& in, Index v, VertexPlane& plane) {
+                    if (!is_second(in, plane.pair, v)) return;
+                    plane.normal = {-plane.normal.x, -plane.normal.y, -plane.normal.z};
+                    plane.offset = -plane.offset;
+                  }),
+      plane_fault("each side rounds its own normal",
+                  [](const PlaneIn& in, Index v, VertexPlane& plane) {
+                    if (is_second(in, plane.pair, v)) plane.normal.x = std::nextafter(plane.normal.x, 2.0f);
+                  }),
+      plane_fault("offsets in single precision",
+                  [](const PlaneIn&, Index, VertexPlane& plane) { plane.offset = static_cast<float>(plane.offset); }),
+      plane_fault("one offset in the middle of a pair, which both sides may reach",
+                  [](const PlaneIn& in, Index v, VertexPlane& plane) {
+                    // of a gap g each side had γ_p g, up to the middle g/2 are left
+                    const auto& x = in.positions[static_cast<std::size_t>(v)];
+                    const Vec3f& n = plane.normal;
+                    const double room = plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);
+                    plane.offset += room * (0.5 / double{in.bound_relaxation} - 1) * (1 + 0x1p-20);
+                  }),
+      plane_fault("two γ_p whether or not the other side is fixed",
+                  [](const PlaneIn& in, Index v, VertexPlane& plane) {
+                    const auto& x = in.positions[static_cast<std::size_t>(v)];
+                    const Vec3f& n = plane.normal;
+                    plane.offset += plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);
+                  }),
+      plane_fault("no room: each side stays where it is",
+                  [](const PlaneIn& in, Index v, VertexPlane& plane) {
+                    const auto& x = in.positions[static_cast<std::size_t>(v)];
+                    const Vec3f& n = plane.normal;
+                    const double height = double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z;
+                    plane.offset = std::min(plane.offset, height + 0x1p-45 * std::abs(height));
+                  }),
+      plane_fault("a wrong slack: planes that their vertex does not keep by an ulp",
+                  [](const PlaneIn& in, Index v, VertexPlane& plane) {
+                    const auto& x = in.positions[static_cast<std::size_t>(v)];
+                    const Vec3f& n = plane.normal;
+                    const double height = double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z;
+                    plane.offset = std::min(plane.offset, height - 0x1p-50 * std::abs(height));
+                  }),
+  };
+}
+
+std::vector<Fault> row_by_row() {
+  return {
+      row_fault("approach of vertices with weight zero ignored", weight_zero_ignored),
+      row_fault("a cap that one side of a pair keeps for itself", asymmetric_cap),
+      row_fault("the second side bears no plane",
+                [](const PlaneIn& in, Rows& rows) {
+                  for (std::size_t v = 0; v < rows.size(); ++v)
+                    std::erase_if(rows[v], [&](const VertexPlane& plane) {
+                      return is_second(in, plane.pair, static_cast<Index>(v));
+                    });
+                }),
+      row_fault("edge pairs have no planes",
+                [](const PlaneIn&, Rows& rows) {
+                  for (auto& row : rows)
+                    std::erase_if(row, [](const VertexPlane& plane) { return plane.pair.kind == Kind::edge_edge; });
+                }),
+      row_fault("planes in the order in which threads found them",
+                [](const PlaneIn&, Rows& rows) {
+                  for (auto& row : rows) std::ranges::reverse(row);
+                }),
+      row_fault("a row handed to the next vertex",
+                [](const PlaneIn&, Rows& rows) {
+                  if (rows.size() > 1) std::swap(rows[0], rows[1]);
+                }),
+  };
+}
+
+std::vector<Fault> ball_by_ball() {
+  const auto share_of_reach = [](const PlaneIn& in) { return in.bound_relaxation * in.query_radius; };
+  return {
+      ball_fault("a pair without a separator left free",
+                 [share_of_reach](const PlaneIn& in, PlaneOut& out) {
+                   for (float& b : out.bound)
+                     if (b < std::numeric_limits<float>::max()) b = std::nextafter(share_of_reach(in), 0.0f);
+                 }),
+      ball_fault("a ball one ulp too large",
+                 [](const PlaneIn&, PlaneOut& out) {
+                   for (float& b : out.bound) b = std::nextafter(b, std::numeric_limits<float>::infinity());
+                 }),
+      ball_fault("planes dropped, their balls kept", [](const PlaneIn&, PlaneOut& out) { out.planes = {}; }),
+      ball_fault("balls of nothing", [](const PlaneIn&, PlaneOut& out) { std::ranges::fill(out.bound, 0.0f); }),
+      ball_fault("vertices inside solids bounded",
+                 [share_of_reach](const PlaneIn& in, PlaneOut& out) {
+                   for (float& b : out.bound) b = std::min(b, share_of_reach(in));
+                 }),
+      asked_wrongly("γ_p left out", [](PlaneIn& in) { in.bound_relaxation = 0.5f - 0x1p-10f; }),
+      asked_wrongly("rigid groups ignored", [](PlaneIn& in) { in.exclusions.groups = {}; }),
+      asked_wrongly("excluded pairs ignored", [](PlaneIn& in) { in.exclusions.partners = nullptr; }),
+      asked_wrongly("pairs beyond half of r_q not seen", [](PlaneIn& in) { in.query_radius /= 2; }),
+  };
+}
+
+/// The balls of the paper: nothing has planes, and each vertex the ball of its nearest pair.
+Fault balls_alone() {
+  return {"plane: balls in place of planes", Stage::plane, [](Contestant& contestant, const Authority& authority) {
+            contestant.plane = [authority](const PlaneIn& in) {
+              const DetectIn asked{in.topology, in.exclusions, in.positions, in.query_radius, in.query_radius};
+              const DetectVertexFacetOut near = authority.detect_vertex_facet(asked).exact;
+              const std::vector<float> edges = authority.detect_edge_edge(asked).exact.d_min_edge;
+              return PlaneOut{
+                  {},
+                  authority.bound({in.topology, near.d_min_vertex, edges, near.d_min_triangle, in.bound_relaxation})
+                      .exact.bound};
+            };
+          }};
+}
+
+/// Fixed vertices taken for free ones: they bear planes, and leave the others γ_p alone.
+Fault fixed_as_free() {
+  return {"plane: fixed vertices taken for free ones", Stage::plane, [](Contestant& contestant, const Authority&) {
+            contestant.plane = [right = contestant.plane](const PlaneIn& in) {
+              const std::vector<std::uint8_t> none(in.positions.size(), 0);
+              PlaneIn other = in;
+              other.is_fixed = none;
+              PlaneOut out = right(other);
+              Rows rows = rows_of(out);
+              for (std::size_t v = 0; v < rows.size(); ++v)
+                if (in.is_fixed[v] != 0) rows[v].clear();
+              out.planes = planes_of(rows);
+              return out;
+            };
+          }};
+}
+
+}  // namespace
+
+void add_right_planes(Contestant& exact, const Authority&) { exact.plane = reference::pair_planes; }
+
+std::vector<Fault> plane_faults() {
+  std::vector<Fault> all = plane_by_plane();
+  for (auto* faults : {row_by_row, ball_by_ball})
+    for (Fault& fault : faults()) all.push_back(std::move(fault));
+  all.push_back(balls_alone());
+  all.push_back(fixed_as_free());
+  return all;
+}
+
+}  // namespace ogc::tests
