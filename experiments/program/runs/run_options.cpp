@@ -1,6 +1,7 @@
 #include "experiments/program/runs/run_options.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "compare/files/meshes/mesh_files.hpp"
@@ -133,6 +134,15 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
       ->capture_default_str();
   command.add_option("--from-state", options->from_state,
                      "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
+  command
+      .add_option("--jitter", options->jitter.largest,
+                  "Move each coordinate of each free vertex of the start by a random offset up to so much, less than a "
+                  "tenth of contact_radius; the start is audited as always")
+      ->check(real_number(0, compare::most_length, "m"));
+  command.add_option("--seed", options->jitter.seed, "Of --jitter; the same seed gives the same bits on every machine")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->needs("--jitter")
+      ->capture_default_str();
   command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
   command.add_flag(
       "--residual", options->residual,
@@ -219,6 +229,8 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.condition = options.condition;
   request.audit_beside = options.backend == "cuda";
   request.residual = options.residual;
+  check_jitter(options.jitter, request.scene.settings);
+  request.jitter = options.jitter;
   request.audit = audit_mode(options.audit);
   request.checkpoint_seconds = options.checkpoint_seconds;
   if (!options.from_state.empty()) request.from_state = options.from_state;
