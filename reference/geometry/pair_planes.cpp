@@ -63,8 +63,11 @@ Direction to_feature(const EdgePair& pair, EdgeFeatures on) {
 
 class PlaneMaker {
  public:
-  explicit PlaneMaker(const PlaneIn& in)
-      : in_(in), mesh_{*in.topology, in.positions}, near_(mesh_, in.exclusions, double{in.query_radius}) {}
+  explicit PlaneMaker(const PlaneIn& in, std::span<const std::uint8_t> sought = {})
+      : in_(in),
+        sought_(sought),
+        mesh_{*in.topology, in.positions},
+        near_(mesh_, in.exclusions, double{in.query_radius}) {}
 
   std::vector<NearPair> pairs() {
     find_pairs();
@@ -88,11 +91,19 @@ class PlaneMaker {
 
  private:
   bool moves(Index v) const { return in_.is_fixed[at(v)] == 0; }
+  template <class... Vertices>
+  bool is_sought(const Vertices&... sides) const {
+    const auto any = [&](const auto& side) {
+      return std::ranges::any_of(side, [&](Index v) { return sought_[at(v)]; });
+    };
+    return sought_.empty() || (any(sides) || ...);
+  }
 
   void find_pairs() {
     tbb::combinable<std::vector<NearPair>> found;
     near_.facets([&](Index v, Index t) {
       const compare::Triangle& c = mesh_.triangle(t);
+      if (!is_sought(std::array{v}, c)) return;
       const Corners corners{mesh_.at(c[0]), mesh_.at(c[1]), mesh_.at(c[2])};
       if (surely_beyond_triangle({mesh_.at(v), corners[0], corners[1], corners[2]}, double{in_.query_radius})) return;
       const TriangleFeature feature = closest_feature(corners, mesh_.at(v));
@@ -106,6 +117,7 @@ class PlaneMaker {
     });
     near_.edges([&](Index e, Index f) {
       const compare::Edge &a = mesh_.edge(e), &b = mesh_.edge(f);
+      if (!is_sought(a, b)) return;
       const EdgePair ends{{mesh_.at(a[0]), mesh_.at(a[1])}, {mesh_.at(b[0]), mesh_.at(b[1])}};
       if (surely_beyond_edge({ends.first[0], ends.first[1], ends.second[0], ends.second[1]}, double{in_.query_radius}))
         return;
@@ -183,6 +195,7 @@ class PlaneMaker {
   }
 
   const PlaneIn& in_;
+  std::span<const std::uint8_t> sought_;
   Complex mesh_;
   NearPairs near_;
   std::vector<NearPair> pairs_;
@@ -195,7 +208,9 @@ VertexPlane NearPair::as_borne(std::size_t k) const {
   return {pair, {-normal.x, -normal.y, -normal.z}, -second_offset};
 }
 
-std::vector<NearPair> near_pairs_with_planes(const PlaneIn& in) { return PlaneMaker(in).pairs(); }
+std::vector<NearPair> near_pairs_with_planes(const PlaneIn& in, std::span<const std::uint8_t> sought) {
+  return PlaneMaker(in, sought).pairs();
+}
 
 PlaneOut pair_planes(const PlaneIn& in) { return PlaneMaker(in).run(); }
 

@@ -79,12 +79,13 @@ compare::Provenance provenance(const RunRequest& request, const std::string& dev
   origin.extra["iteration_rows"] = request.iterations ? "yes" : "no";
   origin.extra["condition_numbers"] = request.condition ? "yes" : "no";
   origin.extra["residuals"] = request.residual ? "yes" : "no";
+  if (request.ledger) origin.extra["ledger"] = "yes";
   if (request.from_state) origin.extra["from_state"] = request.from_state->string();
-  return origin;
   if (request.jitter.largest > 0) {
     origin.extra["jitter"] = compare::shortest(request.jitter.largest);
     origin.extra["jitter_seed"] = std::to_string(request.jitter.seed);
   }
+  return origin;
 }
 
 std::string step_failure(const StepMetrics& row) {

@@ -50,7 +50,7 @@ struct RunRequest {
   bool profile = false;                                    ///< records times by stage
   bool iterations = false, condition = false;              ///< see compare::SimulationOptions
   /// the contestant was wrapped so (experiments/program/runs/measured_simulation.hpp); for run.json
-  bool residual = false;
+  bool residual = false, ledger = false;
   std::filesystem::path folder;
   std::filesystem::path show;  ///< folder for pictures of what an audit refuses; empty: none
   std::string command_line;
