@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -61,6 +62,20 @@ struct IterationMetrics {
   std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;
 };
 
+/// What the parts of a step do to energy and momentum: columns of steps.csv with `ogc run --ledger` (method.md §5.7 has
+/// each definition). Energies are changes but for the start's [J]; momenta and motions are of free vertices [kg m/s].
+struct StepLedger {
+  double energy_start = 0;                                                   ///< at xᵗ with vᵗ
+  double energy_guess = 0, energy_detection = 0;                             ///< rounds; contacts found anew
+  double energy_sweep = 0, energy_truncation = 0;                            ///< to proposals; from there to x
+  double energy_commit = 0;                                                  ///< to the start of the next step
+  Vec3 momentum_start, momentum_guess, momentum_sweep, momentum_truncation;  ///< Σ m v, and changes of it
+  double motion_proposed = 0, motion_taken = 0;                              ///< of sweeps; by truncation of that
+  double motion_taken_tangential = 0, motion_taken_leaving = 0;              ///< along and off the nearest pair
+  double motion_taken_unpaired = 0;                                          ///< where no pair lies within r_q
+  double vertices_still = 0, vertices_held = 0;  ///< end where they began; of them those that truncation held there
+};
+
 /// One row of steps.csv. Times [ms]; not-a-number where a quantity was not asked for.
 struct StepMetrics {
   std::int64_t step = 0;  ///< number of the step that this row ends, from 1
@@ -85,6 +100,7 @@ struct StepMetrics {
   std::int64_t inverted_tetrahedra = 0;  ///< with J ≤ 0 at the end of the step
   std::int64_t repeats = 0;              ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
+  std::optional<StepLedger> ledger{};  ///< where it was asked for
   /// what the solver ran into, by name, and how it went on; shown to the user, not in steps.csv
   std::vector<std::string> notes;
   std::vector<IterationMetrics> iteration_rows;  ///< with SimulationOptions::iterations

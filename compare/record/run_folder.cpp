@@ -97,6 +97,11 @@ std::string store_scene(const fs::path& folder, const Scene& scene) {
   return (fs::path("scene") / file.filename()).generic_string();
 }
 
+bool has_ledger(const Manifest& manifest) {
+  const auto entry = manifest.provenance.extra.find("ledger");
+  return entry != manifest.provenance.extra.end() && entry->second == "yes";
+}
+
 }  // namespace
 
 void expect_new_run_folder(const fs::path& folder) {
@@ -119,7 +124,7 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& prov
   make_folder(folder_ / "frames");
   manifest_.scene_file = store_scene(folder_, scene_);
   steps_.emplace(folder_ / "steps.csv");
-  steps_->append(step_header(manifest_.stage_names, !scene_.mesh.tetrahedra.empty()));
+  steps_->append(step_header(manifest_.stage_names, !scene_.mesh.tetrahedra.empty(), has_ledger(manifest_)));
   if (manifest_.provenance.started.empty()) manifest_.provenance.started = utc_now();
   manifest_.provenance.status = "running";
   write_manifest();
@@ -155,7 +160,8 @@ void RunWriter::keep_frames(const std::function<bool(std::int64_t)>& keep) {
 void RunWriter::write_manifest() const { write_durably(folder_ / "run.json", manifest_text(manifest_, scene_)); }
 
 void RunWriter::add_steps(const std::vector<StepMetrics>& rows) {
-  steps_->append(step_lines(rows, manifest_.stage_names.size(), !scene_.mesh.tetrahedra.empty()));
+  steps_->append(
+      step_lines(rows, manifest_.stage_names.size(), !scene_.mesh.tetrahedra.empty(), has_ledger(manifest_)));
   if (const std::string iterations = iteration_lines(rows); !iterations.empty()) {
     if (!iterations_) iterations_.emplace(folder_ / "iterations.csv").append(iteration_header());
     iterations_->append(iterations);

@@ -49,7 +49,8 @@ void expect_new_run_folder(const std::filesystem::path& folder);
 class RunWriter {
  public:
   /// Makes the folder and all that a run has before its first step; status "running". `started` is set to now where it
-  /// is empty. Stage names give columns of steps.csv; none for a run without profile. Throws InputError where the
+  /// is empty. Stage names give columns of steps.csv, none for a run without profile; so does the extra entry "ledger",
+  /// "yes". Throws InputError where the
   /// folder holds a run already, or what a run would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance,
             std::vector<std::string> stage_names);

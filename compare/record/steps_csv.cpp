@@ -40,6 +40,41 @@ constexpr std::array<StepColumn, 23> columns{{
 /// Behind those; scenes with tetrahedra alone have it.
 constexpr StepColumn solid_column{"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra};
 
+/// One column of a ledger.
+struct LedgerColumn {
+  std::string_view name, unit;
+  double& (*of)(StepLedger& row);
+};
+
+/// Behind those, of runs with a ledger.
+constexpr std::array<LedgerColumn, 25> ledger_columns{{
+    {"energy_start", "J", [](StepLedger& l) -> double& { return l.energy_start; }},
+    {"energy_guess", "J", [](StepLedger& l) -> double& { return l.energy_guess; }},
+    {"energy_detection", "J", [](StepLedger& l) -> double& { return l.energy_detection; }},
+    {"energy_sweep", "J", [](StepLedger& l) -> double& { return l.energy_sweep; }},
+    {"energy_truncation", "J", [](StepLedger& l) -> double& { return l.energy_truncation; }},
+    {"energy_commit", "J", [](StepLedger& l) -> double& { return l.energy_commit; }},
+    {"momentum_start_x", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_start.x; }},
+    {"momentum_start_y", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_start.y; }},
+    {"momentum_start_z", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_start.z; }},
+    {"momentum_guess_x", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_guess.x; }},
+    {"momentum_guess_y", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_guess.y; }},
+    {"momentum_guess_z", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_guess.z; }},
+    {"momentum_sweep_x", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_sweep.x; }},
+    {"momentum_sweep_y", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_sweep.y; }},
+    {"momentum_sweep_z", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_sweep.z; }},
+    {"momentum_truncation_x", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_truncation.x; }},
+    {"momentum_truncation_y", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_truncation.y; }},
+    {"momentum_truncation_z", "kg m/s", [](StepLedger& l) -> double& { return l.momentum_truncation.z; }},
+    {"motion_proposed", "kg m/s", [](StepLedger& l) -> double& { return l.motion_proposed; }},
+    {"motion_taken", "kg m/s", [](StepLedger& l) -> double& { return l.motion_taken; }},
+    {"motion_taken_tangential", "kg m/s", [](StepLedger& l) -> double& { return l.motion_taken_tangential; }},
+    {"motion_taken_leaving", "kg m/s", [](StepLedger& l) -> double& { return l.motion_taken_leaving; }},
+    {"motion_taken_unpaired", "kg m/s", [](StepLedger& l) -> double& { return l.motion_taken_unpaired; }},
+    {"vertices_still", "1", [](StepLedger& l) -> double& { return l.vertices_still; }},
+    {"vertices_held", "1", [](StepLedger& l) -> double& { return l.vertices_held; }},
+}};
+
 constexpr std::string_view stage_prefix = "stage_", stage_unit = " [ms]";
 
 template <class T>
@@ -73,7 +108,10 @@ std::string title_of(std::string_view name, std::string_view unit) {
   return std::string(name) + " [" + std::string(unit) + "]";
 }
 
-std::string column_title(const StepColumn& column) { return title_of(column.name, column.unit); }
+template <class Column>
+std::string column_title(const Column& column) {
+  return title_of(column.name, column.unit);
+}
 
 bool is_titled(const StepColumn& column, std::string_view title) {
   return title == column_title(column) ||
@@ -92,7 +130,14 @@ StepTable parse_header(const std::string& file, std::string_view line) {
     if (i >= titles.size() || !is_titled(columns[i], titles[i])) refuse(i, column_title(columns[i]));
   StepTable table;
   table.has_solids = titles.size() > columns.size() && titles[columns.size()] == column_title(solid_column);
-  for (std::size_t i = columns.size() + (table.has_solids ? 1 : 0); i < titles.size(); ++i) {
+  const std::size_t common = columns.size() + (table.has_solids ? 1 : 0);
+  table.has_ledger = titles.size() > common && titles[common] == column_title(ledger_columns.front());
+  if (table.has_ledger)
+    for (std::size_t i = 0; i < ledger_columns.size(); ++i)
+      if (const std::string title = column_title(ledger_columns[i]);
+          common + i >= titles.size() || titles[common + i] != title)
+        refuse(common + i, title);
+  for (std::size_t i = common + (table.has_ledger ? ledger_columns.size() : 0); i < titles.size(); ++i) {
     if (!titles[i].starts_with(stage_prefix) || !titles[i].ends_with(stage_unit)) refuse(i, "stage_NAME [ms]");
     table.stage_names.emplace_back(
         titles[i].substr(stage_prefix.size(), titles[i].size() - stage_prefix.size() - stage_unit.size()));
@@ -102,7 +147,8 @@ StepTable parse_header(const std::string& file, std::string_view line) {
 
 /// How many numbers a row has.
 std::size_t width_of(const StepTable& table) {
-  return columns.size() + (table.has_solids ? 1 : 0) + table.stage_names.size();
+  return columns.size() + (table.has_solids ? 1 : 0) + (table.has_ledger ? ledger_columns.size() : 0) +
+         table.stage_names.size();
 }
 
 /// False where the line is not a row of such a table.
@@ -115,6 +161,10 @@ bool parse_row(std::string_view line, const StepTable& table, StepMetrics& row) 
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (!read(i, columns[i])) return false;
   if (table.has_solids && !read(columns.size(), solid_column)) return false;
+  const std::size_t common = columns.size() + (table.has_solids ? 1 : 0);
+  if (table.has_ledger) row.ledger.emplace();
+  for (std::size_t i = 0; table.has_ledger && i < ledger_columns.size(); ++i)
+    if (!parse(parts[common + i], ledger_columns[i].of(*row.ledger))) return false;
   const std::size_t stage_count = table.stage_names.size(), first = parts.size() - stage_count;
   row.stage_ms.resize(stage_count);
   for (std::size_t i = 0; i < stage_count; ++i)
@@ -126,19 +176,21 @@ bool parse_row(std::string_view line, const StepTable& table, StepMetrics& row) 
 
 std::span<const StepColumn> step_columns() { return columns; }
 
-std::string step_header(std::span<const std::string> stage_names, bool has_solids) {
+std::string step_header(std::span<const std::string> stage_names, bool has_solids, bool has_ledger) {
   std::string text;
   for (const StepColumn& column : columns) {
     if (!text.empty()) text += ',';
     text += column_title(column);
   }
   if (has_solids) text += "," + column_title(solid_column);
+  if (has_ledger)
+    for (const LedgerColumn& column : ledger_columns) text += "," + column_title(column);
   for (const std::string& name : stage_names) text.append(",").append(stage_prefix).append(name).append(stage_unit);
   text += '\n';
   return text;
 }
 
-std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, bool has_solids) {
+std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, bool has_solids, bool has_ledger) {
   std::string text;
   for (const StepMetrics& row : rows) {
     if (!row.stage_ms.empty() && row.stage_ms.size() != stage_count)
@@ -148,6 +200,11 @@ std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_coun
       std::visit([&](auto field) { print(text, row.*field); }, column.field);
     }
     if (has_solids) text += "," + std::to_string(row.inverted_tetrahedra);
+    StepLedger ledger = row.ledger.value_or(StepLedger{});
+    for (std::size_t i = 0; has_ledger && i < ledger_columns.size(); ++i) {
+      text += ',';
+      print(text, row.ledger ? ledger_columns[i].of(ledger) : std::numeric_limits<double>::quiet_NaN());
+    }
     for (std::size_t i = 0; i < stage_count; ++i) {
       text += ',';
       print(text, row.stage_ms.empty() ? std::numeric_limits<double>::quiet_NaN() : row.stage_ms[i]);

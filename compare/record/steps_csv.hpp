@@ -22,22 +22,25 @@ struct StepColumn {
   std::string_view former_name{};  ///< in run format 1, where it is another one; read, never written
 };
 
-/// All columns but those of solids and stages, in the order of the file.
+/// All columns but those of solids, ledger and stages, in the order of the file.
 std::span<const StepColumn> step_columns();
 
-/// The header line; stages become "stage_NAME [ms]". Only rows of scenes with solids have `inverted_tetrahedra`.
-std::string step_header(std::span<const std::string> stage_names, bool has_solids = false);
+/// The header line; stages become "stage_NAME [ms]". Only rows of scenes with solids have `inverted_tetrahedra`, only
+/// runs with a ledger its columns.
+std::string step_header(std::span<const std::string> stage_names, bool has_solids = false, bool has_ledger = false);
 
 /// One line a row; numbers read back as the same double, "nan" where a quantity was not asked for. Rows without times
-/// by stage get "nan" in each stage's column. Throws std::invalid_argument where a row has times for another number of
-/// stages.
-std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, bool has_solids = false);
+/// by stage get "nan" in each stage's column, rows without a ledger in each of its. Throws std::invalid_argument where
+/// a row has times for another number of stages.
+std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, bool has_solids = false,
+                       bool has_ledger = false);
 
 /// What steps.csv holds so far.
 struct StepTable {
   std::vector<std::string> stage_names;  ///< columns of `--profile`
   std::vector<StepMetrics> rows{};       ///< in the order of the steps
   bool has_solids = false;               ///< with a column `inverted_tetrahedra`
+  bool has_ledger = false;               ///< with the columns of a ledger
 };
 
 /// Reads steps.csv of a run up to the row of step `last`. A last line without its end (the run was killed) is left out.

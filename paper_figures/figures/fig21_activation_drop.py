@@ -23,8 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.workflow import commands
-from paper_figures.figures import contact_forces
+from paper_figures.workflow import commands, contact_forces
 from paper_figures.workflow.accept import not_run
 from paper_figures.workflow.runs import iterations, provenance, run_job, write_table
 from plots import render, style

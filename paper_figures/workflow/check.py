@@ -20,7 +20,7 @@ from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError, ru
 from paper_figures.workflow.verdicts import STATES, band_in_words, judge_all, within
 
 BANDS = RESULTS / "bands.json"
-QUESTION = ("settings", "scale", "solver", "backend", "scene")
+QUESTION = ("settings", "scale", "solver", "backend", "scene", "jitter", "jitter_seed")
 SAME_BITS = ("device", "commit", "compiler")
 # Words of a measure that is a time, or a share of it, or a size of the scene.
 NOT_COMPARED = ('"wall"', "[ms]", "time", "stage_", '"scene"')

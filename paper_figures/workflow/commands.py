@@ -7,7 +7,7 @@ those of `ogc run`; `backend` is that of VBD in single precision, all else runs 
 
 from dataclasses import dataclass
 
-from paper_figures.workflow import layers
+from paper_figures.workflow import layers, slide
 from paper_figures.workflow.audited import Audit
 from paper_figures.workflow.jobs import Command, Job, Share, Step
 
@@ -332,6 +332,29 @@ def minimiser(scale, backend):
     frames = [f"{{root}}/{scene}/frames/frame_{step:06d}.h5" for scene, step in steps.items()]
     words = ("minimise", *frames, "--backend", backend, "--csv", "{root}/minimiser.csv")
     yield Command("minimiser", words, "minimiser.csv", tuple(steps))
+
+
+# What the parts of a step do to energy and momentum, by balls and by planes: of so many steps after a step of a plain
+# run, where truncation takes most (a ledger of a step costs many steps); vertices on a side of the sheet that slides.
+LEDGER_STEPS = {"smoke": {"twist": (600, 120), "fifty_layers": (80, 30), "slide": (0, 100)},
+                "small": {"twist": (1700, 120), "fifty_layers": (240, 30), "slide": (0, 150)},
+                "paper": {"twist": (4500, 60), "fifty_layers": (960, 10), "slide": (0, 150)}}
+LEDGER_SIDES = {"smoke": 8, "small": 20, "paper": 70}
+
+
+def ledgers(scale, backend):
+    """A run a scene and kind of bounds, audited at its end, where it must from a plain run's last state."""
+    for scene, (first, steps) in LEDGER_STEPS[scale].items():
+        sheet = slide.Slide(LEDGER_SIDES[scale], steps) if scene == "slide" else None
+        words = () if sheet else (scene, "--scale", scale)
+        for bounds in ("ball", "planes"):
+            name, shared_words = f"{scene}_{bounds}", (*words, "--backend", backend, "--set", f"bounds={bounds}")
+            start = f"{name}_start"
+            if first > 0:
+                last = ("--steps", first, "--set", f"frame_steps={first}", "--audit", "end")
+                yield Job(start, (*shared_words, *last))
+            state = {"state": (start, Step(first)), "more_steps": steps} if first > 0 else {}
+            yield Job(name, (*shared_words, "--ledger", "--audit", "end"), scene=sheet, **state)
 
 
 # Smaller measurements beside Table 1 (fast/PERFORMANCE.md).

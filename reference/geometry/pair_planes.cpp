@@ -66,8 +66,11 @@ Direction to_closest(const EdgesPair& edges) {
 
 class PlaneMaker {
  public:
-  explicit PlaneMaker(const PlaneIn& in)
-      : in_(in), mesh_{*in.topology, in.positions}, near_(mesh_, in.exclusions, double{in.query_radius}) {}
+  explicit PlaneMaker(const PlaneIn& in, std::span<const std::uint8_t> sought = {})
+      : in_(in),
+        sought_(sought),
+        mesh_{*in.topology, in.positions},
+        near_(mesh_, in.exclusions, double{in.query_radius}) {}
 
   std::vector<NearPair> pairs() {
     find_pairs();
@@ -91,10 +94,18 @@ class PlaneMaker {
 
  private:
   bool moves(Index v) const { return in_.is_fixed[at(v)] == 0; }
+  template <class... Vertices>
+  bool is_sought(const Vertices&... sides) const {
+    const auto any = [&](const auto& side) {
+      return std::ranges::any_of(side, [&](Index v) { return sought_[at(v)]; });
+    };
+    return sought_.empty() || (any(sides) || ...);
+  }
 
   void find_pairs() {
     tbb::combinable<std::vector<NearPair>> found;
     near_.each([&](const auto& of) {
+      if (!is_sought(of.first, of.second)) return;
       if (of.surely_beyond(double{in_.query_radius})) return;
       NearPair pair{of.name};
       std::ranges::copy(of.second, std::ranges::copy(of.first, pair.vertices.begin()).out);
@@ -171,6 +182,7 @@ class PlaneMaker {
   }
 
   const PlaneIn& in_;
+  std::span<const std::uint8_t> sought_;
   Complex mesh_;
   NearPairs near_;
   std::vector<NearPair> pairs_;
@@ -183,7 +195,9 @@ VertexPlane NearPair::as_borne(std::size_t k) const {
   return {pair, {-normal.x, -normal.y, -normal.z}, -second_offset};
 }
 
-std::vector<NearPair> near_pairs_with_planes(const PlaneIn& in) { return PlaneMaker(in).pairs(); }
+std::vector<NearPair> near_pairs_with_planes(const PlaneIn& in, std::span<const std::uint8_t> sought) {
+  return PlaneMaker(in, sought).pairs();
+}
 
 PlaneOut pair_planes(const PlaneIn& in) { return PlaneMaker(in).run(); }
 

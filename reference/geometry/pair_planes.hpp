@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "compare/stages/plane.hpp"
@@ -25,8 +27,9 @@ struct NearPair {
 
 /// All pairs within r_q, ascending, each with the plane that it may have: of the closest points c_p, c_q, found
 /// exactly, n = (c_q − c_p)/d; the two offsets lie γ_p d from the sides, or 2γ_p d from one where the other is fixed.
-/// In parallel; the answer does not depend on the number of threads.
-std::vector<NearPair> near_pairs_with_planes(const compare::PlaneIn& in);
+/// `sought`: by vertex; where it is not empty, only pairs with a vertex that is marked there. In parallel; the answer
+/// does not depend on the number of threads.
+std::vector<NearPair> near_pairs_with_planes(const compare::PlaneIn& in, std::span<const std::uint8_t> sought = {});
 
 /// A pair gets its plane if it is nearer than the 17th nearest pair of each of its vertices that can move; the others
 /// limit the balls.

@@ -6,25 +6,13 @@
 #include <stdexcept>
 
 #include <tbb/parallel_for.h>
-#include <Eigen/Dense>
 
 #include "reference/solvers/colouring.hpp"
 
 namespace ogc::reference {
-namespace {
 
 using compare::Index;
 using compare::Vec3f;
-
-/// H⁻¹ a. Inertia alone makes H positive definite.
-Triple<double> solved(const VertexSystem& system, const Triple<double>& a) {
-  const auto& b = system.block;
-  const Eigen::Matrix3d h{{b[0], b[1], b[2]}, {b[1], b[3], b[4]}, {b[2], b[4], b[5]}};
-  const Eigen::Vector3d x = h.llt().solve(Eigen::Vector3d(a[0], a[1], a[2]));
-  return {x[0], x[1], x[2]};
-}
-
-}  // namespace
 
 VbdSolver::VbdSolver(const compare::Scene& scene, const compare::Topology& topology,
                      const compare::SimulationOptions& options, std::vector<Index> colour)

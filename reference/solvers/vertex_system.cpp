@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <tbb/parallel_for.h>
+#include <Eigen/Dense>
 
 namespace ogc::reference {
 namespace {
@@ -85,6 +86,13 @@ void add_contact(const Potential& potential, const ContactTerm& term, const Upda
 }
 
 }  // namespace
+
+Triple<double> solved(const VertexSystem& system, const Triple<double>& a) {
+  const auto& b = system.block;
+  const Eigen::Matrix3d h{{b[0], b[1], b[2]}, {b[1], b[3], b[4]}, {b[2], b[4], b[5]}};
+  const Eigen::Vector3d x = h.llt().solve(Eigen::Vector3d(a[0], a[1], a[2]));
+  return {x[0], x[1], x[2]};
+}
 
 template <class Terms>
 void VertexSystems::list(const Terms& terms, Incidences& incidences) const {

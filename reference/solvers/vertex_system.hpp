@@ -17,6 +17,9 @@ namespace ogc::reference {
 /// Inertia included; the block is positive definite.
 using VertexSystem = VertexSystemOf<double>;
 
+/// H⁻¹ a. Inertia alone makes H positive definite.
+Triple<double> solved(const VertexSystem& system, const Triple<double>& a);
+
 /// Where vertices are read (method.md §7.2): those of lower colour than the one being solved at their new position,
 /// others at the old one. Colours are from 0 on; −1: prescribed and fixed vertices, which move first.
 struct SweepView {

@@ -83,6 +83,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       "  ogc run cloth_on_sphere --scale smoke --iterations --profile --steps 12\n"
       "  ogc run twist --backend cuda --scale paper --steps 1200 --audit every\n"
       "  ogc run shirt.obj --ground 0 --steps 200\n"
+      "  ogc run knot --scale smoke --jitter 1e-6 --seed 7   # and 8, 9, …: what do they have in common?\n"
       "  ogc run --resume runs/twist-paper-20250801-120000\n"
       "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
       "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the "

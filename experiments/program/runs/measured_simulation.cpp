@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "reference/contestant.hpp"
 
@@ -36,13 +37,17 @@ EventTimes event_times(const StepMetrics& row, const std::vector<std::string>& s
 
 class MeasuredSimulation : public compare::Simulation {
  public:
-  MeasuredSimulation(const compare::Scene& scene, std::unique_ptr<Simulation> inner,
-                     std::function<compare::StepOut(const compare::StepIn&)> trace)
+  MeasuredSimulation(const compare::Scene& scene, std::unique_ptr<Simulation> inner, compare::Contestant contestant,
+                     const Measured& what)
       : scene_(scene),
         topology_(build_topology(scene)),
+        exclusions_(exclusions(scene)),
         inner_(std::move(inner)),
-        trace_(std::move(trace)),
-        meter_(scene) {}
+        contestant_(std::move(contestant)),
+        has_rows_(what.iterations) {
+    if (what.residual || what.iterations) meter_.emplace(scene);
+    if (what.ledger) ledger_.emplace(scene);
+  }
 
   std::vector<StepMetrics> advance(std::int64_t steps) override {
     std::vector<StepMetrics> rows;
@@ -51,9 +56,11 @@ class MeasuredSimulation : public compare::Simulation {
       for (StepMetrics& row : inner_->advance(1)) rows.push_back(std::move(row));
       const Snapshot after = inner_->snapshot();
       if (after.step == before.step) break;
-      meter_.begin_step(before.positions, before.velocities, after.step);
-      rows.back().residual = meter_.at(after.positions).share;
-      if (trace_) add_iterations(before, after, rows.back());
+      if (meter_) {
+        meter_->begin_step(before.positions, before.velocities, after.step);
+        rows.back().residual = meter_->at(after.positions).share;
+      }
+      if (has_rows_ || ledger_) add_from_trace(before, after, rows.back());
     }
     return rows;
   }
@@ -82,11 +89,23 @@ class MeasuredSimulation : public compare::Simulation {
     return scene;
   }
 
-  void add_iterations(const Snapshot& before, const Snapshot& after, StepMetrics& step) {
+  void add_from_trace(const Snapshot& before, const Snapshot& after, StepMetrics& step) {
     const compare::Scene scene = scene_at(before);
-    const compare::StepOut trace = trace_({&scene, &topology_});
+    const compare::StepOut trace = contestant_.step({&scene, &topology_});
     if (trace.position != after.positions)
       throw std::logic_error("the trace of step " + std::to_string(step.step) + " ends in another state than the step");
+    if (ledger_) step.ledger = ledger_->of(before.positions, before.velocities, trace, contacts_at(after.positions));
+    if (has_rows_) add_iterations(trace, step);
+  }
+
+  /// As the contestant's own detections find them.
+  reference::ContactSets contacts_at(const std::vector<compare::Vec3f>& positions) const {
+    const auto radius = static_cast<float>(scene_.settings.contact_radius);
+    const compare::DetectIn in{&topology_, exclusions_, positions, radius, radius};
+    return {contestant_.detect_vertex_facet(in).contacts, contestant_.detect_edge_edge(in).contacts};
+  }
+
+  void add_iterations(const compare::StepOut& trace, StepMetrics& step) {
     const EventTimes times = event_times(step, inner_->stage_names());
     double now = times.begin;
     const auto begin = std::ranges::find(trace.events, StepEventKind::sweep, &StepEvent::kind);
@@ -111,7 +130,7 @@ class MeasuredSimulation : public compare::Simulation {
   }
 
   void add_row(const StepEvent& event, double now, StepMetrics& step) {
-    const reference::Residual measured = meter_.with(contacts_, previous_, event.position);
+    const reference::Residual measured = meter_->with(contacts_, previous_, event.position);
     compare::IterationMetrics row;
     row.step = step.step;
     row.iteration = static_cast<std::int64_t>(step.iteration_rows.size());
@@ -126,20 +145,23 @@ class MeasuredSimulation : public compare::Simulation {
 
   compare::Scene scene_;
   compare::Topology topology_;
+  compare::Exclusions exclusions_;
   std::unique_ptr<Simulation> inner_;
-  std::function<compare::StepOut(const compare::StepIn&)> trace_;
-  reference::ResidualMeter meter_;
+  compare::Contestant contestant_;
+  bool has_rows_;
+  std::optional<reference::ResidualMeter> meter_;
+  std::optional<reference::LedgerWriter> ledger_;
   reference::ContactSets contacts_;       ///< of the trace's last detection
   std::vector<compare::Vec3f> previous_;  ///< where it was
 };
 
 }  // namespace
 
-compare::Contestant measured(compare::Contestant contestant, bool iterations) {
+compare::Contestant measured(compare::Contestant contestant, const Measured& what) {
   compare::Contestant result = contestant;
-  result.start = [start = contestant.start, step = contestant.step, iterations](
-                     const compare::Scene& scene, const compare::SimulationOptions& options) {
-    return std::make_unique<MeasuredSimulation>(scene, start(scene, options), iterations ? step : nullptr);
+  result.start = [contestant = std::move(contestant), what](const compare::Scene& scene,
+                                                            const compare::SimulationOptions& options) {
+    return std::make_unique<MeasuredSimulation>(scene, contestant.start(scene, options), contestant, what);
   };
   return result;
 }

@@ -6,12 +6,21 @@
 
 namespace ogc::experiments {
 
-/// The contestant, with StepMetrics::residual filled: forces in double, contacts detected at the end of the step
-/// (method.md §6). `iterations`: also a row an iteration, from the trace of its own step (Contestant::step), which its
-/// simulation takes to the same bits; a row's residual has the contacts of the contestant's last detection. Times of
-/// rows: the step's time but its detections and iterations, then each of these with an equal share of what all of them
-/// took; without SimulationOptions::profile iterations share the whole. A trace that ends in another state than the
-/// step throws std::logic_error.
-compare::Contestant measured(compare::Contestant contestant, bool iterations);
+/// What is measured beside a run.
+struct Measured {
+  bool residual = false;    ///< StepMetrics::residual
+  bool iterations = false;  ///< StepMetrics::iteration_rows, and the residual
+  bool ledger = false;      ///< StepMetrics::ledger
+  /// Whether there is anything.
+  bool any() const { return residual || iterations || ledger; }
+};
+
+/// The contestant, with what is asked for filled. The residual: forces in double, contacts detected at the end of the
+/// step (method.md §6). Rows and ledgers come from the trace of its own step (Contestant::step), which its simulation
+/// takes to the same bits; a row's residual has the contacts of the contestant's last detection. Times of rows: the
+/// step's time but its detections and iterations, then each of these with an equal share of what all of them took;
+/// without SimulationOptions::profile iterations share the whole. A trace that ends in another state than the step
+/// throws std::logic_error.
+compare::Contestant measured(compare::Contestant contestant, const Measured& what);
 
 }  // namespace ogc::experiments

@@ -90,6 +90,7 @@ ResumedRun resumed_run(const std::filesystem::path& folder) {
   resumed.options.iterations = says_yes(provenance, "iteration_rows");
   resumed.options.condition = says_yes(provenance, "condition_numbers");
   resumed.options.residual = says_yes(provenance, "residuals");
+  resumed.options.ledger = says_yes(provenance, "ledger");
   RunRequest& request = resumed.request;
   request.scene = run.scene();
   request.scale = text_in(provenance, "scale");
@@ -101,6 +102,7 @@ ResumedRun resumed_run(const std::filesystem::path& folder) {
   request.iterations = resumed.options.iterations;
   request.condition = resumed.options.condition;
   request.residual = resumed.options.residual;
+  request.ledger = resumed.options.ledger;
   request.folder = folder;
   request.resume = compare::read_checkpoint(folder, compare::scene_digest(folder));
   check_rows(folder, request.resume->state.step);

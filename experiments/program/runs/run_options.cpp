@@ -1,6 +1,7 @@
 #include "experiments/program/runs/run_options.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "compare/files/meshes/mesh_files.hpp"
@@ -133,12 +134,25 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
       ->capture_default_str();
   command.add_option("--from-state", options->from_state,
                      "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
+  command
+      .add_option("--jitter", options->jitter.largest,
+                  "Move each coordinate of each free vertex of the start by a random offset up to so much, less than a "
+                  "tenth of contact_radius; the start is audited as always")
+      ->check(real_number(0, compare::most_length, "m"));
+  command.add_option("--seed", options->jitter.seed, "Of --jitter; the same seed gives the same bits on every machine")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->needs("--jitter")
+      ->capture_default_str();
   command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
   command.add_flag(
       "--residual", options->residual,
       "The residual of Eq. 29 in steps.csv with contacts and friction of the very end, measured beside the run (slow)");
   command.add_flag("--iterations", options->iterations,
                    "Write iterations.csv, a row an iteration, measured beside the run");
+  command.add_flag("--ledger", options->ledger,
+                   "With vbd: what the parts of a step do to energy and momentum, what truncation takes and which way, "
+                   "and vertices that stand still, in steps.csv (compare/method.md, 5.7), measured beside the run "
+                   "(slow)");
   command.add_flag("--condition", options->condition,
                    "With newton: the same, with the condition number of each matrix, also without friction and without "
                    "contact (slow)");
@@ -208,17 +222,22 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   if (!solver.has_measured_residual && options.residual)
     throw compare::InputError("--solver " + options.solver +
                               " has a measure of its own in that column; leave --residual out");
+  if (!solver.has_traced_rows && options.ledger)
+    throw compare::InputError("--ledger belongs to --solver vbd: it is written from the trace of a step");
   RunRequest request;
   compare::SceneFile file = load_scene(options, request.scale);
   request.scene = std::move(file.scene);
   request.sources = std::move(file.sources);
   apply_settings(request.scene, options);
+  check_jitter(options.jitter, request.scene.settings);
+  request.jitter = options.jitter;
   request.solver = options.solver;
   request.backend = options.backend;
   request.iterations = options.iterations || options.condition;
   request.condition = options.condition;
   request.audit_beside = options.backend == "cuda";
   request.residual = options.residual;
+  request.ledger = options.ledger;
   request.audit = audit_mode(options.audit);
   request.checkpoint_seconds = options.checkpoint_seconds;
   if (!options.from_state.empty()) request.from_state = options.from_state;
@@ -232,9 +251,11 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
 
 compare::Contestant contestant_of(const RunOptions& options) {
   const Solver solver = parse_solver(options.solver);
-  const bool has_rows = options.iterations && options_of(solver).has_traced_rows;
+  const Measured what{.residual = options.residual,
+                      .iterations = options.iterations && options_of(solver).has_traced_rows,
+                      .ledger = options.ledger};
   const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda");
-  return options.residual || has_rows ? measured(contestant, has_rows) : contestant;
+  return what.any() ? measured(contestant, what) : contestant;
 }
 
 }  // namespace ogc::experiments

@@ -17,7 +17,8 @@ struct RunOptions {
   std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
   std::int64_t steps = 0;                ///< 0: the scene's
   /// likewise
-  bool profile = false, iterations = false, condition = false, residual = false;
+  bool profile = false, iterations = false, condition = false, residual = false, ledger = false;
+  Jitter jitter;                                           ///< of --jitter and --seed
   compare::MeshOptions mesh;                               ///< of a mesh file in place of a scene
   std::optional<double> ground;                            ///< height of the ground below it [m]
   int threads = 0;                                         ///< 0: all

@@ -7,6 +7,7 @@
 #include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "compare/problem/validate.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/program/audits/offenders.hpp"
@@ -78,7 +79,12 @@ compare::Provenance provenance(const RunRequest& request, const std::string& dev
   origin.extra["iteration_rows"] = request.iterations ? "yes" : "no";
   origin.extra["condition_numbers"] = request.condition ? "yes" : "no";
   origin.extra["residuals"] = request.residual ? "yes" : "no";
+  if (request.ledger) origin.extra["ledger"] = "yes";
   if (request.from_state) origin.extra["from_state"] = request.from_state->string();
+  if (request.jitter.largest > 0) {
+    origin.extra["jitter"] = compare::shortest(request.jitter.largest);
+    origin.extra["jitter_seed"] = std::to_string(request.jitter.seed);
+  }
   return origin;
 }
 
@@ -135,7 +141,10 @@ void RunSession::start_state() {
     start_.positions = std::move(frame.positions);
     start_.velocities = std::move(frame.velocities);
   }
-  if (request_.resume) start_ = request_.resume->state;
+  if (request_.resume)
+    start_ = request_.resume->state;
+  else
+    add_jitter(request_.jitter, request_.scene, start_.positions);
   if (!finite(start_)) throw compare::InputError("the start holds a position that is not finite");
   step_ = offered_step_ = start_.step;
 }
@@ -143,7 +152,8 @@ void RunSession::start_state() {
 void RunSession::check_start() const {
   const compare::AuditResult result = judge_.audit(start_.positions);
   if (result.count == 0) return;
-  throw compare::InputError("the scene '" + request_.scene.name + "' starts with " +
+  const std::string jittered = request_.jitter.largest > 0 ? ", moved by --jitter," : "";
+  throw compare::InputError("the scene '" + request_.scene.name + "'" + jittered + " starts with " +
                             counted(result.count, "intersection") + " " + show("start", start_, result) +
                             "\nNo method that starts from a penetration can promise to have none. Move these apart:\n" +
                             judge_.describe(result));
@@ -163,7 +173,7 @@ void RunSession::open_folder() {
                                                    .energies = true,
                                                    .iterations = request_.iterations,
                                                    .condition = request_.condition});
-  if (request_.from_state || request_.resume) simulation_->restore(start_);
+  if (request_.from_state || request_.resume || request_.jitter.largest > 0) simulation_->restore(start_);
   summary_.scene = request_.scene.name;
   summary_.scale = request_.scale;
   summary_.solver = request_.solver;

@@ -15,6 +15,7 @@
 #include "compare/record/run_folder.hpp"
 #include "experiments/program/audits/auditor.hpp"
 #include "experiments/program/output.hpp"
+#include "experiments/program/runs/jitter.hpp"
 #include "experiments/program/runs/pace.hpp"
 #include "experiments/program/runs/warnings.hpp"
 
@@ -43,12 +44,13 @@ struct RunRequest {
   AuditMode audit = AuditMode::frame;                      ///< which states are audited
   bool audit_beside = false;                               ///< see Auditor
   std::optional<std::filesystem::path> from_state;         ///< a frame whose state the run begins with
+  Jitter jitter;                                           ///< of the start
   std::optional<compare::Checkpoint> resume;               ///< of `folder`, whose run goes on (resume.hpp)
   double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
   bool profile = false;                                    ///< records times by stage
   bool iterations = false, condition = false;              ///< see compare::SimulationOptions
   /// the contestant was wrapped so (experiments/program/runs/measured_simulation.hpp); for run.json
-  bool residual = false;
+  bool residual = false, ledger = false;
   std::filesystem::path folder;
   std::filesystem::path show;  ///< folder for pictures of what an audit refuses; empty: none
   std::string command_line;

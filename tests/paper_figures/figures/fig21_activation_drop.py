@@ -17,8 +17,8 @@ sys.path.insert(0, str(SOURCE))
 try:
     import numpy as np
 
-    from paper_figures.figures import contact_forces, fig21_activation_drop
-    from paper_figures.workflow import accept, commands
+    from paper_figures.figures import fig21_activation_drop
+    from paper_figures.workflow import accept, commands, contact_forces
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)

@@ -1,0 +1,61 @@
+"""A sheet of cloth that slides down an inclined plane without friction, as a scene file: the plane is level, and
+gravity is inclined. Nothing but the plane's normal force acts on the sheet, so that its centre moves along the plane as
+a free body does. Python's own library is enough.
+"""
+
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from paper_figures.workflow import layers
+
+RADIUS = 3e-3  # [m]
+SPACING = 1 / 69  # [m] of the sheet's vertices, as in fifty_layers
+ANGLE = math.radians(20)
+GRAVITY = 9.81  # [m/s²]
+ALONG, ACROSS = GRAVITY * math.sin(ANGLE), GRAVITY * math.cos(ANGLE)  # [m/s²]
+TIME_STEP = 1 / 300  # [s]
+DENSITY, STIFFNESS = 0.2, 100  # [kg/m²], [N/m]
+CELL = 10 * SPACING  # [m] of the plane's
+
+
+def resting_height():
+    """Where one contact a vertex carries it: k_c (r − d) = m g cos."""
+    return RADIUS - DENSITY * SPACING**2 * ACROSS / STIFFNESS
+
+
+def write(folder, side, steps):
+    """Writes the scene of side × side vertices; returns its file. The plane reaches farther than the sheet comes."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    way = 0.5 * ALONG * (steps * TIME_STEP)**2 + side * SPACING
+    cells = 2 * (int(way / CELL) + 2)
+    layers.write_mesh(folder / "sheet.ply", layers.positions(side, SPACING, resting_height()), layers.triangles(side))
+    layers.write_mesh(folder / "plane.ply", layers.positions(cells + 1, CELL, 0.0), layers.triangles(cells + 1))
+    material = {"density": DENSITY, "contact_stiffness": STIFFNESS, "friction": 0}
+    scene = {"format_version": 2, "name": "slide", "gravity": [ALONG, -ACROSS, 0],
+             "settings": {"time_step": TIME_STEP, "steps": steps, "iterations": 20, "contact_radius": RADIUS},
+             "bodies": [{"name": "sheet", "mesh": "sheet.ply", "material": material},
+                        {"name": "plane", "mesh": "plane.ply", "fixed": True, "material": material}]}
+    path = folder / "slide.json"
+    path.write_text(json.dumps(scene, indent=1))
+    return path
+
+
+@dataclass(frozen=True)
+class Slide:
+    """The scene of so many steps as a file below the folder of the runs (jobs.Job)."""
+
+    side: int
+    steps: int
+
+    @property
+    def path(self):
+        return f"scenes/slide_{self.side}_{self.steps}/slide.json"
+
+    def write(self, program, root):
+        """Where it is missing."""
+        path = root / self.path
+        if not path.is_file():
+            write(path.parent, self.side, self.steps)

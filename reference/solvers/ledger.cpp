@@ -1,0 +1,250 @@
+#include "reference/solvers/ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "reference/solvers/measure.hpp"
+#include "reference/solvers/vertex_system.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Index;
+using compare::StepEvent;
+using compare::StepEventKind;
+using compare::StepLedger;
+using compare::Vec3f;
+
+double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
+
+Triple<double> wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
+
+void add(compare::Vec3& sum, const Triple<double>& a) { sum = {sum.x + a[0], sum.y + a[1], sum.z + a[2]}; }
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// The scene as every stage sees it, and what follows from it. Stands before what reads it.
+struct RoundedScene {
+  compare::Scene scene;
+  compare::Topology topology;
+  compare::Exclusions exclusions;
+  explicit RoundedScene(const compare::Scene& from) : scene(from), exclusions(compare::exclusions(from)) {
+    round_to_single(scene);
+    topology = build_topology(scene);
+  }
+};
+
+}  // namespace
+
+class LedgerWriter::Writer : private RoundedScene {
+ public:
+  explicit Writer(const compare::Scene& from)
+      : RoundedScene(from), potential_(scene, topology), systems_(potential_), step_(scene.settings.time_step) {
+    for (std::size_t v = 0; v < potential_.mobility().size(); ++v) {
+      const Mobility mobility = potential_.mobility()[v];
+      if (mobility == Mobility::free) free_.push_back(v);
+      if (mobility == Mobility::prescribed) prescribed_.push_back(v);
+      is_fixed_.push_back(mobility == Mobility::fixed ? 1 : 0);
+    }
+  }
+
+  StepLedger write(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, const compare::StepOut& trace,
+                   const ContactSets& contacts_at_end) {
+    if (trace.events.empty() || trace.events.front().kind != StepEventKind::detection)
+      throw std::invalid_argument("ledger: a step begins with a detection");
+    ledger_ = {};
+    cut_.clear();
+    query_radius_ = trace.query_radius;
+    start_ = x_ = widened(start);
+    target_ = widened(trace.target);
+    potential_.begin_step(start_, target_);
+    read_contacts({trace.events[0].vertex_facet.contacts, trace.events[0].edge_edge.contacts}, start);
+    ledger_.energy_start = energy_ = potential_energy(x_) + kinetic_energy(velocity);
+    for (const std::size_t v : free_) add(ledger_.momentum_start, potential_.mass()[v] * wide(velocity[v]));
+    for (auto event = trace.events.begin() + 1; event != trace.events.end(); ++event) enter(*event, trace.colour);
+    subtract(ledger_.momentum_guess, ledger_.momentum_start);
+    read_contacts(contacts_at_end, trace.position);
+    ledger_.energy_commit = potential_energy(x_) + kinetic_energy(trace.velocity) - energy_;
+    ledger_.vertices_still = count_still(start, trace.position, free_);
+    ledger_.vertices_held = count_still(start, trace.position, cut_);
+    return ledger_;
+  }
+
+ private:
+  static void subtract(compare::Vec3& from, const compare::Vec3& a) {
+    from = {from.x - a.x, from.y - a.y, from.z - a.z};
+  }
+
+  static double count_still(const std::vector<Vec3f>& start, const std::vector<Vec3f>& end,
+                            const std::vector<std::size_t>& vertices) {
+    return static_cast<double>(std::ranges::count_if(vertices, [&](std::size_t v) { return start[v] == end[v]; }));
+  }
+
+  /// The regions that begin here have X_prev = `previous` as their centre.
+  void read_contacts(const ContactSets& contacts, const std::vector<Vec3f>& previous) {
+    previous_ = previous;
+    nearest_.assign(previous.size(), {});
+    potential_.set_contacts(contacts, widened(previous));
+    systems_.read_contacts();
+  }
+
+  double energy_at(const State& x, const State& start) const {
+    compare::StepMetrics metrics;
+    measure_energies(metrics, {x, start, target_}, potential_, scene, true);
+    return metrics.kinetic_energy + metrics.elastic_energy + metrics.contact_energy + metrics.gravity_energy;
+  }
+
+  double potential_energy(const State& x) const { return energy_at(x, x); }
+
+  double kinetic_energy(const std::vector<Vec3f>& velocity) const {
+    double sum = 0;
+    for (std::size_t v = 0; v < velocity.size(); ++v)
+      sum += 0.5 * potential_.mass()[v] * dot(wide(velocity[v]), wide(velocity[v]));
+    return sum;
+  }
+
+  /// What the energy became, less what it was.
+  double change_to(const State& x) {
+    const double now = energy_at(x, start_);
+    return now - std::exchange(energy_, now);
+  }
+
+  /// Adds the momentum that free vertices have more at `to` than at `from`.
+  void add_momentum(compare::Vec3& sum, const State& from, const State& to) const {
+    for (const std::size_t v : free_) add(sum, (potential_.mass()[v] / step_) * (to[v] - from[v]));
+  }
+
+  void enter(const StepEvent& event, const std::vector<Index>& colour) {
+    switch (event.kind) {
+      case StepEventKind::detection:
+        read_contacts({event.vertex_facet.contacts, event.edge_edge.contacts}, event.position);
+        ledger_.energy_detection += change_to(x_);
+        return;
+      case StepEventKind::guess: {
+        const State guessed = widened(event.position);
+        ledger_.energy_guess += change_to(guessed);
+        add_momentum(ledger_.momentum_guess, x_, guessed);
+        x_ = guessed;
+        return;
+      }
+      case StepEventKind::sweep: enter_sweep(event, colour);
+    }
+  }
+
+  void enter_sweep(const StepEvent& event, const std::vector<Index>& colour) {
+    const State stored = widened(event.position);
+    State proposed = proposals(stored, colour);
+    for (const std::size_t v : free_)
+      ledger_.motion_proposed += potential_.mass()[v] / step_ * length(proposed[v] - x_[v]);
+    find_cut(proposed, stored, event.cut);
+    enter_taken(proposed, stored);
+    ledger_.energy_sweep += change_to(proposed);
+    add_momentum(ledger_.momentum_sweep, x_, proposed);
+    ledger_.energy_truncation += change_to(stored);
+    add_momentum(ledger_.momentum_truncation, proposed, stored);
+    x_ = stored;
+  }
+
+  /// x + H⁻¹ f of each free vertex, from what the sweep stored at lower colours; targets of prescribed ones.
+  State proposals(const State& stored, const std::vector<Index>& colour) const {
+    State proposed = stored;
+    const SweepView view{x_, stored, colour};
+    for (const std::size_t v : prescribed_) proposed[v] = target_[v];
+    tbb::parallel_for(std::size_t{0}, free_.size(), [&](std::size_t k) {
+      const std::size_t v = free_[k];
+      const VertexSystem system = systems_.at(static_cast<Index>(v), view);
+      proposed[v] = x_[v] + solved(system, system.force);
+    });
+    return proposed;
+  }
+
+  /// Rounding keeps every stored position from its proposal. The trace says how many vertices were cut: of prescribed
+  /// ones, whose proposals are exact, those that are elsewhere; of free ones those that are farthest from theirs. The
+  /// others' proposals become what was stored.
+  void find_cut(State& proposed, const State& stored, Index cut) {
+    const auto behind = std::ranges::count_if(prescribed_, [&](std::size_t v) { return proposed[v] != stored[v]; });
+    const auto taken = [&](std::size_t v) { return length(proposed[v] - stored[v]); };
+    cut_ = free_;
+    const auto end = cut_.begin() + std::clamp<std::ptrdiff_t>(cut - behind, 0, std::ssize(cut_));
+    std::ranges::nth_element(cut_, end, std::ranges::greater{}, taken);
+    for (auto v = end; v != cut_.end(); ++v) proposed[*v] = stored[*v];
+    cut_.erase(end, cut_.end());
+  }
+
+  /// What truncation takes from the cut vertices, and which way that was.
+  void enter_taken(const State& proposed, const State& stored) {
+    find_nearest();
+    for (const std::size_t v : cut_) {
+      const Triple<double> taken = (potential_.mass()[v] / step_) * (proposed[v] - stored[v]),
+                           n = wide(nearest_[v].normal);
+      ledger_.motion_taken += length(taken);
+      if (!(dot(n, n) > 0)) {
+        ledger_.motion_taken_unpaired += length(taken);
+        continue;
+      }
+      const double towards = dot(n, taken) / dot(n, n);
+      ledger_.motion_taken_leaving += std::max(0.0, -towards * std::sqrt(dot(n, n)));
+      ledger_.motion_taken_tangential += length(taken - towards * n);
+    }
+  }
+
+  /// Of each cut vertex the nearest of all pairs within r_q at X_prev that it is part of.
+  void find_nearest() {
+    std::vector<std::uint8_t> sought(previous_.size(), 0);
+    bool any = false;
+    for (const std::size_t v : cut_) {
+      if (std::exchange(nearest_[v].is_known, true)) continue;
+      sought[v] = 1;
+      any = true;
+    }
+    if (!any) return;
+    const compare::PlaneIn in{.topology = &topology,
+                              .exclusions = exclusions,
+                              .positions = previous_,
+                              .is_fixed = is_fixed_,
+                              .query_radius = query_radius_,
+                              .bound_relaxation = static_cast<float>(scene.settings.bound_relaxation)};
+    for (const NearPair& pair : near_pairs_with_planes(in, sought))
+      for (std::size_t k = 0; k < pair.vertices.size(); ++k) {
+        Nearest& nearest = nearest_[at(pair.vertices[k])];
+        if (!nearest.is_known || pair.below >= nearest.distance) continue;
+        nearest.distance = pair.below;
+        nearest.normal = pair.as_borne(k).normal;
+      }
+  }
+
+  /// The nearest pair of a vertex.
+  struct Nearest {
+    bool is_known = false;                                    ///< it was sought
+    float distance = std::numeric_limits<float>::infinity();  ///< [m]
+    Vec3f normal{};                                           ///< from the vertex's side to the other; 0 where none is
+  };
+
+  Potential potential_;
+  VertexSystems systems_;
+  double step_;
+  std::vector<std::size_t> free_, prescribed_;
+  std::vector<std::uint8_t> is_fixed_;
+  State start_, target_, x_;
+  double energy_ = 0;  ///< of x_ [J]
+  float query_radius_ = 0;
+  std::vector<Vec3f> previous_;   ///< X_prev of the last detection
+  std::vector<Nearest> nearest_;  ///< by vertex, at X_prev
+  std::vector<std::size_t> cut_;  ///< free vertices that the last sweep cut
+  StepLedger ledger_;
+};
+
+LedgerWriter::LedgerWriter(const compare::Scene& scene) : writer_(std::make_unique<Writer>(scene)) {}
+LedgerWriter::~LedgerWriter() = default;
+
+StepLedger LedgerWriter::of(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity,
+                            const compare::StepOut& trace, const ContactSets& contacts_at_end) {
+  return writer_->write(start, velocity, trace, contacts_at_end);
+}
+
+}  // namespace ogc::reference
