@@ -140,13 +140,14 @@ CaseData corner(Random& random) {
   return finished(random, builder, random.between(0.2, 1), 0);
 }
 
-/// Sheets so far from the origin that a few ulp of a coordinate lie between them, or none.
+/// Sheets so far from the origin that a few ulp of a coordinate lie between them, or none. No farther than 2¹⁰, so that
+/// coordinates are legal in the largest unit.
 CaseData far(Random& random) {
   MeshBuilder builder;
-  const double height = random.magnitude(-4, -1);
+  const double height = random.magnitude(-4, -2);
   builder.grid(1 + random.below(2), 1, {}, {1, 0, 0}, {0, 1, 0});
   builder.grid(1, 1, {random.between(-0.5, 0.5), 0.3, height}, {0.8, 0.6, 0}, {-0.6, 0.8, 0});
-  const Vec3 shift = scaled(in_box(random, -1, 1), height * std::pow(2, 16 + random.below(9)));
+  const Vec3 shift = scaled(in_box(random, -1, 1), std::min(0x1p10, height * std::pow(2, 16 + random.below(9))));
   for (Vec3& p : builder.points) p = sum(p, shift);
   return finished(random, builder, random.between(0.1, 1), 0);
 }

@@ -381,17 +381,21 @@ CaseData models(Random& random) {
   return test;
 }
 
-/// Half-spaces in place of balls.
-CaseData planes(Random& random) {
-  constexpr std::array<CaseData (*)(Random&), 4> scenes{onto, collide, handle, at_rest};
-  StepCase test = case_of<StepCase>(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
+CaseData with_planes(StepCase test) {
   Scene scene = *test.scene;
   scene.settings.bounds = Bounds::planes;
   test.scene = std::make_shared<Scene>(std::move(scene));
   return test;
 }
 
-constexpr std::array<Generator, 13> table{{{"fall", 12, true, fall},
+/// Half-spaces in place of balls.
+CaseData planes(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 3> scenes{onto, collide, handle};
+  return with_planes(case_of<StepCase>(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random)));
+}
+CaseData planes_at_rest(Random& random) { return with_planes(case_of<StepCase>(at_rest(random))); }
+
+constexpr std::array<Generator, 14> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -403,7 +407,8 @@ constexpr std::array<Generator, 13> table{{{"fall", 12, true, fall},
                                            {"lattice", 10, false, lattice},
                                            {"solid", 8, false, solid, 0, Stage::tetrahedron},
                                            {"models", 5, false, models},
-                                           {"planes", 20, false, planes, 0, Stage::plane}}};
+                                           {"planes", 10, false, planes, 0, Stage::plane},
+                                           {"ladder.planes", 10, false, planes_at_rest, 0, Stage::plane}}};
 
 }  // namespace
 
