@@ -57,7 +57,7 @@ TEST_CASE("whoever answers as a wrong form says fits it in every case, and is wr
     if (stage_info(stage).kind == CaseKind::followed)
       continue;  // the exact contestant sweeps by itself, and a step has no forms
     if (stage == Stage::plane)
-      continue;  // the exact contestant makes planes by itself, and a form says what the judge would take, not what it gets
+      continue;  // the exact contestant makes planes by itself, and forms say what the judge would take
     const std::uint64_t each = is_mesh_stage(stage) ? 4 : 40;
     const std::vector<Evidence> right = evidence_of(stage, tests::exact_contestant(authority), each);
     for (const WrongForm& form : wrong_forms(stage, right)) {
