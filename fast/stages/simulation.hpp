@@ -102,6 +102,7 @@ class ResidentSimulation : public compare::Simulation {
   Detection<Backend>& detection() { return detection_; }
   const compare::Scene& scene() const { return scene_; }
   const compare::Topology& topology() const { return topology_; }
+  float detection_radius() const { return step_.detection_radius(); }  ///< r, with the contact margin [m]
 
  private:
   static constexpr int longest_frame = 64;  // rows and targets of a frame stay small; a longer one is several
@@ -146,6 +147,7 @@ class ResidentSimulation : public compare::Simulation {
     s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
+    s.touched.resize(n);
     s.padded_start.resize(n);
     s.padded.resize(2 * n);
     s.strain_start.resize(rest_.triangles.size());
