@@ -163,6 +163,7 @@ std::function<Out(const In&)> timed(std::function<Out(const In&)> plugin, const 
 Contestant plugin_contestant(Plugin plugin) {
   Contestant c;
   c.name = plugin->name();
+  c.has_steps_by_pairs = false;
   c.closest_face = [plugin](const ClosestFaceIn& in) { return ask_closest_face(*plugin, in); };
   c.closest_points = [plugin](const ClosestPointsIn& in) { return ask_closest_points(*plugin, in); };
   c.block = [plugin](const BlockIn& in) { return ask_block(*plugin, in); };

@@ -89,17 +89,18 @@ struct BeginTetrahedron {
 };
 
 /// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
-/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
+/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified; a guess
+/// by pairs has a certificate of its own.
 struct BeginRegions {
   const Vec* position;     ///< x by vertex [m]
   FeasibleRegions ended;   ///< those that the last detection left
   Vec* previous;           ///< X_prev by vertex [m], written
   StepControl* control;    ///< on the backend: counts vertices that their region does not hold
-  int* touched = nullptr; ///< by vertex, where the detection marks what touches (mark_touched.hpp): 0, written
+  int* touched = nullptr;  ///< by vertex, where the detection marks what touches (mark_touched.hpp): 0, written
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
-    if (control->rounds > 0 && is_outside(ended[v], x)) control->count_violation();
+    if (control->rounds > 0 && control->left == 0 && is_outside(ended[v], x)) control->count_violation();
     previous[v] = x;
     if (touched != nullptr) touched[v] = 0;
   }

@@ -212,13 +212,22 @@ struct ForgetContacts {
   }
 };
 
+/// Noted pairs are none. One item.
+struct ForgetNoted {
+  ListsView lists;
+
+  OGC_HD void operator()(int) const {
+    if (*lists.overflow == 0) *lists.noted_count = 0;
+  }
+};
+
 /// Start of a detection: index over the largest of buckets, vertices and primitives.
 struct PrepareLists {
   ListsView lists;
   int vertices;
 
   OGC_HD void operator()(int i) const {
-    if (i == 0 && *lists.overflow == 0) *lists.noted_count = 0;
+    if (i == 0) ForgetNoted{lists}(i);
     ForgetContacts{lists, vertices}(i);
   }
 };

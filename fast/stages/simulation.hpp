@@ -31,14 +31,15 @@ class ResidentSimulation : public compare::Simulation {
         colouring_(colour_vertices(rest_)),
         exclusions_(compare::exclusions(scene_)),
         detection_(backend_, topology_, exclusions_, list_capacity, 0, scene_.settings.bounds, fixed_vertices()),
+        pair_guess_(scene_.settings, fixed_vertices()),
         sweep_(backend_, rest_, colouring_, topology_, scene_),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
-        step_(backend_, state_, detection_, sweep_, clock_, step_settings(scene_, moving_, options.energies),
-              static_cast<int>(rest_.mass.size())),
+        step_(backend_, state_, detection_, pair_guess_, sweep_, clock_,
+              step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
     fill_state();
-    sweep_.reserve_contacts(4 * detection_.capacity());
+    reserve();
     const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions),
                                       velocities = compare::to_single(scene_.velocities);
     upload_motion(positions, velocities);
@@ -278,8 +279,13 @@ class ResidentSimulation : public compare::Simulation {
     lists_moved();
   }
 
-  void lists_moved() {
+  void reserve() {
     sweep_.reserve_contacts(4 * detection_.capacity());
+    pair_guess_.reserve(static_cast<int>(detection_.capacities()[1]));
+  }
+
+  void lists_moved() {
+    reserve();
     for (auto& recording : recordings_) recording.clear();
   }
 
@@ -300,6 +306,7 @@ class ResidentSimulation : public compare::Simulation {
   Colouring colouring_;
   compare::Exclusions exclusions_;
   Detection<Backend> detection_;
+  PairGuess<Backend> pair_guess_;
   Sweep<Backend> sweep_;
   StageClock<Backend> clock_;
   StepState<Backend> state_;

@@ -5,6 +5,7 @@
 //   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q
 //   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then the contacts of the
 //               last detection are listed, and xᵗ and x where the sweep gathers them
+//               (guess=pairs: one round; where balls cut many, all moves by a certificate of pairs, and a detection)
 //   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due,
 //               X_prev ← x, detect before the next
 //   finish      certificate; commit and sums only if clean; one row
@@ -28,6 +29,7 @@
 #include "fast/kernels/metrics.hpp"
 #include "fast/kernels/step_sums.hpp"
 #include "fast/stages/detection.hpp"
+#include "fast/stages/pair_guess.hpp"
 #include "fast/stages/profile.hpp"
 #include "fast/stages/reduce.hpp"
 #include "fast/stages/step_detection.hpp"
@@ -130,11 +132,12 @@ template <class Backend>
 class Step {
  public:
   /// For a mesh of `vertices`; `state` is filled later.
-  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep,
-       StageClock<Backend>& clock, StepSettings settings, int vertices)
+  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, PairGuess<Backend>& pair_guess,
+       Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings, int vertices)
       : backend_(backend),
         state_(state),
         detection_(detection),
+        pair_guess_(pair_guess),
         sweep_(sweep),
         clock_(clock),
         settings_(settings),
@@ -235,7 +238,7 @@ class Step {
                                                        .prescribed_number = state_.prescribed_number.data()});
   }
 
-  void guess_loop() {
+  void guess_in_rounds() {
     const auto round = [&] {
       observe(compare::StepEventKind::guess);  // the round before
       detect_in_round();
@@ -243,6 +246,32 @@ class Step {
     };
     backend_.repeat(ChooseQueryRadius{control(), settings_.control}, flag(&StepControl::guess), round,
                     EndRound{control(), settings_.control});
+  }
+
+  /// One round; where its balls cut many vertices, all moves at once by the certificate of pairs, and a detection where
+  /// they lead.
+  void guess_by_pairs() {
+    backend_.when(ChooseQueryRadius{control(), settings_.control}, flag(&StepControl::guess),
+                  [&] { detect_in_round(), guess(); });
+    const PairGuessView view = pair_guess_.view(detection_, regions(), settings_.bound_relaxation, state_.target.data(),
+                                                state_.position.data(), control());
+    backend_.when(BeginPairGuess{control(), settings_.control, pair_guess_.state()}, flag(&StepControl::pairs),
+                  [&] { pair_guess_.begin(backend_, detection_, settings_.detection_radius, view); });
+    backend_.repeat(
+        EndPass{control(), pair_guess_.state(), true}, flag(&StepControl::unsafe),
+        [&] { pair_guess_.pass(backend_, detection_, view); }, EndPass{control(), pair_guess_.state()});
+    backend_.for_each(state_.vertex_count, CountMoves{view, state_.prescribed_number.data()});
+    backend_.when(EndPairGuess{control()}, flag(&StepControl::left), [&] {
+      observe(compare::StepEventKind::guess);
+      detect_in_round();
+    });
+  }
+
+  void guess_loop() {
+    if (pair_guess_.is_used())
+      guess_by_pairs();
+    else
+      guess_in_rounds();
     observe(compare::StepEventKind::guess);
     clock_.time(StepStage::detection,
                 [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
@@ -366,6 +395,7 @@ class Step {
   Backend& backend_;
   StepState<Backend>& state_;
   Detection<Backend>& detection_;
+  PairGuess<Backend>& pair_guess_;
   Sweep<Backend>& sweep_;
   StageClock<Backend>& clock_;
   StepSettings settings_;

@@ -43,8 +43,8 @@ struct StepListing {
 /// Both, of a detection that lists its contacts at once.
 struct StepLaunches : StepStart, StepListing<EndDetection> {};
 
-/// Of a detection in a round of the guess loop: its first launch, and the last, in which vertices of active contacts are
-/// marked in place of lists.
+/// Of a detection in a round of the guess loop: its first launch, and the last, in which vertices of active contacts
+/// are marked in place of lists.
 struct RoundLaunches : StepStart {
   StepControl* control;  ///< on the backend
   const Vec* previous;   ///< X_prev by vertex, on the backend [m]

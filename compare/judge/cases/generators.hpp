@@ -20,7 +20,8 @@ struct Generator {
   CaseData (*make)(Random&);
   /// runs of fewer cases than this leave the row out, as one of its meshes would be too large a share
   std::uint64_t least = 0;
-  bool solids = false;  ///< scenes with tetrahedra, which only a contestant with that stage is asked about
+  bool solids = false;    ///< scenes with tetrahedra, which only a contestant with that stage is asked about
+  bool by_pairs = false;  ///< scenes with guess=pairs, which only a contestant that knows it is asked about
 };
 
 /// The generators of a stage, without those that take real states: `states` as they are, `mutated`

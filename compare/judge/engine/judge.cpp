@@ -146,8 +146,10 @@ class GeneratorRun {
 std::vector<Generator> chosen(Stage stage, const Contestant& contestant, const JudgeOptions& options) {
   if (!options.generator.empty()) return {find_generator(stage, options.generator)};
   std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());
-  std::erase_if(
-      rows, [&](const Generator& row) { return row.least > options.cases || (row.solids && !contestant.tetrahedron); });
+  std::erase_if(rows, [&](const Generator& row) {
+    return row.least > options.cases || (row.solids && !contestant.tetrahedron) ||
+           (row.by_pairs && !contestant.has_steps_by_pairs);
+  });
   if (options.states && options.states->missing(stage).empty())
     for (const std::string_view name : {"states", "mutated"}) rows.push_back(find_generator(stage, name));
   return rows;
