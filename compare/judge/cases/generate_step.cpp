@@ -373,10 +373,10 @@ CaseData solid(Random& random) {
 }
 
 /// Sheets above one another land on a fixed one, some within a step's reach of it and some beyond, closer to each other
-/// than to it.
+/// than to it; or all fall freely.
 CaseData stack(Random& random) {
   StepBuilder builder(random);
-  const double move = random.between(0.3, 1.2), gap = move * random.between(0.2, 1.2),
+  const double move = random.between(0.3, 1.2), gap = move * (random.one_in(3) ? 16 : random.between(0.2, 1.2)),
                between = move * random.between(0.05, 0.6);
   const int layers = 2 + random.below(4), n = 2 + random.below(2);
   for (int k = 0; k < layers; ++k) builder.sheet(n, n, {0, 0, gap + k * between}, {0, 0, -builder.speed(move)});
