@@ -4,6 +4,7 @@
 // contestant that answers one thread at a time would otherwise be kept busy with what nobody wants, while the batch
 // that all wait for stands in the queue.
 #include "compare/judge/engine/judge.hpp"
+#include "compare/judge/engine/asked.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -152,17 +153,20 @@ bool has_stage(const Contestant& contestant, Stage stage) {
 std::vector<Generator> chosen(Stage stage, const Contestant& contestant, const JudgeOptions& options) {
   if (!options.generator.empty()) return {find_generator(stage, options.generator)};
   std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());
-  std::erase_if(rows, [&](const Generator& row) {
-    const bool is_step_with_planes = stage == Stage::step && row.also_needs == Stage::plane;
-    return row.least > options.cases || (row.also_needs && !has_stage(contestant, *row.also_needs)) ||
-           (is_step_with_planes && !contestant.has_steps_with_planes);
-  });
+  std::erase_if(rows,
+                [&](const Generator& row) { return row.least > options.cases || !is_asked(contestant, stage, row); });
   if (options.states && options.states->missing(stage).empty())
     for (const std::string_view name : {"states", "mutated"}) rows.push_back(find_generator(stage, name));
   return rows;
 }
 
 }  // namespace
+
+bool is_asked(const Contestant& contestant, Stage stage, const Generator& generator) {
+  const bool is_step_with_planes = stage == Stage::step && generator.also_needs == Stage::plane;
+  return (!generator.also_needs || has_stage(contestant, *generator.also_needs)) &&
+         (!is_step_with_planes || contestant.has_steps_with_planes);
+}
 
 bool StageReport::passed() const {
   return !skipped && tally.mismatched == 0 && tally.total().cases > 0 && tally.grey_within_limit();

@@ -7,6 +7,7 @@
 
 #include "compare/judge/cases/generators.hpp"
 #include "compare/judge/cases/stage_traits.hpp"
+#include "compare/judge/engine/asked.hpp"
 #include "compare/judge/report/inputs.hpp"
 
 namespace ogc::compare {
@@ -29,13 +30,13 @@ std::size_t cases_of_a_generator(CaseKind kind, std::size_t generators) {
   return 1;
 }
 
-/// The first cases of every generator.
-std::vector<TestCase> sample(Stage stage, std::uint64_t seed) {
+/// The first cases of every generator that the contestant is asked about.
+std::vector<TestCase> sample(Stage stage, const Contestant& contestant, std::uint64_t seed) {
   const auto rows = generators(stage);
   const std::size_t each = cases_of_a_generator(stage_info(stage).kind, rows.size());
   std::vector<TestCase> cases;
   for (const Generator& row : rows)
-    for (std::size_t i = 0; i < each && row.least == 0; ++i)
+    for (std::size_t i = 0; i < each && row.least == 0 && is_asked(contestant, stage, row); ++i)
       cases.push_back(generate(row, {stage, std::string(row.name), seed, i, "", {}}));
   return cases;
 }
@@ -165,7 +166,7 @@ Diagnosis diagnose(Stage stage, std::span<const TestCase> failing, const Contest
                    const Authority& authority, std::uint64_t seed) {
   Diagnosing diagnosing(stage, contestant, authority);
   diagnosing.look_at(thinned(failing, is_mesh_stage(stage) ? most_failing_meshes : most_failing));
-  diagnosing.look_at(sample(stage, seed));
+  diagnosing.look_at(sample(stage, contestant, seed));
   return diagnosing.conclude();
 }
 

@@ -1,0 +1,12 @@
+// Which generators' cases a contestant is asked about.
+#pragma once
+
+#include "compare/contestant.hpp"
+#include "compare/judge/cases/generators.hpp"
+
+namespace ogc::compare {
+
+/// Whether the contestant has all stages that the generator's cases need beside the judged one.
+bool is_asked(const Contestant& contestant, Stage stage, const Generator& generator);
+
+}  // namespace ogc::compare
