@@ -62,8 +62,8 @@ struct IterationMetrics {
   std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;
 };
 
-/// What the parts of a step do to energy and momentum: columns of steps.csv with `ogc run --ledger` (method.md §5.7 has
-/// each definition). Energies are changes but for the start's [J]; momenta and motions are of free vertices [kg m/s].
+/// What the parts of a step do to energy and momentum: columns of steps.csv with `ogc run --ledger`
+/// (reference/ledger.md). Energies are changes but for the start's [J]; momenta and motions, free vertices' [kg m/s].
 struct StepLedger {
   double energy_start = 0;                                                   ///< at xᵗ with vᵗ
   double energy_guess = 0, energy_detection = 0;                             ///< rounds; contacts found anew

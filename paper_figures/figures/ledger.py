@@ -1,20 +1,18 @@
 """What the parts of a step do to energy and momentum, what truncation takes and which way, and vertices that stand
 still: `twist`, `fifty_layers` and a sheet that slides without friction, by balls and by planes. Runs, table and
-picture; compare/method.md §5.7 defines every column. The first two begin with a state of a plain run, where truncation
+picture; reference/ledger.md defines every column. The first two begin with a state of a plain run, where truncation
 takes most. Not in the paper.
 
 Runs and table need Python's own library alone; the picture needs matplotlib and is left out with --no-picture.
 """
 
-import argparse
 import csv
 import sys
 from itertools import accumulate
-from pathlib import Path
 
 from paper_figures.workflow import commands
 from paper_figures.workflow.evidence import run_at
-from paper_figures.workflow.jobs import RunFailure
+from paper_figures.workflow.jobs import RunFailure, options_of_figure
 
 PARTS = ("guess", "detection", "sweep", "truncation", "commit")
 MOVERS = ("guess", "sweep", "truncation")  # of momentum; the others leave it as it is
@@ -152,13 +150,7 @@ def draw(runs, scale, out):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
-    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="small", choices=commands.LEDGER_STEPS)
-    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
-    parser.add_argument("--no-picture", action="store_true", help="runs and table alone")
-    options = parser.parse_args()
+    options = options_of_figure(__doc__.splitlines()[0], commands.LEDGER_STEPS)
     try:
         for job in commands.ledgers(options.scale, options.backend):
             job.make(options.ogc, options.folder)

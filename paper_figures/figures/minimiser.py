@@ -5,13 +5,11 @@ same energy, contacts and friction fixed: three scenes, each from a state of its
 Runs and table need Python's own library alone; the picture needs matplotlib and is left out with --no-picture.
 """
 
-import argparse
 import csv
 import sys
-from pathlib import Path
 
 from paper_figures.workflow import commands
-from paper_figures.workflow.jobs import RunFailure
+from paper_figures.workflow.jobs import RunFailure, options_of_figure
 
 DISTANCES = {"bound_by_gradient [m]": "bound by ‖∇E‖/λ", "bound_by_energy [m]": "bound by √(2 ΔE/λ)",
              "largest_distance [m]": "largest distance of a vertex", "rms_distance [m]": "root mean square",
@@ -42,13 +40,7 @@ def draw(rows, scale, out):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
-    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="small", choices=commands.MINIMISER_STEPS)
-    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
-    parser.add_argument("--no-picture", action="store_true", help="runs and table alone")
-    options = parser.parse_args()
+    options = options_of_figure(__doc__.splitlines()[0], commands.MINIMISER_STEPS)
     try:
         for job in commands.minimiser(options.scale, options.backend):
             job.make(options.ogc, options.folder)

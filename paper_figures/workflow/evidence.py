@@ -179,8 +179,10 @@ class RunEvidence:
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
         membrane, activation, bounds, redetect_fraction (rounded to single precision in the manifest), and steps: so
-        many from the scene's start, not a window."""
+        many from the scene's start, not a window. A start that --jitter moved is another question."""
         m = self.manifest
+        if "jitter" in m and "jitter" not in wanted:
+            return False
         special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
                    "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},

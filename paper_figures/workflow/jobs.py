@@ -5,6 +5,7 @@ A job is a command with a folder or a file of its own below the folder of its pa
 and returns how that ended (KEPT, FINISHED, STOPPED); it throws RunFailure. `results` yields the files that are packed.
 """
 
+import argparse
 import contextlib
 import json
 import math
@@ -31,6 +32,17 @@ AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run fou
 class RunFailure(Exception):
     """A job that did not end as it should, or that can't begin; the message has its command and the log's last
     lines."""
+
+
+def options_of_figure(description, scales):
+    """Of a figure whose runs and table need Python's own library alone: folder, ogc, scale, backend, no_picture."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="small", choices=scales)
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    parser.add_argument("--no-picture", action="store_true", help="runs and table alone")
+    return parser.parse_args()
 
 
 class Limit:

@@ -287,7 +287,8 @@ class FreedomCheck {
   void judge_planes(const std::vector<double>& threshold) {
     for (const MeasuredPair& pair : pairs_) {
       const auto is_among_nearest = [&](Index v) { return pair.distance < threshold[at(v)]; };
-      const bool is_due = pair.has_room && is_within(pair.distance) &&
+      const auto moves = [&](Index v) { return answered_.moves(v); };  // of none: no question, but a wrong form's
+      const bool is_due = pair.has_room && is_within(pair.distance) && std::ranges::any_of(pair.vertices, moves) &&
                           std::ranges::all_of(pair.vertices, is_among_nearest);
       freedom_.due += is_due ? 1 : 0;
       if (is_due && !pair.is_separated && freedom_.missing++ == 0) freedom_.first_missing = pair.name;

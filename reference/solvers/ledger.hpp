@@ -1,5 +1,5 @@
-// The ledger of a step that somebody else took: what its parts did to energy and momentum (method.md §5.7), from the
-// trace of the step alone. What a sweep would have written without bounds is computed here, in double, from the
+// The ledger of a step that somebody else took: what its parts did to energy and momentum (reference/ledger.md), from
+// the trace of the step alone. What a sweep would have written without bounds is computed here, in double, from the
 // positions that the trace has before and after it; so the solver needs no code for this, wherever it computes.
 #pragma once
 

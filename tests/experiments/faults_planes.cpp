@@ -204,17 +204,32 @@ std::vector<Fault> ball_by_ball() {
   };
 }
 
-/// The balls of the paper: nothing has planes, and each vertex the ball of its nearest pair.
+/// The balls of the paper: each vertex has that of its nearest pair.
+std::vector<float> balls_of_all_pairs(const PlaneIn& in, const Authority& authority) {
+  const DetectIn asked{in.topology, in.exclusions, in.positions, in.query_radius, in.query_radius};
+  const DetectVertexFacetOut near = authority.detect_vertex_facet(asked).exact;
+  const std::vector<float> edges = authority.detect_edge_edge(asked).exact.d_min_edge;
+  return authority.bound({in.topology, near.d_min_vertex, edges, near.d_min_triangle, in.bound_relaxation}).exact.bound;
+}
+
+/// Nothing has planes.
 Fault balls_alone() {
   return {"plane: balls in place of planes", Stage::plane, [](Contestant& contestant, const Authority& authority) {
             contestant.plane = [authority](const PlaneIn& in) {
-              const DetectIn asked{in.topology, in.exclusions, in.positions, in.query_radius, in.query_radius};
-              const DetectVertexFacetOut near = authority.detect_vertex_facet(asked).exact;
-              const std::vector<float> edges = authority.detect_edge_edge(asked).exact.d_min_edge;
-              return PlaneOut{
-                  {},
-                  authority.bound({in.topology, near.d_min_vertex, edges, near.d_min_triangle, in.bound_relaxation})
-                      .exact.bound};
+              return PlaneOut{{}, balls_of_all_pairs(in, authority)};
+            };
+          }};
+}
+
+/// Planes that give nothing: the ball is as small as without them.
+Fault balls_beside_planes() {
+  return {"plane: balls of all pairs beside the planes", Stage::plane,
+          [](Contestant& contestant, const Authority& authority) {
+            contestant.plane = [right = contestant.plane, authority](const PlaneIn& in) {
+              PlaneOut out = right(in);
+              const std::vector<float> balls = balls_of_all_pairs(in, authority);
+              for (std::size_t v = 0; v < balls.size(); ++v) out.bound[v] = std::min(out.bound[v], balls[v]);
+              return out;
             };
           }};
 }
@@ -246,6 +261,7 @@ std::vector<Fault> plane_faults() {
     for (Fault& fault : faults()) all.push_back(std::move(fault));
   all.push_back(balls_alone());
   all.push_back(fixed_as_free());
+  all.push_back(balls_beside_planes());
   return all;
 }
 

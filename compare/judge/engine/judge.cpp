@@ -4,7 +4,6 @@
 // contestant that answers one thread at a time would otherwise be kept busy with what nobody wants, while the batch
 // that all wait for stands in the queue.
 #include "compare/judge/engine/judge.hpp"
-#include "compare/judge/engine/asked.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -18,6 +17,7 @@
 
 #include "compare/judge/cases/stage_traits.hpp"
 #include "compare/judge/cases/states.hpp"
+#include "compare/judge/engine/asked.hpp"
 #include "compare/judge/engine/narrow.hpp"
 
 namespace ogc::compare {

@@ -18,36 +18,27 @@ namespace ogc::compare {
 using Json = nlohmann::ordered_json;
 
 /// "0x1.8p-3": every bit.
-inline std::string hexadecimal(float x) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%a", static_cast<double>(x));
-  return buffer;
-}
-
-/// Reads it back, or a decimal number; throws InputError for other text.
-inline float number(const Json& json) {
-  const std::string text = json.get<std::string>();
-  char* end = nullptr;
-  const float x = std::strtof(text.c_str(), &end);
-  if (text.empty() || *end != '\0')
-    throw InputError("'" + text + "' is not a number; write it as in 0x1.8p-3 or 0.1875");
-  return x;
-}
-
-/// The same of numbers of double precision.
 inline std::string hexadecimal_of(double x) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%a", x);
   return buffer;
 }
-inline double number_of_double(const Json& json) {
+inline std::string hexadecimal(float x) { return hexadecimal_of(static_cast<double>(x)); }
+
+/// The number that `parse`, of C's library, makes of the text; throws InputError where that is not all of it.
+template <class Number>
+Number parsed_number(const Json& json, Number (*parse)(const char*, char**)) {
   const std::string text = json.get<std::string>();
   char* end = nullptr;
-  const double x = std::strtod(text.c_str(), &end);
+  const Number x = parse(text.c_str(), &end);
   if (text.empty() || *end != '\0')
     throw InputError("'" + text + "' is not a number; write it as in 0x1.8p-3 or 0.1875");
   return x;
 }
+
+/// Reads a number back, or a decimal one; throws InputError for other text.
+inline float number(const Json& json) { return parsed_number(json, &std::strtof); }
+inline double number_of_double(const Json& json) { return parsed_number(json, &std::strtod); }
 
 /// [x, y, z], and back.
 inline Json to_json(const Vec3f& p) { return {hexadecimal(p.x), hexadecimal(p.y), hexadecimal(p.z)}; }

@@ -19,6 +19,14 @@ std::vector<Quantity> mesh_quantities(const Topology& topology) {
   return all;
 }
 
+std::vector<Quantity> state_quantities(const Topology& topology, const std::vector<Vec3f>& positions,
+                                       const std::vector<Index>& rigid_groups, const CompressedRows& partners) {
+  std::vector<Quantity> all = joined(mesh_quantities(topology), std::vector{points("positions", "m", positions),
+                                                                            indices("rigid_groups", rigid_groups)});
+  if (partners.rows() > 0) all.push_back(indices("excluded_pairs", pairs_of(partners)));
+  return all;
+}
+
 std::vector<Quantity> scene_quantities(const Scene& scene) {
   std::vector<Quantity> all;
   for (const SettingInfo& info : setting_table()) {

@@ -78,6 +78,9 @@ inline Quantity labelled(Quantity quantity, std::vector<std::string> labels) {
 /// What a mesh is made of, and a scene: settings that a stage reads, gravity, bodies with their materials.
 std::vector<Quantity> mesh_quantities(const Topology& topology);
 std::vector<Quantity> scene_quantities(const Scene& scene);
+/// A mesh with positions [m] and rigid groups by vertex, and pairs that are left out, where there are any.
+std::vector<Quantity> state_quantities(const Topology& topology, const std::vector<Vec3f>& positions,
+                                       const std::vector<Index>& rigid_groups, const CompressedRows& partners);
 
 /// One list after another.
 template <class... Lists>

@@ -181,12 +181,8 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   }
   /// Radii, mesh, positions and exclusions.
   static std::vector<Quantity> inputs(const Case& c) {
-    std::vector<Quantity> all = joined(
-        {scalar("contact_radius", "m", c.contact_radius), scalar("query_radius", "m", c.query_radius)},
-        mesh_quantities(*c.topology),
-        std::vector{points("positions", "m", c.positions), indices("rigid_groups", c.rigid_groups)});
-    if (c.partners.rows() > 0) all.push_back(indices("excluded_pairs", pairs_of(c.partners)));
-    return all;
+    return joined({scalar("contact_radius", "m", c.contact_radius), scalar("query_radius", "m", c.query_radius)},
+                  state_quantities(*c.topology, c.positions, c.rigid_groups, c.partners));
   }
 
   /// A smaller case is a part of the mesh.

@@ -222,12 +222,8 @@ struct Plane : Numbered, InEveryRun {
     return shape;
   }
   static std::vector<Quantity> inputs(const Case& c) {
-    std::vector<Quantity> all = joined(
-        {scalar("query_radius", "m", c.query_radius), scalar("bound_relaxation", "1", c.bound_relaxation)},
-        mesh_quantities(*c.topology),
-        std::vector{points("positions", "m", c.positions), indices("rigid_groups", c.rigid_groups)});
-    if (c.partners.rows() > 0) all.push_back(indices("excluded_pairs", pairs_of(c.partners)));
-    return all;
+    return joined({scalar("query_radius", "m", c.query_radius), scalar("bound_relaxation", "1", c.bound_relaxation)},
+                  state_quantities(*c.topology, c.positions, c.rigid_groups, c.partners));
   }
 
   static const Topology* mesh(const Case& c) { return c.topology.get(); }

@@ -151,7 +151,7 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
                    "Write iterations.csv, a row an iteration, measured beside the run");
   command.add_flag("--ledger", options->ledger,
                    "With vbd: what the parts of a step do to energy and momentum, what truncation takes and which way, "
-                   "and vertices that stand still, in steps.csv (compare/method.md, 5.7), measured beside the run "
+                   "and vertices that stand still, in steps.csv (reference/ledger.md), measured beside the run "
                    "(slow)");
   command.add_flag("--condition", options->condition,
                    "With newton: the same, with the condition number of each matrix, also without friction and without "

@@ -31,52 +31,41 @@ struct ActivationOf {
   OGC_HD static float energy(float d, float r, float k) { return d < r ? Formulas::energy_within(d, r, k) : 0.0F; }
 };
 
-/// Quadratic from τ = r/2 on (at d = τ, too), logarithmic below with the stiffness k'_c of `stage`. b of Eq. 20 is
+/// Quadratic from τ = r/2 on (at d = τ, too), logarithmic below with the stiffness k'_c of `Stage`. b of Eq. 20 is
 /// folded in: g = k'_c (log τ − log d) + k_c/2 (r − τ)².
 template <class Stage>
-struct TwoStages {
-  Stage stage;
-
+struct TwoStages : ActivationOf<TwoStages<Stage>> {
   /// g' and g'' for 0 < d < r.
-  OGC_HD ActivationSlope slope_within(float d, float r, float k) const {
+  OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
     if (d >= 0.5F * r) return {-k * (r - d), k};
-    const float slope = stage.logarithmic_stiffness(r, k) / d;
+    const float slope = Stage::logarithmic_stiffness(r, k) / d;
     return {-slope, slope / d};
   }
   /// g for 0 < d < r.
-  OGC_HD float energy_within(float d, float r, float k) const {
+  OGC_HD static float energy_within(float d, float r, float k) {
     if (d >= 0.5F * r) {
       const float depth = r - d;
       return 0.5F * k * depth * depth;
     }
-    return stage.logarithmic_stiffness(r, k) * log_ratio(0.5F * r, d) + 0.125F * k * r * r;
+    return Stage::logarithmic_stiffness(r, k) * log_ratio(0.5F * r, d) + 0.125F * k * r * r;
   }
 };
 
 /// ContactActivation::ogc, the default.
-struct OgcActivation : ActivationOf<OgcActivation> {
+struct OgcActivation : TwoStages<OgcActivation> {
   /// k'_c [J].
   template <class T>
   OGC_HD static T logarithmic_stiffness(float r, const T& k) {
     return 0.25F * k * r * r;
   }
-  /// g' and g'', and g, for 0 < d < r.
-  OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
-    return TwoStages<OgcActivation>{}.slope_within(d, r, k);
-  }
-  OGC_HD static float energy_within(float d, float r, float k) {
-    return TwoStages<OgcActivation>{}.energy_within(d, r, k);
-  }
 };
 
-/// k'_c of ContactActivation::ogc, or of ogc_as_printed: of Eq. 19 as it is printed, k_c r³/8. Its unit is J m, not J
-/// (method.md §1.1). Chosen at run time, so that both are one path of a kernel.
-struct OgcOrAsPrinted {
-  bool as_printed = false;
-
-  OGC_HD float logarithmic_stiffness(float r, float k) const {
-    const float stiffness = OgcActivation::logarithmic_stiffness(r, k);
-    return as_printed ? 0.5F * r * stiffness : stiffness;
+/// ContactActivation::ogc_as_printed: k'_c of Eq. 19 as it is printed, k_c r³/8.
+struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
+  /// k'_c as Eq. 19 prints it: its unit is J m, not J (method.md §1.1).
+  OGC_HD static float logarithmic_stiffness(float r, float k) {
+    const float stiffness = 0.25F * k * r * r;
+    return 0.5F * r * stiffness;
   }
 };
 
@@ -120,9 +109,8 @@ struct CubicActivation : ActivationOf<CubicActivation> {
 template <class Use>
 OGC_HD auto with_activation(ContactActivation activation, const Use& use) {
   switch (activation) {
-    case ContactActivation::ogc:
-    case ContactActivation::ogc_as_printed:
-      return use(TwoStages<OgcOrAsPrinted>{{activation == ContactActivation::ogc_as_printed}});
+    case ContactActivation::ogc: return use(OgcActivation{});
+    case ContactActivation::ogc_as_printed: return use(OgcAsPrinted{});
     case ContactActivation::quadratic: return use(QuadraticActivation{});
     case ContactActivation::ipc_log: return use(IpcLogActivation{});
     case ContactActivation::cubic: return use(CubicActivation{});
@@ -139,23 +127,21 @@ struct AnyActivation {
     return d < r ? with_activation(activation, SlopeWithin{d, r, k}) : ActivationSlope{};
   }
   /// g [J].
-  OGC_HD float energy(float d, float r, float k) const {
-    return d < r ? with_activation(activation, EnergyWithin{d, r, k}) : 0.0F;
-  }
+  OGC_HD float energy(float d, float r, float k) const { return with_activation(activation, EnergyAt{d, r, k}); }
 
  private:
   struct SlopeWithin {
     float d, r, k;
     template <class Activation>
-    OGC_HD ActivationSlope operator()(const Activation& formulas) const {
-      return formulas.slope_within(d, r, k);
+    OGC_HD ActivationSlope operator()(Activation) const {
+      return Activation::slope_within(d, r, k);
     }
   };
-  struct EnergyWithin {
+  struct EnergyAt {
     float d, r, k;
     template <class Activation>
-    OGC_HD float operator()(const Activation& formulas) const {
-      return formulas.energy_within(d, r, k);
+    OGC_HD float operator()(Activation) const {
+      return Activation::energy(d, r, k);
     }
   };
 };

@@ -60,6 +60,12 @@ class AuditedTest(unittest.TestCase):
                 widest = max(b - a for a, b in zip(seen, seen[1:], strict=False))
                 self.assertLessEqual(widest, 2 ** (n - 1).bit_length() / parts if k > 2 else n, (n, k))
 
+    def test_a_frame_that_is_being_written_is_not_asked_about(self):
+        self.frames(3)
+        (self.run_folder / "frames" / "frame_000003.h5.partial").write_text("")
+        _, found = audited.audit(self.program(), self.run_folder)
+        self.assertEqual((found["steps"], found["complete"]), ([0, 1, 2], True))
+
     def test_all_states_are_audited_once_and_an_intersection_is_named(self):
         self.frames(100)
         status, found = audited.audit(self.program(), self.run_folder)

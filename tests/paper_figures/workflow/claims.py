@@ -279,6 +279,9 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.judged(lambda m: m.update(status="running")), "not yet run")
         self.assertEqual(self.judged(lambda m: m.update(dirty=True)), "not yet run")
 
+    def test_a_start_that_was_moved_is_no_evidence_of_the_scene(self):
+        self.assertEqual(self.judged(lambda m: m.update(jitter="1e-06", jitter_seed="7")), "not yet run")
+
     def test_a_failed_audit_refutes_the_guarantee_and_nothing_else(self):
         failed = lambda m: m.update(status="failed: intersection", guarantee_kept=False)  # noqa: E731
         guarantee = {**GUARANTEE, "run": {"scale": "paper", "steps": 1000}}
