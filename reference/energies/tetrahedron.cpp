@@ -47,19 +47,30 @@ struct Elastic {
   }
 };
 
-/// What of J and of the normal is lost where both nearly vanish, beyond the first order: their errors, of 12 and 6
-/// units (compare/stages/tetrahedron.hpp), meet. `resisted`: k ‖moved‖ of damping by vertex, whose block is `grown`
-/// times the elastic one.
-compare::ForceAnswer with_second_order(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
-                                       double grown = 1) {
+double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].value, v[2].value); }
+
+/// What the unit of error lacks that inputs alone account for. Two edges of the opposite face are rounded each by itself,
+/// so that a normal of them, of 6 units, errs by their lengths even where its inputs cancel: a far corner beside two near
+/// ones. The face's longest edges count, and for J the longest way to them. And what is lost beyond the first order
+/// where J − 1 and the normal nearly vanish: their errors, of 12 and 6 units (compare/stages/tetrahedron.hpp), meet.
+/// `resisted`: k ‖moved‖ of damping by vertex, whose block is `grown` times the elastic one.
+compare::ForceAnswer with_rounded_edges(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
+                                        double grown = 1) {
   constexpr double u = compare::unit_roundoff, ratio_units = 12, normal_units = 6;
   const auto& x = elastic.corner;
-  const double normal = normal_units * u * elastic.inputs.condition(cross(x[2] - x[1], x[3] - x[1]));
+  const Triple<Input> normal = cross(x[2] - x[1], x[3] - x[1]);
+  std::array<double, 3> edge{length_of(x[2] - x[1]), length_of(x[3] - x[1]), length_of(x[3] - x[2])};
+  std::ranges::sort(edge);
+  const double farthest = std::max({length_of(x[1] - x[0]), length_of(x[2] - x[0]), length_of(x[3] - x[0])});
   const Input ratio = elastic.ratio(x);
-  const double of_ratio = ratio_units * u * elastic.inputs.condition({&ratio, 1});
-  const double bulk = (elastic.lambda.value + elastic.mu.value) / 6;
-  const double block = bulk * elastic.inverse.value * normal * normal;
-  answer.force_scale += (bulk * of_ratio * normal + resisted * block) / (compare::tetrahedron_force_tolerance * u);
+  const double inverse = elastic.inverse.value, bulk = (elastic.lambda.value + elastic.mu.value) / 6;
+  const double pull = std::abs(6 * bulk * (ratio.value - 1) - elastic.mu.value) / 6;
+  const double of_edges = normal_units * u * edge[1] * edge[2], length = length_of(normal);
+  const double of_normal = normal_units * u * elastic.inputs.condition(normal) + of_edges;
+  const double of_ratio = ratio_units * u * elastic.inputs.condition({&ratio, 1}) + inverse * farthest * of_edges;
+  const double force = pull * of_edges + bulk * inverse * farthest * of_edges * length + bulk * of_ratio * of_normal;
+  const double block = bulk * inverse * (2 * length * of_edges + of_normal * of_normal);
+  answer.force_scale += (force + resisted * block) / (compare::tetrahedron_force_tolerance * u);
   answer.block_scale += grown * block / (compare::tetrahedron_block_tolerance * u);
   return answer;
 }
@@ -112,7 +123,7 @@ compare::ForceAnswer damped_by_motion(Elastic& elastic, const compare::Tetrahedr
   const double units = (compare::tetrahedron_block_tolerance + compare::per_vertex_additions) /
                        compare::tetrahedron_force_tolerance;
   const double distance = std::hypot(moved[0].value, moved[1].value, moved[2].value);
-  return with_second_order(elastic,
+  return with_rounded_edges(elastic,
                            with_units(damped_by_vertex(elastic.inputs, elastic.system(), damping, moved), units, 1),
                            q.damping * distance, 1 + q.damping);
 }
@@ -124,7 +135,7 @@ compare::ForceAnswer tetrahedron(const compare::TetrahedronCase& q) {
   compare::ForceAnswer result;
   switch (q.damping_form) {
     case compare::DampingForm::strain:
-      result = with_second_order(elastic, answer(elastic.inputs, elastic.system()));
+      result = with_rounded_edges(elastic, answer(elastic.inputs, elastic.system()));
       if (q.damping > 0) result = sum(result, damping_of_strain(q));
       break;
     case compare::DampingForm::per_vertex: result = damped_by_motion(elastic, q); break;
