@@ -22,6 +22,7 @@
 #include "compare/stages/friction_force.hpp"
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
+#include "compare/stages/pair_guess.hpp"
 #include "compare/stages/plane.hpp"
 #include "compare/stages/rest_state.hpp"
 #include "compare/stages/spring.hpp"
@@ -157,6 +158,8 @@ struct Contestant {
   std::string name;  ///< for reports
   /// Whether its steps know bounds=planes. A plug-in's do not: compare/plugin.h has no planes in its trace.
   bool has_steps_with_planes = true;
+  /// Whether its steps know guess=pairs. A plug-in's do not: compare/plugin.h has no such setting.
+  bool has_steps_by_pairs = true;
   /// By stage: compare/stages/STAGE.hpp says what is asked.
   std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
   std::function<ClosestPointsOut(const ClosestPointsIn&)> closest_points;
@@ -229,6 +232,8 @@ struct Authority {
   std::function<PlaneTruth(const PlaneIn&, const PlaneOut&)> plane;
   std::function<SweepTruth(const SweepIn&, const SweepOut&)> sweep;
   std::function<StepTruth(const StepIn&, const StepOut&)> step;
+  /// Of a guess in a step with guess=pairs, which is no stage of its own.
+  std::function<PairGuessTruth(const PairGuessIn&, const PairGuessOut&)> pair_guess;
 };
 
 }  // namespace ogc::compare

@@ -19,6 +19,7 @@
 #include "reference/geometry/truncate.hpp"
 #include "reference/ipc/simulation.hpp"
 #include "reference/simulation.hpp"
+#include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/initial_guess.hpp"
 #include "reference/solvers/step.hpp"
 #include "reference/solvers/sweep.hpp"
@@ -47,6 +48,7 @@ compare::Authority authority() {
   authority.initial_guess = initial_guess;
   authority.sweep = sweep;
   authority.step = step;
+  authority.pair_guess = pair_guess_truth;
   return authority;
 }
 

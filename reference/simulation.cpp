@@ -4,6 +4,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "compare/problem/error.hpp"
 #include "reference/solvers/newton/solver.hpp"
 #include "reference/solvers/vbd_solver.hpp"
 
@@ -74,6 +75,9 @@ class ReferenceSimulation : public compare::Simulation {
 
 std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
                                                   const compare::SimulationOptions& options) {
+  if (scene.settings.guess == compare::Guess::pairs)
+    throw compare::InputError(
+        "setting 'guess' can't be 'pairs' with Newton's method; give guess=rounds or --solver vbd");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
 }
 

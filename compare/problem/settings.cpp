@@ -20,8 +20,9 @@ constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
 constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
 constexpr std::array<std::string_view, 3> bounds_names{"ball", "planes", "off"};
+constexpr std::array<std::string_view, 2> guess_names{"rounds", "pairs"};
 
-constexpr std::array<SettingInfo, 17> problem_table{{
+constexpr std::array<SettingInfo, 18> problem_table{{
     {"time_step", "s", "simulated time that one step covers, h; smaller steps are more accurate and cost more in all",
      0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "number of steps of the run", 0, most_count, &Settings::steps},
@@ -48,6 +49,10 @@ constexpr std::array<SettingInfo, 17> problem_table{{
     {"guess_rounds", "1",
      "rounds of detecting and moving at most that bring vertices to where inertia takes them; 1: as printed in Eq. 28",
      1, 1 << 20, &Settings::guess_rounds},
+    {"guess", "1",
+     "how a step's first positions are found: by rounds of detecting and moving, or at once, each pair that could meet "
+     "being decided (vbd, with bounds=ball)",
+     0, 1, &Settings::guess, guess_names},
     {"friction_velocity", "m/s", "speed of sliding from which friction acts in full, ε_v", 0x1p-30, 0x1p10,
      &Settings::friction_velocity},
     {"frame_steps", "1", "steps from one stored frame to the next; 0: 60 frames a simulated second", 0, most_count,

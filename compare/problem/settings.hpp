@@ -23,6 +23,9 @@ enum class DampingForm : std::int64_t { strain, per_vertex };
 /// What keeps a vertex from passing through others between two detections (method.md §5.6): a ball about X_prev, as in
 /// the paper; planes between near pairs, and a ball for the others; nothing.
 enum class Bounds : std::int64_t { ball, planes, off };
+/// How a step's first positions are found (method.md §5.2): by rounds of truncation, or at once, by a certificate of
+/// every pair that could meet.
+enum class Guess : std::int64_t { rounds, pairs };
 
 /// Names of the activations and damping forms, in the order of the enumerations.
 std::span<const std::string_view> activation_names();
@@ -41,6 +44,7 @@ struct Settings {
   double redetect_fraction = 0.01;  ///< γ_e, Alg. 3 line 29
   std::int64_t redetect_every = 0;  ///< re-detect at the latest after so many iterations; 0: never by count
   std::int64_t guess_rounds = 16;   ///< rounds of the guess loop (method.md §5.2); 1: as printed in Eq. 28
+  Guess guess = Guess::rounds;      ///< how vertices get to where inertia takes them
   double friction_velocity = 0.01;  ///< ε_v [m/s]
   std::int64_t frame_steps = 0;     ///< steps between stored frames; 0: max(1, round(1/(60 h)))
   /// W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size
@@ -69,7 +73,7 @@ struct SettingInfo {
   double minimum, maximum;               ///< inclusive
   /// where the value is kept
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
-               Bounds Settings::*, DeclaredSetting>
+               Bounds Settings::*, Guess Settings::*, DeclaredSetting>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };

@@ -18,14 +18,31 @@ struct CollectContacts {
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
-    if (planes != nullptr && !(planes[i].below < edge_edge.contact_radius)) return;
+    const RawContact found = contact(i);
+    // in one place, where threads that decided different kinds of pairs meet again
+    if (found.bucket >= 0) lists.enter(found, {edge_edge.surface});
+  }
+
+  /// The contact that the i-th pair is; its bucket is −1 where it is none.
+  OGC_HD RawContact contact(int i) const {
+    if (planes != nullptr && !(planes[i].below < edge_edge.contact_radius)) return {-1, -1, -1, -1};
     const NotedPair pair = lists.noted[i];
     const bool certain = pair.second < 0;
     const int second = certain ? ~pair.second : pair.second;
-    const RawContact contact = pair.first < 0 ? vertex_facet(~pair.first, second, certain)
-                                              : edge_edge(pair.first, second, certain);
-    // in one place, where threads that decided different kinds of pairs meet again
-    if (contact.bucket >= 0) lists.enter(contact, {edge_edge.surface});
+    return pair.first < 0 ? vertex_facet(~pair.first, second, certain) : edge_edge(pair.first, second, certain);
+  }
+
+  /// The vertices of both sides of the i-th pair.
+  OGC_HD RoleVertices vertices(int i) const {
+    const NotedPair pair = lists.noted[i];
+    const int second = pair.second < 0 ? ~pair.second : pair.second;
+    const SurfaceView& surface = edge_edge.surface;
+    if (pair.first < 0) {
+      const int* corner = surface.facets[second].corner;
+      return {{~pair.first, corner[0], corner[1], corner[2]}};
+    }
+    const EdgeEnds p = surface.edges[pair.first], q = surface.edges[second];
+    return {{p.a, p.b, q.a, q.b}};
   }
 };
 

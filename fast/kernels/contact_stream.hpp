@@ -92,38 +92,6 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
   return contact;
 }
 
-/// Whether a vertex is part of an active contact. Of a detection with a margin some are not nearer than r.
-struct ActiveContacts {
-  const int* incidence_offsets;  ///< vertices + 1, on the backend
-  /// Read where contacts are listed with a margin; null without one: each contact that is listed acts.
-  const Incidence* incidences = nullptr;
-  const VertexFacetRecord* vertex_facet = nullptr;
-  const EdgeEdgeRecord* edge_edge = nullptr;
-  float radius = 0;  ///< r [m]
-
-  /// Whether a contact of v acts at `position`.
-  OGC_HD bool touch(int v, const Vec* position) const {
-    const int begin = incidence_offsets[v], end = incidence_offsets[v + 1];
-    if (incidences == nullptr) return end > begin;
-    for (int k = begin; k < end; ++k)
-      if (acts(incidences[k].code, position)) return true;
-    return false;
-  }
-
- private:
-  OGC_HD bool acts(std::uint32_t code, const Vec* position) const {
-    const std::uint32_t number = (code & 0x7fffffffu) >> 2;
-    ContactIncidence contact;
-    if (code >> 31 != 0)
-      set_slots(contact, edge_edge[number]);
-    else
-      set_slots(contact, vertex_facet[number]);
-    Vec x[4];
-    for (int k = 0; k < 4; ++k) x[k] = position[contact.index[k]];
-    return contact_shape(weighted_sum(contact_weights(contact.kind, x), x), radius).acts;
-  }
-};
-
 /// Bit k: the kind has slot k.
 OGC_HD inline int slots_of(ContactKind kind) {
   return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;

@@ -65,6 +65,9 @@ struct StepControl {
   /// With planes: prescribed vertices behind their targets, whether one has moved since the last detection, and whether
   /// one has asked for a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
+  /// With guess=pairs: the guess is by pairs; another of its passes is due; it may have left the regions of its
+  /// detection, so that another detection is due; whether an unsafe pair was seen in this pass.
+  int pairs = 0, unsafe = 0, left = 0, unsafe_seen = 0;
   int not_finite = 0, violations = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
@@ -110,6 +113,7 @@ struct BeginStep {
     c.smallest_bound = 3.40282347e38f;
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
     c.lagging = c.advanced = c.lag_asked = 0;
+    c.pairs = c.unsafe = c.left = c.unsafe_seen = 0;
     c.rounds = c.detections = c.since_detection = c.iterations = c.turn = 0;
   }
 };
@@ -138,9 +142,21 @@ struct EndDetection {
     if (*overflow != 0) c.status |= compare::step_list_grew;
     ++c.detections;
     c.since_detection = 0;
-    c.detect = 0;
+    c.detect = c.left = 0;
     c.turn = c.iterations;
     stop_if_failed(c);
+  }
+};
+
+/// After the contacts of the guess loop's last detection were listed.
+struct EndListing {
+  StepControl* control;  ///< on the backend
+  const int* overflow;   ///< on the backend
+
+  OGC_HD void operator()(int) const {
+    if (*overflow == 0) return;
+    control->status |= compare::step_list_grew;
+    stop_if_failed(*control);
   }
 };
 

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "fast/kernels/certificate.hpp"
-#include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/inertia.hpp"
 #include "fast/kernels/models/hinge.hpp"
 #include "fast/kernels/models/membrane.hpp"
 #include "fast/kernels/models/tetrahedron.hpp"
-#include "fast/kernels/truncate.hpp"
+#include "fast/kernels/plane_lists.hpp"
 
 namespace ogc::fast {
 
@@ -90,17 +89,20 @@ struct BeginTetrahedron {
 };
 
 /// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
-/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
+/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified; a guess
+/// by pairs has a certificate of its own.
 struct BeginRegions {
-  const Vec* position;    ///< x by vertex [m]
-  FeasibleRegions ended;  ///< those that the last detection left
-  Vec* previous;          ///< X_prev by vertex [m], written
-  StepControl* control;   ///< on the backend: counts vertices that their region does not hold
+  const Vec* position;     ///< x by vertex [m]
+  FeasibleRegions ended;   ///< those that the last detection left
+  Vec* previous;           ///< X_prev by vertex [m], written
+  StepControl* control;    ///< on the backend: counts vertices that their region does not hold
+  int* touched = nullptr;  ///< by vertex, where the detection marks what touches (mark_touched.hpp): 0, written
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
-    if (control->rounds > 0 && is_outside(ended[v], x)) control->count_violation();
+    if (control->rounds > 0 && control->left == 0 && is_outside(ended[v], x)) control->count_violation();
     previous[v] = x;
+    if (touched != nullptr) touched[v] = 0;
   }
 };
 
@@ -109,14 +111,14 @@ struct BeginRegions {
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev
-  ActiveContacts contacts;  ///< X_prev = x
+  const int* touched;       ///< by vertex, not 0 where it is part of an active contact at X_prev; read from round 2 on
   Vec* position;            ///< x by vertex [m], written
   StepControl* control;     ///< on the backend: its flag `active` and its rounds are read, cuts are counted
   const int* prescribed_number = nullptr;  ///< as in BeginVertex; read where there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
-    if (control->rounds > 0 && contacts.touch(v, regions.centre)) return;
+    if (control->rounds > 0 && touched[v] != 0) return;
     const FeasibleRegion region = regions[v];
     const Vec& stay = region.ball.centre;
     const bool is_prescribed = regions.has_planes() && prescribed_number[v] >= 0;

@@ -199,16 +199,36 @@ struct ListsView {
   }
 };
 
+/// Contacts are none, noted pairs stay. Index over the larger of buckets and vertices.
+struct ForgetContacts {
+  ListsView lists;
+  int vertices;
+
+  OGC_HD void operator()(int i) const {
+    if (*lists.overflow != 0) return;
+    if (i == 0) *lists.contact_count = *lists.without_slot = *lists.edge_edge_count = 0;
+    if (i < lists.buckets) lists.record_counts[i] = lists.record_filled[i] = 0;
+    if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
+  }
+};
+
+/// Noted pairs are none. One item.
+struct ForgetNoted {
+  ListsView lists;
+
+  OGC_HD void operator()(int) const {
+    if (*lists.overflow == 0) *lists.noted_count = 0;
+  }
+};
+
 /// Start of a detection: index over the largest of buckets, vertices and primitives.
 struct PrepareLists {
   ListsView lists;
   int vertices;
 
   OGC_HD void operator()(int i) const {
-    if (*lists.overflow != 0) return;
-    if (i == 0) *lists.noted_count = *lists.contact_count = *lists.without_slot = *lists.edge_edge_count = 0;
-    if (i < lists.buckets) lists.record_counts[i] = lists.record_filled[i] = 0;
-    if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
+    if (i == 0) ForgetNoted{lists}(i);
+    ForgetContacts{lists, vertices}(i);
   }
 };
 

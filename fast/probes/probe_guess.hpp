@@ -1,6 +1,6 @@
 // The judge's way in to the initial guess: the kernels of the guess loop, one vertex a case. Acceleration and step are
-// those of a scene, so each case gets kernels of its own, and a control of its own to count its cut; what is held has
-// an incidence, in a round that holds contacts.
+// those of a scene, so each case gets kernels of its own, and a control of its own to count its cut; what is held is
+// marked, in a round that holds contacts.
 #pragma once
 
 #include <cstdint>
@@ -50,8 +50,8 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
   ProbeMemory<Backend> memory(backend);
   compare::InitialGuessOut out;
   const std::size_t n = in.cases.size();
-  std::vector<int> offsets{0};
-  for (const Case& c : in.cases) offsets.push_back(offsets.back() + c.held);
+  std::vector<int> touched;
+  for (const Case& c : in.cases) touched.push_back(c.held);
   std::vector<StepControl> controls(n);
   for (StepControl& control : controls) control.active = control.rounds = 1;
   typename Backend::template Buffer<StepControl> control;
@@ -70,7 +70,7 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
   const GuessVertex guess{
       target,
       {memory.template in<Vec>(column(in, &Case::previous)), memory.template in<float>(column(in, &Case::bound))},
-      {memory.template in<int>(offsets)},
+      memory.template in<int>(touched),
       position,
       nullptr};
   backend.for_each(static_cast<int>(n),

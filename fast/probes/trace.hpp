@@ -2,6 +2,7 @@
 // the control's counters tell.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -16,9 +17,14 @@ namespace ogc::fast {
 template <class Backend>
 class StepTrace : public StepObserver {
  public:
+  /// `detection_radius`: as in StepSettings.
   StepTrace(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection,
-            const compare::Topology& topology)
-      : backend_(backend), state_(state), detection_(detection), topology_(topology) {}
+            const compare::Topology& topology, float detection_radius)
+      : backend_(backend),
+        state_(state),
+        detection_(detection),
+        topology_(topology),
+        detection_radius_(detection_radius) {}
 
   void begin() override {
     events_.clear();
@@ -32,6 +38,14 @@ class StepTrace : public StepObserver {
     const int counted = count_of(kind, control);
     if (std::exchange(seen_[static_cast<std::size_t>(kind)], counted) < counted)
       events_.push_back(event(kind, position, control));
+  }
+
+  void after_listing() override {
+    backend_.synchronize();
+    const auto last = std::find_if(events_.rbegin(), events_.rend(), [](const compare::StepEvent& event) {
+      return event.kind == compare::StepEventKind::detection;
+    });
+    if (last != events_.rend()) set_contacts(*last);
   }
 
   /// The events of the last step.
@@ -58,18 +72,28 @@ class StepTrace : public StepObserver {
     }
     const Vec* previous = state_.previous.data();
     event.position = download_positions(backend_, previous, n);
+    // No iteration yet: a round of the guess loop, which lists no contacts. They are listed to be looked at, and
+    // forgotten.
+    const bool is_unlisted = control.iterations == 0;
+    if (is_unlisted) detection_.list_contacts(detection_radius_);
+    set_contacts(event);
+    if (is_unlisted) detection_.forget_contacts();
+    return event;
+  }
+
+  void set_contacts(compare::StepEvent& event) {
     ContactSets sets = download_contacts(backend_, detection_, topology_);
     event.vertex_facet = {std::move(sets.vertex_facet), std::move(sets.d_min_vertex), std::move(sets.d_min_triangle)};
     event.edge_edge = {std::move(sets.edge_edge), std::move(sets.d_min_edge)};
     event.bound = std::move(sets.bound);
     event.planes = detection_.download_planes();
-    return event;
   }
 
   Backend& backend_;
   StepState<Backend>& state_;
   Detection<Backend>& detection_;
   const compare::Topology& topology_;
+  float detection_radius_;
   std::array<int, 3> seen_{};  ///< by kind: events counted at the last look
   std::vector<compare::StepEvent> events_;
 };

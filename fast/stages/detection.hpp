@@ -15,6 +15,7 @@
 #include "fast/contact_view.hpp"
 #include "fast/kernels/bound.hpp"
 #include "fast/kernels/detection.hpp"
+#include "fast/kernels/pair_guess.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/bvh.hpp"
 #include "fast/stages/detect_edge_edge.hpp"
@@ -81,49 +82,43 @@ class Detection {
   template <class Launches = PlainLaunches>
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
               const Launches& launches = {}) {
-    const SurfaceView surface = surface_.view();
-    const ListsView lists = lists_.view();
-    const SkinView skin = skin_.view(contact_radius);
-    const ResetDistances distances{.query_radius = query_radius,
-                                   .overflow = lists.overflow,
-                                   .vertex_count = surface.vertex_count,
-                                   .edge_count = surface.edge_count,
-                                   .triangle_count = surface.triangle_count,
-                                   .d_min_vertex = d_min_vertex_.data(),
-                                   .d_min_edge = d_min_edge_.data(),
-                                   .d_min_triangle = d_min_triangle_.data()};
-    skin_.prepare(backend_, skin, launches,
-                  PrepareDetection{positions, padded_.data(), {lists, surface.vertex_count}, distances},
-                  bvh_.refit(positions, query_radius, skin));
-    const PaddedVecs padded{padded_.data()};
-    const DetectVertexFacet vertex_facet{.surface = surface,
-                                         .positions = padded,
-                                         .tree = bvh_.facets(),
-                                         .vertex_order = bvh_.vertex_order(),
-                                         .vertex_limit = bvh_.vertex_limit(),
-                                         .lists = lists,
-                                         .skin = skin,
-                                         .contact_radius = contact_radius,
-                                         .d_min_vertex = d_min_vertex_.data(),
-                                         .d_min_triangle = d_min_triangle_.data()};
-    const DetectEdgeEdge edge_edge{.surface = surface,
-                                   .positions = padded,
-                                   .tree = bvh_.edges(),
-                                   .lists = lists,
-                                   .skin = skin,
-                                   .contact_radius = contact_radius,
-                                   .d_min_edge = d_min_edge_.data()};
-    if (planes_.is_used()) {
-      backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.edge_count, {edge_edge, query_radius}},
-                      Searches<NearVertexFacet>{bvh_.facets(), surface.vertex_count, {vertex_facet, query_radius}});
-      planes_.make(backend_, surface, padded, lists, bound_relaxation, query_radius, bound_.data());
-    } else {
-      backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
-      skin_.complete(backend_, vertex_facet, edge_edge, positions);
-    }
-    lists_.assemble(backend_, padded, contact_radius, planes_.is_used() ? 0 : surface.vertex_count,
-                    bounds(surface, lists, bound_relaxation), planes_.planes(), launches);
+    find(positions, contact_radius, query_radius, bound_relaxation, launches);
+    lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bound_relaxation), planes_.planes(),
+                    launches);
   }
+
+  /// As `detect` without the lists: smallest distances, bounds, and whatever launches.mark does with the noted pairs.
+  template <class Launches>
+  void detect_unlisted(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
+                       const Launches& launches) {
+    find(positions, contact_radius, query_radius, bound_relaxation, launches);
+    launches.mark(backend_, bounds(bound_relaxation), bounded(),
+                  lists_.collect({padded_.data()}, contact_radius, planes_.planes()));
+  }
+
+  /// The contacts of the last detect_unlisted, with its radius, listed as `detect` does. `launches`: the last launch.
+  template <class Launches = PlainLaunches>
+  void list_contacts(float contact_radius, const Launches& launches = {}) {
+    lists_.assemble(backend_, {padded_.data()}, contact_radius, 0, bounds(0), planes_.planes(), launches);
+  }
+  /// For who looks on: they may be listed once more.
+  void forget_contacts() { lists_.forget_contacts(backend_); }
+
+  /// In place of what the last detection noted: pairs that moves of their vertices could bring together, no farther
+  /// apart than *reach [m] (on the backend).
+  void note_guess_pairs(float contact_radius, const float* reach, const LocalReach& local) {
+    backend_.for_each(1, ForgetNoted{lists_.view()});
+    backend_.search(
+        Searches<GuessEdgeEdge>{
+            bvh_.edges(), surface_.view().edge_count, {{edge_edge_query(contact_radius), reach}, local}},
+        Searches<GuessVertexFacet>{
+            bvh_.facets(), surface_.view().vertex_count, {{vertex_facet_query(contact_radius), reach}, local}});
+  }
+
+  /// As kernels see them; positions are those of the last detection.
+  SurfaceView surface() { return surface_.view(); }
+  PaddedVecs positions() { return {padded_.data()}; }
+  ListsView lists() { return lists_.view(); }
 
   /// Of the last complete detection; valid until grow() returns true.
   ContactView view() {
@@ -187,13 +182,68 @@ class Detection {
   const int* vertex_facet_faces() { return lists_.view().vertex_facet_face; }
 
  private:
-  ConservativeBound bounds(const SurfaceView& surface, const ListsView& lists, float bound_relaxation) {
-    return {.surface = surface,
+  /// All before the lists.
+  template <class Launches>
+  void find(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
+            const Launches& launches) {
+    const SurfaceView surface = surface_.view();
+    const ListsView lists = lists_.view();
+    const SkinView skin = skin_.view(contact_radius);
+    const ResetDistances distances{.query_radius = query_radius,
+                                   .overflow = lists.overflow,
+                                   .vertex_count = surface.vertex_count,
+                                   .edge_count = surface.edge_count,
+                                   .triangle_count = surface.triangle_count,
+                                   .d_min_vertex = d_min_vertex_.data(),
+                                   .d_min_edge = d_min_edge_.data(),
+                                   .d_min_triangle = d_min_triangle_.data()};
+    skin_.prepare(backend_, skin, launches,
+                  PrepareDetection{positions, padded_.data(), {lists, surface.vertex_count}, distances},
+                  bvh_.refit(positions, query_radius, skin));
+    const DetectVertexFacet vertex_facet = vertex_facet_query(contact_radius);
+    const DetectEdgeEdge edge_edge = edge_edge_query(contact_radius);
+    if (planes_.is_used()) {
+      backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.edge_count, {edge_edge, query_radius}},
+                      Searches<NearVertexFacet>{bvh_.facets(), surface.vertex_count, {vertex_facet, query_radius}});
+      planes_.make(backend_, surface, vertex_facet.positions, lists, bound_relaxation, query_radius, bound_.data());
+    } else {
+      backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
+      skin_.complete(backend_, vertex_facet, edge_edge, positions);
+    }
+  }
+
+  DetectVertexFacet vertex_facet_query(float contact_radius) {
+    return {.surface = surface_.view(),
+            .positions = {padded_.data()},
+            .tree = bvh_.facets(),
+            .vertex_order = bvh_.vertex_order(),
+            .vertex_limit = bvh_.vertex_limit(),
+            .lists = lists_.view(),
+            .skin = skin_.view(contact_radius),
+            .contact_radius = contact_radius,
+            .d_min_vertex = d_min_vertex_.data(),
+            .d_min_triangle = d_min_triangle_.data()};
+  }
+  DetectEdgeEdge edge_edge_query(float contact_radius) {
+    return {.surface = surface_.view(),
+            .positions = {padded_.data()},
+            .tree = bvh_.edges(),
+            .lists = lists_.view(),
+            .skin = skin_.view(contact_radius),
+            .contact_radius = contact_radius,
+            .d_min_edge = d_min_edge_.data()};
+  }
+
+  /// Vertices whose bounds a detection makes beside its lists.
+  int bounded() const { return planes_.is_used() ? 0 : surface_.view().vertex_count; }
+
+  ConservativeBound bounds(float bound_relaxation) {
+    return {.surface = surface_.view(),
             .d_min_vertex = d_min_vertex_.data(),
             .d_min_edge = d_min_edge_.data(),
             .d_min_triangle = d_min_triangle_.data(),
             .bound_relaxation = bound_relaxation,
-            .overflow = lists.overflow,
+            .overflow = lists_.overflow(),
             .bound = bound_.data()};
   }
 

@@ -76,15 +76,23 @@ class Lists {
   void assemble(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
                 const ConservativeBound& bounds, const PairPlane* planes, const Launches& launches) {
     const ListsView lists = view();
-    backend.for_both(
-        bounded, bounds, lists.noted_count, noted_capacity_,
-        CollectContacts{{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, lists, planes});
+    backend.for_both(bounded, bounds, lists.noted_count, noted_capacity_, collect(positions, contact_radius, planes));
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_},
                             {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
     backend.for_both(1, CheckCapacity{lists}, lists.contact_count, capacity_,
                      FillBuckets{lists, surface_.vertex_count});
     backend.for_each_counted(lists.contact_count, capacity_, WriteRecords{lists, {surface_}});
     launches.rank(backend, lists, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_);
+  }
+
+  /// What decides which noted pairs are contacts.
+  CollectContacts collect(PaddedVecs positions, float contact_radius, const PairPlane* planes) {
+    return {{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, view(), planes};
+  }
+
+  /// Contacts that were listed are none; the same noted pairs may be listed again.
+  void forget_contacts(Backend& backend) {
+    backend.for_each(std::max(buckets_, surface_.vertex_count), ForgetContacts{view(), surface_.vertex_count});
   }
 
   /// Host only: where the flag is set, enlarges each list that was too small to what was needed and half as much again,

@@ -31,14 +31,15 @@ class ResidentSimulation : public compare::Simulation {
         colouring_(colour_vertices(rest_)),
         exclusions_(compare::exclusions(scene_)),
         detection_(backend_, topology_, exclusions_, list_capacity, 0, scene_.settings.bounds, fixed_vertices()),
+        pair_guess_(scene_.settings, fixed_vertices()),
         sweep_(backend_, rest_, colouring_, topology_, scene_),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
-        step_(backend_, state_, detection_, sweep_, clock_, step_settings(scene_, moving_, options.energies),
-              static_cast<int>(rest_.mass.size())),
+        step_(backend_, state_, detection_, pair_guess_, sweep_, clock_,
+              step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
     fill_state();
-    sweep_.reserve_contacts(4 * detection_.capacity());
+    reserve();
     const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions),
                                       velocities = compare::to_single(scene_.velocities);
     upload_motion(positions, velocities);
@@ -102,6 +103,7 @@ class ResidentSimulation : public compare::Simulation {
   Detection<Backend>& detection() { return detection_; }
   const compare::Scene& scene() const { return scene_; }
   const compare::Topology& topology() const { return topology_; }
+  float detection_radius() const { return step_.detection_radius(); }  ///< r, with the contact margin [m]
 
  private:
   static constexpr int longest_frame = 64;  // rows and targets of a frame stay small; a longer one is several
@@ -146,6 +148,7 @@ class ResidentSimulation : public compare::Simulation {
     s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
+    s.touched.resize(n);
     s.padded_start.resize(n);
     s.padded.resize(2 * n);
     s.strain_start.resize(rest_.triangles.size());
@@ -276,8 +279,13 @@ class ResidentSimulation : public compare::Simulation {
     lists_moved();
   }
 
-  void lists_moved() {
+  void reserve() {
     sweep_.reserve_contacts(4 * detection_.capacity());
+    pair_guess_.reserve(static_cast<int>(detection_.capacities()[1]));
+  }
+
+  void lists_moved() {
+    reserve();
     for (auto& recording : recordings_) recording.clear();
   }
 
@@ -298,6 +306,7 @@ class ResidentSimulation : public compare::Simulation {
   Colouring colouring_;
   compare::Exclusions exclusions_;
   Detection<Backend> detection_;
+  PairGuess<Backend> pair_guess_;
   Sweep<Backend> sweep_;
   StageClock<Backend> clock_;
   StepState<Backend> state_;

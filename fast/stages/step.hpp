@@ -3,8 +3,9 @@
 // the host.
 //
 //   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q
-//   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then xᵗ and x where the
-//               sweep gathers them
+//   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then the contacts of the
+//               last detection are listed, and xᵗ and x where the sweep gathers them
+//               (guess=pairs: one round; where balls cut many, all moves by a certificate of pairs, and a detection)
 //   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due,
 //               X_prev ← x, detect before the next
 //   finish      certificate; commit and sums only if clean; one row
@@ -28,6 +29,7 @@
 #include "fast/kernels/metrics.hpp"
 #include "fast/kernels/step_sums.hpp"
 #include "fast/stages/detection.hpp"
+#include "fast/stages/pair_guess.hpp"
 #include "fast/stages/profile.hpp"
 #include "fast/stages/reduce.hpp"
 #include "fast/stages/step_detection.hpp"
@@ -107,6 +109,7 @@ struct StepState {
   Buffer<float> angle_start;            ///< θᵗ by hinge [rad]
   Buffer<StepControl> control;          ///< one item
   Buffer<StepRow> rows;                 ///< by step of the frame
+  Buffer<int> touched;                  ///< by vertex, in the guess loop: not 0 where it is part of an active contact
   Buffer<double> sums_guess, sums_end;  ///< by SumColumn, after the guess loop and at the end
 };
 
@@ -120,6 +123,8 @@ class StepObserver {
   /// Where an event of this kind may have ended; StepControl counts those that did. `position`: where x is now, on the
   /// backend.
   virtual void after(compare::StepEventKind kind, const Vec* position) = 0;
+  /// The guess loop's last detection has its lists, which the sweeps will read.
+  virtual void after_listing() = 0;
 };
 
 /// The order of one step.
@@ -127,11 +132,12 @@ template <class Backend>
 class Step {
  public:
   /// For a mesh of `vertices`; `state` is filled later.
-  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep,
-       StageClock<Backend>& clock, StepSettings settings, int vertices)
+  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, PairGuess<Backend>& pair_guess,
+       Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings, int vertices)
       : backend_(backend),
         state_(state),
         detection_(detection),
+        pair_guess_(pair_guess),
         sweep_(sweep),
         clock_(clock),
         settings_(settings),
@@ -139,6 +145,9 @@ class Step {
 
   /// Null ends it.
   void observe(StepObserver* observer) { observer_ = observer; }
+
+  /// r, with the contact margin [m].
+  float detection_radius() const { return settings_.detection_radius; }
 
   /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows. `group`:
   /// iterations that are asked together whether a detection is due; it changes the time alone.
@@ -183,48 +192,90 @@ class Step {
                         BeginTetrahedron{s.tetrahedra.data(), s.start.data(), s.solid_start.data()});
   }
 
-  /// The regions that end here are certified, then X_prev ← x and everything is found anew, the stream of contacts
-  /// included.
+  /// The regions that end here are certified, then X_prev ← x.
+  StepStart start_of_detection() {
+    return {{state_.position.data(), regions(), state_.previous.data(), control(), state_.touched.data()}};
+  }
+
+  /// The lists of a detection and the stream that the sweep reads.
+  template <class End>
+  StepListing<End> listing() {
+    const ContactView view = detection_.view();
+    const int* overflow = detection_.overflow();
+    return {.end = {control(), overflow},
+            .rows = sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
+            .slots = sweep_.slots(),
+            .resolve = sweep_.resolve_contact(view, state_.previous.data())};
+  }
+
+  /// Everything is found anew, the stream of contacts included.
   void detect() {
     clock_.time(StepStage::detection, [&] {
-      const Vec* position = state_.position.data();
-      const ContactView view = detection_.view();
-      const int* overflow = detection_.overflow();
-      const StepLaunches launches{
-          .regions = {position, regions(), state_.previous.data(), control()},
-          .end = {{control(), overflow},
-                  sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
-                  sweep_.slots()},
-          .resolve = sweep_.resolve_contact(view, state_.previous.data())};
-      detection_.detect(position, settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
-                        launches);
+      detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
+                        settings_.bound_relaxation, StepLaunches{start_of_detection(), listing<EndDetection>()});
+    });
+    observe(compare::StepEventKind::detection);
+  }
+
+  /// As much of it as a round of the guess loop needs: bounds, and who is part of an active contact.
+  void detect_in_round() {
+    clock_.time(StepStage::detection, [&] {
+      detection_.detect_unlisted(state_.position.data(), settings_.detection_radius, &control()->query_radius,
+                                 settings_.bound_relaxation,
+                                 RoundLaunches{start_of_detection(), control(), state_.previous.data(),
+                                               settings_.contact_radius, state_.touched.data()});
     });
     observe(compare::StepEventKind::detection);
   }
 
   /// x ← y truncated.
   void guess() {
-    const ContactView view = detection_.view();
-    ActiveContacts contacts{view.incidence_offsets};
-    if (settings_.detection_radius > settings_.contact_radius)
-      contacts = {view.incidence_offsets, view.incidences, view.vertex_facet, view.edge_edge, settings_.contact_radius};
     backend_.for_each(state_.vertex_count, GuessVertex{.target = state_.target.data(),
                                                        .regions = regions(),
-                                                       .contacts = contacts,
+                                                       .touched = state_.touched.data(),
                                                        .position = state_.position.data(),
                                                        .control = control(),
                                                        .prescribed_number = state_.prescribed_number.data()});
   }
 
-  void guess_loop() {
+  void guess_in_rounds() {
     const auto round = [&] {
       observe(compare::StepEventKind::guess);  // the round before
-      detect();
+      detect_in_round();
       guess();
     };
     backend_.repeat(ChooseQueryRadius{control(), settings_.control}, flag(&StepControl::guess), round,
                     EndRound{control(), settings_.control});
+  }
+
+  /// One round; where its balls cut many vertices, all moves at once by the certificate of pairs, and a detection where
+  /// they lead.
+  void guess_by_pairs() {
+    backend_.when(ChooseQueryRadius{control(), settings_.control}, flag(&StepControl::guess),
+                  [&] { detect_in_round(), guess(); });
+    const PairGuessView view = pair_guess_.view(detection_, regions(), settings_.bound_relaxation, state_.target.data(),
+                                                state_.position.data(), control());
+    backend_.when(BeginPairGuess{control(), settings_.control, pair_guess_.state()}, flag(&StepControl::pairs),
+                  [&] { pair_guess_.begin(backend_, detection_, settings_.detection_radius, view); });
+    backend_.repeat(
+        EndPass{control(), pair_guess_.state(), true}, flag(&StepControl::unsafe),
+        [&] { pair_guess_.pass(backend_, detection_, view); }, EndPass{control(), pair_guess_.state()});
+    backend_.for_each(state_.vertex_count, CountMoves{view, state_.prescribed_number.data()});
+    backend_.when(EndPairGuess{control()}, flag(&StepControl::left), [&] {
+      observe(compare::StepEventKind::guess);
+      detect_in_round();
+    });
+  }
+
+  void guess_loop() {
+    if (pair_guess_.is_used())
+      guess_by_pairs();
+    else
+      guess_in_rounds();
     observe(compare::StepEventKind::guess);
+    clock_.time(StepStage::detection,
+                [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
+    if (observer_ != nullptr) observer_->after_listing();
     StepState<Backend>& s = state_;
     reduction_.sum(s.sums_guess.data(), vertex_sums());
     backend_.for_each(s.vertex_count, BeginSweep{s.start.data(), s.position.data(), s.padded_start.data(),
@@ -344,6 +395,7 @@ class Step {
   Backend& backend_;
   StepState<Backend>& state_;
   Detection<Backend>& detection_;
+  PairGuess<Backend>& pair_guess_;
   Sweep<Backend>& sweep_;
   StageClock<Backend>& clock_;
   StepSettings settings_;

@@ -7,6 +7,7 @@ Runs and table need Python's own library alone; the picture needs matplotlib and
 """
 
 import csv
+import math
 import sys
 from itertools import accumulate
 
@@ -18,6 +19,7 @@ PARTS = ("guess", "detection", "sweep", "truncation", "commit")
 MOVERS = ("guess", "sweep", "truncation")  # of momentum; the others leave it as it is
 BOUNDS = ("ball", "planes")
 AXES = {"twist": "x", "fifty_layers": "y", "slide": "x"}  # along which momentum is shown: axis, fall, way down
+CARRIERS = {"twist": "the cloth", "fifty_layers": "all layers", "slide": "the sheet"}  # of that momentum
 POINTS = 60  # shares are drawn of so many parts of a run
 
 
@@ -95,8 +97,18 @@ def draw_shares(axes, run, dash, colours):
     for way in ("tangential", "leaving"):
         lines[f"{way} of taken"] = (sums_of_parts(run.column(f"motion_taken_{way}"), parts), taken)
     for (label, (part, whole)), colour in zip(lines.items(), colours):
-        values = [100 * a / b if b > 0 else float("nan") for a, b in zip(part, whole)]
+        values = [math.nan if portion is None else 100 * portion for portion in map(share, part, whole)]
         axes.plot(steps, values, dash, color=colour, linewidth=1, label=label if dash == "-" else None)
+
+
+def note_on_shares(taken):
+    """What a panel of shares says in words where lines are missing: truncation takes nothing, or not with some bounds.
+    `taken`: of each kind of bounds, the sum over its run. Empty where no line is missing."""
+    nothing = [bounds for bounds, total in taken.items() if not total > 0]
+    if not nothing:
+        return ""
+    words = "truncation takes nothing"
+    return words if len(nothing) == len(taken) else f"{words} with {' and '.join(nothing)}"
 
 
 def draw_still(axes, run, dash, colours):
@@ -109,7 +121,8 @@ def draw_still(axes, run, dash, colours):
         axes.plot(steps, shares, dash, color=colour, linewidth=1, label=label if dash == "-" else None)
 
 
-def draw(runs, scale, out):
+def picture(runs, scale):
+    """A row of panels a scene."""
     from plots import style  # here, so that runs and table need no matplotlib
     plt = style.use()
     scenes = [scene for scene in AXES if any(key[0] == scene for key in runs)]
@@ -124,13 +137,18 @@ def draw(runs, scale, out):
             parts = {part: f"momentum_{part}_{axis}" for part in MOVERS}
             draw_sums(row[1], run, parts, dash, [style.COLOURS[PARTS.index(part)] for part in MOVERS])
             row[1].plot(run.column("step"), run.column(f"momentum_start_{axis}"), dash, color="black", linewidth=1,
-                        label="momentum of the sheet" if dash == "-" else None)
+                        label=f"momentum of {CARRIERS[scene]}" if dash == "-" else None)
             if bounds == BOUNDS[0]:
                 begin, impulse = (run.column(f"momentum_{part}_{axis}")[0] for part in ("start", "guess"))
                 row[1].plot(run.column("step"), [begin + impulse * k for k in range(run.step_count)], ":",
                             color="black", linewidth=0.8, label="with the first step's impulse in each")
             draw_shares(row[2], run, dash, style.COLOURS)
             draw_still(row[3], run, dash, style.COLOURS)
+        note = note_on_shares({bounds: sum(runs[scene, bounds].column("motion_taken"))
+                               for bounds in BOUNDS if (scene, bounds) in runs})
+        if note:
+            row[2].text(0.5, 0.5, note, transform=row[2].transAxes, ha="center", va="center", fontsize=8)
+        row[1].legend(fontsize=7)
         row[0].set(ylabel=f"{scene}\nenergy, summed up [J]")
         row[1].set(ylabel=f"momentum along {axis}, summed up [kg m/s]")
         row[2].set(ylabel="share of motion [%]", ylim=(0, 100))
@@ -146,7 +164,12 @@ def draw(runs, scale, out):
                                 for run in runs.values()}))
     figure.suptitle(f"Balls: solid lines; planes: dashed. {scale}, {about['backend']}, {about['device']}, commit "
                     f"{commits}", fontsize=8)
-    style.save(figure, out)
+    return figure
+
+
+def draw(runs, scale, out):
+    from plots import style
+    style.save(picture(runs, scale), out)
 
 
 def main():

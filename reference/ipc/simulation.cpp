@@ -4,6 +4,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "compare/problem/error.hpp"
 #include "reference/ipc/solver.hpp"
 #include "reference/solvers/detection.hpp"
 
@@ -98,6 +99,8 @@ class IpcSimulation : public compare::Simulation {
 }  // namespace
 
 std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, const compare::SimulationOptions& options) {
+  if (scene.settings.guess == compare::Guess::pairs)
+    throw compare::InputError("setting 'guess' can't be 'pairs' with IPC; give guess=rounds or --solver vbd");
   return std::make_unique<IpcSimulation>(scene, options);
 }
 

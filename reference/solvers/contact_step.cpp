@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/measure.hpp"
 
 namespace ogc::reference {
@@ -109,11 +110,31 @@ void ContactStep::guess(GuessEnd end) {
       move_towards_target(v, cut);
     }
     metrics_.guess_rounds = round;
-    if (!asks(cut) || round >= settings_.guess_rounds) break;
+    if (!asks(cut)) break;
+    if (settings_.guess == compare::Guess::pairs) {
+      guess_by_pairs();
+      break;
+    }
+    if (round >= settings_.guess_rounds) break;
     detect_here();
   }
   detect_next_ = !fresh_;
   if (metrics_.guess_rounds > 0) metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
+}
+
+void ContactStep::guess_by_pairs() {
+  const compare::PairGuessIn question{.topology = &topology_,
+                                      .exclusions = exclusions_,
+                                      .previous = detected_.previous,
+                                      .target = rounded(target_),
+                                      .bound = detected_.bound,
+                                      .bound_relaxation = static_cast<float>(settings_.bound_relaxation),
+                                      .contact_radius = static_cast<float>(settings_.contact_radius),
+                                      .largest_reach = largest_reach(settings_)};
+  const std::vector<Vec3f> guessed = timed(detection_stage, [&] { return pair_guess(question).position; });
+  const State at_guess = widened(guessed);
+  for (const std::size_t v : movable_) x_[v] = at_guess[v];
+  detect_here();
 }
 
 /// Two vertices that were d apart and moved by at most m each are now at least d − 2m apart, and so are all faces.

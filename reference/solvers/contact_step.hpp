@@ -107,6 +107,8 @@ class ContactStep {
 
   bool many(std::size_t cut) const;
   void move_towards_target(std::size_t vertex, std::size_t& cut);
+  /// In place of a round that cut many vertices (guess=pairs).
+  void guess_by_pairs();
 
   /// Prescribed vertices behind their targets, since the last question; whether one has moved since the last
   /// detection; whether one has asked in this step.

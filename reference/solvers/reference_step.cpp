@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reference/energies/rest_state.hpp"
 #include "reference/geometry/bound.hpp"
@@ -9,6 +10,7 @@
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/colouring.hpp"
 #include "reference/solvers/contacts.hpp"
+#include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/initial_guess.hpp"
 #include "reference/solvers/step.hpp"
 #include "reference/solvers/step_order.hpp"
@@ -27,9 +29,12 @@ Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float
 
 class ReferenceStep {
  public:
-  explicit ReferenceStep(const compare::StepIn& in)
+  using PairGuesser = std::function<compare::PairGuessOut(const compare::PairGuessIn&)>;
+
+  ReferenceStep(const compare::StepIn& in, PairGuesser guesser)
       : in_(in),
         settings_(in.scene->settings),
+        guesser_(guesser ? std::move(guesser) : PairGuesser(pair_guess)),
         exclusions_(compare::exclusions(*in.scene)),
         start_(compare::to_single(in.scene->mesh.positions)),
         x_(start_) {}
@@ -46,10 +51,11 @@ class ReferenceStep {
       if (*kind == StepEventKind::detection)
         detect(event);
       else if (*kind == StepEventKind::guess)
-        guess(event, order.holds_contacts());
+        guess(event, order);
       else
         sweep(event);
       order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_));
+      if (std::exchange(is_by_pairs_, false)) order.left_regions();
       event.position = x_;
       out_.events.push_back(std::move(event));
     }
@@ -114,11 +120,28 @@ class ReferenceStep {
     return stored_in_region(truth.position[0], question, 0);
   }
 
-  void guess(StepEvent& event, bool hold_contacts) {
-    const std::vector<bool> held = hold_contacts ? touched_vertices(contacts_, *in_.topology)
-                                                 : std::vector<bool>(x_.size(), false);
+  void guess(StepEvent& event, const StepOrder& order) {
+    const std::vector<bool> held = order.holds_contacts() ? touched_vertices(contacts_, *in_.topology)
+                                                          : std::vector<bool>(x_.size(), false);
     for (std::size_t v = 0; v < x_.size(); ++v)
       if (!held[v]) x_[v] = truncated(v, event.cut);
+    if (settings_.guess == compare::Guess::pairs && order.are_many(event.cut)) guess_by_pairs(event);
+  }
+
+  /// In place of the round whose balls cut many.
+  void guess_by_pairs(StepEvent& event) {
+    const compare::PairGuessIn question{.topology = in_.topology,
+                                        .exclusions = exclusions_,
+                                        .previous = previous_,
+                                        .target = out_.target,
+                                        .bound = bound_,
+                                        .bound_relaxation = static_cast<float>(settings_.bound_relaxation),
+                                        .contact_radius = static_cast<float>(settings_.contact_radius),
+                                        .largest_reach = largest_reach(settings_)};
+    x_ = guesser_(question).position;
+    event.cut = 0;
+    for (std::size_t v = 0; v < x_.size(); ++v) event.cut += !(x_[v] == out_.target[v]);
+    is_by_pairs_ = true;
   }
 
   void sweep(StepEvent& event) {
@@ -133,6 +156,8 @@ class ReferenceStep {
 
   const compare::StepIn& in_;
   const compare::Settings& settings_;
+  PairGuesser guesser_;
+  bool is_by_pairs_ = false;  ///< the last guess was
   compare::Exclusions exclusions_;
   std::vector<Vec3f> start_, x_, previous_;
   std::vector<float> bound_;
@@ -143,6 +168,9 @@ class ReferenceStep {
 
 }  // namespace
 
-compare::StepOut reference_step(const compare::StepIn& in) { return ReferenceStep(in).run(); }
+compare::StepOut reference_step(const compare::StepIn& in,
+                                std::function<compare::PairGuessOut(const compare::PairGuessIn&)> guess) {
+  return ReferenceStep(in, std::move(guess)).run();
+}
 
 }  // namespace ogc::reference

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/step_order.hpp"
 
 namespace ogc::reference {
@@ -11,6 +12,19 @@ namespace {
 using compare::Index;
 using compare::Vec3;
 using compare::Vec3f;
+
+/// Whether the i-th event, a guess, took a vertex out of the ball that the detection before it left.
+bool leaves_balls(const compare::StepIn& in, const compare::StepOut& answer, std::size_t i) {
+  if (i == 0 || i >= answer.events.size() || answer.events[i - 1].bound.size() != answer.events[i].position.size())
+    return false;
+  compare::PairGuessIn question;
+  question.topology = in.topology;
+  question.previous = answer.events[i - 1].position;
+  question.bound = answer.events[i - 1].bound;
+  for (std::size_t v = 0; v < question.previous.size(); ++v)
+    if (leaves_ball(question, answer.events[i].position[v], v)) return true;
+  return false;
+}
 
 Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
@@ -57,10 +71,14 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     const std::size_t i = truth.events.size();
     truth.events.push_back(*kind);
     const bool is_there = i < answer.events.size();
+    const Index cut = is_there ? answer.events[i].cut : 0;
     if (is_there && *kind == compare::StepEventKind::detection) previous = &answer.events[i].position;
-    order.took_place(
-        is_there ? answer.events[i].cut : 0,
-        is_there ? lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings) : StepLag{});
+    order.took_place(cut, is_there
+                              ? lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings)
+                              : StepLag{});
+    if (settings.guess == compare::Guess::pairs && *kind == compare::StepEventKind::guess &&
+        (order.are_many(cut) || leaves_balls(in, answer, i)))
+      order.left_regions();
   }
   return truth;
 }

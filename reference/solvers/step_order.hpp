@@ -37,7 +37,7 @@ class StepOrder {
         since_detection_ = 0;
         break;
       case compare::StepEventKind::guess:
-        guessing_ = asks(cut, lag) && ++rounds_ < settings_.guess_rounds;
+        guessing_ = asks(cut, lag) && settings_.guess == compare::Guess::rounds && ++rounds_ < settings_.guess_rounds;
         found_ = !guessing_;
         break;
       case compare::StepEventKind::sweep:
@@ -47,6 +47,12 @@ class StepOrder {
         break;
     }
   }
+
+  /// So many cut vertices ask for a detection.
+  bool are_many(compare::Index cut) const { return cut >= redetect_count_; }
+  /// The guess that took place was by pairs and may have left the regions of its detection: another comes before the
+  /// first iteration.
+  void left_regions() { found_ = false; }
 
   /// Whether a round of the guess loop holds vertices in contact: from the second on.
   bool holds_contacts() const { return rounds_ > 0; }

@@ -13,6 +13,7 @@
 #include "compare/judge/report/explanation.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
+#include "reference/solvers/step.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/judge/engine/loose_problems.hpp"
 #include "tests/compare/judge/faults.hpp"
@@ -47,6 +48,17 @@ TEST_CASE("the exact answers pass their own judge", "[agreement]") {
     INFO(first_mismatch(report));
     REQUIRE(report.passed());
   }
+}
+
+TEST_CASE("a right guess by pairs of another make passes the judge", "[agreement]") {
+  const Authority authority = reference::authority();
+  Contestant other = tests::exact_contestant(authority);
+  other.step = [](const StepIn& in) { return reference::reference_step(in, tests::own_pair_guess); };
+  JudgeOptions options = few_cases(Stage::step);
+  options.generator = "pairs";
+  const StageReport report = judge_stage(Stage::step, other, authority, options);
+  INFO(first_mismatch(report));
+  CHECK(report.passed());
 }
 
 TEST_CASE("the judge catches every planted fault", "[agreement]") {

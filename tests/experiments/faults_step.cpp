@@ -95,10 +95,12 @@ void velocity_from_last_detection(const StepIn& in, StepOut& out) {
 
 }  // namespace
 
-void add_right_step(Contestant& exact, const Authority&) { exact.step = reference::reference_step; }
+void add_right_step(Contestant& exact, const Authority&) {
+  exact.step = [](const StepIn& in) { return reference::reference_step(in); };
+}
 
 std::vector<Fault> step_faults() {
-  return {
+  std::vector<Fault> faults{
       asked_wrongly("threshold rounded down", round_threshold_down),
       asked_wrongly("r_q without its cap", [](Scene& scene) { scene.settings.query_radius_cap = 1000; }),
       asked_wrongly("one iteration too few", [](Scene& scene) { --scene.settings.iterations; }),
@@ -128,6 +130,8 @@ std::vector<Fault> step_faults() {
                 for (Index& colour : out.colour) colour = std::min(colour, 1);
               }),
   };
+  for (Fault& fault : pair_guess_faults()) faults.push_back(std::move(fault));
+  return faults;
 }
 
 }  // namespace ogc::tests

@@ -372,6 +372,31 @@ CaseData solid(Random& random) {
   return builder.finish();
 }
 
+/// Sheets above one another land on a fixed one, some within a step's reach of it and some beyond, closer to each other
+/// than to it; or all fall freely.
+CaseData stack(Random& random) {
+  StepBuilder builder(random);
+  const double move = random.between(0.3, 1.2), gap = move * (random.one_in(3) ? 16 : random.between(0.2, 1.2)),
+               between = move * random.between(0.05, 0.6);
+  const int layers = 2 + random.below(4), n = 2 + random.below(2);
+  for (int k = 0; k < layers; ++k) builder.sheet(n, n, {0, 0, gap + k * between}, {0, 0, -builder.speed(move)});
+  builder.sheet(n, n, {}, {}, true);
+  builder.jitter(random.between(0, 0.1) * between);
+  Settings& settings = builder.scene.settings;
+  settings.query_radius_cap = 16, settings.redetect_fraction = 0.01, settings.iterations = 1;
+  return builder.finish();
+}
+
+/// Guesses by certificate of pairs: pieces that fall, land, meet and are pulled.
+CaseData pairs(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 8> kinds{stack, stack, stack, stack, fall, onto, collide, handle};
+  StepCase test = case_of<StepCase>(random.pick(std::span<CaseData (*const)(Random&)>(kinds))(random));
+  Scene scene = *test.scene;
+  scene.settings.guess = Guess::pairs;
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
 /// Other models than the default ones.
 CaseData models(Random& random) {
   StepCase test = case_of<StepCase>(random.one_in(2) ? onto(random) : handle(random));
@@ -395,7 +420,7 @@ CaseData planes(Random& random) {
 }
 CaseData planes_at_rest(Random& random) { return with_planes(case_of<StepCase>(at_rest(random))); }
 
-constexpr std::array<Generator, 14> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 15> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -408,7 +433,8 @@ constexpr std::array<Generator, 14> table{{{"fall", 12, true, fall},
                                            {"solid", 8, false, solid, 0, Stage::tetrahedron},
                                            {"models", 5, false, models},
                                            {"planes", 10, false, planes, 0, Stage::plane},
-                                           {"ladder.planes", 10, false, planes_at_rest, 0, Stage::plane}}};
+                                           {"ladder.planes", 10, false, planes_at_rest, 0, Stage::plane},
+                                           {"pairs", 48, false, pairs, 0, std::nullopt, true}}};
 
 }  // namespace
 

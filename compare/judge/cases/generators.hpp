@@ -23,6 +23,7 @@ struct Generator {
   std::uint64_t least = 0;
   /// A stage that the contestant must have, too: `tetrahedron` for cases about solids, `plane` for half-spaces
   std::optional<Stage> also_needs = std::nullopt;
+  bool by_pairs = false;  ///< scenes with guess=pairs, which only a contestant that knows it is asked about
 };
 
 /// The generators of a stage, without those that take real states: `states` as they are, `mutated`

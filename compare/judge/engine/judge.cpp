@@ -165,7 +165,8 @@ std::vector<Generator> chosen(Stage stage, const Contestant& contestant, const J
 bool is_asked(const Contestant& contestant, Stage stage, const Generator& generator) {
   const bool is_step_with_planes = stage == Stage::step && generator.also_needs == Stage::plane;
   return (!generator.also_needs || has_stage(contestant, *generator.also_needs)) &&
-         (!is_step_with_planes || contestant.has_steps_with_planes);
+         (!is_step_with_planes || contestant.has_steps_with_planes) &&
+         (!generator.by_pairs || contestant.has_steps_by_pairs);
 }
 
 bool StageReport::passed() const {

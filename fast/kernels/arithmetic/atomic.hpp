@@ -83,6 +83,15 @@ OGC_HD inline std::uint64_t atomic_load(const std::uint64_t* source) {
 #endif
 }
 
+/// Likewise.
+OGC_HD inline int atomic_load(const int* source) {
+#if defined(__CUDA_ARCH__)
+  return *const_cast<const volatile int*>(source);
+#else
+  return std::atomic_ref<int>(*const_cast<int*>(source)).load(std::memory_order_relaxed);
+#endif
+}
+
 /// A value that other threads may be lowering.
 OGC_HD inline float atomic_load(const float* source) {
 #if defined(__CUDA_ARCH__)

@@ -12,13 +12,13 @@ struct Line {
   Vec previous[3] = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
   Vec position[3] = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
   float bound[3] = {0.25f, 0.25f, 0.25f};
-  int offsets[4] = {0, 1, 1, 1};
+  int touched[3] = {1, 0, 0};
   StepControl control;
 
   void guess(bool hold) {
     control.active = 1;
     control.rounds = hold ? 1 : 0;
-    for (int v = 0; v < 3; ++v) GuessVertex{target, {previous, bound}, {offsets}, position, &control}(v);
+    for (int v = 0; v < 3; ++v) GuessVertex{target, {previous, bound}, touched, position, &control}(v);
   }
 };
 
@@ -43,7 +43,7 @@ TEST_CASE("from round 2 on a vertex in a contact stays and does not count", "[un
 
 TEST_CASE("in a frame that stopped no vertex moves and none is counted", "[unit]") {
   Line line;
-  GuessVertex{line.target, {line.previous, line.bound}, {line.offsets}, line.position, &line.control}(1);
+  GuessVertex{line.target, {line.previous, line.bound}, line.touched, line.position, &line.control}(1);
   CHECK(line.position[1].x == 0);
   CHECK(line.control.cut == 0);
 }

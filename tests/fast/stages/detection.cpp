@@ -9,6 +9,8 @@
 
 #include "fast/cpu/backend.hpp"
 #include "fast/probes/contact_engine.hpp"
+#include "fast/probes/download.hpp"
+#include "fast/stages/step_detection.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/meshes.hpp"
 
@@ -478,4 +480,103 @@ TEST_CASE("detection: the bound is the relaxed minimum over the vertex, its edge
     CHECK(static_cast<double>(sets.bound[v]) <= product);
     CHECK(static_cast<double>(std::nextafter(sets.bound[v], 10.0F)) > product);
   }
+}
+
+namespace {
+
+/// A detection of the guess loop, as a round after the first has it.
+struct Round {
+  CpuBackend backend;
+  Detection<CpuBackend> detection;
+  std::vector<Vec> previous;
+  std::vector<int> touched;
+  StepControl control;
+
+  Round(const compare::Topology& topology, compare::Bounds bounds)
+      : detection(backend, topology, {}, 0, 0, bounds,
+                  std::vector<std::uint8_t>(static_cast<std::size_t>(topology.vertex_count), 0)),
+        previous(static_cast<std::size_t>(topology.vertex_count)),
+        touched(previous.size(), 1) {
+    control.active = 1;
+  }
+
+  /// Contacts within `listed`; they act within `active`.
+  void detect(const Vec* x, float active, float listed, int rounds = 1) {
+    const float r_q = 1;
+    control.rounds = 0;  // no regions end
+    const StepStart start{{x, detection.regions(previous.data()), previous.data(), &control, touched.data()}};
+    StepControl later = control;
+    later.rounds = rounds;
+    detection.detect_unlisted(x, listed, &r_q, 0.45F,
+                              RoundLaunches{start, &later, previous.data(), active, touched.data()});
+    control.status = later.status, control.active = later.active, control.detections = later.detections;
+  }
+};
+
+/// 1 for each vertex of a contact.
+std::vector<int> vertices_of(const ContactSets& sets, const compare::Topology& topology) {
+  std::vector<int> touched(static_cast<std::size_t>(topology.vertex_count), 0);
+  const auto mark = [&](const compare::Face& face) {
+    const auto i = static_cast<std::size_t>(face.index);
+    if (face.kind == compare::FaceKind::vertex) touched[i] = 1;
+    if (face.kind == compare::FaceKind::edge)
+      for (const compare::Index v : topology.edges[i]) touched[static_cast<std::size_t>(v)] = 1;
+    if (face.kind == compare::FaceKind::triangle)
+      for (const compare::Index v : topology.triangles[i]) touched[static_cast<std::size_t>(v)] = 1;
+  };
+  for (const compare::VertexFacetContact& c : sets.vertex_facet)
+    mark({compare::FaceKind::vertex, c.vertex}), mark(c.face);
+  for (const compare::EdgeEdgeContact& c : sets.edge_edge) mark(c.first), mark(c.second);
+  return touched;
+}
+
+}  // namespace
+
+TEST_CASE("detection: a round marks the vertices of active contacts, and its contacts can be listed afterwards, again",
+          "[property]") {
+  for (const compare::Bounds bounds : {compare::Bounds::ball, compare::Bounds::planes}) {
+    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+      TestMesh surface = layers(seed);
+      surface.add(tests::jittered(tests::sheet(4, 1.0F, 1.2F), 0.02F, seed));  // touches little
+      const compare::Topology topology = surface.topology();
+      const auto* x = reinterpret_cast<const Vec*>(surface.positions.data());
+      for (const float listed : {0.3F, 0.36F}) {
+        const ContactSets active = find(surface, 0.3F, 1.0F), near = find(surface, listed, 1.0F);
+        Round round(topology, bounds);
+        round.detect(x, 0.3F, listed);
+        const std::vector<int> expected = vertices_of(active, topology);
+        REQUIRE(std::count(expected.begin(), expected.end(), 0) > 0);
+        REQUIRE(std::count(expected.begin(), expected.end(), 1) > 0);
+        CHECK(round.touched == expected);
+        for (int k = 0; k < 2; ++k) {
+          round.detection.list_contacts(listed);
+          const ContactSets sets = download_contacts(round.backend, round.detection, topology);
+          CHECK(sets.vertex_facet == near.vertex_facet);
+          CHECK(sets.edge_edge == near.edge_edge);
+          if (bounds == compare::Bounds::ball) CHECK(sets.bound == near.bound);
+          round.detection.forget_contacts();
+        }
+        round.detect(x, 0.3F, listed, 0);  // nothing is held in the first round
+        CHECK(std::count(round.touched.begin(), round.touched.end(), 0) ==
+              static_cast<std::ptrdiff_t>(round.touched.size()));
+      }
+    }
+  }
+}
+
+TEST_CASE("detection: a round without room for all pairs ends the step, and asks for that room", "[unit]") {
+  const TestMesh surface = layers(6);
+  const compare::Topology topology = surface.topology();
+  const auto* x = reinterpret_cast<const Vec*>(surface.positions.data());
+  Round round(topology, compare::Bounds::ball);
+  round.detection.reserve({1000, 3});
+  round.detect(x, 0.3F, 0.3F);
+  CHECK((round.control.status & compare::step_list_grew) != 0);
+  CHECK(round.control.active == 0);
+  round.detection.list_contacts(0.3F);
+  REQUIRE(round.detection.grow());
+  round.control.status = 0, round.control.active = 1;
+  round.detect(x, 0.3F, 0.3F);
+  CHECK(round.control.status == 0);
+  CHECK(round.touched == vertices_of(find(surface, 0.3F, 1.0F), topology));
 }

@@ -118,11 +118,11 @@ struct MadeStream {
   StepLaunches launches(Detection<Backend>& detection, Sweep<Backend>& sweep, const std::vector<Vec>& at) {
     previous = at;
     const ContactView view = detection.view();
-    return {.regions = {at.data(), {previous.data(), view.bound}, previous.data(), &control},
-            .end = {{&control, detection.overflow()},
-                    sweep.contact_rows(view.incidence_offsets, detection.loose_incidences(), detection.overflow()),
-                    sweep.slots()},
-            .resolve = sweep.resolve_contact(view, at.data())};
+    return {{{at.data(), {previous.data(), view.bound}, previous.data(), &control}},
+            {{&control, detection.overflow()},
+             sweep.contact_rows(view.incidence_offsets, detection.loose_incidences(), detection.overflow()),
+             sweep.slots(),
+             sweep.resolve_contact(view, at.data())}};
   }
 };
 

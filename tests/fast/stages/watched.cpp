@@ -2,7 +2,6 @@
 // made wrong before a step looks at them.
 #include <cstring>
 #include <functional>
-#include <string_view>
 #include <typeindex>
 
 #include "fast/cpu/backend.hpp"
@@ -24,12 +23,9 @@ int strains_begun = 0;  // loops that ask for strains at the start of a step
 using Launches = std::vector<std::type_index>;
 Launches* launched = nullptr;  // where functors are noted in the order of their launches
 
-/// Not those of a download, which belong to whoever looks.
 template <class F>
 void note_launch() {
-  const std::type_index functor = typeid(F);
-  if (launched != nullptr && std::string_view(functor.name()).find("CopyItems") == std::string_view::npos)
-    launched->push_back(functor);
+  if (launched != nullptr) launched->push_back(typeid(F));
 }
 
 /// CpuBuffer with a margin behind its items, in which bits are ones: floats that are not numbers, places below 0.
@@ -141,6 +137,23 @@ class WatchedBackend : public CpuBackend {
 };
 
 using Watched = ResidentSimulation<WatchedBackend>;
+
+/// A trace whose own launches, those of a look, are not noted.
+class Onlooker : public StepTrace<WatchedBackend> {
+ public:
+  using StepTrace::StepTrace;
+
+  void after(compare::StepEventKind kind, const Vec* position) override {
+    Launches* const noted = std::exchange(launched, nullptr);
+    StepTrace::after(kind, position);
+    launched = noted;
+  }
+  void after_listing() override {
+    Launches* const noted = std::exchange(launched, nullptr);
+    StepTrace::after_listing();
+    launched = noted;
+  }
+};
 
 /// A sheet thrown at a fixed one.
 compare::Scene thrown_sheet() {
@@ -282,16 +295,23 @@ TEST_CASE("a step that is timed, or observed, makes the launches of one that is 
     compare::SimulationOptions options;
     options.profile = profile;
     Watched simulation(WatchedBackend{}, scene, options, "");
+    Onlooker onlooker(simulation.backend(), simulation.state(), simulation.detection(), simulation.topology(),
+                      simulation.detection_radius());
+    if (observed) simulation.observe(&onlooker);
     launched = &noted;
-    if (observed)
-      trace_step(simulation);
-    else
-      simulation.advance(1);
+    simulation.advance(1);
     launched = nullptr;
+    CHECK(onlooker.take().empty() != observed);
     return noted;
   };
   const Launches expected = launches(false, false);
-  REQUIRE(std::count(expected.begin(), expected.end(), typeid(RankAndResolve)) > 2);  // also between iterations
+  const auto count = [&](const std::type_index& functor) {
+    return std::count(expected.begin(), expected.end(), functor);
+  };
+  REQUIRE(count(typeid(MarkTouched)) > 1);     // several rounds
+  REQUIRE(count(typeid(RankAndResolve)) > 1);  // also between iterations
+  CHECK(count(typeid(RankAndResolve)) + count(typeid(MarkTouched)) ==
+        count(typeid(DetectEdgeEdge)) + 1);  // lists are made once in a guess loop
   CHECK((launches(true, false) == expected));
   CHECK((launches(true, true) == expected));
 }

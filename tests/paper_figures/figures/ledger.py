@@ -5,6 +5,7 @@ Usage: ledger.py SOURCE_DIR OGC
 """
 
 import csv
+import importlib.util
 import json
 import math
 import sys
@@ -31,7 +32,7 @@ def made_up(folder, rows):
         {"status": "finished", "commit": "0123456789abcdef", "device": "device", "backend": "cpu", "final_hash": "f",
          "guarantee_kept": True, "audited_states": "1", "scene": {"bodies": bodies}}))
     names = ["step", "discrete_detections", *(f"energy_{part}" for part in ledger.PARTS),
-             *(f"momentum_{part}_{axis}" for part in ledger.MOVERS for axis in "xyz"), "motion_proposed",
+             *(f"momentum_{part}_{axis}" for part in ("start", *ledger.MOVERS) for axis in "xyz"), "motion_proposed",
              "motion_taken", "motion_taken_tangential", "motion_taken_leaving", "motion_taken_unpaired",
              "vertices_still", "vertices_held"]
     count = len(next(iter(rows.values())))
@@ -67,6 +68,28 @@ class Known(unittest.TestCase):
         made_up(self.folder / "slide_planes", {"step": [1], "motion_proposed": [2]})
         row = ledger.row_of("slide", "planes", ledger.finished(self.folder)["slide", "planes"])
         self.assertEqual((row["taken of proposed motion [%]"], row["tangential of taken [%]"]), ("0", ""))
+
+    def test_a_panel_without_lines_says_why(self):
+        nothing = "truncation takes nothing"
+        self.assertEqual(ledger.note_on_shares({"ball": 0, "planes": 0.0}), nothing)
+        self.assertEqual(ledger.note_on_shares({"ball": 2, "planes": 0}), f"{nothing} with planes")
+        self.assertEqual(ledger.note_on_shares({"planes": 0}), nothing)
+        self.assertEqual(ledger.note_on_shares({"ball": 2, "planes": 1}), "")
+
+    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "the picture needs matplotlib")
+    def test_each_row_of_the_picture_says_whose_momentum_it_has_and_where_nothing_is_taken(self):
+        taken = {"twist": ([1], [2]), "fifty_layers": ([1], [0]), "slide": ([0], [0])}
+        for scene, by_bounds in taken.items():
+            for bounds, column in zip(ledger.BOUNDS, by_bounds):
+                made_up(self.folder / f"{scene}_{bounds}", {"step": [1], "motion_proposed": [4],
+                                                            "motion_taken": column})
+        figure = ledger.picture(ledger.finished(self.folder), "smoke")
+        rows = [figure.axes[k:k + 4] for k in range(0, len(figure.axes), 4)]
+        whose = [[text.get_text() for text in row[1].get_legend().get_texts() if text.get_text().startswith("momentum")]
+                 for row in rows]
+        self.assertEqual(whose, [["momentum of the cloth"], ["momentum of all layers"], ["momentum of the sheet"]])
+        notes = [[text.get_text() for text in row[2].texts] for row in rows]
+        self.assertEqual(notes, [[], ["truncation takes nothing with planes"], ["truncation takes nothing"]])
 
     def test_parts_of_a_course_hold_every_step_once(self):
         for count in (1, 7, 60, 719):
