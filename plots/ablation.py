@@ -28,7 +28,7 @@ def read(folder):
         reader = csv.DictReader(file)
         varied = reader.fieldnames[1:reader.fieldnames.index(AFTER_AXES)]
         for row in reader:
-            setting = ", ".join(f"{key}={row[key]}" for key in varied)
+            setting = ", ".join(f"{key}={row[key]}" for key in varied if row[key]) or "default"
             numbers = tuple(float(row[name]) for name in ("median", "smallest", "largest"))
             metrics.setdefault(row["metric"], (row["unit"], {}))[1][setting] = numbers
     if not metrics:

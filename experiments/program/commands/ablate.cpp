@@ -1,9 +1,12 @@
 // `ogc ablate`: a grid of runs that differ in some settings, each point from several jittered starts if asked; one run
 // folder for each run, a table over all of them, medians and ranges, and what may be said of them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <span>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -30,7 +33,7 @@ constexpr std::int64_t every_run = -1;
 
 struct AblateOptions {
   std::shared_ptr<RunOptions> run = std::make_shared<RunOptions>();
-  std::vector<std::string> vary;
+  std::vector<std::string> vary, points;  ///< as typed
   std::int64_t repeat = 1;
   std::int64_t only = every_run;  ///< number of the one run to make
   bool slurm = false;
@@ -55,11 +58,45 @@ Axis parse_axis(const std::string& text) {
   return axis;
 }
 
-/// A point of the grid: a value for each axis. The last axis runs fastest.
+/// A point of the grid: a value for each axis, empty where the scene's stays. The last axis runs fastest.
 using Point = std::vector<std::string>;
 
-std::vector<Point> grid(const std::vector<Axis>& axes) {
-  std::vector<Point> points{{}};
+/// The name of a point at which everything is the scene's.
+constexpr const char* unchanged = "default";
+
+/// The points of --point, over an axis for each key that one of them has; one point without axes where there is none.
+std::vector<Point> listed_points(const std::vector<std::string>& texts, std::vector<Axis>& axes) {
+  std::vector<Point> points;
+  for (const std::string& text : texts) {
+    Point point(axes.size());
+    std::string part;
+    for (std::istringstream parts(text == unchanged ? "" : text); std::getline(parts, part, ',');) {
+      const std::size_t equals = part.find('=');
+      if (equals == 0 || equals == std::string::npos || equals + 1 == part.size())
+        throw compare::InputError("--point " + text + ": give key=a,other=b, or " + unchanged +
+                                  ", for example --point iterations=20,time_step=0.005");
+      const std::string key = part.substr(0, equals);
+      const auto axis = std::ranges::find(axes, key, &Axis::key);
+      const auto place = static_cast<std::size_t>(axis - axes.begin());
+      if (axis == axes.end()) axes.push_back({key, {}});
+      point.resize(axes.size());
+      if (!point[place].empty()) throw compare::InputError("--point " + text + ": " + key + " stands there twice");
+      point[place] = part.substr(equals + 1);
+    }
+    points.push_back(std::move(point));
+  }
+  if (points.empty()) points.emplace_back();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].resize(axes.size());
+    if (std::ranges::find(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i), points[i]) !=
+        points.begin() + static_cast<std::ptrdiff_t>(i))
+      throw compare::InputError("--point " + texts[i] + " is given twice; give each point once");
+  }
+  return points;
+}
+
+/// Each of `points` with all combinations of the values of `axes`.
+std::vector<Point> grid(std::vector<Point> points, std::span<const Axis> axes) {
   for (const Axis& axis : axes) {
     std::vector<Point> longer;
     for (const Point& point : points)
@@ -75,8 +112,8 @@ std::vector<Point> grid(const std::vector<Axis>& axes) {
 std::string name_of(const std::vector<Axis>& axes, const Point& point) {
   std::string name;
   for (std::size_t i = 0; i < axes.size(); ++i)
-    name.append(name.empty() ? "" : ",").append(axes[i].key).append("=").append(point[i]);
-  return name;
+    if (!point[i].empty()) name.append(name.empty() ? "" : ",").append(axes[i].key).append("=").append(point[i]);
+  return name.empty() ? unchanged : name;
 }
 
 void expect_distinct(const std::vector<Axis>& axes) {
@@ -97,6 +134,7 @@ RunOptions options_at(const AblateOptions& ablation, const RunOptions& base, con
                       const Point& point, std::int64_t repeat) {
   RunOptions options = base;
   for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (point[i].empty()) continue;
     if (axes[i].key == "solver")
       options.solver = point[i];
     else if (axes[i].key == "backend")
@@ -205,6 +243,17 @@ bool is_begun(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "run.json") && std::filesystem::exists(folder / "checkpoint.h5");
 }
 
+/// Whether the folder holds nothing but what a run has in it before its first checkpoint: such a one may be removed.
+bool is_cut_beginning(const std::filesystem::path& folder) {
+  constexpr std::array<std::string_view, 6> names{"frames",    "scene",          "run.json",
+                                                  "steps.csv", "iterations.csv", "trajectory.vtkhdf"};
+  if (!std::filesystem::is_directory(folder)) return false;
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder), [&](const auto& entry) {
+    const std::string name = entry.path().filename();
+    return name.ends_with(".partial") || name.ends_with(".growing") || std::ranges::find(names, name) != names.end();
+  });
+}
+
 /// Makes the run, goes on with it where it was cut off, or finds it done. False where it was interrupted.
 bool make(const PlannedRun& planned, const std::string& progress, CommandContext& context) {
   RunRequest request = request_of(planned.options, context);
@@ -216,7 +265,7 @@ bool make(const PlannedRun& planned, const std::string& progress, CommandContext
       log_line(progress + ": is done");
       return true;
     }
-  } else if (std::filesystem::exists(folder / "scene")) {
+  } else if (is_cut_beginning(folder)) {
     log_line(progress + ": was cut off before its first step, and begins again");
     std::filesystem::remove_all(folder);
   }
@@ -407,13 +456,18 @@ void write_slurm(const std::string& out, std::size_t count, const std::string& c
 /// The tables are written after each run, so that a grid that is cut off leaves what it has.
 void ablate(const AblateOptions& options, const CLI::App& command, CommandContext& context) {
   check_repeats(options);
+  if (options.vary.empty() && options.points.empty())
+    throw compare::InputError(
+        "ablate needs what to vary, --vary key=a,b or --point key=a,other=b; see ogc ablate --help");
   std::vector<Axis> axes;
+  const std::vector<Point> listed = listed_points(options.points, axes);
+  const std::size_t listed_axes = axes.size();
   for (const std::string& text : options.vary) axes.push_back(parse_axis(text));
   expect_distinct(axes);
   RunOptions base = *options.run;
   const bool is_named = !base.out.empty();
   if (!is_named) base.out = "runs/ablate-" + base.scene.substr(base.scene.rfind('/') + 1) + "-" + utc_stamp();
-  const std::vector<Point> points = grid(axes);
+  const std::vector<Point> points = grid(listed, std::span(axes).subspan(listed_axes));
   const std::vector<PlannedRun> planned = planned_runs(options, base, axes, points);
   // All points are asked for before the first runs: a wrong value late in the grid must not cost the runs before it.
   for (std::size_t p = 0; p < points.size(); ++p)
@@ -457,8 +511,14 @@ void add_ablate_command(CLI::App& app, CommandContext& context) {
                    "key=a,b,c: a setting, or solver, or backend; repeatable, all combinations are run")
       ->take_all()
       ->type_size(1)
-      ->expected(1)
-      ->required();
+      ->expected(1);
+  command
+      ->add_option("--point", options->points,
+                   "key=a,other=b: one point of settings that change together, or default for the scene's own; "
+                   "repeatable, and each is combined with all of --vary")
+      ->take_all()
+      ->type_size(1)
+      ->expected(1);
   command
       ->add_option("--repeat", options->repeat,
                    "Runs of each point, from starts that --jitter moves by seeds SEED, SEED + 1, …")
@@ -474,12 +534,14 @@ void add_ablate_command(CLI::App& app, CommandContext& context) {
       "\nExamples:\n"
       "  ogc ablate cloth_on_sphere --scale smoke --solver newton --vary activation=ogc,ipc_log,cubic\n"
       "  ogc ablate twist --vary iterations=5,10,20 --vary redetect_fraction=0,0.01,0.1 --out grid\n"
+      "  ogc ablate twist --scale smoke --point default --point iterations=20,time_step=0.00167,steps=1440 --repeat 10 "
+      "--jitter 1e-6\n"
       "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine\n"
       "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --slurm\n\n"
       "A run is one draw: where contact is chaotic, the last bit of the start decides how it goes on. --repeat 10 "
       "runs\n"
-      "each point from ten starts, each coordinate moved by at most --jitter, and compares ranges. The first value of\n"
-      "each --vary is what the others are held against. \"x is 1.8 times y, range 1.6 to 2.1\" is said only where "
+      "each point from ten starts, each coordinate moved by at most --jitter, and compares ranges. The first point\n"
+      "is what the others are held against. \"x is 1.8 times y, range 1.6 to 2.1\" is said only where "
       "every\n"
       "run of x lies above every run of y: 1.8 is the ratio of the medians, 1.6 and 2.1 are the least and the largest\n"
       "ratio of any two runs. Where the ranges overlap, no difference is shown, which is not: there is none. Two "

@@ -52,7 +52,9 @@ TEST_CASE("an ablation with a wrong key or value anywhere in its grid runs nothi
        {"activation=ogc,barrier", "activatoin=ogc", "activation", "iterations=5,", "solver=newton,implicit",
         "backend=cpu,gpu", "iterations=5,0", "iterations=5,5", "iterations=5 --vary iterations=6",
         "iterations=5,6 --repeat 2", "iterations=5,6 --repeat 2 --jitter 0", "iterations=5,6 --repeat 0 --jitter 1e-6",
-        "iterations=5,6 --only 2", "iterations=5,6 --jitter 1"}) {
+        "iterations=5,6 --only 2", "iterations=5 --point iterations=6", "iterations=5 --point friction",
+        "iterations=5 --point friction=0.1,friction=0.2", "iterations=5 --point default --point default",
+        "iterations=5 --point friction=-1", "iterations=5,6 --jitter 1"}) {
     const ProgramResult result = run_ogc(std::string("ablate cloth_on_sphere --scale smoke --steps 1 --vary ") + vary +
                                          " --out " + out.string());
     INFO(vary << "\n" << result.err);
@@ -113,6 +115,18 @@ TEST_CASE("a repeated ablation that signals cut off ends with the runs of one th
   INFO(result.err);
   REQUIRE(result.status == 0);
   for (const std::string& run : repeated_runs) check_same_run(whole / run, cut / run);
+  // Cut off before anything but the first folder was there; and what is no run's is nobody's to remove.
+  std::filesystem::remove_all(cut / repeated_runs[1]);
+  std::filesystem::create_directories(cut / repeated_runs[1] / "frames");
+  REQUIRE(run_ogc(repeated + cut.string()).status == 0);
+  check_same_run(whole / repeated_runs[1], cut / repeated_runs[1]);
+  std::filesystem::remove_all(cut / repeated_runs[1]);
+  std::filesystem::create_directories(cut / repeated_runs[1] / "frames");
+  compare::write_bytes(cut / repeated_runs[1] / "notes.txt", "mine");
+  CHECK(run_ogc(repeated + cut.string()).status == 2);
+  CHECK(compare::read_bytes(cut / repeated_runs[1] / "notes.txt") == "mine");
+  std::filesystem::remove_all(cut / repeated_runs[1]);
+  REQUIRE(run_ogc(repeated + cut.string()).status == 0);
   const auto rows = lines_of(whole / "ablation.csv"), others = lines_of(cut / "ablation.csv");
   REQUIRE(rows.size() == 5);
   REQUIRE(others.size() == 5);
@@ -209,4 +223,23 @@ TEST_CASE("a difference is stated only where ranges lie apart, with the range of
   CHECK(lines[3] == "by chance alone 0.333 of these sentences would call equal settings different");
   CHECK(std::llround(2 / apart_by_chance(10, 10)) == 184756);
   CHECK_THAT(findings({setting("y", {3}), setting("x", {5})}).back(), Contains("--repeat 10"));
+}
+
+TEST_CASE("points of an ablation change several settings together, and the rest is the scene's", "[unit]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder / "grid";
+  const ProgramResult result = run_ogc(
+      "ablate cloth_on_sphere --scale smoke --point default --point iterations=20,time_step=0.005,steps=4 "
+      "--point time_step=0.02 --set steps=2 --vary friction=0.1,0.2 --out " +
+      out.string());
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const std::vector<std::string> lines = lines_of(out / "ablation.csv");
+  REQUIRE(lines.size() == 7);
+  CHECK(lines[0].starts_with("iterations,time_step,steps,friction,status,steps [1]"));
+  CHECK(lines[1].starts_with(",,,0.1,finished,2,"));
+  CHECK(lines[4].starts_with("20,0.005,4,0.2,finished,4,"));
+  CHECK(lines[5].starts_with(",0.02,,0.1,finished,2,"));
+  CHECK(std::filesystem::exists(out / "iterations=20,time_step=0.005,steps=4,friction=0.2/run.json"));
+  CHECK(run_ogc("ablate cloth_on_sphere --scale smoke --out " + (folder / "none").string()).status == 2);
 }
