@@ -28,14 +28,14 @@ std::vector<double> values_of(const Rows& rows, const std::function<double(const
   return values;
 }
 
+/// Not-a-number where there is one among them, as below.
 double median(std::vector<double> values) {
-  if (values.empty()) return nan;
+  if (values.empty() || std::ranges::any_of(values, [](double value) { return std::isnan(value); })) return nan;
   std::ranges::sort(values);
   const std::size_t middle = values.size() / 2;
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-/// Not-a-number where there is one among them.
 double largest(const std::vector<double>& values) {
   double result = values.empty() ? nan : values.front();
   for (const double value : values)
@@ -75,8 +75,8 @@ struct StepMetric {
 
 double median_of(const std::vector<double>& values) { return median(values); }
 
-const std::array<StepMetric, 18>& step_metrics() {
-  static const std::array<StepMetric, 18> metrics{{
+const std::array<StepMetric, 19>& step_metrics() {
+  static const std::array<StepMetric, 19> metrics{{
       {{"median_step", "ms"}, [](const StepMetrics& r) { return r.wall_ms; }, median_of},
       {{"worst_step", "ms"}, [](const StepMetrics& r) { return r.wall_ms; }, largest},
       {{"iterations_a_step", "1"}, [](const StepMetrics& r) { return static_cast<double>(r.iterations); }, mean},
@@ -91,6 +91,7 @@ const std::array<StepMetric, 18>& step_metrics() {
       {{"largest_share_cut", "1"}, [](const StepMetrics& r) { return r.share_cut; }, largest},
       {{"largest_momentum_lost_guess", "1"}, [](const StepMetrics& r) { return r.momentum_lost_guess; }, largest},
       {{"largest_momentum_lost_end", "1"}, [](const StepMetrics& r) { return r.momentum_lost_end; }, largest},
+      {{"median_residual", "1"}, [](const StepMetrics& r) { return r.residual; }, median_of},
       {{"largest_residual", "1"}, [](const StepMetrics& r) { return r.residual; }, largest},
       {{"smallest_distance", "m"}, [](const StepMetrics& r) { return r.smallest_distance; }, smallest},
       {{"last_kinetic_energy", "J"}, [](const StepMetrics& r) { return r.kinetic_energy; }, last},
