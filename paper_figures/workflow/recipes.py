@@ -5,9 +5,10 @@ Paths are relative to the folder of the runs.
 Keys of a YAML file: `illustrations`, with a title for each; or `title` with `scene`, `script` (a module of
 paper_figures.figures) and `run` (options of `ogc run`; without it the script makes its runs itself, with `options`), or
 `scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes` where
-the script makes one of its run; or `rows` of Table 1; `backends` where not both make sense; `kept` where results hold
-only the runs whose names match one of these patterns, and of the others their rows in the figure's table. A figure that
-is not there yet has `title`, `scene` and `missing`: what the program lacks for it.
+the script makes one of its run; or `study` (figures/ablations/study.py says what is in it); or `rows` of Table 1;
+`backends` where not both make sense; `kept` where results hold only the runs whose names match one of these patterns,
+and of the others their rows in the figure's table. A figure that is not there yet has `title`, `scene` and `missing`:
+what the program lacks for it.
 """
 
 import argparse
@@ -34,7 +35,8 @@ RUNS = ("commands.py", "layers.py", "slide.py")  # what runs are made of, where 
 # What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
 KEYS = {"title", "illustrations", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends",
-        "missing", "kept"}
+        "missing", "kept", "study"}
+STUDIES = "ablations"  # their folder, and the name of all of them
 
 
 class RecipeError(Exception):
@@ -69,7 +71,9 @@ class Recipe:
     @property
     def file(self):
         """The YAML file that says all this."""
-        return "illustrations.yaml" if "illustration" in self.body else f"{self.name}.yaml"
+        if "illustration" in self.body:
+            return "illustrations.yaml"
+        return f"{STUDIES}/{self.name}.yaml" if "study" in self.body else f"{self.name}.yaml"
 
     def folder(self, scale, backend):
         return "illustrations" if "illustration" in self.body else f"{self.name}-{scale}-{backend}"
@@ -92,7 +96,7 @@ class Recipe:
 def load(folder=FIGURES):
     """name -> Recipe. Throws RecipeError where a file has a key that nobody reads."""
     bodies = {}
-    for path in sorted(Path(folder).glob("*.yaml")):
+    for path in sorted([*Path(folder).glob("*.yaml"), *Path(folder).glob(f"{STUDIES}/*.yaml")]):
         body = yaml.safe_load(path.read_text())
         unknown = set(body) - KEYS
         if unknown:
@@ -106,18 +110,21 @@ def load(folder=FIGURES):
 
 
 def choose(names, recipes, backend):
-    """Recipes by figure, scene, `illustrations` or `all`. Throws RecipeError for a name that is none of these, is not
-    there yet, or has no such backend."""
-    chosen = []
+    """Recipes by figure, scene, `illustrations`, `ablations` or `all` (but sweeps and studies). Throws RecipeError for
+    a name that is none of these, is not there yet, or has no such backend."""
+    chosen, apart = [], {"vary", "missing", "study"}
     for name in names or [REPRESENTATIVE]:
         found = [r for r in recipes.values() if r.name == name] or [r for r in recipes.values() if r.scene == name][:1]
         if name == "all":
-            found = [r for r in recipes.values() if backend in r.backends and not {"vary", "missing"} & set(r.body)]
+            found = [r for r in recipes.values() if backend in r.backends and not apart & set(r.body)]
         elif name == "illustrations":
             found = [r for r in recipes.values() if "illustration" in r.body]
+        elif name == STUDIES:
+            found = [r for r in recipes.values() if "study" in r.body]
         there = [r.name for r in recipes.values() if "missing" not in r.body]
         if not found:
-            raise RecipeError(f"no figure or scene '{name}'; there are: {', '.join(there)}, illustrations, all")
+            raise RecipeError(f"no figure or scene '{name}'; there are: {', '.join(there)}, illustrations, {STUDIES}, "
+                              "all")
         if "missing" in found[0].body:
             missing = found[0]
             raise RecipeError(f"{missing.name} ({missing.scene}) is not there yet: the program has no "
@@ -140,7 +147,7 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
     picture = recipe.picture(scale, backend)
     drawing = (python, "-m", f"paper_figures.figures.{recipe.body.get('script', 'illustrations')}")
     plots = tuple(str(path) for path in sorted((ROOT / "plots").glob("*.py")))
-    script = (str(FIGURES / f"{recipe.body['script']}.py"),) if "script" in recipe.body else ()
+    script = (str(FIGURES / f"{recipe.body['script'].replace('.', '/')}.py"),) if "script" in recipe.body else ()
     if "illustration" in recipe.body:
         data = f"{here}/{recipe.name}.json"
         return [Step(f"{recipe.name}_data", data, (PROGRAM,), (ogc, "illustrate", recipe.name, "--out", here)),
@@ -163,7 +170,9 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
         return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots),
                      (*drawing, picture, *drawn))]
     options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
-    made_by = (*script, *(str(HERE / name) for name in RUNS))
+    # A study's runs follow from its own file; a figure's of several runs from what lists them.
+    made_by = (*script, *((str(FIGURES / recipe.file),) if "study" in recipe.body
+                          else (str(HERE / name) for name in RUNS)))
     return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots),
                  (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
 
@@ -258,7 +267,7 @@ def in_words(seconds):
 
 def table(recipes, scale, backend, runs):
     """Lines of --list."""
-    times, lines = measured_times(), [f"{'figure':14} {'scene':23} {'scale':6} {'time (measured on)':34} done  title"]
+    times, lines = measured_times(), [f"{'figure':22} {'scene':23} {'scale':6} {'time (measured on)':34} done  title"]
     for recipe in recipes.values():
         used = backend if backend in recipe.backends else recipe.backends[0]
         drawn = "illustration" in recipe.body
@@ -268,7 +277,7 @@ def table(recipes, scale, backend, runs):
             time = "not there yet"
         drawn_here = (Path(runs) / recipe.picture(scale, used)).is_file()
         done = "-" if "missing" in recipe.body else "yes" if drawn_here else "no"
-        lines.append(f"{recipe.name:14} {recipe.scene or '-':23} {'-' if drawn else scale:6} {time:34} {done:5} "
+        lines.append(f"{recipe.name:22} {recipe.scene or '-':23} {'-' if drawn else scale:6} {time:34} {done:5} "
                      f"{recipe.title}")
     return lines
 

@@ -1,24 +1,42 @@
-// `ogc ablate`: a grid of runs that differ in some settings, one run folder for each point, and one table over all of
-// them.
-#include <fstream>
+// `ogc ablate`: a grid of runs that differ in some settings, each point from several jittered starts if asked; one run
+// folder for each run, a table over all of them, medians and ranges, and what may be said of them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "compare/files/durable_file.hpp"
+#include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
-#include "compare/record/steps_csv.hpp"
+#include "compare/problem/validate.hpp"
+#include "compare/record/run_folder.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/interrupt.hpp"
-#include "experiments/program/runs/run_options.hpp"
+#include "experiments/program/option_checks.hpp"
+#include "experiments/program/runs/ablation_table.hpp"
+#include "experiments/program/runs/resume.hpp"
+#include "experiments/program/version.hpp"
 
 namespace ogc::experiments {
 
 namespace {
 
+constexpr std::int64_t most_repeats = 1000;
+/// Of --only, where it is not given.
+constexpr std::int64_t every_run = -1;
+
 struct AblateOptions {
   std::shared_ptr<RunOptions> run = std::make_shared<RunOptions>();
-  std::vector<std::string> vary;
+  std::vector<std::string> vary, points;  ///< as typed
+  std::int64_t repeat = 1;
+  std::int64_t only = every_run;  ///< number of the one run to make
+  bool slurm = false;
 };
 
 /// One axis of the grid.
@@ -40,11 +58,45 @@ Axis parse_axis(const std::string& text) {
   return axis;
 }
 
-/// A point of the grid: a value for each axis. The last axis runs fastest.
+/// A point of the grid: a value for each axis, empty where the scene's stays. The last axis runs fastest.
 using Point = std::vector<std::string>;
 
-std::vector<Point> grid(const std::vector<Axis>& axes) {
-  std::vector<Point> points{{}};
+/// The name of a point at which everything is the scene's.
+constexpr const char* unchanged = "default";
+
+/// The points of --point, over an axis for each key that one of them has; one point without axes where there is none.
+std::vector<Point> listed_points(const std::vector<std::string>& texts, std::vector<Axis>& axes) {
+  std::vector<Point> points;
+  for (const std::string& text : texts) {
+    Point point(axes.size());
+    std::string part;
+    for (std::istringstream parts(text == unchanged ? "" : text); std::getline(parts, part, ',');) {
+      const std::size_t equals = part.find('=');
+      if (equals == 0 || equals == std::string::npos || equals + 1 == part.size())
+        throw compare::InputError("--point " + text + ": give key=a,other=b, or " + unchanged +
+                                  ", for example --point iterations=20,time_step=0.005");
+      const std::string key = part.substr(0, equals);
+      const auto axis = std::ranges::find(axes, key, &Axis::key);
+      const auto place = static_cast<std::size_t>(axis - axes.begin());
+      if (axis == axes.end()) axes.push_back({key, {}});
+      point.resize(axes.size());
+      if (!point[place].empty()) throw compare::InputError("--point " + text + ": " + key + " stands there twice");
+      point[place] = part.substr(equals + 1);
+    }
+    points.push_back(std::move(point));
+  }
+  if (points.empty()) points.emplace_back();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].resize(axes.size());
+    if (std::ranges::find(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i), points[i]) !=
+        points.begin() + static_cast<std::ptrdiff_t>(i))
+      throw compare::InputError("--point " + texts[i] + " is given twice; give each point once");
+  }
+  return points;
+}
+
+/// Each of `points` with all combinations of the values of `axes`.
+std::vector<Point> grid(std::vector<Point> points, std::span<const Axis> axes) {
   for (const Axis& axis : axes) {
     std::vector<Point> longer;
     for (const Point& point : points)
@@ -60,14 +112,29 @@ std::vector<Point> grid(const std::vector<Axis>& axes) {
 std::string name_of(const std::vector<Axis>& axes, const Point& point) {
   std::string name;
   for (std::size_t i = 0; i < axes.size(); ++i)
-    name.append(name.empty() ? "" : ",").append(axes[i].key).append("=").append(point[i]);
-  return name;
+    if (!point[i].empty()) name.append(name.empty() ? "" : ",").append(axes[i].key).append("=").append(point[i]);
+  return name.empty() ? unchanged : name;
 }
 
-/// `solver` and `backend` are options of a run, everything else is a setting.
-RunOptions options_at(const RunOptions& base, const std::vector<Axis>& axes, const Point& point) {
+void expect_distinct(const std::vector<Axis>& axes) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    std::vector<std::string> values = axes[i].values;
+    std::ranges::sort(values);
+    if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
+      throw compare::InputError("--vary " + axes[i].key + ": " + *twice + " stands there twice; give each value once");
+    for (std::size_t j = 0; j < i; ++j)
+      if (axes[j].key == axes[i].key)
+        throw compare::InputError("--vary " + axes[i].key + " is given twice; give all its values at once, " +
+                                  axes[i].key + "=a,b,c");
+  }
+}
+
+/// `solver` and `backend` are options of a run, everything else is a setting. `repeat`: which of the runs of a point.
+RunOptions options_at(const AblateOptions& ablation, const RunOptions& base, const std::vector<Axis>& axes,
+                      const Point& point, std::int64_t repeat) {
   RunOptions options = base;
   for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (point[i].empty()) continue;
     if (axes[i].key == "solver")
       options.solver = point[i];
     else if (axes[i].key == "backend")
@@ -75,48 +142,190 @@ RunOptions options_at(const RunOptions& base, const std::vector<Axis>& axes, con
     else
       options.assignments.push_back(axes[i].key + "=" + point[i]);
   }
+  options.jitter.seed = base.jitter.seed + static_cast<std::uint64_t>(repeat);
   options.out = base.out + "/" + name_of(axes, point);
+  if (ablation.repeat > 1) options.out += ",seed=" + std::to_string(options.jitter.seed);
   return options;
 }
 
-std::string per_step(std::int64_t count, std::int64_t steps) {
-  return steps > 0 ? compare::shortest(static_cast<double>(count) / static_cast<double>(steps)) : "nan";
+void check_repeats(const AblateOptions& options) {
+  const Jitter& jitter = options.run->jitter;
+  if (options.repeat > 1 && jitter.largest == 0)
+    throw compare::InputError("--repeat " + std::to_string(options.repeat) +
+                              " without --jitter would compute the same bits so many times: add --jitter METRES, far "
+                              "below contact_radius, for example --jitter 1e-6");
+  if (jitter.seed > std::numeric_limits<std::uint64_t>::max() - static_cast<std::uint64_t>(options.repeat))
+    throw compare::InputError("--seed " + std::to_string(jitter.seed) + " leaves no " + std::to_string(options.repeat) +
+                              " seeds after it; give a smaller one");
 }
 
-/// Not-a-number where a solver does not know its residual.
-double largest_residual(const std::string& folder) {
-  double largest = 0;
-  for (const compare::StepMetrics& row : compare::read_steps(folder).rows)
-    if (!(row.residual <= largest)) largest = row.residual;
-  return largest;
+/// One run of the grid.
+struct PlannedRun {
+  std::size_t setting = 0;  ///< its point
+  std::uint64_t seed = 0;
+  RunOptions options;
+};
+
+/// Seed by seed, all settings of each: what slows the machine down for a while does so to all settings, and a grid that
+/// is cut off has about as many runs of each.
+std::vector<PlannedRun> planned_runs(const AblateOptions& options, const RunOptions& base,
+                                     const std::vector<Axis>& axes, const std::vector<Point>& points) {
+  std::vector<PlannedRun> runs;
+  for (std::int64_t repeat = 0; repeat < options.repeat; ++repeat)
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      RunOptions at = options_at(options, base, axes, points[p], repeat);
+      const std::uint64_t seed = at.jitter.seed;
+      runs.push_back({p, seed, std::move(at)});
+    }
+  return runs;
 }
 
-std::vector<std::string> columns(const std::vector<Axis>& axes) {
+/// What a run of this request has in its folder.
+compare::Scene stored_scene(const RunRequest& request) {
+  compare::Scene scene = request.scene;
+  compare::round_to_single(scene);
+  clear_dust(scene);
+  return scene;
+}
+
+/// Throws compare::InputError where a point's scene can't be run.
+void check_scene(const RunRequest& request, const std::string& name) {
+  const std::string problems = compare::describe(
+      compare::validate(stored_scene(request), 10, compare::ElementNames(request.scene, request.sources)));
+  if (!problems.empty()) throw compare::InputError("the point " + name + " can't be run:\n" + problems);
+}
+
+std::string extra(const compare::Provenance& run, const std::string& key) {
+  const auto found = run.extra.find(key);
+  return found == run.extra.end() ? "" : found->second;
+}
+
+/// Throws compare::InputError where a folder holds another run than the one asked for: a grid that goes on must not mix
+/// two questions, or two programs.
+void check_same_question(const compare::RunReader& run, const RunRequest& request) {
+  const compare::Provenance& theirs = run.provenance();
+  const BuildInfo build = build_info();
+  const std::string folder = request.folder.string();
+  const auto same = [&](const std::string& what, const std::string& there, const std::string& here) {
+    if (there != here)
+      throw compare::InputError(folder + ": holds a run with another " + what + " (" +
+                                (there.empty() ? "none" : there) + ", asked for: " + (here.empty() ? "none" : here) +
+                                "); an ablation goes on with its own runs alone: give another --out");
+  };
+  const auto yes = [](bool value) { return std::string(value ? "yes" : "no"); };
+  const bool jittered = request.jitter.largest > 0;
+  same("commit", theirs.commit, build.commit);
+  same("compiler", theirs.compiler, build.compiler);
+  same("state of the sources (uncommitted changes)", yes(theirs.dirty), yes(build.dirty));
+  same("solver", theirs.solver, request.solver);
+  same("backend", theirs.backend, request.backend);
+  same("--scale", extra(theirs, "scale"), request.scale);
+  same("--audit", extra(theirs, "audit"), name_of(request.audit));
+  same("--iterations", extra(theirs, "iteration_rows"), yes(request.iterations));
+  same("--residual", extra(theirs, "residuals"), yes(request.residual));
+  same("--ledger", yes(extra(theirs, "ledger") == "yes"), yes(request.ledger));
+  same("--from-state", extra(theirs, "from_state"), request.from_state ? request.from_state->string() : "");
+  same("--jitter", extra(theirs, "jitter"), jittered ? compare::shortest(request.jitter.largest) : "");
+  same("--seed", extra(theirs, "jitter_seed"), jittered ? std::to_string(request.jitter.seed) : "");
+  if (run.scene() != stored_scene(request))
+    throw compare::InputError(folder +
+                              ": holds a run of another scene, or with other settings; an ablation goes on with its "
+                              "own runs alone: give another --out");
+}
+
+/// A run that failed by what it computed is a result; run.json then has the hash of its last good state.
+bool is_over(const compare::Provenance& run) {
+  return run.status == "finished" || (run.status.starts_with("failed") && !extra(run, "final_hash").empty());
+}
+
+/// A run's folder without a checkpoint is that of a run that was killed before its first step.
+bool is_begun(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "run.json") && std::filesystem::exists(folder / "checkpoint.h5");
+}
+
+/// Whether the folder holds nothing but what a run has in it before its first checkpoint: such a one may be removed.
+bool is_cut_beginning(const std::filesystem::path& folder) {
+  constexpr std::array<std::string_view, 6> names{"frames",    "scene",          "run.json",
+                                                  "steps.csv", "iterations.csv", "trajectory.vtkhdf"};
+  if (!std::filesystem::is_directory(folder)) return false;
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder), [&](const auto& entry) {
+    const std::string name = entry.path().filename();
+    return name.ends_with(".partial") || name.ends_with(".growing") || std::ranges::find(names, name) != names.end();
+  });
+}
+
+/// Makes the run, goes on with it where it was cut off, or finds it done. False where it was interrupted.
+bool make(const PlannedRun& planned, const std::string& progress, CommandContext& context) {
+  RunRequest request = request_of(planned.options, context);
+  const std::filesystem::path folder = request.folder;
+  if (is_begun(folder)) {
+    const compare::RunReader there(folder);
+    check_same_question(there, request);
+    if (is_over(there.provenance())) {
+      log_line(progress + ": is done");
+      return true;
+    }
+  } else if (is_cut_beginning(folder)) {
+    log_line(progress + ": was cut off before its first step, and begins again");
+    std::filesystem::remove_all(folder);
+  }
+  log_line(progress);
+  ResumedRun run = is_begun(folder) ? resumed_run(folder) : ResumedRun{planned.options, std::move(request)};
+  run.request.checkpoint_seconds = planned.options.checkpoint_seconds;
+  const RunSummary summary = RunSession(std::move(run.request), contestant_of(run.options)).run();
+  if (!summary.failure.empty()) log_line("ogc: " + summary.failure);
+  return !summary.was_interrupted;
+}
+
+std::string in_brackets(const Metric& metric) {
+  return std::string(metric.name) + " [" + std::string(metric.unit) + "]";
+}
+
+/// A row a run.
+std::vector<std::vector<std::string>> run_rows(const std::vector<Axis>& axes, bool has_seeds) {
   std::vector<std::string> names;
   for (const Axis& axis : axes) names.push_back(axis.key);
-  for (const char* name :
-       {"status", "steps [1]", "median_step [ms]", "worst_step [ms]", "iterations_a_step [1]", "detections_a_step [1]",
-        "most_contacts [1]", "largest_residual [1]", "smallest_distance [m]", "guarantee_kept", "final_hash", "folder"})
+  if (has_seeds) names.emplace_back("seed");
+  for (const char* name : {"status", "steps [1]"}) names.emplace_back(name);
+  for (const Metric& metric : ablation_metrics()) names.push_back(in_brackets(metric));
+  for (const char* name : {"audited_states [1]", "guarantee_kept", "final_hash", "device", "folder"})
     names.emplace_back(name);
-  return names;
+  return {names};
 }
 
-std::vector<std::string> row_of(const Point& point, const RunSummary& summary) {
-  const std::int64_t steps = summary.last_step - summary.first_step;
+std::vector<std::string> row_of(const Point& point, const std::string& seed, const RunRow& run) {
   std::vector<std::string> row = point;
-  // A status may hold a comma or a line end; its first word does not.
-  row.push_back(summary.status.substr(0, summary.status.find(':')));
-  row.push_back(std::to_string(steps));
-  for (const double ms : {summary.median_ms, summary.worst_ms}) row.push_back(compare::shortest(ms));
-  row.push_back(per_step(summary.iterations, steps));
-  row.push_back(per_step(summary.discrete_detections, steps));
-  row.push_back(std::to_string(summary.most_contacts));
-  row.push_back(compare::shortest(largest_residual(summary.folder)));
-  row.push_back(compare::shortest(summary.smallest_distance));
-  row.push_back(!summary.guarantee_kept ? "not checked" : *summary.guarantee_kept ? "yes" : "no");
-  row.push_back(summary.final_hash);
-  row.push_back('"' + summary.folder + '"');
+  if (!seed.empty()) row.push_back(seed);
+  row.push_back(run.status);
+  row.push_back(std::to_string(run.steps));
+  for (const double value : run.metrics) row.push_back(compare::shortest(value));
+  for (const std::string& text : {run.audited_states, run.guarantee_kept, run.final_hash}) row.push_back(text);
+  for (const std::string& text : {run.device, run.folder}) row.push_back('"' + text + '"');
   return row;
+}
+
+/// A row a setting and metric that every finished run measured; `digits`: of numbers, 0: all.
+std::vector<std::vector<std::string>> median_rows(const std::vector<Axis>& axes, const std::vector<Point>& points,
+                                                  const std::vector<SettingRows>& settings, int digits) {
+  std::vector<std::string> names{"metric"};
+  for (const Axis& axis : axes) names.push_back(axis.key);
+  for (const char* name : {"unit", "runs", "finished", "median", "smallest", "largest"}) names.emplace_back(name);
+  std::vector<std::vector<std::string>> rows{names};
+  const std::vector<Metric> metrics = ablation_metrics();
+  for (std::size_t m = 0; m < metrics.size(); ++m)
+    for (std::size_t s = 0; s < settings.size(); ++s) {
+      const MetricRange range = range_of(settings[s], m);
+      if (std::isnan(range.median)) continue;
+      std::vector<std::string> row{std::string(metrics[m].name)};
+      row.insert(row.end(), points[s].begin(), points[s].end());
+      for (const std::string& text :
+           {std::string(metrics[m].unit), std::to_string(settings[s].rows.size()), std::to_string(range.runs)})
+        row.push_back(text);
+      for (const double value : {range.median, range.smallest, range.largest})
+        row.push_back(digits > 0 ? number(value, digits) : compare::shortest(value));
+      rows.push_back(std::move(row));
+    }
+  return rows;
 }
 
 std::string csv(const std::vector<std::vector<std::string>>& rows) {
@@ -128,35 +337,166 @@ std::string csv(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-/// The table is written after each point, so that an interrupted grid leaves what it has.
-void ablate(const AblateOptions& options, CommandContext& context) {
-  std::vector<Axis> axes;
-  for (const std::string& text : options.vary) axes.push_back(parse_axis(text));
-  RunOptions base = *options.run;
-  if (base.out.empty()) base.out = "runs/ablate-" + base.scene.substr(base.scene.rfind('/') + 1) + "-" + utc_stamp();
-  const std::vector<Point> points = grid(axes);
-  // All points are asked for before the first runs: a wrong value late in the grid must not cost the runs before it.
-  for (const Point& point : points) request_of(options_at(base, axes, point), context);
-  catch_interrupts();
-  std::vector<std::vector<std::string>> rows{columns(axes)};
-  Json json = Json::array();
-  for (const Point& point : points) {
-    const RunOptions at = options_at(base, axes, point);
-    log_line(name_of(axes, point) + " (" + std::to_string(rows.size()) + " of " + std::to_string(points.size()) + ")");
-    const RunSummary summary = RunSession(request_of(at, context), contestant_of(at)).run();
-    rows.push_back(row_of(point, summary));
-    json.push_back(to_json(summary));
-    compare::write_durably(std::filesystem::path(base.out) / "ablation.csv", csv(rows));
-    if (!summary.failure.empty()) {
-      context.status = exit_check_failed;
-      log_line("ogc: " + summary.failure);
-    }
-    if (summary.was_interrupted) context.status = exit_interrupted;
-    if (summary.was_interrupted) break;
+/// What the runs so far come to: ablation.csv, ablation_medians.csv, ablation_findings.txt.
+struct Results {
+  std::vector<std::vector<std::string>> runs;
+  std::vector<SettingRows> settings;  ///< those with a run
+  std::vector<Point> points;          ///< of these
+  std::vector<std::string> sentences;
+};
+
+/// `done`: how many of the runs, from the first.
+Results results_of(const std::vector<Axis>& axes, const std::vector<Point>& points,
+                   const std::vector<PlannedRun>& planned, std::size_t done, bool has_seeds) {
+  Results results;
+  results.runs = run_rows(axes, has_seeds);
+  std::vector<SettingRows> settings;
+  for (const Point& point : points) settings.push_back({name_of(axes, point), {}});
+  for (std::size_t i = 0; i < done; ++i) {
+    const RunRow row = read_run_row(planned[i].options.out);
+    const std::string seed = has_seeds ? std::to_string(planned[i].seed) : "";
+    results.runs.push_back(row_of(points[planned[i].setting], seed, row));
+    settings[planned[i].setting].rows.push_back(row);
   }
-  if (context.json) return print_result(json);
-  for (auto& row : rows) row.resize(row.size() - 2);
-  print_result(table(rows, axes.size()) + "\n" + base.out + "/ablation.csv\n");
+  for (std::size_t s = 0; s < settings.size(); ++s)
+    if (!settings[s].rows.empty()) {
+      results.points.push_back(points[s]);
+      results.settings.push_back(std::move(settings[s]));
+    }
+  if (!results.settings.empty()) results.sentences = findings(results.settings);
+  return results;
+}
+
+std::string lines(const std::vector<std::string>& texts) {
+  std::string text;
+  for (const std::string& line : texts) text += line + "\n";
+  return text;
+}
+
+void write_results(const std::filesystem::path& folder, const std::vector<Axis>& axes, const Results& results) {
+  compare::write_durably(folder / "ablation.csv", csv(results.runs));
+  compare::write_durably(folder / "ablation_medians.csv", csv(median_rows(axes, results.points, results.settings, 0)));
+  compare::write_durably(folder / "ablation_findings.txt", lines(results.sentences));
+}
+
+Json objects(const std::vector<std::vector<std::string>>& rows) {
+  Json list = Json::array();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    Json object;
+    for (std::size_t k = 0; k < rows[i].size(); ++k) object[rows[0][k]] = rows[i][k];
+    list.push_back(object);
+  }
+  return list;
+}
+
+void print_results(const std::string& folder, const std::vector<Axis>& axes, const Results& results, bool as_json) {
+  if (as_json)
+    return print_result(Json{{"folder", folder},
+                             {"runs", objects(results.runs)},
+                             {"medians", objects(median_rows(axes, results.points, results.settings, 0))},
+                             {"findings", results.sentences}});
+  print_result(table(median_rows(axes, results.points, results.settings, 4), axes.size() + 2) + "\n" +
+               lines(results.sentences) + "\n" + folder +
+               "/ablation.csv, a row a run; ablation_medians.csv; ablation_findings.txt\n"
+               "The figure: .venv/bin/python -m plots.ablation " +
+               folder + "\n");
+}
+
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// The command as it was given, for a shell, but for `left_out`.
+std::string command_again(const CLI::App& command, const std::vector<std::string>& left_out) {
+  std::string text = quoted(std::filesystem::read_symlink("/proc/self/exe").string()) + " ablate";
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || std::ranges::find(left_out, option->get_name()) != left_out.end()) continue;
+    for (const std::string& value : option->results()) {
+      if (!option->get_positional() && option->get_expected_max() == 0) {
+        text += " " + option->get_name();
+        break;
+      }
+      if (!option->get_positional()) text += " " + option->get_name();
+      text += " " + quoted(value);
+    }
+  }
+  return text;
+}
+
+/// An array job for Slurm, a run a task; `command`: that of this grid.
+void write_slurm(const std::string& out, std::size_t count, const std::string& command) {
+  const std::filesystem::path folder = std::filesystem::absolute(out);
+  std::filesystem::create_directories(folder);
+  const std::string script = (folder / "slurm_array.sh").string();
+  compare::write_durably(script,
+                         "#!/bin/bash\n"
+                         "# A task a run of an ablation. A task whose time is up stops at a checkpoint; sent "
+                         "again it goes on there.\n"
+                         "#SBATCH --job-name=ogc-ablate\n"
+                         "#SBATCH --array=0-" +
+                             std::to_string(count - 1) +
+                             "\n"
+                             "#SBATCH --cpus-per-task=16\n"
+                             "#SBATCH --signal=TERM@60\n"
+                             "#SBATCH --output=\"" +
+                             (folder / "slurm-%a.txt").string() +
+                             "\"\n"
+                             "cd " +
+                             quoted(std::filesystem::current_path().string()) +
+                             " || exit 2\n"
+                             "srun " +
+                             command + " --only \"$SLURM_ARRAY_TASK_ID\"\n");
+  print_result(counted(count, "run") + ". Send them (options of sbatch: --partition, --time, --gpus …):\n  sbatch " +
+               quoted(script) + "\nWhen they are done, or some of them, the same command without --slurm makes what " +
+               "is missing, and the tables:\n  " + command + "\n");
+}
+
+/// The tables are written after each run, so that a grid that is cut off leaves what it has.
+void ablate(const AblateOptions& options, const CLI::App& command, CommandContext& context) {
+  check_repeats(options);
+  if (options.vary.empty() && options.points.empty())
+    throw compare::InputError(
+        "ablate needs what to vary, --vary key=a,b or --point key=a,other=b; see ogc ablate --help");
+  std::vector<Axis> axes;
+  const std::vector<Point> listed = listed_points(options.points, axes);
+  const std::size_t listed_axes = axes.size();
+  for (const std::string& text : options.vary) axes.push_back(parse_axis(text));
+  expect_distinct(axes);
+  RunOptions base = *options.run;
+  const bool is_named = !base.out.empty();
+  if (!is_named) base.out = "runs/ablate-" + base.scene.substr(base.scene.rfind('/') + 1) + "-" + utc_stamp();
+  const std::vector<Point> points = grid(listed, std::span(axes).subspan(listed_axes));
+  const std::vector<PlannedRun> planned = planned_runs(options, base, axes, points);
+  // All points are asked for before the first runs: a wrong value late in the grid must not cost the runs before it.
+  for (std::size_t p = 0; p < points.size(); ++p)
+    check_scene(request_of(planned[p].options, context), name_of(axes, points[p]));
+  if ((options.slurm || options.only != every_run) && !is_named)
+    throw compare::InputError("--slurm and --only need --out: all jobs work in one folder");
+  if (options.only >= static_cast<std::int64_t>(planned.size()))
+    throw compare::InputError("--only " + std::to_string(options.only) + ": the grid has " +
+                              counted(planned.size(), "run") + ", from 0 to " + std::to_string(planned.size() - 1));
+  if (options.slurm) return write_slurm(base.out, planned.size(), command_again(command, {"--slurm", "--only"}));
+  catch_interrupts();
+  const bool has_seeds = options.repeat > 1;
+  Results results;
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    if (options.only != every_run && options.only != static_cast<std::int64_t>(i)) continue;
+    const std::string name = planned[i].options.out.substr(base.out.size() + 1);
+    const bool is_whole = make(
+        planned[i], name + " (" + std::to_string(i + 1) + " of " + std::to_string(planned.size()) + ")", context);
+    if (!is_whole) {
+      context.status = exit_interrupted;
+      log_line("interrupted; the same command with --out " + base.out + " goes on");
+      break;
+    }
+    if (read_run_row(planned[i].options.out).status != "finished") context.status = exit_check_failed;
+    if (options.only != every_run) return;
+    results = results_of(axes, points, planned, i + 1, has_seeds);
+    write_results(base.out, axes, results);
+  }
+  if (!results.settings.empty()) print_results(base.out, axes, results, context.json);
 }
 
 }  // namespace
@@ -164,24 +504,57 @@ void ablate(const AblateOptions& options, CommandContext& context) {
 void add_ablate_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<AblateOptions>();
   CLI::App* command = app.add_subcommand(
-      "ablate", "Run a scene over a grid of settings, one run folder for each point, and tabulate");
+      "ablate", "Run a scene over a grid of settings, if asked from several jittered starts, and compare");
   add_run_options(*command, options->run);
   command
       ->add_option("--vary", options->vary,
                    "key=a,b,c: a setting, or solver, or backend; repeatable, all combinations are run")
       ->take_all()
       ->type_size(1)
-      ->expected(1)
-      ->required();
-  command->add_flag("--json", context.json, "Print the summaries as JSON on standard output");
-  command->footer(settings_help() +
-                  "\nExamples:\n"
-                  "  ogc ablate cloth_on_sphere --scale smoke --solver newton --vary activation=ogc,ipc_log,cubic\n"
-                  "  ogc ablate twist --vary iterations=5,10,20 --vary redetect_fraction=0,0.01,0.1 --out grid\n\n"
-                  "The folder given by --out holds one run folder for each point, named key=value,…, and ablation.csv. "
-                  "A point that fails is a row like the others;\n"
-                  "exit status 1 says that there was one.");
-  command->callback([options, &context] { ablate(*options, context); });
+      ->expected(1);
+  command
+      ->add_option("--point", options->points,
+                   "key=a,other=b: one point of settings that change together, or default for the scene's own; "
+                   "repeatable, and each is combined with all of --vary")
+      ->take_all()
+      ->type_size(1)
+      ->expected(1);
+  command
+      ->add_option("--repeat", options->repeat,
+                   "Runs of each point, from starts that --jitter moves by seeds SEED, SEED + 1, …")
+      ->check(whole_number(1, most_repeats))
+      ->capture_default_str();
+  command->add_flag("--slurm", options->slurm,
+                    "Run nothing, and write OUT/slurm_array.sh, an array job with a task a run");
+  command->add_option("--only", options->only, "Make the run of this number alone, from 0, and no table: a task's run")
+      ->check(whole_number(0, most_counted));
+  command->add_flag("--json", context.json, "Print runs, medians and findings as JSON on standard output");
+  command->footer(
+      settings_help() +
+      "\nExamples:\n"
+      "  ogc ablate cloth_on_sphere --scale smoke --solver newton --vary activation=ogc,ipc_log,cubic\n"
+      "  ogc ablate twist --vary iterations=5,10,20 --vary redetect_fraction=0,0.01,0.1 --out grid\n"
+      "  ogc ablate twist --scale smoke --point default --point iterations=20,time_step=0.00167,steps=1440 --repeat 10 "
+      "--jitter 1e-6\n"
+      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine\n"
+      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --slurm\n\n"
+      "A run is one draw: where contact is chaotic, the last bit of the start decides how it goes on. --repeat 10 "
+      "runs\n"
+      "each point from ten starts, each coordinate moved by at most --jitter, and compares ranges. The first point\n"
+      "is what the others are held against. \"x is 1.8 times y, range 1.6 to 2.1\" is said only where "
+      "every\n"
+      "run of x lies above every run of y: 1.8 is the ratio of the medians, 1.6 and 2.1 are the least and the largest\n"
+      "ratio of any two runs. Where the ranges overlap, no difference is shown, which is not: there is none. Two "
+      "equal\n"
+      "settings would lie apart by chance once in 2 / C(2N, N): 1 of 92378 with ten runs, 1 of 10 with three.\n"
+      "The last line of the findings says how many sentences chance alone would give. Times are of this machine and\n"
+      "its load; all settings take turns, seed by seed.\n\n"
+      "The folder given by --out holds one run folder for each run, named key=value,…,seed=N; ablation.csv, a row a\n"
+      "run; ablation_medians.csv, a row a metric and setting; ablation_findings.txt. Called again with the same --out\n"
+      "it keeps what is done, goes on with the run that was cut off, to the bits of one that was not, and takes more\n"
+      "values or a larger --repeat. A folder with a run of another program, scene or option is refused. A point that\n"
+      "fails is a row like the others, and has no part in medians; exit status 1 says that there was one.");
+  command->callback([options, command, &context] { ablate(*options, *command, context); });
 }
 
 }  // namespace ogc::experiments

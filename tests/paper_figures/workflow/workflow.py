@@ -19,6 +19,7 @@ SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 try:
     from paper_figures.figures import sweep
+    from paper_figures.figures.ablations import study
     from paper_figures.workflow import in_order, job, parts, recipes
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
@@ -76,13 +77,17 @@ class Recipes(unittest.TestCase):
         self.assertNotIn("fig18_solvers", names("all", backend="cuda"))
         self.assertEqual(names("fig01"), ["fig10", "fig11", "fig12", "fig13", "fig14", "fig18", "fig01"])
         self.assertEqual(names("all")[-1], "fig01")
+        studies = [path.stem for path in sorted((recipes.FIGURES / "ablations").glob("*.yaml"))]
+        self.assertGreaterEqual(len(studies), 5)
+        self.assertEqual(names("ablations", backend="cuda"), studies)
+        self.assertFalse(set(studies) & set(names("all")))
         for name, scene in (("fig15", "yarn_stretch"), ("fig16", "yarn_twist")):
             self.assertNotIn(name, names("all"))
             for asked in (name, scene):
-                said = rf"{name} \({scene}\) is not there yet: the program has no \w+, .* There are: fig01, "
+                said = rf"{name} \({scene}\) is not there yet: the program has no \w+, .* There are: .*fig01, "
                 with self.assertRaisesRegex(recipes.RecipeError, said):
                     recipes.choose([asked], book, "cpu")
-        for wrong, words in ((("fig99",), "no figure or scene 'fig99'; there are: fig01"),
+        for wrong, words in ((("fig99",), "no figure or scene 'fig99'; there are: .*fig01"),
                              (("fig18_solvers", "cuda"), "no backend 'cuda'")):
             with self.assertRaisesRegex(recipes.RecipeError, words):
                 recipes.choose(wrong[:1], book, wrong[1] if len(wrong) > 1 else "cpu")
@@ -135,6 +140,72 @@ class Recipes(unittest.TestCase):
         simulated = {name for name, recipe in book.items() if recipe.scene
                      and not {"missing", "vary"} & set(recipe.body)}
         self.assertEqual(there, simulated | {"table1"})
+
+
+class Studies(Scratch):
+    """Studies of the method's parts, with a stand-in for `ogc`."""
+
+    ABLATE = """#!/bin/sh
+case "$OGC_STOP" in "$2") exit 130;; esac
+for out; do :; done
+echo "$2" >> "$(dirname "$0")/calls"
+mkdir -p "$out/default,seed=1"
+echo '{"commit": "0123456789ab", "dirty": false, "device": "2 threads"}' > "$out/default,seed=1/run.json"
+printf 'metric,iterations,unit,runs,finished,median,smallest,largest\\n' > "$out/ablation_medians.csv"
+printf 'median_step,,ms,2,2,3,2,4\\nmedian_step,5,ms,2,2,7,6,8\\n' >> "$out/ablation_medians.csv"
+echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings.txt"
+"""
+
+    def study(self, name, **environment):
+        self.ogc.write_text(self.ABLATE)
+        command = [sys.executable, "-m", "paper_figures.figures.ablations.study", self.runs / "study", "--study", name,
+                   "--ogc", self.ogc]
+        done = subprocess.run(command, capture_output=True, text=True, check=False,
+                              env={**os.environ, "PYTHONPATH": str(SOURCE), **environment})
+        return done.returncode, done.stderr
+
+    def test_every_study_asks_for_points_that_differ_from_ten_seeds(self):
+        for name in (recipe.name for recipe in recipes.load().values() if "study" in recipe.body):
+            body = study.load(name)
+            self.assertEqual(body["repeat"], 10)
+            for scene, of_scene in body["scenes"].items():
+                self.assertGreater(len(set(of_scene["points"])), 1, (name, scene))
+                words = study.command(body, scene, "smoke", "cuda")
+                self.assertEqual(words[words.index("--backend") + 1], "cuda")
+                self.assertEqual(words.count("--point"), len(of_scene["points"]))
+                self.assertIn(words[words.index("--audit") + 1], ("off", "end"))
+
+    def test_a_study_that_was_stopped_goes_on_and_ends_in_a_table_findings_and_a_picture(self):
+        name, scenes = "ablation_policy", list(study.load("ablation_policy")["scenes"])
+        status, said = self.study(name, OGC_STOP=scenes[1])
+        self.assertEqual(status, 1)
+        self.assertIn("exit status 130; call it again to go on", said)
+        self.assertFalse((self.runs / f"study/{name}.png").exists())
+        self.assertEqual(self.study(name), (0, ""))
+        self.assertEqual((self.runs / "calls").read_text().split(), [scenes[0], *scenes])  # ogc keeps what is done
+        rows = (self.runs / f"study/{name}.csv").read_text().splitlines()
+        self.assertEqual(rows[:2], ["scene,metric,point,unit,runs,finished,median,smallest,largest,commit,device",
+                                    f"{scenes[0]},median_step,default,ms,2,2,3,2,4,0123456789,2 threads"])
+        self.assertEqual(len(rows), 1 + 2 * len(scenes))
+        self.assertIn(f"{scenes[2]}: median_step: iterations=5", (self.runs / f"study/{name}.txt").read_text())
+        self.assertTrue((self.runs / f"study/{name}.png").is_file())
+
+    def test_runs_of_another_program_are_made_again(self):
+        stamp = self.runs / "stamp"
+        stamp.write_text("one")
+        self.assertEqual(self.study("ablation_policy", OGC_STAMP=str(stamp))[0], 0)
+        kept = self.runs / "study/twist/kept"
+        kept.write_text("")
+        self.assertEqual(self.study("ablation_policy", OGC_STAMP=str(stamp))[0], 0)
+        self.assertTrue(kept.exists())
+        stamp.write_text("two")
+        self.assertEqual(self.study("ablation_policy", OGC_STAMP=str(stamp))[0], 0)
+        self.assertFalse(kept.exists())
+
+    def test_a_study_that_is_not_there_is_refused_with_those_that_are(self):
+        status, said = self.study("ablation_nothing")
+        self.assertEqual(status, 1)
+        self.assertIn("no study 'ablation_nothing'; there are: ablation_iterations", said)
 
 
 class Jobs(Scratch):

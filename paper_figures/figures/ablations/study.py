@@ -1,0 +1,152 @@
+"""Runs one study of the method's parts, points x scenes x seeds, tabulates and draws it. Usage: python3 -m
+paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
+
+NAME.yaml beside this file says all: `study` has `jitter` [m], `repeat`, `audit`, and `scenes`, each with `points` (of
+`ogc ablate --point`; the others are held against the first), and by scale `set` (settings of all points) and `options`
+(further options of `ogc ablate`). FOLDER then holds a folder of `ogc ablate` for each scene, NAME.csv (a row
+a scene, metric and point), NAME.txt (findings), NAME.png and NAME.pdf. Cut off and called again, it goes on with the
+run that was cut off."""
+
+import argparse
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+
+from paper_figures.workflow.runs import write_table
+from plots import ablation, style
+
+HERE = Path(__file__).parent
+KEYS = {"jitter", "repeat", "audit", "scenes", "panels"}
+SCENE_KEYS = {"points", "set", "options"}
+CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
+PANELS = ("median_step", "detections_a_step", "contacts_a_step", "largest_momentum_lost_end", "smallest_distance",
+          "last_energy")
+
+
+class StudyError(Exception):
+    """A study that can't be run or drawn; the message says what is wrong and where."""
+
+
+def load(name):
+    """The part `study` of NAME.yaml. Throws StudyError where it has a key that nobody reads."""
+    path = HERE / f"{name}.yaml"
+    if not path.is_file():
+        there = ", ".join(sorted(path.stem for path in HERE.glob("*.yaml")))
+        raise StudyError(f"there is no study '{name}'; there are: {there}")
+    study = yaml.safe_load(path.read_text())["study"]
+    unknown = (set(study) - KEYS) | {key for scene in study["scenes"].values() for key in set(scene) - SCENE_KEYS}
+    if unknown:
+        raise StudyError(f"{path.name}: unknown key {', '.join(sorted(unknown))}; there are: "
+                         f"{', '.join(sorted(KEYS | SCENE_KEYS))}")
+    return study
+
+
+def command(study, scene, scale, backend):
+    """Words of `ogc ablate` behind the program, without --out."""
+    body = study["scenes"][scene]
+    points = [word for point in body["points"] for word in ("--point", point)]
+    settings = [word for setting in body.get("set", {}).get(scale, []) for word in ("--set", setting)]
+    return ["ablate", scene, "--scale", scale, "--backend", backend, *settings, "--audit", study["audit"], *points,
+            "--repeat", str(study["repeat"]), "--jitter", str(study["jitter"]),
+            *map(str, body.get("options", {}).get(scale, []))]
+
+
+def program():
+    """What tells one program's runs from another's, where the workflow says so."""
+    stamp = Path(os.environ.get("OGC_STAMP", ""))
+    return stamp.read_text() if stamp.is_file() else ""
+
+
+def run(ogc, words, folder):
+    """The runs of a scene; those of another program or question go first. Throws StudyError where they do not come to
+    an end."""
+    question = json.dumps({"program": program(), "words": words})
+    note = folder.with_suffix(".json")
+    if folder.is_dir() and not (note.is_file() and note.read_text() == question):
+        shutil.rmtree(folder)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    note.write_text(question)
+    done = subprocess.run([ogc, *words, "--out", str(folder)], stdout=subprocess.DEVNULL, check=False)
+    if done.returncode not in CAME_TO_AN_END:
+        raise StudyError(f"ogc {' '.join(words)} ended with exit status {done.returncode}; call it again to go on")
+
+
+def origin(folder):
+    """Commit and device of the scene's runs."""
+    manifest = json.loads(next(iter(sorted(folder.glob("*/run.json")))).read_text())
+    return {"commit": manifest["commit"][:10] + (" (dirty)" if manifest["dirty"] else ""),
+            "device": manifest["device"]}
+
+
+def rows(folder, scene):
+    """Rows of the study's table: a metric and point of a scene."""
+    made_by = origin(folder)
+    with (folder / ablation.TABLE).open(newline="") as file:
+        for row in csv.DictReader(file):
+            names = list(row)
+            varied = names[1:names.index(ablation.AFTER_AXES)]
+            point = ",".join(f"{name}={row[name]}" for name in varied if row[name]) or "default"
+            yield {"scene": scene, "metric": row["metric"], "point": point,
+                   **{name: row[name] for name in names[len(varied) + 1:]}, **made_by}
+
+
+def draw(folders, panels, title, out):
+    """A row a metric, a column a scene."""
+    plt = style.use()
+    most = max(len(settings) for metrics in folders.values() for _, settings in metrics.values())
+    figure, grid = plt.subplots(len(panels), len(folders), squeeze=False,
+                                figsize=(4.2 * len(folders), len(panels) * (0.9 + 0.22 * most)))
+    for column, (scene, metrics) in enumerate(folders.items()):
+        for row, name in enumerate(panels):
+            axes = grid[row][column]
+            if name not in metrics:
+                axes.set_axis_off()
+                continue
+            ablation.draw_metric(axes, name, *metrics[name], has_names=True)
+            if row == 0:
+                axes.set_title(f"{scene}\n{axes.get_title()}")
+    figure.suptitle(f"{title}\npoint: median of the runs; line: their range; shaded: the first point's", fontsize=9)
+    style.save(figure, out)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description="Runs, tabulates and draws one study of the method's parts.")
+    parser.add_argument("folder", type=Path, help="where the runs and the picture go")
+    parser.add_argument("--study", required=True, help="name of the YAML file beside this script")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="smoke", choices=("smoke", "small", "paper"))
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    return parser.parse_args()
+
+
+def main():
+    asked = arguments()
+    study = load(asked.study)
+    table, findings, metrics = [], [], {}
+    for number, scene in enumerate(study["scenes"], 1):
+        words = command(study, scene, asked.scale, asked.backend)
+        print(f"{asked.study}: {scene} ({number} of {len(study['scenes'])}): ogc {' '.join(words)}", flush=True)
+        folder = asked.folder / scene
+        run(asked.ogc, words, folder)
+        table += rows(folder, scene)
+        findings += [f"{scene}: {line}\n" for line in (folder / "ablation_findings.txt").read_text().splitlines()]
+        metrics[scene] = ablation.read(folder)
+    out = asked.folder / asked.study
+    write_table(out.with_suffix(".csv"), table)
+    out.with_suffix(".txt").write_text("".join(findings))
+    title = yaml.safe_load((HERE / f"{asked.study}.yaml").read_text())["title"]
+    draw(metrics, study.get("panels", PANELS), f"{title} ({asked.scale}, {study['repeat']} seeds)",
+         out.with_suffix(".png"))
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (StudyError, ablation.AblationError) as error:
+        sys.exit(f"study: {error}")
