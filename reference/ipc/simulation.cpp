@@ -4,6 +4,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "compare/problem/volumes.hpp"
 #include "reference/ipc/solver.hpp"
 #include "reference/solvers/detection.hpp"
 
@@ -98,6 +99,7 @@ class IpcSimulation : public compare::Simulation {
 }  // namespace
 
 std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, const compare::SimulationOptions& options) {
+  refuse_volumes(scene, "ipc", "whose barrier lets nothing enter a body: leave the body a surface");
   return std::make_unique<IpcSimulation>(scene, options);
 }
 
