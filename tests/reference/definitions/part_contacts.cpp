@@ -196,6 +196,16 @@ TEST_CASE("a rim has no inner side, and what lies behind a surface with rims is 
   // level with the rim the foot lies on it
   const std::vector<PartContact> level = body.ask({1, 0.25f, 2}, 0.5f);
   CHECK(std::ranges::none_of(level, &PartContact::inside));
+  // facing inward, the end of a valley at the rim: what lies along the valley is inside, and level with its end it is not
+  Surface inward = open_cube();
+  for (compare::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
+  const std::vector<PartContact> along = Body(inward).ask({2.25f, 2.25f, 1.5f}, 0.5f),
+                                 end = Body(inward).ask({2.25f, 2.25f, 2}, 0.5f);
+  REQUIRE(along.size() == 1);
+  CHECK(along[0].inside);
+  CHECK(along[0].face.kind == FaceKind::edge);
+  REQUIRE(!end.empty());
+  CHECK(std::ranges::none_of(end, &PartContact::inside));
 }
 
 TEST_CASE("of equally near faces the lowest-dimensional, then the lowest-numbered one answers", "[unit]") {
