@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/volumes.hpp"
 #include "reference/solvers/newton/solver.hpp"
 #include "reference/solvers/vbd_solver.hpp"
 
@@ -78,11 +79,13 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
   if (scene.settings.guess == compare::Guess::pairs)
     throw compare::InputError(
         "setting 'guess' can't be 'pairs' with Newton's method; give guess=rounds or --solver vbd");
+  refuse_volumes(scene, "newton", "leave the body a surface");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
 }
 
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour) {
+  refuse_volumes(scene, "reference_vbd", "leave the body a surface");
   return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
 }
 

@@ -33,6 +33,7 @@ CALLED = "a library or the system calls it by this name"
 # Names that stand alone on purpose, each with the reason. An entry whose name is gone is a finding itself.
 KEPT = {
     **dict.fromkeys(("boundary_paths", "has_normals", "in_edge_only_block", "is_hull_edge", "locate",
+                     "part_contacts",
                      "penetration_depths",
                      "solid_angle", "surface_topology", "volumetric_contacts"), PAPER),
     **dict.fromkeys(("bounds_above_exact", "edge_edge_by_definition", "edge_edge_over_all_pairs", "edge_edge_with_tree",

@@ -17,6 +17,10 @@ namespace ogc::compare {
 enum class MembraneModel { none, st_venant_kirchhoff, stable_neo_hookean };  ///< method.md §4.6
 enum class BendingModel { none, discrete_hinge, isometric_quadratic };       ///< method.md §4.7
 
+/// What a body is to others: a surface with two sides that nothing passes through, or a volume, which
+/// others may enter and are pushed out of (§3.9).
+enum class BodyContact { surface, volume };
+
 /// Constants of one body: of its surface (method.md §4.5 to §4.10), and of its volume where it has tetrahedra
 /// (method.md §8).
 struct Material {
@@ -40,13 +44,15 @@ struct Material {
 /// energies. The triangles of a body with tetrahedra are their boundary (compare/problem/tetrahedra.hpp): they meet
 /// other surfaces, but have neither mass nor energies of their own.
 struct Body {
-  std::string name;                                        ///< for messages and files
-  Index first_vertex = 0, vertex_count = 0;                ///< its vertices are consecutive
-  Index first_triangle = 0, triangle_count = 0;            ///< its triangles are consecutive
-  bool fixed = false;                                      ///< an obstacle that never moves
-  Material material;                                       ///< of all of it
-  Index first_tetrahedron = 0, tetrahedron_count = 0;      ///< its tetrahedra are consecutive
-  bool is_solid() const { return tetrahedron_count > 0; }  ///< whether it has tetrahedra
+  std::string name;                                                  ///< for messages and files
+  Index first_vertex = 0, vertex_count = 0;                          ///< its vertices are consecutive
+  Index first_triangle = 0, triangle_count = 0;                      ///< its triangles are consecutive
+  bool fixed = false;                                                ///< an obstacle that never moves
+  Material material;                                                 ///< of all of it
+  Index first_tetrahedron = 0, tetrahedron_count = 0;                ///< its tetrahedra are consecutive
+  BodyContact contact = BodyContact::surface;                        ///< what it is to others
+  bool is_solid() const { return tetrahedron_count > 0; }            ///< whether it has tetrahedra
+  bool is_volume() const { return contact == BodyContact::volume; }  ///< whether others may enter it
   friend bool operator==(const Body&, const Body&) = default;
 };
 

@@ -12,6 +12,7 @@
 #include "compare/problem/tetrahedra.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate_mesh.hpp"
+#include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -303,6 +304,7 @@ std::vector<Problem> validate(const Scene& scene, std::size_t limit, const Eleme
   if (covered && indices_are_valid) {
     check_ownership(problems, scene, names, limit);
     check_boundaries(problems, scene);
+    check_volume_bodies(problems, scene, names, limit);
   }
   check_motions(problems, scene, names, covered, limit);
   check_springs(problems, scene, names, limit);

@@ -7,6 +7,7 @@
 
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/volumes.hpp"
 #include "fast/kernels/models/bending_models.hpp"
 #include "fast/kernels/rest_state.hpp"
 
@@ -161,6 +162,7 @@ void add_contact_materials(const compare::Scene& scene, RestState& rest) {
 }  // namespace
 
 RestState build_rest_state(const compare::Scene& scene, const compare::Topology& topology) {
+  refuse_volumes(scene, "vbd", "leave the body a surface");
   RestState rest = without_shape(scene);
   add_masses(scene, rest);
   add_hinges(scene, topology, rest);

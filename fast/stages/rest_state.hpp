@@ -37,7 +37,8 @@ struct RestState {
   std::vector<ContactMaterial> contact;  ///< of bodies a and b, at a · bodies + b
 };
 
-/// Throws InputError for bodies that move and have edges without triangles: there is no energy for them here.
+/// Throws InputError for bodies that move and have edges without triangles: there is no energy for them here; and for
+/// volumes, which are not simulated yet.
 RestState build_rest_state(const compare::Scene& scene, const compare::Topology& topology);
 
 /// The simulation's rest state as the judge asks for it.

@@ -31,6 +31,15 @@ int bend(const Complex& mesh, Index edge) {
   return sign_of(dot(normal(mesh, triangles[0]), exact(mesh.at(mesh.opposite(triangles[1], edge))) - a));
 }
 
+/// An edge of one triangle.
+bool is_rim(const Complex& mesh, Index edge) { return mesh.triangles_of(edge).size() == 1; }
+
+/// The edge's two triangles lie on the same side of it in one plane.
+bool is_folded(const Complex& mesh, Index edge) {
+  const auto triangles = mesh.triangles_of(edge);
+  return bend(mesh, edge) == 0 && sign_of(dot(normal(mesh, triangles[0]), normal(mesh, triangles[1]))) < 0;
+}
+
 std::string name(const char* kind, Index number, std::span<const Index> vertices) {
   std::string text = kind + std::string(" ") + std::to_string(number) + " (vertices";
   for (const Index v : vertices) text += " " + std::to_string(v);
@@ -53,12 +62,10 @@ void check_edge(const Complex& mesh, Index e) {
 }
 
 void check_fold(const Complex& mesh, Index e) {
-  if (bend(mesh, e) != 0) return;
+  if (!is_folded(mesh, e)) return;
   const auto triangles = mesh.triangles_of(e);
-  if (sign_of(dot(normal(mesh, triangles[0]), normal(mesh, triangles[1]))) < 0)
-    refuse("triangles " + std::to_string(triangles[0]) + " and " + std::to_string(triangles[1]) +
-           " lie folded onto each other along " + name("edge", e, mesh.edge(e)) +
-           "; nothing says which side is outside");
+  refuse("triangles " + std::to_string(triangles[0]) + " and " + std::to_string(triangles[1]) +
+         " lie folded onto each other along " + name("edge", e, mesh.edge(e)) + "; nothing says which side is outside");
 }
 
 void check_volume(const Complex& mesh) {
@@ -71,6 +78,35 @@ void check_volume(const Complex& mesh) {
     refuse(std::string("it encloses ") +
            (volume.is_zero() ? "no volume"
                              : "a negative volume: its triangles, 0 the first, face inward; turn them round"));
+}
+
+bool outward_of_edge(const Complex& mesh, Index edge, const Vec3f& x) {
+  const ExactVector a = exact(mesh.at(mesh.edge(edge)[0])), b = exact(mesh.at(mesh.edge(edge)[1])), p = exact(x);
+  if (is_rim(mesh, edge)) return true;
+  const int sense = bend(mesh, edge);
+  if (sense == 0) return is_folded(mesh, edge) || sign_of(dot(normal(mesh, mesh.triangles_of(edge)[0]), p - a)) >= 0;
+  return sense < 0 || is_zero(cross(b - a, p - a));
+}
+
+bool outward_of_vertex(const Complex& mesh, Index vertex, const Vec3f& x) {
+  const ExactVector v = exact(mesh.at(vertex)), w = exact(x) - v;
+  if (is_zero(w)) return true;
+  const auto spokes = mesh.edges_of(vertex);
+  if (std::ranges::any_of(spokes, [&](Index e) { return is_rim(mesh, e) || is_folded(mesh, e); })) return true;
+  const auto touched_by = [&](const ExactVector& g) {
+    return std::find_if(spokes.begin(), spokes.end(),
+                        [&](Index e) { return dot(g, exact(mesh.at(mesh.across(e, vertex))) - v).is_zero(); });
+  };
+  ExactVector g = w;
+  auto spoke = touched_by(g);
+  if (spoke == spokes.end()) {
+    const NormalCone cone(star_directions(mesh, vertex_face(vertex)));
+    if (cone.generators().empty()) return false;
+    g = cone.generators().front();
+    spoke = touched_by(g);
+  }
+  const int sense = bend(mesh, *spoke);
+  return sense < 0 || (sense == 0 && sign_of(dot(normal(mesh, mesh.triangles_of(*spoke)[0]), g)) > 0);
 }
 
 /// The closed triangle holds x; n is its normal, not zero.
@@ -109,38 +145,13 @@ ClosedSurface::ClosedSurface(const Complex& mesh) : mesh_(mesh) {
   check_volume(mesh);
 }
 
-bool ClosedSurface::outward_of_edge(Index edge, const Vec3f& x) const {
-  const ExactVector a = exact(mesh_.at(mesh_.edge(edge)[0])), b = exact(mesh_.at(mesh_.edge(edge)[1])), p = exact(x);
-  const int sense = bend(mesh_, edge);
-  if (sense == 0) return sign_of(dot(normal(mesh_, mesh_.triangles_of(edge)[0]), p - a)) >= 0;
-  return sense < 0 || is_zero(cross(b - a, p - a));
+bool begins_outside(const Complex& mesh, Face face, const Vec3f& x) {
+  if (face.kind == FaceKind::vertex) return outward_of_vertex(mesh, face.index, x);
+  if (face.kind == FaceKind::edge) return outward_of_edge(mesh, face.index, x);
+  return sign_of(dot(normal(mesh, face.index), exact(x) - exact(mesh.at(mesh.triangle(face.index)[0])))) >= 0;
 }
 
-bool ClosedSurface::outward_of_vertex(Index vertex, const Vec3f& x) const {
-  const ExactVector v = exact(mesh_.at(vertex)), w = exact(x) - v;
-  if (is_zero(w)) return true;
-  const auto spokes = mesh_.edges_of(vertex);
-  const auto touched_by = [&](const ExactVector& g) {
-    return std::find_if(spokes.begin(), spokes.end(),
-                        [&](Index e) { return dot(g, exact(mesh_.at(mesh_.across(e, vertex))) - v).is_zero(); });
-  };
-  ExactVector g = w;
-  auto spoke = touched_by(g);
-  if (spoke == spokes.end()) {
-    const NormalCone cone(star_directions(mesh_, vertex_face(vertex)));
-    if (cone.generators().empty()) return false;
-    g = cone.generators().front();
-    spoke = touched_by(g);
-  }
-  const int sense = bend(mesh_, *spoke);
-  return sense < 0 || (sense == 0 && sign_of(dot(normal(mesh_, mesh_.triangles_of(*spoke)[0]), g)) > 0);
-}
-
-bool ClosedSurface::outward(Face face, const Vec3f& x) const {
-  if (face.kind == FaceKind::vertex) return outward_of_vertex(face.index, x);
-  if (face.kind == FaceKind::edge) return outward_of_edge(face.index, x);
-  return sign_of(dot(normal(mesh_, face.index), exact(x) - exact(mesh_.at(mesh_.triangle(face.index)[0])))) >= 0;
-}
+bool ClosedSurface::outward(Face face, const Vec3f& x) const { return begins_outside(mesh_, face, x); }
 
 bool ClosedSurface::in_outward_block(Face face, const Vec3f& x, float contact_radius) const {
   return in_block(mesh_, face, x, contact_radius) && outward(face, x);

@@ -16,6 +16,14 @@ struct PointLocation {
   bool outside() const { return !on_surface && winding == 0; }
 };
 
+/// Whether the way from a face of an oriented surface to x, whose closest point on it lies in the face's interior,
+/// begins on the outside. A triangle's does on the side of its normal; an edge's where its triangles meet at less than
+/// π inside; a vertex' as that of an edge or triangle on the rim of its normals. The points of the face itself are
+/// outward (closed). An edge of one triangle and its ends (a rim) have no inner side: all begins outside, as where two
+/// triangles lie folded onto each other. Each edge has one triangle, or two that run through it in opposite senses, and
+/// no triangle is without area. For other x the answer has no meaning.
+bool begins_outside(const Complex& mesh, Face face, const Vec3f& x);
+
 /// A surface that bounds something: each edge has two triangles that run through it in opposite senses, no triangle is
 /// without area, no two lie folded onto each other, and the volume that it encloses (by the divergence theorem,
 /// cavities and overlaps counted with their signs) is positive, so that the triangles' normals point outward. It may
@@ -25,10 +33,7 @@ class ClosedSurface {
   /// Throws compare::InputError, naming the first edge or triangle that breaks the above.
   explicit ClosedSurface(const Complex& mesh);
 
-  /// x in U_a without its distance (Eq. 8–10): does the way from the face to x begin on the outside of the surface? A
-  /// triangle's does on the side of its normal; an edge's where its triangles meet at less than π inside; a vertex' as
-  /// that of an edge or triangle on the rim of its normals. The points of the face itself are outward (closed). For
-  /// other x the answer has no meaning.
+  /// x in U_a without its distance (Eq. 8–10): begins_outside.
   bool outward(Face face, const Vec3f& x) const;
 
   /// x ∈ U_a, closed at r and closed at the surface, with only the outward half of a triangle or flat neighbourhood and
@@ -43,8 +48,6 @@ class ClosedSurface {
   const Complex& mesh() const { return mesh_; }
 
  private:
-  bool outward_of_edge(Index edge, const Vec3f& x) const;
-  bool outward_of_vertex(Index vertex, const Vec3f& x) const;
   Complex mesh_;
 };
 

@@ -11,9 +11,9 @@
 
 namespace ogc::compare {
 
-/// A newer file is refused by name. From format 2 on bodies may have tetrahedra, and materials `solid_…`. A body's
-/// `contact` (surface) and `orientations` and the scene's `body_pairs` (empty) are reserved: a reader refuses what it
-/// does not simulate by name.
+/// A newer file is refused by name. From format 2 on bodies may have tetrahedra, materials `solid_…`, and a body may be
+/// a volume by its `contact`. A body's `orientations` and the scene's `body_pairs` (empty) are reserved: a reader
+/// refuses what it does not simulate by name.
 inline constexpr int scene_format_version = 2;
 
 /// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that

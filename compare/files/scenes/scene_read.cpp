@@ -17,6 +17,7 @@
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/text.hpp"
+#include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -107,11 +108,13 @@ void refuse_reserved(const JsonNode& node, const std::string& what) {
   node.fail("asks for " + what + ", which this ogc does not simulate yet", "leave it out, or use a newer ogc");
 }
 
-void read_contact_kind(const JsonNode& node) {
-  std::string kind = "surface";
-  node.read(kind);
-  if (kind == "volume") return refuse_reserved(node, "contact of volumes");
-  if (kind != "surface") node.fail("is '" + shown(kind) + "'", "give surface");
+void read_contact(const JsonNode& node, BodyContact& contact) {
+  std::string name(name_of(contact));
+  node.read(name);
+  const auto names = body_contact_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return node.fail("is '" + shown(name) + "'", "give surface or volume");
+  contact = static_cast<BodyContact>(found - names.begin());
 }
 
 /// The file's own name with '_' for what names may not have.
@@ -259,7 +262,7 @@ class SceneReader {
     std::vector<Vec3> rest, velocities;
     object.optional_value("name", body.name);
     object.optional_value("fixed", body.fixed);
-    object.optional("contact", read_contact_kind);
+    object.optional("contact", [&](const JsonNode& value) { read_contact(value, body.contact); });
     object.optional("orientations", [](const JsonNode& value) { refuse_reserved(value, "orientations of rods"); });
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
     object.required("mesh", [&](const JsonNode& value) {

@@ -3,6 +3,7 @@
 #include "compare/files/json_reader.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -85,6 +86,8 @@ Json material_schema() {
 }
 
 Json body_schema() {
+  Json contact = model_schema(body_contact_names(), name_of(Body{}.contact));
+  contact["description"] = "surface: nothing passes through it; volume: others may enter it, and are pushed out";
   const Json properties = {
       {"name", value("string", "letters, digits, _ and -; default: that of the mesh's file")},
       {"fixed", value("boolean", "never moves; default false")},
@@ -96,7 +99,7 @@ Json body_schema() {
       {"velocities",
        value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
       {"material", material_schema()},
-      {"contact", {{"enum", {"surface"}}, {"default", "surface"}}},
+      {"contact", contact},
       {"orientations", reserved("for orientations of rods")},
   };
   return object(properties, {"mesh"});

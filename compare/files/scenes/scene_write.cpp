@@ -12,6 +12,7 @@
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/text.hpp"
+#include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -73,7 +74,10 @@ Json body_json(const std::filesystem::path& folder, const Scene& scene, const Bo
     write_mesh(folder / name, body_mesh(scene, body, values));
     return name;
   };
-  Json json = {{"name", body.name}, {"fixed", body.fixed}, {"mesh", write(stem + extension, scene.mesh.positions)}};
+  Json json = {{"name", body.name},
+               {"fixed", body.fixed},
+               {"contact", name_of(body.contact)},
+               {"mesh", write(stem + extension, scene.mesh.positions)}};
   const auto start = scene.mesh.positions.begin() + body.first_vertex,
              rest = scene.rest_positions.begin() + body.first_vertex;
   if (!std::equal(start, start + body.vertex_count, rest, same_bits))

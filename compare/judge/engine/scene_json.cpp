@@ -7,6 +7,7 @@
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/settings.hpp"
 #include "compare/problem/validate.hpp"
+#include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
 
@@ -45,6 +46,7 @@ Json body_to_json(const Body& body) {
           {"triangles", {body.first_triangle, body.triangle_count}},
           {"tetrahedra", {body.first_tetrahedron, body.tetrahedron_count}},
           {"fixed", body.fixed},
+          {"contact", name_of(body.contact)},
           {"material", material}};
 }
 
@@ -56,6 +58,7 @@ Body to_body(const Json& json) {
   body.first_triangle = json.at("triangles").at(0).get<Index>();
   body.triangle_count = json.at("triangles").at(1).get<Index>();
   body.fixed = json.at("fixed").get<bool>();
+  if (json.contains("contact")) body.contact = to_model<BodyContact>(json.at("contact"), body_contact_names());
   const Json& material = json.at("material");
   body.material.membrane = to_model<MembraneModel>(material.at("membrane"), membrane_model_names());
   body.material.bending = to_model<BendingModel>(material.at("bending"), bending_model_names());

@@ -14,12 +14,14 @@
 #include "tests/catch.hpp"
 #include "tests/compare/files/scratch.hpp"
 #include "tests/compare/problem/small_scene.hpp"
+#include "tests/compare/problem/solid_scene.hpp"
 
 using namespace ogc::compare;
 using Catch::Matchers::Contains;
 using nlohmann::json;
 using ogc::tests::Scratch;
 using ogc::tests::small_scene;
+using ogc::tests::solid_scene;
 
 namespace {
 
@@ -120,6 +122,19 @@ TEST_CASE("a scene comes back from its files bit for bit", "[unit]") {
   CHECK(std::signbit(again.velocities[4].y));
   CHECK(read_scene(write_scene(scratch / "again", again)) == scene);
   CHECK(read_bytes(scratch / "new/small.json") == read_bytes(scratch / "again/small.json"));
+}
+
+TEST_CASE("a volume comes back as one, and a body that says nothing about its contact is a surface", "[unit]") {
+  Scene scene = solid_scene();
+  scene.bodies[0].contact = BodyContact::volume;
+  round_to_single(scene);
+  Edited edited(scene);
+  CHECK(read_scene(edited.file()) == scene);
+  edited.content["bodies"][0].erase("contact");
+  CHECK(edited.error() == "");
+  CHECK(read_scene(edited.file()).bodies[0].contact == BodyContact::surface);
+  edited.content["bodies"][0]["contact"] = true;
+  CHECK_THAT(edited.error(), Contains("/bodies/0/contact"));
 }
 
 TEST_CASE("keyframes come back from their file bit for bit", "[unit]") {

@@ -1,0 +1,268 @@
+#include "compare/problem/volumes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "compare/problem/element_names.hpp"
+#include "compare/problem/error.hpp"
+#include "compare/problem/problem_kind.hpp"
+#include "compare/problem/validate_mesh.hpp"
+
+namespace ogc::compare {
+namespace {
+
+constexpr std::array<std::string_view, 2> contact_names{"surface", "volume"};
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// An edge as one of its triangles runs through it; those of one edge stand next to each other in order.
+struct Side {
+  Edge edge{};            ///< the smaller vertex first
+  Index triangle = -1;    ///< whose it is
+  bool ascending = true;  ///< it runs from the smaller vertex to the larger one
+  friend auto operator<=>(const Side&, const Side&) = default;
+};
+
+std::vector<Side> sorted_sides(const Scene& scene, std::span<const Index> triangles) {
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (const Index t : triangles) {
+    const Triangle& corners = scene.mesh.triangles[at(t)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = corners[k], b = corners[(k + 1) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, t, a < b});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+/// Calls visit(the sides of one edge) for each edge.
+template <class Visit>
+void visit_edges(std::span<const Side> sides, const Visit& visit) {
+  for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
+    while (end < sides.size() && sides[end].edge == sides[first].edge) ++end;
+    visit(sides.subspan(first, end - first));
+  }
+}
+
+/// Sets of numbers that grow together; the smallest number of a set stands for it.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::size_t a, std::size_t b) {
+    a = root(a), b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
+  const Body& body = scene.bodies[number];
+  Sets sets(at(body.vertex_count));
+  const auto local = [&](Index v) { return at(v - body.first_vertex); };
+  const auto triangles = std::span(scene.mesh.triangles).subspan(at(body.first_triangle), at(body.triangle_count));
+  for (const auto& [a, b, c] : triangles) sets.unite(local(a), local(b)), sets.unite(local(a), local(c));
+  std::map<std::size_t, std::size_t> place;  // of the part of a set
+  std::vector<VolumePart> parts;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto [entry, is_new] = place.try_emplace(sets.root(local(triangles[i][0])), parts.size());
+    if (is_new) parts.push_back({number, {}, {}});
+    parts[entry->second].triangles.push_back(body.first_triangle + static_cast<Index>(i));
+  }
+  for (VolumePart& part : parts) {
+    std::vector<Side> rims;
+    visit_edges(sorted_sides(scene, part.triangles), [&](std::span<const Side> sides) {
+      if (sides.size() == 1) rims.push_back(sides[0]);
+    });
+    std::ranges::sort(rims, {}, [](const Side& side) { return side.triangle; });
+    for (const Side& side : rims) part.rims.push_back(side.ascending ? side.edge : Edge{side.edge[1], side.edge[0]});
+  }
+  return parts;
+}
+
+/// A sum of determinants with the sum of the moduli of their terms.
+struct SignedVolume {
+  double value = 0, modulus = 0;
+  std::size_t count = 0;
+
+  /// det(a − o, b − o, c − o).
+  void add(const Vec3& o, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const std::array<double, 3> u{a.x - o.x, a.y - o.y, a.z - o.z}, v{b.x - o.x, b.y - o.y, b.z - o.z},
+        w{c.x - o.x, c.y - o.y, c.z - o.z};
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+      const double positive = u[k] * v[l] * w[m], negative = u[k] * v[m] * w[l];
+      sum += positive - negative;
+      modulus += std::abs(positive) + std::abs(negative);
+    }
+    value += sum;
+    ++count;
+  }
+  /// How far `value` is off at most. A term goes through at most n + 12 roundings (three differences, two products,
+  /// four sums inside a determinant, those of n determinants), each a factor of 1 + δ with |δ| ≤ 2⁻⁵³; twice that
+  /// holds what the moduli themselves lose, and the higher orders.
+  double error() const { return static_cast<double>(count + 12) * 0x1p-52 * modulus; }
+};
+
+/// Six times the volume that a part encloses, each of its rims (connected edges of one triangle) closed by a fan about
+/// the mean of their ends.
+SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
+  const auto position = [&](Index v) -> const Vec3& { return scene.mesh.positions[at(v)]; };
+  const Vec3& origin = position(scene.mesh.triangles[at(part.triangles[0])][0]);
+  SignedVolume volume;
+  for (const Index t : part.triangles) {
+    const auto [a, b, c] = scene.mesh.triangles[at(t)];
+    volume.add(origin, position(a), position(b), position(c));
+  }
+  const Index first = scene.bodies[part.body].first_vertex;
+  Sets sets(at(scene.bodies[part.body].vertex_count));
+  for (const auto& [a, b] : part.rims) sets.unite(at(a - first), at(b - first));
+  struct Mean {
+    Vec3 sum;
+    double count = 0;
+  };
+  std::map<std::size_t, Mean> means;
+  // each vertex of a rim ends as many of its edges as it begins, so that the beginnings are all of them
+  for (const auto& [a, b] : part.rims) {
+    Mean& mean = means[sets.root(at(a - first))];
+    const Vec3& x = position(a);
+    mean.sum = {mean.sum.x + x.x, mean.sum.y + x.y, mean.sum.z + x.z};
+    ++mean.count;
+  }
+  for (const auto& [a, b] : part.rims) {
+    const auto& [sum, count] = means.at(sets.root(at(a - first)));
+    volume.add(origin, position(b), position(a), {sum.x / count, sum.y / count, sum.z / count});
+  }
+  return volume;
+}
+
+/// Whether each edge of the body has an inner side or is of one triangle; lists those that have not.
+bool check_edges(std::vector<Problem>& problems, const Scene& scene, const Body& body, const ElementNames& names,
+                 std::size_t limit) {
+  ProblemKind threefold(problems, limit, "of a volume has more than two triangles",
+                        "a volume's edge has two triangles, or one at a rim: remove the others, or leave the body a "
+                        "surface");
+  ProblemKind misoriented(problems, limit, "of a volume is run through in one sense by both of its triangles",
+                          "turn one of them round, so that all face outward");
+  std::vector<Index> triangles(at(body.triangle_count));
+  std::iota(triangles.begin(), triangles.end(), body.first_triangle);
+  const auto triangle = [&](Index t) { return names.triangle(t, scene.mesh.triangles[at(t)]); };
+  visit_edges(sorted_sides(scene, triangles), [&](std::span<const Side> sides) {
+    const auto where = [&] {
+      return "edge from " + names.vertex(sides[0].edge[0]) + " to " + names.vertex(sides[0].edge[1]);
+    };
+    if (sides.size() > 2) {
+      std::string all = triangle(sides[0].triangle);
+      for (std::size_t k = 1; k < 3; ++k) all += ", " + triangle(sides[k].triangle);
+      threefold.add(where(), std::to_string(sides.size()) + ", among them " + all);
+    }
+    if (sides.size() == 2 && sides[0].ascending == sides[1].ascending)
+      misoriented.add(where(), triangle(sides[0].triangle) + ", " + triangle(sides[1].triangle));
+  });
+  return threefold.count() + misoriented.count() == 0;
+}
+
+bool is_usable(const Scene& scene, const Body& body) {
+  const auto first = scene.mesh.positions.begin() + body.first_vertex;
+  return std::all_of(first, first + body.vertex_count, [](const Vec3& x) {
+    return is_finite(x) && std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) <= most_length;
+  });
+}
+
+/// `is_sound`: by body, whether its parts may be looked at.
+void check_parts(std::vector<Problem>& problems, const Scene& scene, const std::vector<bool>& is_sound,
+                 const ElementNames& names, std::size_t limit) {
+  ProblemKind inside_out(problems, limit, "begins a part of a volume that is turned inside out",
+                         "reverse the vertices of its triangles, so that their normals point outward");
+  ProblemKind empty(problems, limit, "begins a part of a volume that encloses nothing",
+                    "give the part an inner side, or leave the body a surface");
+  for (const VolumePart& part : volume_parts(scene)) {
+    if (!is_sound[part.body]) continue;
+    const SignedVolume volume = six_volumes(scene, part);
+    const Index t = part.triangles[0];
+    const auto where = [&] { return names.triangle(t, scene.mesh.triangles[at(t)]); };
+    const std::string size = std::to_string(part.triangles.size()) + " triangles, " + std::to_string(part.rims.size()) +
+                             " edges at rims";
+    if (volume.value < -volume.error()) {
+      inside_out.add(where(), size);
+    } else if (!(volume.value > volume.error())) {
+      empty.add(where(), size);
+    }
+  }
+}
+
+/// How many vertices of the body are neither fixed nor prescribed.
+Index free_vertices(const Scene& scene, const Body& body) {
+  if (body.fixed) return 0;
+  std::vector<bool> driven(at(body.vertex_count));
+  for (const PrescribedMotion& motion : scene.motions) {
+    for (const Index v : motion.vertices)
+      if (v >= body.first_vertex && v < body.first_vertex + body.vertex_count) driven[at(v - body.first_vertex)] = true;
+  }
+  return static_cast<Index>(std::count(driven.begin(), driven.end(), false));
+}
+
+}  // namespace
+
+std::string_view name_of(BodyContact contact) { return contact_names[static_cast<std::size_t>(contact)]; }
+
+std::span<const std::string_view> body_contact_names() { return contact_names; }
+
+std::vector<VolumePart> volume_parts(const Scene& scene) {
+  std::vector<VolumePart> parts;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (!scene.bodies[b].is_volume()) continue;
+    for (VolumePart& part : parts_of(scene, b)) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+void check_volume_bodies(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names,
+                         std::size_t limit) {
+  ProblemKind loose(problems, limit, "of a volume belongs to no triangle, and has no inner side",
+                    "give loose edges a body of their own");
+  std::vector<bool> is_sound(scene.bodies.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    if (!body.is_volume()) continue;
+    const std::string where = "body '" + body.name + "'";
+    for (std::size_t e = 0; e < scene.mesh.loose_edges.size(); ++e) {
+      const Edge& ends = scene.mesh.loose_edges[e];
+      if (ends[0] >= body.first_vertex && ends[0] < body.first_vertex + body.vertex_count)
+        loose.add(names.loose_edge(static_cast<Index>(e), ends));
+    }
+    if (body.triangle_count == 0) {
+      problems.push_back({where, "is a volume without triangles", "leave it a surface"});
+      continue;
+    }
+    const Index free = body.is_solid() ? 0 : free_vertices(scene, body);
+    if (free > 0) {
+      problems.push_back({where,
+                          "is a volume of triangles, and " + std::to_string(free) + " of its " +
+                              std::to_string(body.vertex_count) + " vertices move freely",
+                          "fix it, prescribe all of its vertices, or give it tetrahedra"});
+    }
+    is_sound[b] = check_edges(problems, scene, body, names, limit) && is_usable(scene, body);
+  }
+  check_parts(problems, scene, is_sound, names, limit);
+}
+
+void refuse_volumes(const Scene& scene, std::string_view solver, std::string_view remedy) {
+  const auto found = std::ranges::find_if(scene.bodies, [](const Body& body) { return body.is_volume(); });
+  if (found == scene.bodies.end()) return;
+  throw InputError("body '" + found->name + "' is a volume, which " + std::string(solver) + " does not simulate; " +
+                   std::string(remedy));
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,42 @@
+// Volumes (§3.9): bodies that others may enter, and that push them out. What they are called, which surfaces they have,
+// and what makes a surface one that has an inner side.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "compare/problem/scene.hpp"
+#include "compare/problem/validate.hpp"
+
+namespace ogc::compare {
+
+/// Name of a body's contact in scene files: "surface", "volume".
+std::string_view name_of(BodyContact contact);
+/// All names, in the order of the enumeration.
+std::span<const std::string_view> body_contact_names();
+
+/// A part of a volume: a connected component of its surface, which is asked by itself. Triangles that
+/// share a vertex are connected.
+struct VolumePart {
+  std::size_t body = 0;          ///< whose part it is
+  std::vector<Index> triangles;  ///< of the scene, ascending
+  std::vector<Edge> rims;        ///< edges of one triangle, in its sense, by triangle, then corner
+};
+
+/// The parts of all volumes of a scene, by body, then by their first triangle. Indices are valid, and bodies cover the
+/// scene.
+std::vector<VolumePart> volume_parts(const Scene& scene);
+
+/// What is wrong with the scene's volumes, body by body: loose edges, none or free triangles without tetrahedra, edges
+/// of three triangles or of two that run through it in one sense, parts that are inside out or enclose nothing.
+/// Indices are valid, and bodies cover the scene; coordinates may be bad.
+void check_volume_bodies(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names,
+                         std::size_t limit);
+
+/// Throws InputError that names the scene's first volume, if it has any: `solver` does not simulate them, and
+/// `remedy` says what to do.
+void refuse_volumes(const Scene& scene, std::string_view solver, std::string_view remedy);
+
+}  // namespace ogc::compare

@@ -1,0 +1,135 @@
+#include "reference/definitions/part_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "reference/definitions/closed_surface.hpp"
+#include "reference/definitions/normal_cone.hpp"
+#include "reference/geometry/closest_face.hpp"
+
+namespace ogc::reference {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Face face_of(const Complex& mesh, Index t, TriangleFeature feature) {
+  const auto f = static_cast<std::size_t>(feature);
+  if (f < 3) return vertex_face(mesh.triangle(t)[f]);
+  if (f < 6) return edge_face(mesh.topology.triangle_edges[at(t)][f - 3]);
+  return triangle_face(t);
+}
+
+/// Faces are in order of dimension, then number.
+Face nearest_face(const Complex& mesh, const std::vector<Index>& part, const Vec3f& x) {
+  std::optional<std::pair<Face, Margin>> nearest;
+  for (const Index t : part) {
+    const auto [a, b, c] = mesh.triangle(t);
+    const Face face = face_of(mesh, t, closest_feature({mesh.at(a), mesh.at(b), mesh.at(c)}, x));
+    const Margin gap = face_gap(mesh, face, x, 0);
+    const int order = nearest ? compare_distances(gap, nearest->second) : -1;
+    if (order < 0 || (order == 0 && face < nearest->first)) nearest = {face, gap};
+  }
+  return nearest->first;
+}
+
+Index owner_of(const Complex& mesh, Face face) {
+  if (face.kind == FaceKind::vertex) return mesh.topology.vertex_triangles[at(face.index)].front();
+  return face.kind == FaceKind::edge ? mesh.triangles_of(face.index).front() : face.index;
+}
+
+std::array<double, 3> weights_of(const Complex& mesh, Index t, Face face, const Vec3f& x) {
+  const compare::Triangle& corners = mesh.triangle(t);
+  std::array<double, 3> weights{};
+  if (face.kind == FaceKind::triangle) {
+    const Vec3f &a = mesh.at(corners[0]), &b = mesh.at(corners[1]), &c = mesh.at(corners[2]);
+    const std::array margins{side(b, c, a, x), side(c, a, b, x), side(a, b, c, x)};
+    const std::vector<double> values = shares(margins);
+    std::ranges::copy(values, weights.begin());
+    return weights;
+  }
+  const auto place = [&](Index v) { return static_cast<std::size_t>(std::ranges::find(corners, v) - corners.begin()); };
+  if (face.kind == FaceKind::vertex) {
+    weights[place(face.index)] = 1;
+    return weights;
+  }
+  const auto [a, b] = mesh.edge(face.index);
+  const std::array margins{along(mesh.at(b), mesh.at(a), x), along(mesh.at(a), mesh.at(b), x)};
+  const std::vector<double> values = shares(margins);
+  weights[place(a)] = values[0];
+  weights[place(b)] = values[1];
+  return weights;
+}
+
+ExactVector normal(const Complex& mesh, Index t) {
+  const auto [a, b, c] = mesh.triangle(t);
+  return cross(exact(mesh.at(b)) - exact(mesh.at(a)), exact(mesh.at(c)) - exact(mesh.at(a)));
+}
+
+/// x − c for a vertex or an edge, times a positive number.
+ExactVector offset_of(const Complex& mesh, Face face, const Vec3f& x) {
+  if (face.kind == FaceKind::vertex) return exact(x) - exact(mesh.at(face.index));
+  const auto [a, b] = mesh.edge(face.index);
+  const ExactVector e = exact(mesh.at(b)) - exact(mesh.at(a)), w = exact(x) - exact(mesh.at(a));
+  return times(dot(e, e), w) - times(dot(e, w), e);
+}
+
+compare::Vec3 unit(const ExactVector& v) {
+  const double x = v.x.to_double(), y = v.y.to_double(), z = v.z.to_double(), length = std::hypot(x, y, z);
+  return {x / length, y / length, z / length};
+}
+
+compare::Vec3 direction_of(const Complex& mesh, Index t, Face face, const Vec3f& x, bool inside) {
+  if (face.kind == FaceKind::triangle) return unit(normal(mesh, t));
+  const ExactVector offset = offset_of(mesh, face, x);
+  if (is_zero(offset)) return unit(normal(mesh, t));
+  return unit(inside ? times(Exact(-1), offset) : offset);
+}
+
+PartContact contact_at(const Complex& mesh, Face face, const Vec3f& x, float contact_radius, bool inside) {
+  const Index t = owner_of(mesh, face);
+  const double depth = inside ? distance(face_gap(mesh, face, x, 0)) + static_cast<double>(contact_radius)
+                              : -signed_length(face_gap(mesh, face, x, contact_radius));
+  return {inside, t, face, weights_of(mesh, t, face, x), direction_of(mesh, t, face, x, inside), depth};
+}
+
+/// Faces of a part, each once.
+std::vector<Face> faces_of(const Complex& mesh, const std::vector<Index>& part) {
+  std::vector<Face> faces;
+  for (const Index t : part) {
+    for (const Index v : mesh.triangle(t)) faces.push_back(vertex_face(v));
+    for (const Index e : mesh.topology.triangle_edges[at(t)]) faces.push_back(edge_face(e));
+    faces.push_back(triangle_face(t));
+  }
+  std::ranges::sort(faces);
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+}  // namespace
+
+std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius) {
+  std::map<Index, std::vector<Index>> parts;  // by component, which no edge leaves
+  for (std::size_t t = 0; t < volume.topology.triangles.size(); ++t)
+    parts[volume.topology.component[at(volume.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
+  std::vector<PartContact> contacts;
+  for (const auto& [component, part] : parts) {
+    const Face nearest = nearest_face(volume, part, x);
+    if (!begins_outside(volume, nearest, x)) {
+      contacts.push_back(contact_at(volume, nearest, x, contact_radius, true));
+      continue;
+    }
+    for (const Face face : faces_of(volume, part)) {
+      if (!in_block(volume, face, x, contact_radius) || !begins_outside(volume, face, x) ||
+          sign(face_gap(volume, face, x, contact_radius)) >= 0)
+        continue;
+      contacts.push_back(contact_at(volume, face, x, contact_radius, false));
+    }
+  }
+  std::ranges::sort(contacts, {}, [](const PartContact& c) { return std::tuple(c.inside, c.triangle, c.face); });
+  return contacts;
+}
+
+}  // namespace ogc::reference

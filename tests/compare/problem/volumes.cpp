@@ -1,0 +1,153 @@
+// Parts of volumes, and each kind of problem that a volume can have.
+#include "compare/problem/volumes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "compare/problem/error.hpp"
+#include "compare/problem/validate.hpp"
+#include "tests/catch.hpp"
+#include "tests/compare/problem/solid_scene.hpp"
+
+using namespace ogc::compare;
+using Catch::Matchers::Contains;
+using ogc::tests::block_mesh;
+
+namespace {
+
+/// The surface of a cube of 1 m from `corner` on, outward; vertex (i, j, k) is number 4i + 2j + k.
+Mesh cube(const Vec3& corner = {}) {
+  Mesh mesh;
+  for (int v = 0; v < 8; ++v) mesh.positions.push_back({corner.x + v / 4, corner.y + v / 2 % 2, corner.z + v % 2});
+  for (const auto& [a, b, c, d] :
+       {Tetrahedron{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}})
+    mesh.triangles.push_back({a, b, c}), mesh.triangles.push_back({a, c, d});
+  return mesh;
+}
+
+/// Both in one mesh.
+Mesh joined(Mesh mesh, const Mesh& more) {
+  const auto first = static_cast<Index>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
+  for (const auto& [a, b, c] : more.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+  return mesh;
+}
+
+Mesh reversed(Mesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+/// A cube without its last two triangles: a box without a lid.
+Mesh open_box(const Vec3& corner = {}) {
+  Mesh mesh = cube(corner);
+  mesh.triangles.resize(mesh.triangles.size() - 2);
+  return mesh;
+}
+
+/// A fixed volume, unless `fixed` says otherwise, behind a surface of one triangle.
+Scene scene_of(const Mesh& mesh, bool fixed = true) {
+  Scene scene;
+  scene.name = "volumes";
+  append_body(scene, {.name = "sheet", .material = {}}, {{{0, 9, 0}, {1, 9, 0}, {0, 9, 1}}, {{0, 1, 2}}, {}});
+  append_body(scene, {.name = "body", .fixed = fixed, .material = {}, .contact = BodyContact::volume}, mesh);
+  return scene;
+}
+
+std::string said(const Scene& scene) { return describe(validate(scene)); }
+
+}  // namespace
+
+TEST_CASE("a volume's parts are its connected surfaces, with the edges that have one triangle in its sense", "[unit]") {
+  const std::vector<VolumePart> parts = volume_parts(scene_of(joined(cube(), open_box({0.5, 0, 0}))));
+  REQUIRE(parts.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(parts[k].body == 1);
+    CHECK(parts[k].triangles.front() == static_cast<Index>(1 + 12 * k));
+    CHECK(std::ranges::is_sorted(parts[k].triangles));
+  }
+  CHECK(parts[0].triangles.size() == 12);
+  CHECK(parts[0].rims.empty());
+  CHECK(parts[1].triangles.size() == 10);
+  // the lid 1, 5, 7, 3 of the second cube, whose vertices begin at 3 + 8, from the side of the box
+  std::vector<Edge> rims = parts[1].rims;
+  std::ranges::sort(rims);
+  CHECK(rims == std::vector<Edge>{{12, 14}, {14, 18}, {16, 12}, {18, 16}});
+  CHECK(volume_parts(scene_of(joined(cube(), cube({1, 0, 0})))).size() == 2);
+  Scene without = scene_of(cube());
+  without.bodies[1].contact = BodyContact::surface;
+  CHECK(volume_parts(without).empty());
+}
+
+TEST_CASE("closed surfaces, rims, overlapping parts and solids are volumes, wherever they lie", "[unit]") {
+  for (const double shift : {0.0, 1.0, -1000.0}) {
+    const Vec3 corner{shift, 2 * shift, -shift};
+    for (const Mesh& mesh : {cube(corner), open_box(corner), joined(cube(corner), open_box(corner))}) {
+      CHECK(said(scene_of(mesh)) == "");
+      CHECK_THAT(said(scene_of(reversed(mesh))), Contains("begins a part of a volume that is turned inside out"));
+    }
+    CHECK(said(scene_of(block_mesh(2, 1, corner), false)) == "");
+  }
+}
+
+TEST_CASE("a volume of triangles is driven: all of its vertices are fixed or prescribed", "[unit]") {
+  Scene scene = scene_of(cube(), false);
+  CHECK_THAT(said(scene),
+             Contains("body 'body': is a volume of triangles, and 8 of its 8 vertices move freely; fix it, "
+                      "prescribe all of its vertices, or give it tetrahedra"));
+  PrescribedMotion motion;
+  motion.name = "path";
+  for (Index v = 3; v < 10; ++v) motion.vertices.push_back(v);
+  scene.motions = {motion};
+  CHECK_THAT(said(scene), Contains("and 1 of its 8 vertices move freely"));
+  scene.motions[0].vertices.push_back(10);
+  CHECK(said(scene) == "");
+}
+
+TEST_CASE("each bad volume is named with its place and a remedy", "[unit]") {
+  Mesh mesh = cube();
+  SECTION("a triangle turned round") {
+    std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
+    CHECK_THAT(said(scene_of(mesh)),
+               Contains("edge from vertex 0 of body 'body' (3 in the scene) to vertex 1 of body 'body' (4 in the "
+                        "scene): of a volume is run through in one sense by both of its triangles: triangle 0 of body "
+                        "'body'") &&
+                   Contains("turn one of them round") && !Contains("inside out"));
+  }
+  SECTION("a third triangle at an edge") {
+    mesh.positions.push_back({0.5, 0.5, 2});
+    mesh.triangles.push_back({1, 5, 8});
+    CHECK_THAT(said(scene_of(mesh)), Contains("of a volume has more than two triangles: 3, among them triangle") &&
+                                         Contains("leave the body a surface"));
+  }
+  SECTION("one part of two inside out, and which") {
+    CHECK_THAT(said(scene_of(joined(cube(), reversed(cube({5, 0, 0}))))),
+               Contains("triangle 12 of body 'body'") && Contains("inside out: 12 triangles, 0 edges at rims"));
+  }
+  SECTION("a flat sheet") {
+    CHECK_THAT(said(scene_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}})),
+               Contains("begins a part of a volume that encloses nothing: 1 triangles, 3 edges at rims"));
+  }
+  SECTION("a loose edge") {
+    mesh.positions.push_back({5, 5, 5});
+    mesh.loose_edges = {{7, 8}};
+    CHECK_THAT(said(scene_of(mesh)), Contains("of a volume belongs to no triangle, and has no inner side"));
+  }
+  SECTION("edges alone") {
+    CHECK_THAT(said(scene_of({{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}})),
+               Contains("body 'body': is a volume without triangles; leave it a surface"));
+  }
+  SECTION("coordinates that are no numbers, beside what is wrong with its edges") {
+    mesh.positions[7].x = std::numeric_limits<double>::quiet_NaN();
+    std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
+    CHECK_THAT(said(scene_of(mesh)), Contains("position is not finite") && Contains("in one sense"));
+  }
+}
+
+TEST_CASE("whoever can't simulate volumes says so by name", "[unit]") {
+  Scene scene = scene_of(cube());
+  CHECK_THROWS_WITH(refuse_volumes(scene, "ipc", "do so"),
+                    "body 'body' is a volume, which ipc does not simulate; do so");
+  scene.bodies[1].contact = BodyContact::surface;
+  CHECK_NOTHROW(refuse_volumes(scene, "ipc", "do so"));
+}
