@@ -46,8 +46,8 @@ struct TetrahedronIn {
 /// In units of u · scale. On the longest way from an input to the elastic force lie a difference (1), a normal of two
 /// edges (another difference, twice: 4; a product and a difference: 2), J (a difference, a product, two sums, i: 5),
 /// minus one (1), λ + μ (2), minus μ (1), the normal once more (6), its product and the sixth (2), the sum (1): 25. The
-/// normal's part of the scale has the lengths of its two edges, which are rounded each by itself, beside what the inputs
-/// account for: a far corner beside two near ones takes that much.
+/// normal's part of the scale has the lengths of its two edges, rounded each by itself, beside what the inputs account
+/// for: a far corner beside two near ones takes that much.
 inline constexpr double tetrahedron_force_tolerance = 25;
 /// The normal twice (12), an outer product (2), (λ + μ) i/6 (3), Σ w_k and its product (1 + 1 + 1), the sum (1): 21.
 inline constexpr double tetrahedron_block_tolerance = 21;

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from matplotlib.ticker import NullFormatter, ScalarFormatter
 
 from paper_figures.figures.table1 import contacts, times
 from paper_figures.workflow import commands
@@ -194,6 +195,10 @@ def draw_gipc(axes, runs, theirs):
 
 
 def draw_windows(axes, runs):
+    axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log", title="CPU, windows of the run with planes")
+    if not any(key.startswith("window_") and not key.split("/")[1].startswith(("newton", "step_")) for key in runs):
+        axes.text(0.5, 0.5, "not run", transform=axes.transAxes, ha="center")
+        return
     for name, colour in (("vbd_ball", style.COLOURS[0]), ("vbd_planes", style.COLOURS[1]), ("ipc", style.COLOURS[3])):
         found = [runs[key] for share in commands.MAT_WINDOWS if (key := f"window_{share}/{name}") in runs]
         for number, run in enumerate(found):
@@ -202,7 +207,6 @@ def draw_windows(axes, runs):
     for solver, words in (("cpu", "VBD-OGC"), ("ipc", "IPC")):
         axes.axhline(PAPER[solver][0], color="black", linestyle=":", linewidth=0.8)
         axes.annotate(f"paper, {words}: {PAPER[solver][0]:g} ms", (0, PAPER[solver][0]), fontsize=6)
-    axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log", title="CPU, windows of the run with planes")
     axes.legend(fontsize=6)
 
 
@@ -228,6 +232,9 @@ def draw_distances(distance, residual, runs):
     residual.set(xlabel="iterations", ylabel="residual (Eq. 29) [1]", xscale="log", yscale="log",
                  title="What one step leaves")
     for axes in (distance, residual):
+        axes.set_xticks(sorted({n for numbers in commands.MAT_ITERATIONS.values() for n in numbers}))
+        axes.xaxis.set_major_formatter(ScalarFormatter())
+        axes.xaxis.set_minor_formatter(NullFormatter())
         if axes.get_legend_handles_labels()[0]:
             axes.legend(fontsize=6)
 

@@ -235,7 +235,7 @@ def seconds_of(recipe, scale, backend, runs):
 def seconds_of_run(path):
     """From a run's start to its end [s]; 0 where it has not ended."""
     manifest = json.loads(path.read_text())
-    if "ended" not in manifest:
+    if not manifest.get("ended"):  # "" while it is running, and where it was stopped for good
         return 0.0
     return (datetime.fromisoformat(manifest["ended"]) - datetime.fromisoformat(manifest["started"])).total_seconds()
 

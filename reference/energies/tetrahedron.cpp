@@ -49,8 +49,8 @@ struct Elastic {
 
 double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].value, v[2].value); }
 
-/// What the unit of error lacks that inputs alone account for. Two edges of the opposite face are rounded each by itself,
-/// so that a normal of them, of 6 units, errs by their lengths even where its inputs cancel: a far corner beside two near
+/// What a unit of error lacks that knows inputs alone. Two edges of the opposite face are rounded each by itself, so
+/// that a normal of them, of 6 units, errs by their lengths even where its inputs cancel: a far corner beside two near
 /// ones. The face's longest edges count, and for J the longest way to them. And what is lost beyond the first order
 /// where J − 1 and the normal nearly vanish: their errors, of 12 and 6 units (compare/stages/tetrahedron.hpp), meet.
 /// `resisted`: k ‖moved‖ of damping by vertex, whose block is `grown` times the elastic one.

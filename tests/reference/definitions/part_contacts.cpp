@@ -196,7 +196,7 @@ TEST_CASE("a rim has no inner side, and what lies behind a surface with rims is 
   // level with the rim the foot lies on it
   const std::vector<PartContact> level = body.ask({1, 0.25f, 2}, 0.5f);
   CHECK(std::ranges::none_of(level, &PartContact::inside));
-  // facing inward, the end of a valley at the rim: what lies along the valley is inside, and level with its end it is not
+  // facing inward, the end of a valley at the rim: along the valley points are inside, and level with its end not
   Surface inward = open_cube();
   for (compare::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
   const std::vector<PartContact> along = Body(inward).ask({2.25f, 2.25f, 1.5f}, 0.5f),
