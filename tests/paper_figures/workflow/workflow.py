@@ -235,6 +235,12 @@ class Jobs(Scratch):
         job.clear(self.runs / "run/run.json")
         self.assertFalse(left.exists())
 
+    def test_a_run_that_was_stopped_for_good_counts_no_seconds(self):
+        manifest = self.runs / "run.json"
+        for ended, seconds in (("", 0), ("2026-01-01T00:01:30Z", 90)):
+            manifest.write_text(json.dumps({"started": "2026-01-01T00:00:00Z", "ended": ended}))
+            self.assertEqual(recipes.seconds_of_run(manifest), seconds)
+
     def test_points_of_a_sweep_make_one_table(self):
         for point in ("a=1", "a=2"):
             (self.runs / point).mkdir()
