@@ -55,10 +55,12 @@ TEST_CASE("a right guess by pairs of another make passes the judge", "[agreement
   Contestant other = tests::exact_contestant(authority);
   other.step = [](const StepIn& in) { return reference::reference_step(in, tests::own_pair_guess); };
   JudgeOptions options = few_cases(Stage::step);
-  options.generator = "pairs";
-  const StageReport report = judge_stage(Stage::step, other, authority, options);
-  INFO(first_mismatch(report));
-  CHECK(report.passed());
+  for (const char* generator : {"pairs", "ladder.stack"}) {
+    options.generator = generator;
+    const StageReport report = judge_stage(Stage::step, other, authority, options);
+    INFO(first_mismatch(report));
+    CHECK(report.passed());
+  }
 }
 
 TEST_CASE("the judge catches every planted fault", "[agreement]") {
