@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks the shape of the house: who includes whom, no cycles, no folders that include each other, short files, small
-folders, no paths of a machine.
+folders, no strangers at the top, no paths of a machine.
 
 The tables below are the include rules of CONTRIBUTING.md; a room is named by its folder, the longest that fits. Usage:
 
@@ -21,6 +21,10 @@ LONGEST_FILE = 800
 LARGEST_FOLDER = 40
 # Folders that may be larger: what a figure's runs left is read by programs, by name.
 DATA = ("paper_figures/results",)
+
+# What stands at the top, beside names that begin with a dot.
+TOP = {"compare", "reference", "fast", "experiments", "plots", "paper_figures", "tests", "README.md", "CHANGELOG.md",
+       "CONTRIBUTING.md", "LICENSE", "CITATION.cff", "CMakeLists.txt", "CMakePresets.json"}
 
 PROBLEM = ("compare/problem/", "compare/stages/")
 FILES = PROBLEM + ("compare/files/", "compare/record/")
@@ -121,6 +125,7 @@ class House:
         files = sorted(self.files())
         for path in files:
             self.read(path)
+        self.check_top(files)
         self.check_folder_sizes(files)
         self.check_cycles()
         self.check_folder_pairs()
@@ -180,6 +185,11 @@ class House:
             self.report(file, number, f"<{included}> is neither standard nor in the table of tests/includes.py")
         elif not any(below(file, allowed) for allowed in FOREIGN[header]):
             self.report(file, number, f"<{included}> is allowed only in {', '.join(FOREIGN[header]) or 'tests'}")
+
+    def check_top(self, files):
+        names = {path.relative_to(self.root).parts[0] for path in files}
+        for name in sorted(name for name in names - TOP if not name.startswith(".")):
+            self.report(name, 1, "does not belong at the top; move it into its room, or leave it out")
 
     def check_folder_sizes(self, files):
         names = (folder(path.relative_to(self.root).as_posix()) for path in files)
@@ -334,6 +344,7 @@ PLANTED = {
     "a large folder": ({f"plots/{i}.py": "" for i in range(LARGEST_FOLDER + 1)}, "has 41 files; group them", "plots:1"),
     "a path of a machine": ({"README.md": "first\nrun /" + "home/me/ogc\n"}, "absolute path of a machine",
                             "README.md:2"),
+    "a stranger at the top": ({"failures/case.txt": ""}, "does not belong at the top", "failures:1"),
     "a path in a script": ({".ci/run": "cd '/" + "root/ogc'\n"}, "absolute path of a machine", ".ci/run:1"),
 }
 

@@ -196,13 +196,15 @@ def draw_gipc(axes, runs, theirs):
 
 def draw_windows(axes, runs):
     axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log", title="CPU, windows of the run with planes")
-    if not any(key.startswith("window_") and not key.split("/")[1].startswith(("newton", "step_")) for key in runs):
+    colours = {"vbd_ball": style.COLOURS[0], "vbd_planes": style.COLOURS[1], "ipc": style.COLOURS[3]}
+    windows = {name: [runs[key] for share in commands.MAT_WINDOWS if (key := f"window_{share}/{name}") in runs]
+               for name in colours}
+    if not any(windows.values()):
         axes.text(0.5, 0.5, "not run", transform=axes.transAxes, ha="center")
         return
-    for name, colour in (("vbd_ball", style.COLOURS[0]), ("vbd_planes", style.COLOURS[1]), ("ipc", style.COLOURS[3])):
-        found = [runs[key] for share in commands.MAT_WINDOWS if (key := f"window_{share}/{name}") in runs]
+    for name, found in windows.items():
         for number, run in enumerate(found):
-            axes.plot(seconds(run), run.column("wall"), ".-", color=colour, markersize=3, linewidth=0.7,
+            axes.plot(seconds(run), run.column("wall"), ".-", color=colours[name], markersize=3, linewidth=0.7,
                       label=f"{label(run)} {bounds_of(run)} ({run.manifest['device']})" if number == 0 else None)
     for solver, words in (("cpu", "VBD-OGC"), ("ipc", "IPC")):
         axes.axhline(PAPER[solver][0], color="black", linestyle=":", linewidth=0.8)

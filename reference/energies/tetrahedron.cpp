@@ -124,8 +124,8 @@ compare::ForceAnswer damped_by_motion(Elastic& elastic, const compare::Tetrahedr
                        compare::tetrahedron_force_tolerance;
   const double distance = std::hypot(moved[0].value, moved[1].value, moved[2].value);
   return with_rounded_edges(elastic,
-                           with_units(damped_by_vertex(elastic.inputs, elastic.system(), damping, moved), units, 1),
-                           q.damping * distance, 1 + q.damping);
+                            with_units(damped_by_vertex(elastic.inputs, elastic.system(), damping, moved), units, 1),
+                            q.damping * distance, 1 + q.damping);
 }
 
 }  // namespace

@@ -51,11 +51,12 @@ void read_settings(const JsonNode& node, Settings& settings) {
 }
 
 template <class Model>
-void read_model(const JsonNode& node, std::span<const std::string_view> names, Model& model) {
+void read_model(const JsonNode& node, std::span<const std::string_view> names, Model& model,
+                std::string_view what = "model") {
   std::string name(name_of(model));
   node.read(name);
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return node.fail(unknown_name("model", name, names), "");
+  if (found == names.end()) return node.fail(unknown_name(what, name, names), "");
   model = static_cast<Model>(found - names.begin());
 }
 
@@ -106,15 +107,6 @@ void read_material(const JsonNode& node, Material& material) {
 /// Keys that format 2 reserves for what is not simulated yet.
 void refuse_reserved(const JsonNode& node, const std::string& what) {
   node.fail("asks for " + what + ", which this ogc does not simulate yet", "leave it out, or use a newer ogc");
-}
-
-void read_contact(const JsonNode& node, BodyContact& contact) {
-  std::string name(name_of(contact));
-  node.read(name);
-  const auto names = body_contact_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return node.fail("is '" + shown(name) + "'", "give surface or volume");
-  contact = static_cast<BodyContact>(found - names.begin());
 }
 
 /// The file's own name with '_' for what names may not have.
@@ -262,7 +254,8 @@ class SceneReader {
     std::vector<Vec3> rest, velocities;
     object.optional_value("name", body.name);
     object.optional_value("fixed", body.fixed);
-    object.optional("contact", [&](const JsonNode& value) { read_contact(value, body.contact); });
+    object.optional("contact",
+                    [&](const JsonNode& value) { read_model(value, body_contact_names(), body.contact, "contact"); });
     object.optional("orientations", [](const JsonNode& value) { refuse_reserved(value, "orientations of rods"); });
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
     object.required("mesh", [&](const JsonNode& value) {

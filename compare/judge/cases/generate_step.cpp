@@ -387,43 +387,44 @@ CaseData stack(Random& random) {
   return builder.finish();
 }
 
-CaseData by_pairs(StepCase test) {
+/// The case after `change` of its scene.
+template <class Change>
+CaseData changed(const CaseData& data, const Change& change) {
+  StepCase test = case_of<StepCase>(data);
   Scene scene = *test.scene;
-  scene.settings.guess = Guess::pairs;
+  change(scene);
   test.scene = std::make_shared<Scene>(std::move(scene));
   return test;
+}
+
+CaseData by_pairs(const CaseData& data) {
+  return changed(data, [](Scene& scene) { scene.settings.guess = Guess::pairs; });
 }
 
 /// Guesses by certificate of pairs: pieces that fall, land, meet and are pulled.
 CaseData pairs(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> scenes{fall, onto, collide, handle};
-  return by_pairs(case_of<StepCase>(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random)));
+  return by_pairs(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
 }
 /// Stacks that end before, at and beyond the gap that they may lose.
-CaseData stack_by_pairs(Random& random) { return by_pairs(case_of<StepCase>(stack(random))); }
+CaseData stack_by_pairs(Random& random) { return by_pairs(stack(random)); }
 
 /// Other models than the default ones.
 CaseData models(Random& random) {
-  StepCase test = case_of<StepCase>(random.one_in(2) ? onto(random) : handle(random));
-  Scene scene = *test.scene;
-  choose_models(random, scene);
-  test.scene = std::make_shared<Scene>(std::move(scene));
-  return test;
+  const CaseData data = random.one_in(2) ? onto(random) : handle(random);
+  return changed(data, [&](Scene& scene) { choose_models(random, scene); });
 }
 
-CaseData with_planes(StepCase test) {
-  Scene scene = *test.scene;
-  scene.settings.bounds = Bounds::planes;
-  test.scene = std::make_shared<Scene>(std::move(scene));
-  return test;
+CaseData with_planes(const CaseData& data) {
+  return changed(data, [](Scene& scene) { scene.settings.bounds = Bounds::planes; });
 }
 
 /// Half-spaces in place of balls.
 CaseData planes(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> scenes{onto, collide, handle};
-  return with_planes(case_of<StepCase>(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random)));
+  return with_planes(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
 }
-CaseData planes_at_rest(Random& random) { return with_planes(case_of<StepCase>(at_rest(random))); }
+CaseData planes_at_rest(Random& random) { return with_planes(at_rest(random)); }
 
 constexpr std::array<Generator, 16> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <span>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +17,7 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/interrupt.hpp"
 #include "experiments/program/option_checks.hpp"
+#include "experiments/program/runs/ablation_grid.hpp"
 #include "experiments/program/runs/ablation_table.hpp"
 #include "experiments/program/runs/resume.hpp"
 #include "experiments/program/version.hpp"
@@ -38,96 +37,6 @@ struct AblateOptions {
   std::int64_t only = every_run;  ///< number of the one run to make
   bool slurm = false;
 };
-
-/// One axis of the grid.
-struct Axis {
-  std::string key;
-  std::vector<std::string> values;
-};
-
-Axis parse_axis(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  Axis axis{text.substr(0, equals), {}};
-  for (std::size_t begin = equals + 1; equals != std::string::npos && begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    axis.values.push_back(text.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
-  if (axis.key.empty() || axis.values.empty() || std::ranges::find(axis.values, "") != axis.values.end())
-    throw compare::InputError("--vary " + text + ": give key=a,b,c, for example --vary activation=ogc,ipc_log");
-  return axis;
-}
-
-/// A point of the grid: a value for each axis, empty where the scene's stays. The last axis runs fastest.
-using Point = std::vector<std::string>;
-
-/// The name of a point at which everything is the scene's.
-constexpr const char* unchanged = "default";
-
-/// The points of --point, over an axis for each key that one of them has; one point without axes where there is none.
-std::vector<Point> listed_points(const std::vector<std::string>& texts, std::vector<Axis>& axes) {
-  std::vector<Point> points;
-  for (const std::string& text : texts) {
-    Point point(axes.size());
-    std::string part;
-    for (std::istringstream parts(text == unchanged ? "" : text); std::getline(parts, part, ',');) {
-      const std::size_t equals = part.find('=');
-      if (equals == 0 || equals == std::string::npos || equals + 1 == part.size())
-        throw compare::InputError("--point " + text + ": give key=a,other=b, or " + unchanged +
-                                  ", for example --point iterations=20,time_step=0.005");
-      const std::string key = part.substr(0, equals);
-      const auto axis = std::ranges::find(axes, key, &Axis::key);
-      const auto place = static_cast<std::size_t>(axis - axes.begin());
-      if (axis == axes.end()) axes.push_back({key, {}});
-      point.resize(axes.size());
-      if (!point[place].empty()) throw compare::InputError("--point " + text + ": " + key + " stands there twice");
-      point[place] = part.substr(equals + 1);
-    }
-    points.push_back(std::move(point));
-  }
-  if (points.empty()) points.emplace_back();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i].resize(axes.size());
-    if (std::ranges::find(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i), points[i]) !=
-        points.begin() + static_cast<std::ptrdiff_t>(i))
-      throw compare::InputError("--point " + texts[i] + " is given twice; give each point once");
-  }
-  return points;
-}
-
-/// Each of `points` with all combinations of the values of `axes`.
-std::vector<Point> grid(std::vector<Point> points, std::span<const Axis> axes) {
-  for (const Axis& axis : axes) {
-    std::vector<Point> longer;
-    for (const Point& point : points)
-      for (const std::string& value : axis.values) {
-        longer.push_back(point);
-        longer.back().push_back(value);
-      }
-    points = std::move(longer);
-  }
-  return points;
-}
-
-std::string name_of(const std::vector<Axis>& axes, const Point& point) {
-  std::string name;
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    if (!point[i].empty()) name.append(name.empty() ? "" : ",").append(axes[i].key).append("=").append(point[i]);
-  return name.empty() ? unchanged : name;
-}
-
-void expect_distinct(const std::vector<Axis>& axes) {
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    std::vector<std::string> values = axes[i].values;
-    std::ranges::sort(values);
-    if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
-      throw compare::InputError("--vary " + axes[i].key + ": " + *twice + " stands there twice; give each value once");
-    for (std::size_t j = 0; j < i; ++j)
-      if (axes[j].key == axes[i].key)
-        throw compare::InputError("--vary " + axes[i].key + " is given twice; give all its values at once, " +
-                                  axes[i].key + "=a,b,c");
-  }
-}
 
 /// `solver` and `backend` are options of a run, everything else is a setting. `repeat`: which of the runs of a point.
 RunOptions options_at(const AblateOptions& ablation, const RunOptions& base, const std::vector<Axis>& axes,
@@ -195,11 +104,6 @@ void check_scene(const RunRequest& request, const std::string& name) {
   if (!problems.empty()) throw compare::InputError("the point " + name + " can't be run:\n" + problems);
 }
 
-std::string extra(const compare::Provenance& run, const std::string& key) {
-  const auto found = run.extra.find(key);
-  return found == run.extra.end() ? "" : found->second;
-}
-
 /// Throws compare::InputError where a folder holds another run than the one asked for: a grid that goes on must not mix
 /// two questions, or two programs.
 void check_same_question(const compare::RunReader& run, const RunRequest& request) {
@@ -219,14 +123,14 @@ void check_same_question(const compare::RunReader& run, const RunRequest& reques
   same("state of the sources (uncommitted changes)", yes(theirs.dirty), yes(build.dirty));
   same("solver", theirs.solver, request.solver);
   same("backend", theirs.backend, request.backend);
-  same("--scale", extra(theirs, "scale"), request.scale);
-  same("--audit", extra(theirs, "audit"), name_of(request.audit));
-  same("--iterations", extra(theirs, "iteration_rows"), yes(request.iterations));
-  same("--residual", extra(theirs, "residuals"), yes(request.residual));
-  same("--ledger", yes(extra(theirs, "ledger") == "yes"), yes(request.ledger));
-  same("--from-state", extra(theirs, "from_state"), request.from_state ? request.from_state->string() : "");
-  same("--jitter", extra(theirs, "jitter"), jittered ? compare::shortest(request.jitter.largest) : "");
-  same("--seed", extra(theirs, "jitter_seed"), jittered ? std::to_string(request.jitter.seed) : "");
+  same("--scale", text_in(theirs, "scale"), request.scale);
+  same("--audit", text_in(theirs, "audit"), name_of(request.audit));
+  same("--iterations", text_in(theirs, "iteration_rows"), yes(request.iterations));
+  same("--residual", text_in(theirs, "residuals"), yes(request.residual));
+  same("--ledger", yes(text_in(theirs, "ledger") == "yes"), yes(request.ledger));
+  same("--from-state", text_in(theirs, "from_state"), request.from_state ? request.from_state->string() : "");
+  same("--jitter", text_in(theirs, "jitter"), jittered ? compare::shortest(request.jitter.largest) : "");
+  same("--seed", text_in(theirs, "jitter_seed"), jittered ? std::to_string(request.jitter.seed) : "");
   if (run.scene() != stored_scene(request))
     throw compare::InputError(folder +
                               ": holds a run of another scene, or with other settings; an ablation goes on with its "
@@ -235,7 +139,7 @@ void check_same_question(const compare::RunReader& run, const RunRequest& reques
 
 /// A run that failed by what it computed is a result; run.json then has the hash of its last good state.
 bool is_over(const compare::Provenance& run) {
-  return run.status == "finished" || (run.status.starts_with("failed") && !extra(run, "final_hash").empty());
+  return run.status == "finished" || (run.status.starts_with("failed") && !text_in(run, "final_hash").empty());
 }
 
 /// A run's folder without a checkpoint is that of a run that was killed before its first step.
@@ -459,15 +363,11 @@ void ablate(const AblateOptions& options, const CLI::App& command, CommandContex
   if (options.vary.empty() && options.points.empty())
     throw compare::InputError(
         "ablate needs what to vary, --vary key=a,b or --point key=a,other=b; see ogc ablate --help");
-  std::vector<Axis> axes;
-  const std::vector<Point> listed = listed_points(options.points, axes);
-  const std::size_t listed_axes = axes.size();
-  for (const std::string& text : options.vary) axes.push_back(parse_axis(text));
-  expect_distinct(axes);
+  const AblationGrid grid = ablation_grid(options.points, options.vary);
   RunOptions base = *options.run;
   const bool is_named = !base.out.empty();
   if (!is_named) base.out = "runs/ablate-" + base.scene.substr(base.scene.rfind('/') + 1) + "-" + utc_stamp();
-  const std::vector<Point> points = grid(listed, std::span(axes).subspan(listed_axes));
+  const auto& [axes, points] = grid;
   const std::vector<PlannedRun> planned = planned_runs(options, base, axes, points);
   // All points are asked for before the first runs: a wrong value late in the grid must not cost the runs before it.
   for (std::size_t p = 0; p < points.size(); ++p)
@@ -546,7 +446,7 @@ void add_ablate_command(CLI::App& app, CommandContext& context) {
       "run of x lies above every run of y: 1.8 is the ratio of the medians, 1.6 and 2.1 are the least and the largest\n"
       "ratio of any two runs. Where the ranges overlap, no difference is shown, which is not: there is none. Two "
       "equal\n"
-      "settings would lie apart by chance once in 2 / C(2N, N): 1 of 92378 with ten runs, 1 of 10 with three.\n"
+      "settings would lie apart by chance once in C(2N, N) / 2 times: 1 of 92378 with ten runs, 1 of 10 with three.\n"
       "The last line of the findings says how many sentences chance alone would give. Times are of this machine and\n"
       "its load; all settings take turns, seed by seed.\n\n"
       "The folder given by --out holds one run folder for each run, named key=value,…,seed=N; ablation.csv, a row a\n"

@@ -11,7 +11,9 @@
 #include "compare/files/numbers.hpp"
 #include "compare/record/manifest.hpp"
 #include "compare/record/steps_csv.hpp"
+#include "experiments/bench/rank_test.hpp"
 #include "experiments/program/output.hpp"
+#include "experiments/program/runs/resume.hpp"
 
 namespace ogc::experiments {
 
@@ -29,11 +31,8 @@ std::vector<double> values_of(const Rows& rows, const std::function<double(const
 }
 
 /// Not-a-number where there is one among them, as below.
-double median(std::vector<double> values) {
-  if (values.empty() || std::ranges::any_of(values, [](double value) { return std::isnan(value); })) return nan;
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+double median_of(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double value) { return std::isnan(value); }) ? nan : median(values);
 }
 
 double largest(const std::vector<double>& values) {
@@ -72,8 +71,6 @@ struct StepMetric {
   double (*value)(const StepMetrics& row);
   double (*over_steps)(const std::vector<double>& values);
 };
-
-double median_of(const std::vector<double>& values) { return median(values); }
 
 const std::array<StepMetric, 19>& step_metrics() {
   static const std::array<StepMetric, 19> metrics{{
@@ -129,11 +126,6 @@ double largest_stale_residual(const std::filesystem::path& folder) {
   return largest(values);
 }
 
-std::string entry(const compare::Provenance& provenance, const std::string& key, const std::string& otherwise) {
-  const auto found = provenance.extra.find(key);
-  return found == provenance.extra.end() ? otherwise : found->second;
-}
-
 std::string text(double value) { return number(value, 3); }
 
 /// Of a ratio near 1 more digits, so that it does not read as 1.
@@ -183,9 +175,9 @@ RunRow read_run_row(const std::filesystem::path& folder) {
     row.metrics.push_back(each.over_steps(values_of(rows, each.value)));
     if (each.metric.name == "largest_residual") row.metrics.push_back(largest_stale_residual(folder));
   }
-  row.guarantee_kept = entry(run, "guarantee_kept", "not checked");
-  row.audited_states = entry(run, "audited_states", "0");
-  row.final_hash = entry(run, "final_hash", "");
+  row.guarantee_kept = text_in(run, "guarantee_kept", "not checked");
+  row.audited_states = text_in(run, "audited_states", "0");
+  row.final_hash = text_in(run, "final_hash", "");
   row.device = run.device;
   row.folder = folder.string();
   return row;

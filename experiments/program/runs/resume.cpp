@@ -7,14 +7,14 @@
 
 namespace ogc::experiments {
 
+std::string text_in(const compare::Provenance& provenance, const std::string& key, const std::string& otherwise) {
+  const auto entry = provenance.extra.find(key);
+  return entry == provenance.extra.end() ? otherwise : entry->second;
+}
+
 namespace {
 
 using compare::Provenance;
-
-std::string text_in(const Provenance& provenance, const std::string& key) {
-  const auto entry = provenance.extra.find(key);
-  return entry == provenance.extra.end() ? "" : entry->second;
-}
 
 bool says_yes(const Provenance& provenance, const std::string& key) { return text_in(provenance, key) == "yes"; }
 

@@ -8,6 +8,9 @@
 
 namespace ogc::experiments {
 
+/// What run.json says under a key that only `ogc` knows; `otherwise` where it says nothing.
+std::string text_in(const compare::Provenance& provenance, const std::string& key, const std::string& otherwise = "");
+
 /// What a run that goes on is computed by, and what it is asked.
 struct ResumedRun {
   RunOptions options;  ///< for contestant_of

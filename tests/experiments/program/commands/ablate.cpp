@@ -24,17 +24,21 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
+/// A grid of cloth_on_sphere at smoke, which comes to its end.
+ProgramResult whole_grid(const std::string& options, const std::filesystem::path& out) {
+  const ProgramResult result = run_ogc("ablate cloth_on_sphere --scale smoke " + options + " --out " + out.string());
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("an ablation makes a run folder for each point of its grid and a table over all", "[figure]") {
   const TemporaryFolder folder;
   const std::filesystem::path out = folder / "grid";
-  const ProgramResult result = run_ogc(
-      "ablate cloth_on_sphere --scale smoke --steps 2 --vary solver=vbd,newton --vary contact_radius=0.01,0.02 --json "
-      "--out " +
-      out.string());
-  INFO(result.err);
-  REQUIRE(result.status == 0);
+  const ProgramResult result = whole_grid("--steps 2 --vary solver=vbd,newton --vary contact_radius=0.01,0.02 --json",
+                                          out);
   CHECK(nlohmann::json::parse(result.out).at("runs").size() == 4);
   const std::vector<std::string> lines = lines_of(out / "ablation.csv");
   REQUIRE(lines.size() == 5);
@@ -228,12 +232,10 @@ TEST_CASE("a difference is stated only where ranges lie apart, with the range of
 TEST_CASE("points of an ablation change several settings together, and the rest is the scene's", "[unit]") {
   const TemporaryFolder folder;
   const std::filesystem::path out = folder / "grid";
-  const ProgramResult result = run_ogc(
-      "ablate cloth_on_sphere --scale smoke --point default --point iterations=20,time_step=0.005,steps=4 "
-      "--point time_step=0.02 --set steps=2 --vary friction=0.1,0.2 --out " +
-      out.string());
-  INFO(result.err);
-  REQUIRE(result.status == 0);
+  whole_grid(
+      "--point default --point iterations=20,time_step=0.005,steps=4 --point time_step=0.02 --set steps=2 "
+      "--vary friction=0.1,0.2",
+      out);
   const std::vector<std::string> lines = lines_of(out / "ablation.csv");
   REQUIRE(lines.size() == 7);
   CHECK(lines[0].starts_with("iterations,time_step,steps,friction,status,steps [1]"));
