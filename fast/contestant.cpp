@@ -20,22 +20,6 @@ BackendInfo device_info() {
 #endif
 }
 
-#if defined(OGC_HAS_CUDA)
-/// The guess by certificate of pairs was never run on a device; until it was, it is refused there.
-compare::Contestant without_guess_by_pairs(compare::Contestant contestant) {
-  contestant.has_steps_by_pairs = false;
-  contestant.start = [start = contestant.start](const compare::Scene& scene,
-                                                const compare::SimulationOptions& options) {
-    if (scene.settings.guess == compare::Guess::pairs)
-      throw compare::InputError(
-          "setting 'guess' can't be 'pairs' on CUDA, where it was never tried; "
-          "give guess=rounds or --backend cpu");
-    return start(scene, options);
-  };
-  return contestant;
-}
-#endif
-
 }  // namespace
 
 BackendInfo backend_info(Backend backend) { return backend == Backend::cpu ? cpu_info() : device_info(); }
@@ -43,7 +27,7 @@ BackendInfo backend_info(Backend backend) { return backend == Backend::cpu ? cpu
 compare::Contestant contestant(Backend backend, [[maybe_unused]] const LaunchShape& shape) {
   if (backend == Backend::cpu) return cpu_contestant();
 #if defined(OGC_HAS_CUDA)
-  return without_guess_by_pairs(cuda_contestant(shape));
+  return cuda_contestant(shape);
 #else
   throw compare::ResourceError("backend cuda: " + device_info().description + ", or use --backend cpu");
 #endif
