@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""A model that nobody handles must not compile: a header with one enumerator more is put before the real one, and what
-dispatches on the enumeration is compiled again.
+"""A model that nobody handles must not compile: headers with one enumerator more are put before the real ones, and each
+file that dispatches on these enumerations is compiled again, once for all of them.
 
     tests/planted_enumerators.py SOURCE_DIR BUILD_DIR     the self-test, then one line for each file that takes it; exit
                                                           status 1 for any
 
-With an unchanged copy in the same place every file must compile, so that an error is the enumerator's.
+With unchanged copies in the same place every file must compile, so that an error is an enumerator's.
 """
 
 import json
@@ -38,12 +38,13 @@ DISPATCHES = (
      ("reference/solvers/feasible_regions.cpp", "fast/cpu/simulation.cpp", "experiments/program/audits/auditor.cpp")),
     ("Solver", "experiments/program/runs/solvers.hpp", ("experiments/program/runs/solvers.cpp",)),
 )
-UNHANDLED = re.compile(r"enumeration value .planted. not handled in switch")
+UNHANDLED = r"enumeration value .planted_{}. not handled in switch"
 
 
 def with_enumerator(text, enumeration):
-    """The header with `planted` behind the last enumerator."""
-    changed, count = re.subn(rf"(enum class {enumeration}\b[^{{}};]*{{[^}}]*?)(,?\s*}};)", r"\1, planted\2", text)
+    """The header with `planted_ENUMERATION` behind the last enumerator."""
+    changed, count = re.subn(rf"(enum class {enumeration}\b[^{{}};]*{{[^}}]*?)(,?\s*}};)",
+                             rf"\1, planted_{enumeration}\2", text)
     if count != 1:
         sys.exit(f"tests/planted_enumerators.py: {count} definitions of {enumeration}; correct DISPATCHES")
     return changed
@@ -70,27 +71,27 @@ def compiled(command, folder):
     return subprocess.run(line, cwd=directory, capture_output=True, text=True, check=False)
 
 
-def faults(source, build, dispatch):
-    """Sentences about one file: (enumeration, header, file)."""
-    enumeration, header, file = dispatch
-    known = commands(build)
-    command = known.get(str(source / file))
+def faults(source, build, file, headers):
+    """Sentences about one file, which dispatches on each of these: enumeration -> its header."""
+    command = commands(build).get(str(source / file))
     if command is None:
         return [f"{file} is not compiled in {build}: correct DISPATCHES"]
-    text, name = (source / header).read_text(), f"{enumeration}_{file.replace('/', '_')}"
     outcomes = []
-    for kind, content in (("same", text), ("planted", with_enumerator(text, enumeration))):
-        place = build / "planted_enumerators" / name / kind
-        (place / header).parent.mkdir(parents=True, exist_ok=True)
-        (place / header).write_text(content)
+    for kind, plants in (("same", False), ("planted", True)):
+        place = build / "planted_enumerators" / file.replace("/", "_") / kind
+        for header in set(headers.values()):
+            text = (source / header).read_text()
+            for enumeration in (name for name in headers if plants and headers[name] == header):
+                text = with_enumerator(text, enumeration)
+            (place / header).parent.mkdir(parents=True, exist_ok=True)
+            (place / header).write_text(text)
         outcomes.append(compiled(command, place))
     same, planted = outcomes
     if same.returncode != 0:
-        return [f"{file} does not compile with a copy of {header}:\n{same.stderr}"]
-    if planted.returncode == 0 or not UNHANDLED.search(planted.stderr):
-        return [f"{file} compiles with a {enumeration} that it does not handle, or fails otherwise: write a `switch` "
-                f"without `default`\n{planted.stderr}"]
-    return []
+        return [f"{file} does not compile with a copy of {', '.join(set(headers.values()))}:\n{same.stderr}"]
+    return [f"{file} compiles with a {enumeration} that it does not handle, or fails otherwise: write a `switch` without "
+            f"`default`\n{planted.stderr}" for enumeration in headers
+            if not re.search(UNHANDLED.format(enumeration), planted.stderr)]
 
 
 SELF_TEST = {
@@ -116,7 +117,7 @@ def self_test(compiler):
         wrong = []
         for name, expected in (("src/handled.cpp", ""), ("src/default.cpp", "compiles with a Kind"),
                                ("src/broken.cpp", "does not compile with a copy"), ("src/gone.cpp", "is not compiled")):
-            found = faults(place, place, ("Kind", "room/kinds.hpp", name))
+            found = faults(place, place, name, {"Kind": "room/kinds.hpp"})
             if bool(found) != bool(expected) or not all(expected in sentence for sentence in found):
                 wrong.append(f"self-test: {name}: {found}")
         return wrong
@@ -132,10 +133,14 @@ def main(arguments):
     if wrong:
         print("\n".join(wrong))
         return 1
-    dispatches = [(name, header, file) for name, header, files in DISPATCHES for file in files]
+    files = {}
+    for name, header, handlers in DISPATCHES:
+        for file in handlers:
+            files.setdefault(file, {})[name] = header
     with ThreadPoolExecutor() as pool:
-        found = sum(pool.map(lambda dispatch: faults(source, build, dispatch), dispatches), [])
-    print("\n".join(found) if found else f"{len(dispatches)} places refuse an enumerator that they do not handle")
+        found = sum(pool.map(lambda file: faults(source, build, file, files[file]), files), [])
+    dispatches = sum(map(len, files.values()))
+    print("\n".join(found) if found else f"{dispatches} places refuse an enumerator that they do not handle")
     return 1 if found else 0
 
 

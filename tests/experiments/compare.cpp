@@ -68,9 +68,14 @@ TEST_CASE("the judge catches every planted fault", "[agreement]") {
   for (const tests::Fault& fault : tests::faults()) {
     Contestant wrong = tests::exact_contestant(authority);
     fault.plant(wrong, authority);
-    const StageReport report = judge_stage(fault.stage, wrong, authority, few_cases(fault.stage));
+    const JudgeOptions all = few_cases(fault.stage);
+    JudgeOptions options = all;
+    std::uint64_t found = 0;
+    // Most are found in a few cases; all are asked for the others alone.
+    for (options.cases = all.cases / 20; found == 0 && options.cases <= all.cases; options.cases *= 20)
+      found = judge_stage(fault.stage, wrong, authority, options).tally.mismatched;
     INFO(fault.name);
-    CHECK(report.tally.mismatched > 0);
+    CHECK(found > 0);
   }
 }
 
