@@ -29,6 +29,12 @@ OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, con
     control.count_lag(x.x != p.x || x.y != p.y || x.z != p.z);
 }
 
+/// A pair in the row of a vertex, with its distance: a row is read in one stream, where a collapsed spot has a thousand.
+struct RowPair {
+  int number = 0;   ///< of the noted pair
+  float below = 0;  ///< its distance, rounded down [m]
+};
+
 /// What the kernels of this file share.
 struct PlaneListsView {
   SurfaceView surface;
@@ -41,7 +47,7 @@ struct PlaneListsView {
   int* pair_counts = nullptr;              ///< by vertex: pairs that it is part of
   int* pair_offsets = nullptr;             ///< vertices + 1
   int* pair_filled = nullptr;              ///< by vertex
-  int* pair_rows = nullptr;                ///< numbers of a vertex's pairs, in any order: from pair_offsets[v]
+  RowPair* pair_rows = nullptr;            ///< a vertex's pairs, in any order: from pair_offsets[v]
   float* threshold = nullptr;              ///< δ_v [m]
   float* nearest = nullptr;                ///< by vertex: not above the distance of its nearest pair, at most r_q [m]
   float* unplaned = nullptr;               ///< the same of its nearest pair without a plane
@@ -120,8 +126,9 @@ struct FillPairRows {
   PlaneListsView lists;
 
   OGC_HD void operator()(int i) const {
+    const RowPair entry{i, lists.planes[i].below};
     lists.for_each_moving(lists.pair(i), [&](int v) {
-      lists.pair_rows[lists.pair_offsets[v] + atomic_add(&lists.pair_filled[v], 1)] = i;
+      lists.pair_rows[lists.pair_offsets[v] + atomic_add(&lists.pair_filled[v], 1)] = entry;
     });
   }
 };
@@ -134,7 +141,7 @@ struct ChooseThreshold {
     float nearest[most_planes + 1];  // ascending
     for (float& d : nearest) d = __builtin_huge_valf();
     for (int k = lists.pair_offsets[v]; k < lists.pair_offsets[v + 1]; ++k) {
-      float d = lists.planes[lists.pair_rows[k]].below;
+      float d = lists.pair_rows[k].below;
       if (!(d < nearest[most_planes])) continue;
       for (float& other : nearest) {
         const float nearer = smaller(d, other);
@@ -170,8 +177,11 @@ struct WriteHalfSpaces {
 
   OGC_HD void operator()(int v) const {
     int place[most_planes], count = 0;
+    const float threshold = lists.threshold[v];
     for (int k = lists.pair_offsets[v]; k < lists.pair_offsets[v + 1]; ++k) {
-      const int i = lists.pair_rows[k];
+      const RowPair entry = lists.pair_rows[k];
+      if (!(entry.below < threshold)) continue;  // nobody placed a plane there
+      const int i = entry.number;
       if (!lists.planes[i].exists()) continue;
       int at = count++;
       for (; at > 0 && comes_before(i, place[at - 1]); --at) place[at] = place[at - 1];

@@ -123,7 +123,8 @@ class Planes {
   bool is_used_ = false, is_off_ = false;
   Buffer<std::uint8_t> is_fixed_;
   Buffer<PairPlane> planes_;
-  Buffer<int> pair_counts_, pair_offsets_, pair_filled_, pair_rows_, counts_, no_sum_;
+  Buffer<int> pair_counts_, pair_offsets_, pair_filled_, counts_, no_sum_;
+  Buffer<RowPair> pair_rows_;
   Buffer<float> threshold_, nearest_, unplaned_;
   Buffer<HalfSpace> rows_;
   Buffer<NotedPair> pairs_;
