@@ -21,7 +21,9 @@ from paper_figures.workflow.evidence import RESULTS
 from paper_figures.workflow.jobs import ENDED_BY_TIME, Job, Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
+from plots.movie import camera_of
 from plots.run_folder import Run, RunError, commits_in_words
+from plots.scene_figure import draw_movie
 
 GIPC, GIPC_DEVICE = RESULTS / "h200" / "gipc_mat.csv", "NVIDIA H200"
 # What the paper says of the whole run [ms]: average, and maximum where it says one.
@@ -272,8 +274,12 @@ def draw(runs, theirs, backend, out):
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
+    parser.add_argument("--movie", help="MP4 to write instead, of the finished whole run with planes")
     options = parser.parse_args()
     try:
+        if options.movie:
+            draw_movie(whole := Run(Path(options.folder) / "planes/whole"), camera_of(whole), options.movie)
+            sys.exit()
         found_runs, external = runs_of(options), gipc_times(options.scale)
         write_table(Path(options.folder) / "fig19.csv", table(found_runs, external))
         draw(found_runs, external, options.backend, Path(options.folder) / "fig19.png")

@@ -173,8 +173,11 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
     # A study's runs follow from its own file; a figure's of several runs from what lists them.
     made_by = (*script, *((str(FIGURES / recipe.file),) if "study" in recipe.body
                           else (str(HERE / name) for name in RUNS)))
-    return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots),
-                 (*drawing, here, "--ogc", ogc, "--scale", scale, *options), gpu, all_cores=True)]
+    movie = recipe.movie(scale, backend)
+    drawing = (*drawing, here, "--ogc", ogc, "--scale", scale, *options)
+    return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots), drawing, gpu, all_cores=True),
+            *([Step(f"{recipe.name}_movie", movie, (picture, *script, *plots), (*drawing, "--movie", movie))]
+              if movie else [])]
 
 
 def _sweep(recipe, scale, backend, ogc, python, plots):

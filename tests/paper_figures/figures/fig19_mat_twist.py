@@ -7,6 +7,7 @@ Usage: fig19_mat_twist.py SOURCE_DIR OGC. Exit status 77: skipped, matplotlib or
 import argparse
 import json
 import statistics
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -54,6 +55,14 @@ class Smoke(unittest.TestCase):
             self.assertEqual(mean["steps [1]"], sum(row["steps [1]"] for row in windows))
         for row in self.of(what="window", solver="ipc"):
             self.assertGreaterEqual(row["steps [1]"], commands.IPC_STEPS)
+
+    def test_a_movie_of_the_run_with_planes_is_made_of_the_runs_that_are_there(self):
+        movie = self.folder / "fig19.mp4"
+        made = subprocess.run([sys.executable, "-m", "paper_figures.figures.fig19_mat_twist", str(self.folder), "--movie",
+                               str(movie)], cwd=SOURCE, capture_output=True, text=True, check=False)
+        if "can't be made" in made.stderr:
+            self.skipTest(made.stderr)
+        self.assertEqual((made.returncode, movie.is_file()), (0, True), made.stderr)
 
     def test_gipc_stands_beside_as_many_steps_as_were_measured_of_it_or_nowhere(self):
         self.assertIsNone(fig19.gipc_times("smoke"))
