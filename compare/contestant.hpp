@@ -30,6 +30,7 @@
 #include "compare/stages/sweep.hpp"
 #include "compare/stages/tetrahedron.hpp"
 #include "compare/stages/truncate.hpp"
+#include "compare/stages/volume_force.hpp"
 
 namespace ogc::compare {
 
@@ -175,6 +176,7 @@ struct Contestant {
   std::function<ForceOut(const TetrahedronIn&)> tetrahedron;
   std::function<ForceOut(const ContactForceIn&)> contact_force;
   std::function<ForceOut(const FrictionForceIn&)> friction_force;
+  std::function<ForceOut(const VolumeForceIn&)> volume_force;
   std::function<BlockOut(const BlockIn&)> block;
   std::function<RestStateOut(const RestStateIn&)> rest_state;
   std::function<InitialGuessOut(const InitialGuessIn&)> initial_guess;
@@ -198,6 +200,7 @@ constexpr void visit_stages(Visit visit) {
   visit("activation", &Contestant::activation);
   visit("contact_force", &Contestant::contact_force);
   visit("friction_force", &Contestant::friction_force);
+  visit("volume_force", &Contestant::volume_force);
   visit("membrane", &Contestant::membrane);
   visit("bending", &Contestant::bending);
   visit("spring", &Contestant::spring);
@@ -225,6 +228,7 @@ struct Authority {
   std::function<ForceTruth(const TetrahedronIn&)> tetrahedron;
   std::function<ForceTruth(const ContactForceIn&)> contact_force;
   std::function<ForceTruth(const FrictionForceIn&)> friction_force;
+  std::function<ForceTruth(const VolumeForceIn&)> volume_force;
   std::function<BlockTruth(const BlockIn&)> block;
   std::function<RestStateTruth(const RestStateIn&)> rest_state;
   std::function<InitialGuessTruth(const InitialGuessIn&)> initial_guess;

@@ -9,6 +9,7 @@
 #include "reference/energies/rest_state.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/energies/tetrahedron.hpp"
+#include "reference/energies/volume_force.hpp"
 #include "reference/geometry/block.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/closest_face.hpp"
@@ -43,6 +44,7 @@ compare::Authority authority() {
   authority.tetrahedron = [](const compare::TetrahedronIn& in) { return tetrahedron(in); };
   authority.contact_force = [](const compare::ContactForceIn& in) { return contact_force(in); };
   authority.friction_force = [](const compare::FrictionForceIn& in) { return friction_force(in); };
+  authority.volume_force = [](const compare::VolumeForceIn& in) { return volume_force(in); };
   authority.rest_state = rest_state;
   authority.block = block;
   authority.initial_guess = initial_guess;

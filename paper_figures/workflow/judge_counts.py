@@ -26,6 +26,7 @@ STAGES = {
     "tetrahedron": (8_000_000, 400_000),
     "contact_force": (13_000_000, 500_000),
     "friction_force": (9_000_000, 500_000),
+    "volume_force": (10_000_000, 500_000),
     "bending": (8_000_000, 400_000),
     "activation": (4_000_000, 200_000),
     "membrane": (2_000_000, 100_000),
@@ -38,8 +39,8 @@ STAGES = {
     "step": (300_000, 20_000),
 }
 # What is aimed at: the sum over these stages, counted in cases or in questions.
-STENCILS = ("initial_guess", "spring", "tetrahedron", "contact_force", "friction_force", "bending", "activation",
-            "membrane")
+STENCILS = ("initial_guess", "spring", "tetrahedron", "contact_force", "friction_force", "volume_force", "bending",
+            "activation", "membrane")
 AIMS = (
     ("pairs", 10**9, "cases", ("truncate", "closest_face", "closest_points", "block")),
     ("stencils", 10**8, "cases", STENCILS),

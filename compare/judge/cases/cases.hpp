@@ -17,6 +17,7 @@
 #include "compare/stages/spring.hpp"
 #include "compare/stages/tetrahedron.hpp"
 #include "compare/stages/truncate.hpp"
+#include "compare/stages/volume_force.hpp"
 
 namespace ogc::compare {
 
