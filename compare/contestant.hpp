@@ -30,6 +30,7 @@
 #include "compare/stages/sweep.hpp"
 #include "compare/stages/tetrahedron.hpp"
 #include "compare/stages/truncate.hpp"
+#include "compare/stages/volume_depth.hpp"
 #include "compare/stages/volume_force.hpp"
 
 namespace ogc::compare {
@@ -168,6 +169,7 @@ struct Contestant {
   std::function<DetectEdgeEdgeOut(const DetectIn&)> detect_edge_edge;
   std::function<BoundOut(const BoundIn&)> bound;
   std::function<PlaneOut(const PlaneIn&)> plane;
+  std::function<VolumeDepthOut(const VolumeDepthIn&)> volume_depth;
   std::function<ActivationOut(const ActivationIn&)> activation;
   std::function<TruncateOut(const TruncateIn&)> truncate;
   std::function<ForceOut(const MembraneIn&)> membrane;
@@ -196,6 +198,7 @@ constexpr void visit_stages(Visit visit) {
   visit("detect_edge_edge", &Contestant::detect_edge_edge);
   visit("bound", &Contestant::bound);
   visit("plane", &Contestant::plane);
+  visit("volume_depth", &Contestant::volume_depth);
   visit("initial_guess", &Contestant::initial_guess);
   visit("activation", &Contestant::activation);
   visit("contact_force", &Contestant::contact_force);
@@ -220,6 +223,7 @@ struct Authority {
   std::function<DetectVertexFacetTruth(const DetectIn&)> detect_vertex_facet;
   std::function<DetectEdgeEdgeTruth(const DetectIn&)> detect_edge_edge;
   std::function<BoundTruth(const BoundIn&)> bound;
+  std::function<VolumeDepthTruth(const VolumeDepthIn&)> volume_depth;
   std::function<ActivationTruth(const ActivationIn&)> activation;
   std::function<TruncateTruth(const TruncateIn&)> truncate;
   std::function<ForceTruth(const MembraneIn&)> membrane;

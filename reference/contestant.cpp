@@ -1,6 +1,7 @@
 // The stages of the reference under the judge's names.
 #include "reference/contestant.hpp"
 
+#include "reference/definitions/volume_depth.hpp"
 #include "reference/energies/activation.hpp"
 #include "reference/energies/bending.hpp"
 #include "reference/energies/contact_force.hpp"
@@ -36,6 +37,7 @@ compare::Authority authority() {
   authority.detect_edge_edge = detect_edge_edge;
   authority.bound = bound;
   authority.plane = plane;
+  authority.volume_depth = volume_depth;
   authority.activation = activation;
   authority.truncate = truncate;
   authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };

@@ -228,6 +228,7 @@ compare::Contestant probe_contestant(
   contestant.friction_force = [backend](const compare::FrictionForceIn& in) {
     return probe_friction_force(*backend, in);
   };
+  contestant.volume_depth = [backend](const compare::VolumeDepthIn& in) { return probe_volume_depth(*backend, in); };
   contestant.volume_force = [backend](const compare::VolumeForceIn& in) { return probe_volume_force(*backend, in); };
   contestant.block = [backend](const compare::BlockIn& in) { return probe_block(*backend, in); };
   contestant.initial_guess = [backend](const compare::InitialGuessIn& in) { return probe_initial_guess(*backend, in); };
