@@ -12,14 +12,14 @@
 
 namespace ogc::compare {
 
-/// One volume: its surface alone, and points that ask it. Each edge has one triangle (a rim), or two that run through it
-/// in opposite senses; triangles have an area. A *part* is a connected component. Views; the owner must outlive the
+/// One volume: its surface alone, and points that ask it. Each edge has one triangle (a rim), or two that run through
+/// it in opposite senses; triangles have an area. A *part* is a connected component. Views; the owner must outlive the
 /// call.
 struct VolumeDepthIn {
-  const Topology* topology = nullptr;   ///< of the volume
-  std::span<const Vec3f> positions;     ///< by vertex of the volume [m]
-  float contact_radius = 0;             ///< r [m]
-  std::span<const Vec3f> points;        ///< that ask [m]
+  const Topology* topology = nullptr;  ///< of the volume
+  std::span<const Vec3f> positions;    ///< by vertex of the volume [m]
+  float contact_radius = 0;            ///< r [m]
+  std::span<const Vec3f> points;       ///< that ask [m]
 };
 
 /// One contact of a point x with a part; c is the point of `face` closest to x.
@@ -37,31 +37,31 @@ struct VolumeContact {
 
 /// A part holds x if the way from its nearest face a to x begins on the inner side of a's triangles (of equally near
 /// faces the lowest-dimensional, then the lowest-numbered one); rims have no inner side, and x on the surface is
-/// outside. Such a part gives one contact, at a; any other gives one for each face in whose outward block (Eq. 8–10, the
-/// outer half) x lies nearer than r.
+/// outside. Such a part gives one contact, at a; any other gives one for each face in whose outward block (Eq. 8–10,
+/// the outer half) x lies nearer than r.
 struct VolumeDepthOut {
   std::vector<VolumeContact> contacts;  ///< ascending by point, inside, triangle, face
 };
 
 /// A contact that may be answered, and the units of its numbers.
 struct VolumeAnswer {
-  VolumeContact contact;                ///< point, inside, triangle and face
-  std::array<double, 3> weights{};      ///< exact within 2⁻⁴⁰ of their unit
-  Vec3 direction;                       ///< likewise
-  double depth = 0;                     ///< likewise [m]
-  double weight_scale = 0;              ///< Σ ‖∂w/∂δ‖ ‖δ‖, at least 1
-  double direction_scale = 0;           ///< of the direction, at least 1; infinite where any direction is accepted
-  double depth_scale = 0;               ///< max(‖x − c‖, Σ ‖δ‖) + r [m]
+  VolumeContact contact;            ///< point, inside, triangle and face
+  std::array<double, 3> weights{};  ///< exact within 2⁻⁴⁰ of their unit
+  Vec3 direction;                   ///< likewise
+  double depth = 0;                 ///< likewise [m]
+  double weight_scale = 0;          ///< Σ ‖∂w/∂δ‖ ‖δ‖, at least 1
+  double direction_scale = 0;       ///< of the direction, at least 1; infinite where any direction is accepted
+  double depth_scale = 0;           ///< max(‖x − c‖, Σ ‖δ‖) + r [m]
 };
 
-/// What is accepted of one part. Where x is grey between faces, each grey face has its say: which side it says, and what
-/// it says of it, together.
+/// What is accepted of one part. Where x is grey between faces, each grey face has its say: which side it says, and
+/// what it says of it, together.
 struct VolumePartTruth {
-  Index component = -1;               ///< Topology::component of the part's vertices
-  bool inside = false;                ///< the exact answer
-  bool may_be_inside = false;         ///< some grey face says so; `held` is not empty
-  bool may_be_outside = false;        ///< likewise, `touching` alone
-  std::vector<VolumeAnswer> held;     ///< any one of them may stand alone, the exact one first
+  Index component = -1;                  ///< Topology::component of the part's vertices
+  bool inside = false;                   ///< the exact answer
+  bool may_be_inside = false;            ///< some grey face says so; `held` is not empty
+  bool may_be_outside = false;           ///< likewise, `touching` alone
+  std::vector<VolumeAnswer> held;        ///< any one of them may stand alone, the exact one first
   std::vector<VolumeAnswer> touching;    ///< may stand side by side, where the part does not hold x
   std::vector<std::uint8_t> is_certain;  ///< of `touching`: 1 where it must be there
   std::vector<std::uint8_t> is_exact;    ///< of `touching`: 1 where it stands in the exact answer

@@ -19,13 +19,13 @@ namespace ogc::compare {
 /// that were rounded to single precision make it 1 within 2⁻²³); ε_v h is at least 2⁻³⁸ m: where squares of a slip are
 /// no normal numbers, below 2⁻⁶³ m, f₁(y)/y is then 2/ε within 2⁻²⁵. Coordinates are any, two of them may coincide.
 struct VolumeForceCase {
-  std::int32_t own = 0;                          ///< which vertex is asked about: 0 the point, 1, 2, 3 the corners
-  std::array<Vec3f, 4> vertex, start;            ///< x, xᵗ [m]: the point, then the corners of the triangle
-  std::array<float, 3> weights{};                ///< w of c, by corner [1]
-  std::array<float, 3> direction{};              ///< n, out of the volume [1]
-  float contact_radius = 0, stiffness = 0;       ///< r [m], k [N/m]
-  float friction = 0;                            ///< μ [1]
-  float slip_limit = 0;                          ///< ε_v h [m]
+  std::int32_t own = 0;                     ///< which vertex is asked about: 0 the point, 1, 2, 3 the corners
+  std::array<Vec3f, 4> vertex, start;       ///< x, xᵗ [m]: the point, then the corners of the triangle
+  std::array<float, 3> weights{};           ///< w of c, by corner [1]
+  std::array<float, 3> direction{};         ///< n, out of the volume [1]
+  float contact_radius = 0, stiffness = 0;  ///< r [m], k [N/m]
+  float friction = 0;                       ///< μ [1]
+  float slip_limit = 0;                     ///< ε_v h [m]
 };
 
 /// The question: cases that have nothing to do with each other.
@@ -36,9 +36,9 @@ struct VolumeForceIn {
 /// In units of u · scale. The slip: a difference (1), its product with a weight and three sums (4), the product of
 /// vectors with n (3), a product, a difference: 10; its length (a square: 10 + 3, halved with those of the slip by the
 /// root, the root: 1; together 12.5, of which 10 are the slip's own), so 4 more; f₁/y (a quotient, a difference, a
-/// quotient): 3; μ λ and its product with f₁/y (2); the products with weight and slip (2); the sum with the normal force
-/// (1): 22. On the way of λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2), then 7:
-/// 16. A ‖n‖² that is off by 2⁻²² leaves of u a part along n that the energy's slope lacks: 4.
+/// quotient): 3; μ λ and its product with f₁/y (2); the products with weight and slip (2); the sum with the normal
+/// force (1): 22. On the way of λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2),
+/// then 7: 16. A ‖n‖² that is off by 2⁻²² leaves of u a part along n that the energy's slope lacks: 4.
 inline constexpr double volume_force_tolerance = 26;
 /// As far as the strength 19; w² and its product (2), an outer product (2), the difference from I (1), the sum with the
 /// normal block (1).

@@ -1,6 +1,6 @@
 // Who is inside a volume, or nearer to it than r (§3.9, method.md §9): each part of its surface is asked by itself, by
-// the side of its face that is nearest to a point. The search of the nearest begins at the distance of a triangle of the
-// part, so that no point is forgotten because it lies deep, and shrinks from there.
+// the side of its face that is nearest to a point. The search of the nearest begins at the distance of a triangle of
+// the part, so that no point is forgotten because it lies deep, and shrinks from there.
 //
 // The side of x at a face, all in rounded double:
 //
@@ -21,21 +21,21 @@ namespace ogc::fast {
 /// A volume on the backend.
 struct VolumeView {
   SurfaceView surface;
-  PaddedVecs positions;               ///< by vertex [m]
-  TreeView tree;                      ///< of all facets, refitted at these positions
-  const int* part_of = nullptr;       ///< by vertex: number of its part
-  const int* first_of = nullptr;      ///< by part: one of its facets
+  PaddedVecs positions;           ///< by vertex [m]
+  TreeView tree;                  ///< of all facets, refitted at these positions
+  const int* part_of = nullptr;   ///< by vertex: number of its part
+  const int* first_of = nullptr;  ///< by part: one of its facets
   int part_count = 0;
-  float contact_radius = 0;           ///< r [m]
+  float contact_radius = 0;  ///< r [m]
 };
 
 /// One contact of a point with a part; c is the closest point of `face`.
 struct FoundVolumeContact {
   int triangle = -1, face = -1;  ///< the lowest-numbered facet that contains the face; as SurfaceView numbers faces
   bool inside = false;
-  float weights[3] = {};         ///< of c, by corner of the triangle [1]
-  Vec direction;                 ///< n, out of the part [1]
-  float depth = 0;               ///< [m]
+  float weights[3] = {};  ///< of c, by corner of the triangle [1]
+  Vec direction;          ///< n, out of the part [1]
+  float depth = 0;        ///< [m]
 };
 
 /// A point before a volume.
@@ -199,8 +199,8 @@ class VolumeQuestion {
     return dot(difference<Rounded>(x_, corners(t).a), normal(t)).value >= 0;
   }
 
-  /// Weights, direction and depth. On the interior of a facet the direction is its normal; so it is where x − c is below
-  /// 2⁻⁴⁸ of the coordinates that it comes from: their rounding.
+  /// Weights, direction and depth. On the interior of a facet the direction is its normal; so it is where x − c is
+  /// below 2⁻⁴⁸ of the coordinates that it comes from: their rounding.
   OGC_HD FoundVolumeContact contact_at(int face, bool inside) const {
     const SurfaceView& surface = volume_.surface;
     FoundVolumeContact contact;

@@ -9,9 +9,9 @@ namespace ogc::fast {
 
 /// What a detection froze of one contact.
 struct VolumeContact {
-  float weights[3] = {};                 ///< w of c, by corner [1]
-  Vec normal;                            ///< n [1]
-  float stiffness = 0, friction = 0;     ///< k [N/m], μ [1]
+  float weights[3] = {};              ///< w of c, by corner [1]
+  Vec normal;                         ///< n [1]
+  float stiffness = 0, friction = 0;  ///< k [N/m], μ [1]
 
   /// w with which a vertex acts: 1 for the point (role 0), −wᵢ for the corners (roles 1, 2, 3).
   OGC_HD float weight(int role) const {

@@ -1,5 +1,5 @@
-// The judge's way in to volumes: contacts of points with a volume, found in its tree, and the force of one contact, each
-// case alone.
+// The judge's way in to volumes: contacts of points with a volume, found in its tree, and the force of one contact,
+// each case alone.
 #pragma once
 
 #include <algorithm>
@@ -49,16 +49,15 @@ compare::ForceOut probe_volume_force(Backend& backend, const compare::VolumeForc
     slip_limit.push_back(c.slip_limit);
   }
   const std::size_t n = in.cases.size();
-  backend.for_each(static_cast<int>(n),
-                   ProbeVolumeForce{.contact = memory.template in<VolumeContact>(contacts),
-                                    .vertex = memory.template in<Vec>(
-                                        points_of(in.cases, &compare::VolumeForceCase::vertex)),
-                                    .start = memory.template in<Vec>(
-                                        points_of(in.cases, &compare::VolumeForceCase::start)),
-                                    .own = memory.template in<int>(own),
-                                    .contact_radius = memory.template in<float>(contact_radius),
-                                    .slip_limit = memory.template in<float>(slip_limit),
-                                    .out = force_arrays(memory, out, n)});
+  backend.for_each(
+      static_cast<int>(n),
+      ProbeVolumeForce{.contact = memory.template in<VolumeContact>(contacts),
+                       .vertex = memory.template in<Vec>(points_of(in.cases, &compare::VolumeForceCase::vertex)),
+                       .start = memory.template in<Vec>(points_of(in.cases, &compare::VolumeForceCase::start)),
+                       .own = memory.template in<int>(own),
+                       .contact_radius = memory.template in<float>(contact_radius),
+                       .slip_limit = memory.template in<float>(slip_limit),
+                       .out = force_arrays(memory, out, n)});
   memory.fetch();
   return out;
 }
@@ -159,9 +158,8 @@ compare::VolumeDepthOut probe_volume_depth(Backend& backend, const compare::Volu
                               .direction = {c.direction.x, c.direction.y, c.direction.z},
                               .depth = c.depth});
     }
-  std::ranges::sort(out.contacts, {}, [](const compare::VolumeContact& c) {
-    return std::tuple(c.point, c.inside, c.triangle, c.face);
-  });
+  std::ranges::sort(out.contacts, {},
+                    [](const compare::VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
   return out;
 }
 

@@ -1,5 +1,6 @@
 // Which faces could be nearest follows from the distances of all triangles of a part, each known to 16 u of its own
-// coordinates, and from the faces that closest_face accepts of each. The exact one is found among them without rounding.
+// coordinates, and from the faces that closest_face accepts of each. The exact one is found among them without
+// rounding.
 //
 // The side of a face that x has only perhaps its closest point on is that of the exactly nearest face among the
 // triangles around it: a valley's edge, by itself, would call everything inside. A rim alone decides for itself.
@@ -128,9 +129,8 @@ class Asking {
 
   bool is_rim(Face face) const {
     if (face.kind == FaceKind::edge) return mesh_.triangles_of(face.index).size() == 1;
-    return face.kind == FaceKind::vertex && std::ranges::any_of(mesh_.edges_of(face.index), [&](Index e) {
-      return mesh_.triangles_of(e).size() == 1;
-    });
+    return face.kind == FaceKind::vertex &&
+           std::ranges::any_of(mesh_.edges_of(face.index), [&](Index e) { return mesh_.triangles_of(e).size() == 1; });
   }
 
   bool is_inside(Face face, const std::vector<Index>& candidates) const {

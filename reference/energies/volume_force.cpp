@@ -34,8 +34,8 @@ struct Pressed {
     Triple<Input> apart;
     for (std::size_t k = 1; k < 4; ++k) apart = apart - weight[k] * inputs.vector(q.vertex[0], q.vertex[k]);
     overlap = radius - dot(n, apart);
-    const ByVertex deeper = ByVertex(overlap) - ByVertex(weight[static_cast<std::size_t>(q.own)]) *
-                                                    dot(fixed(n), own_vertex());
+    const ByVertex deeper = ByVertex(overlap) -
+                            ByVertex(weight[static_cast<std::size_t>(q.own)]) * dot(fixed(n), own_vertex());
     energy = ByVertex(Input(0.5) * stiffness) * deeper * deeper;
     add_outer(stiffness, deeper.slope, deeper.slope, block);
     const Input lambda = stiffness * overlap;

@@ -77,9 +77,8 @@ VolumeDepthOut rounded(const VolumeDepthTruth& truth) {
 }
 
 void sort(VolumeDepthOut& out) {
-  std::ranges::sort(out.contacts, {}, [](const VolumeContact& c) {
-    return std::tuple(c.point, c.inside, c.triangle, c.face);
-  });
+  std::ranges::sort(out.contacts, {},
+                    [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
 }
 
 /// `change(in, out)` spoils the right contacts.
@@ -131,12 +130,12 @@ void turn_over(VolumeContact& c, float radius) {
 
 std::vector<Fault> depth_faults() {
   return {
-      each_spoiled("side of one triangle's normal at ridges and vertices",
-                   [](VolumeContact& c, const VolumeDepthIn& in) {
-                     const double height = plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).second;
-                     if (c.face.kind != FaceKind::triangle && (height < 0) != (c.inside != 0))
-                       turn_over(c, in.contact_radius);
-                   }),
+      each_spoiled(
+          "side of one triangle's normal at ridges and vertices",
+          [](VolumeContact& c, const VolumeDepthIn& in) {
+            const double height = plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).second;
+            if (c.face.kind != FaceKind::triangle && (height < 0) != (c.inside != 0)) turn_over(c, in.contact_radius);
+          }),
       each_spoiled("depth without r inside",
                    [](VolumeContact& c, const VolumeDepthIn& in) {
                      if (c.inside != 0) c.depth -= in.contact_radius;
@@ -166,13 +165,15 @@ std::vector<Fault> depth_faults() {
       lost("a search radius that misses deep points",
            [](const VolumeContact& c, const VolumeDepthIn& in) { return c.depth > 3 * in.contact_radius; }),
       lost("contacts of one part dropped where another one holds the point",
-           [](const VolumeContact& c, const VolumeDepthIn& in) { return c.inside == 0 && c.depth > 0.9f * in.contact_radius; }),
-      lost("no contact with a vertex", [](const VolumeContact& c, const VolumeDepthIn&) {
-        return c.inside == 0 && c.face.kind == FaceKind::vertex;
-      }),
-      lost("no contact with an edge", [](const VolumeContact& c, const VolumeDepthIn&) {
-        return c.inside == 0 && c.face.kind == FaceKind::edge;
-      }),
+           [](const VolumeContact& c, const VolumeDepthIn& in) {
+             return c.inside == 0 && c.depth > 0.9f * in.contact_radius;
+           }),
+      lost("no contact with a vertex",
+           [](const VolumeContact& c, const VolumeDepthIn&) {
+             return c.inside == 0 && c.face.kind == FaceKind::vertex;
+           }),
+      lost("no contact with an edge",
+           [](const VolumeContact& c, const VolumeDepthIn&) { return c.inside == 0 && c.face.kind == FaceKind::edge; }),
       each_spoiled("direction of the triangle's normal for edges and vertices, too",
                    [](VolumeContact& c, const VolumeDepthIn& in) {
                      const Vec3 n = plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).first;
@@ -208,15 +209,16 @@ std::vector<Fault> depth_faults() {
            return right(other);
          };
        }},
-      depth_spoiled("rims with an inner side", [](const VolumeDepthIn& in, VolumeDepthOut& out) {
-        for (VolumeContact& c : out.contacts) {
-          if (c.inside != 0 || c.face.kind != FaceKind::edge ||
-              in.topology->edge_triangles[static_cast<std::size_t>(c.face.index)].size() != 1)
-            continue;
-          if (plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).second < 0)
-            turn_over(c, in.contact_radius);
-        }
-      }),
+      depth_spoiled("rims with an inner side",
+                    [](const VolumeDepthIn& in, VolumeDepthOut& out) {
+                      for (VolumeContact& c : out.contacts) {
+                        if (c.inside != 0 || c.face.kind != FaceKind::edge ||
+                            in.topology->edge_triangles[static_cast<std::size_t>(c.face.index)].size() != 1)
+                          continue;
+                        if (plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).second < 0)
+                          turn_over(c, in.contact_radius);
+                      }
+                    }),
   };
 }
 
@@ -265,8 +267,7 @@ std::vector<Fault> force_faults_of_volumes() {
             }),
       asked("friction forgotten", [](VolumeForceCase& c) { c.friction = 0; }),
       asked("1/y below the limit too", [](VolumeForceCase& c) { c.slip_limit = 0x1p-38f; }),
-      asked("weights of two corners exchanged",
-            [](VolumeForceCase& c) { std::swap(c.weights[1], c.weights[2]); }),
+      asked("weights of two corners exchanged", [](VolumeForceCase& c) { std::swap(c.weights[1], c.weights[2]); }),
       asked("weights of the nearest corner alone",
             [](VolumeForceCase& c) {
               const auto largest = std::max_element(c.weights.begin(), c.weights.end());

@@ -1,6 +1,6 @@
 // Cases of volume_depth: closed surfaces, with rims and of several parts, and points beside their faces. Ladders lead
-// across a triangle, to the ends of the blocks of ridges, valleys and vertices of all kinds, to rims, to the medial axis,
-// to d = r, into plates down to no thickness, and into parts that overlap, touch or hold each other.
+// across a triangle, to the ends of the blocks of ridges, valleys and vertices of all kinds, to rims, to the medial
+// axis, to d = r, into plates down to no thickness, and into parts that overlap, touch or hold each other.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -255,7 +255,8 @@ CaseData bits(Random& random) {
 
 /// Boxes and points of small integers: every tie is exact.
 CaseData lattice(Random& random) {
-  Body body = box({1 + random.below(2), 1 + random.below(2), 1 + random.below(2)}, {2, 2, random.one_in(2) ? 2.0 : 1.0});
+  Body body = box({1 + random.below(2), 1 + random.below(2), 1 + random.below(2)},
+                  {2, 2, random.one_in(2) ? 2.0 : 1.0});
   if (random.one_in(3)) body.append(box({1, 1, 1}, {1, 1, 1}), 1, on_lattice(random, 1));
   Points points;
   for (int i = 0; i < points_a_volume; ++i) points.push_back(on_lattice(random, 2));
@@ -275,7 +276,9 @@ CaseData beside(Random& random, Body body, PlaceOf place_of, HeightOf height_of)
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-double any_height(Random& random, const Place&, double radius) { return random.sign() * radius * random.between(0, 1.1); }
+double any_height(Random& random, const Place&, double radius) {
+  return random.sign() * radius * random.between(0, 1.1);
+}
 
 /// Across a triangle, an edge, a vertex: height → 0.
 CaseData surface(Random& random) {

@@ -17,7 +17,8 @@ std::span<const Generator> volume_depth_generators();
 /// that none has; empty where nothing does.
 std::string volume_problem(const Topology& topology, const std::vector<Vec3f>& positions);
 
-/// The triangles of a frame, as far as they are one volume with rims; points are vertices of the frame, moved by up to r.
+/// The triangles of a frame, as far as they are one volume with rims; points are vertices of the frame, moved by up to
+/// r.
 VolumeDepthCase volume_of_state(const MeshCase& state, Random& random);
 
 }  // namespace ogc::compare

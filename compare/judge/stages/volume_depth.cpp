@@ -48,9 +48,8 @@ class PartVerdict {
   void mismatch(const std::string& what) { tally_.mismatch(point_name(point_) + what); }
 
   static const VolumeAnswer* find(const std::vector<VolumeAnswer>& answers, const VolumeContact& c) {
-    const auto found = std::ranges::find_if(answers, [&](const VolumeAnswer& a) {
-      return a.contact.triangle == c.triangle && a.contact.face == c.face;
-    });
+    const auto found = std::ranges::find_if(
+        answers, [&](const VolumeAnswer& a) { return a.contact.triangle == c.triangle && a.contact.face == c.face; });
     return found == answers.end() ? nullptr : &*found;
   }
 
@@ -72,9 +71,8 @@ class PartVerdict {
     if (truth_.needs_contact && mine_.empty()) return mismatch("is nearer than r and has no contact (covering)");
     for (std::size_t k = 0; k < truth_.touching.size(); ++k) {
       const VolumeContact& contact = truth_.touching[k].contact;
-      const bool answered = std::ranges::any_of(mine_, [&](const VolumeContact& c) {
-        return c.triangle == contact.triangle && c.face == contact.face;
-      });
+      const bool answered = std::ranges::any_of(
+          mine_, [&](const VolumeContact& c) { return c.triangle == contact.triangle && c.face == contact.face; });
       if (truth_.is_certain[k] != 0 && !answered) mismatch(print(contact, topology_) + " is missing");
       if (!truth_.inside && answered != (truth_.is_exact[k] != 0)) tally_.answered_not_exactly();
     }
@@ -92,11 +90,13 @@ class PartVerdict {
                  [&] { return where() + text(": depth %.9g, exact %.9g", c.depth, exact.depth); });
     double worst = 0;
     for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(c.weights[k] - exact.weights[k]));
-    tally_.error(1, in_units(worst, exact.weight_scale), [&] { return where() + text(": weights off by %.9g of scale %.9g", worst, exact.weight_scale); });
+    tally_.error(1, in_units(worst, exact.weight_scale),
+                 [&] { return where() + text(": weights off by %.9g of scale %.9g", worst, exact.weight_scale); });
     const double turned = std::hypot(c.direction.x - exact.direction.x, c.direction.y - exact.direction.y,
                                      c.direction.z - exact.direction.z);
-    tally_.error(2, std::isinf(exact.direction_scale) ? 0 : in_units(turned, exact.direction_scale),
-                 [&] { return where() + text(": direction off by %.9g of scale %.9g", turned, exact.direction_scale); });
+    tally_.error(2, std::isinf(exact.direction_scale) ? 0 : in_units(turned, exact.direction_scale), [&] {
+      return where() + text(": direction off by %.9g of scale %.9g", turned, exact.direction_scale);
+    });
   }
 
   std::size_t point_;
@@ -239,8 +239,9 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     return shape;
   }
   static std::vector<Quantity> inputs(const Case& c) {
-    return joined({scalar("contact_radius", "m", c.contact_radius)}, mesh_quantities(*c.topology),
-                  std::vector{compare::points("positions", "m", c.positions), compare::points("points", "m", c.points)});
+    return joined(
+        {scalar("contact_radius", "m", c.contact_radius)}, mesh_quantities(*c.topology),
+        std::vector{compare::points("positions", "m", c.positions), compare::points("points", "m", c.points)});
   }
 
   static In question(const Case& c) { return {c.topology.get(), c.positions, c.contact_radius, c.points}; }

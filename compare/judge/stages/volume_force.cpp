@@ -1,6 +1,6 @@
 // Stage volume_force. Canonical frame: c at the origin, n along z, so that φ and the slip along n are single
-// coordinates. Ladders lead to φ = r, to a slip of 0 and of ε_v h, to weights of 0 (edges and corners of the volume), to
-// depths of many radii, to a motion along n, and to small and large units.
+// coordinates. Ladders lead to φ = r, to a slip of 0 and of ε_v h, to weights of 0 (edges and corners of the volume),
+// to depths of many radii, to a motion along n, and to small and large units.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,13 +19,13 @@ constexpr float least_slip_limit = 0x1p-38f, least_weight = 0x1p-40f;
 
 /// A contact in its canonical frame.
 struct Pressed {
-  double size = 1, contact_radius = 1;       ///< about the length of an edge; r
-  std::array<Vec3, 4> x{};                   ///< x₀, and the corners
-  std::array<Vec3, 4> moved{};               ///< x − xᵗ
-  std::array<float, 3> weights{1, 0, 0};     ///< of c
-  Vec3 direction{0, 0, 1};                   ///< n
-  double slip_limit = 1;                     ///< ε_v h
-  bool turned = true;                        ///< may be rotated
+  double size = 1, contact_radius = 1;    ///< about the length of an edge; r
+  std::array<Vec3, 4> x{};                ///< x₀, and the corners
+  std::array<Vec3, 4> moved{};            ///< x − xᵗ
+  std::array<float, 3> weights{1, 0, 0};  ///< of c
+  Vec3 direction{0, 0, 1};                ///< n
+  double slip_limit = 1;                  ///< ε_v h
+  bool turned = true;                     ///< may be rotated
 };
 
 /// w₁ from w₂ and w₃, so that they add up to 1 but for a rounding.
@@ -70,8 +70,8 @@ Pressed sized(Random& random) {
   return p;
 }
 
-/// x₀ slips by `along` and lifts by `lift` against the triangle, in units of ε_v h; all move by a common motion, and the
-/// corners bend a little.
+/// x₀ slips by `along` and lifts by `lift` against the triangle, in units of ε_v h; all move by a common motion, and
+/// the corners bend a little.
 void move(Random& random, Pressed& p, double along, double lift) {
   const Vec3 helper = std::abs(p.direction.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n = p.direction;
   const double inner = helper.x * n.x + helper.y * n.y + helper.z * n.z;
@@ -209,7 +209,8 @@ CaseData deep(Random& random) {
 /// A weight → 0 and 1.
 CaseData corner(Random& random) {
   Pressed p = sized(random);
-  std::array<float, 3> weights = weights_of(random.magnitude(-12, -1), random.one_in(2) ? 0 : random.magnitude(-12, -1));
+  std::array<float, 3> weights = weights_of(random.magnitude(-12, -1),
+                                            random.one_in(2) ? 0 : random.magnitude(-12, -1));
   std::rotate(weights.begin(), weights.begin() + random.below(3), weights.end());
   put(random, p, weights, p.contact_radius * some_share(random));
   move(random, p, random.between(0, 3), random.between(-1, 1));

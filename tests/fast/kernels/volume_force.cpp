@@ -58,7 +58,8 @@ std::vector<D3> wide_points(const Placed& p) {
 
 }  // namespace
 
-TEST_CASE("the normal force of a volume is minus the slope of k/2 (r - phi)^2, inside and outside alike", "[property]") {
+TEST_CASE("the normal force of a volume is minus the slope of k/2 (r - phi)^2, inside and outside alike",
+          "[property]") {
   std::mt19937 random(51);
   for (int i = 0; i < 500; ++i) {
     const Placed p = random_contact(random, radius * (0.9f - 0.01f * static_cast<float>(i)));

@@ -51,8 +51,8 @@ double energy(const VolumeForceCase& c, const std::array<Point, 4>& x) {
     for (std::size_t i = 0; i < 3; ++i) slip[i] += weight(c, k) * (x[k][i] - point(c.start[k])[i]);
   const double along = inner(slip, direction(c));
   for (std::size_t i = 0; i < 3; ++i) slip[i] -= along * direction(c)[i];
-  return 0.5 * c.stiffness * pressed * pressed + c.friction * held * potential(std::sqrt(inner(slip, slip)),
-                                                                               c.slip_limit);
+  return 0.5 * c.stiffness * pressed * pressed +
+         c.friction * held * potential(std::sqrt(inner(slip, slip)), c.slip_limit);
 }
 
 }  // namespace
