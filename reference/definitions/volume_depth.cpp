@@ -2,8 +2,9 @@
 // coordinates, and from the faces that closest_face accepts of each. The exact one is found among them without
 // rounding.
 //
-// The side of a face that x has only perhaps its closest point on is that of the exactly nearest face among the
-// triangles around it: a valley's edge, by itself, would call everything inside. A rim alone decides for itself.
+// The side of a face that x has only perhaps its closest point on is that of the exactly nearest face, if the two have
+// a triangle in common, else of the nearest one among the triangles around it: a valley's edge, by itself, would call
+// everything inside. A rim alone decides for itself.
 #include "reference/definitions/volume_depth.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ class Asking {
     truth.inside = !begins_outside(mesh_, nearest, x_);
     const std::vector<Face> possible = possible_faces(candidates, nearest);
     for (const Face face : possible) {
-      const bool holds = face == nearest ? truth.inside : is_inside(face, candidates);
+      const bool holds = face == nearest ? truth.inside : is_inside(face, nearest, truth.inside, candidates);
       truth.may_be_inside = truth.may_be_inside || holds || on_surface;
       truth.may_be_outside = truth.may_be_outside || !holds || on_surface;
       if (holds || on_surface) truth.held.push_back(answer(face, true));
@@ -108,16 +109,25 @@ class Asking {
     return triangle_face(t);
   }
 
-  /// The exact one first.
+  /// The exact one first. A face is possible if every triangle around it says so: where the foot on one of them lies
+  /// off the face for certain, that triangle is nearer, by however little.
   std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest) const {
     std::vector<Face> faces{nearest};
     for (const Index t : candidates)
       for (int f = 0; f < 7; ++f) {
         const Face face = face_of(t, f);
-        if ((faces_.accepted[at(t)] >> f & 1) != 0 && std::ranges::find(faces, face) == faces.end())
+        if (accepts(t, face) && std::ranges::find(faces, face) == faces.end() &&
+            std::ranges::all_of(around(face), [&](Index other) { return accepts(other, face); }))
           faces.push_back(face);
       }
     return faces;
+  }
+
+  /// Whether the point of t that is closest to x may lie on the face, which is one of t's.
+  bool accepts(Index t, Face face) const {
+    for (int f = 0; f < 7; ++f)
+      if (face_of(t, f) == face) return (faces_.accepted[at(t)] >> f & 1) != 0;
+    return false;
   }
 
   std::vector<Index> around(Face face) const {
@@ -133,8 +143,12 @@ class Asking {
            std::ranges::any_of(mesh_.edges_of(face.index), [&](Index e) { return mesh_.triangles_of(e).size() == 1; });
   }
 
-  bool is_inside(Face face, const std::vector<Index>& candidates) const {
+  /// `nearest_inside`: what the exactly nearest face says.
+  bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const {
     if (is_rim(face)) return false;
+    const std::vector<Index> at_nearest = around(nearest);
+    const auto is_at_nearest = [&](Index t) { return std::ranges::find(at_nearest, t) != at_nearest.end(); };
+    if (!is_rim(nearest) && std::ranges::any_of(around(face), is_at_nearest)) return nearest_inside;
     std::vector<Index> star;
     for (const Index t : around(face))
       if (std::ranges::find(candidates, t) != candidates.end()) star.push_back(t);
