@@ -34,6 +34,7 @@ STAGES = {
     "detect_edge_edge": (4_000_000, 1_000_000),
     "bound": (3_000_000, 1_000_000),
     "plane": (4_000_000, 200_000),
+    "volume_depth": (4_000_000, 200_000),
     "sweep": (240_000, 10_000),
     "rest_state": (300_000, 30_000),
     "step": (300_000, 20_000),
@@ -44,7 +45,7 @@ STENCILS = ("initial_guess", "spring", "tetrahedron", "contact_force", "friction
 AIMS = (
     ("pairs", 10**9, "cases", ("truncate", "closest_face", "closest_points", "block")),
     ("stencils", 10**8, "cases", STENCILS),
-    ("whole answers", 10**7, "cases", ("detect_vertex_facet", "detect_edge_edge", "bound", "plane")),
+    ("whole answers", 10**7, "cases", ("detect_vertex_facet", "detect_edge_edge", "bound", "plane", "volume_depth")),
     ("sweeps", 10**4, "questions", ("sweep",)),
 )
 SUMS = ("cases", "questions", "decisions", "grey", "grey_not_exact", "near", "mismatches", "seconds",

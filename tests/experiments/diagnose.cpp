@@ -134,6 +134,8 @@ TEST_CASE("planted faults that are known wrong forms are named, and others are n
       {"friction_force: slip since now, not since the start of the step", "slip_since_now"},
       {"friction_force: normal force without the mollifier", "mollifier_missing"},
       {"friction_force: force 0.1 % too small", ""},
+      {"volume_depth: depth without r inside", "radius_missing_inside"},
+      {"volume_depth: depth 0.01 % too large", ""},
       {"volume_force: n of the other sign", "direction_flipped"},
       {"volume_force: slip since now, not since the start of the step", "slip_since_now"},
       {"volume_force: slip of the point alone: a moving volume does not carry along", "slip_of_the_point_alone"},
