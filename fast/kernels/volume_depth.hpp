@@ -52,20 +52,22 @@ class VolumeQuestion {
       visit(contact_at(nearest.face, true));
       return;
     }
-    if (nearest.distance.value - nearest.distance.slack > static_cast<double>(volume_.contact_radius)) return;
+    if (!is_near(nearest.triangle, nearest.distance)) return;
+    // x lies in the block of the nearest face, whatever rounding says of it: who is near has a contact
+    visit(contact_at(nearest.face, false));
     const float limit = gap_limit(volume_.contact_radius);
     for_each_near(volume_.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
       const int t = offer.primitive;
       if (part_of(t) != part) return;
       const int face = touched_face(t);
-      if (face >= 0 && is_outside(face)) visit(contact_at(face, false));
+      if (face >= 0 && face != nearest.face && is_outside(face)) visit(contact_at(face, false));
     });
   }
 
  private:
   struct Nearest {
     Distance distance;
-    int face = -1;
+    int face = -1, triangle = -1;
   };
 
   OGC_HD int part_of(int t) const { return volume_.part_of[volume_.surface.facets[t].corner[0]]; }
@@ -94,7 +96,7 @@ class VolumeQuestion {
       if (d.value > nearest.distance.value) return;
       const int face = face_of(t);
       if (d.value == nearest.distance.value && face > nearest.face) return;
-      nearest = {d, face};
+      nearest = {d, face, t};
       limit = gap_limit(round_up(add(d.value, d.slack)));
     };
     meet(volume_.first_of[part]);
@@ -102,6 +104,12 @@ class VolumeQuestion {
       if (part_of(offer.primitive) == part) meet(offer.primitive);
     });
     return nearest;
+  }
+
+  /// Whether x is nearer than r to a facet that is at this distance; exact where its slack leaves that open.
+  OGC_HD bool is_near(int t, const Distance& d) const {
+    const Corners at = corners(t);
+    return is_within(x_, at, closest_feature(x_, at, volume_.surface.facets[t].descending), d, volume_.contact_radius);
   }
 
   /// The face of a facet in whose block x lies nearer than r, if the facet is the lowest-numbered one that contains it;

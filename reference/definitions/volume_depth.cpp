@@ -50,22 +50,28 @@ class Asking {
   VolumePartTruth part(const std::vector<Index>& triangles) {
     VolumePartTruth truth;
     truth.component = mesh_.topology.component[at(mesh_.triangle(triangles[0])[0])];
-    double below = INFINITY;  // an upper bound of the smallest distance, as far as it is known
-    for (const Index t : triangles) below = std::min(below, faces_.distance[at(t)] + doubt(t));
+    double least = INFINITY, below = INFINITY;  // the smallest distance, and an upper bound of it
+    for (const Index t : triangles) {
+      least = std::min(least, faces_.distance[at(t)]);
+      below = std::min(below, faces_.distance[at(t)] + doubt(t));
+    }
     std::vector<Index> candidates;
     for (const Index t : triangles)
       if (faces_.distance[at(t)] - doubt(t) <= below) candidates.push_back(t);
     const Face nearest = exactly_nearest(candidates);
     const bool on_surface = is_on_surface(candidates);
     truth.inside = !begins_outside(mesh_, nearest, x_);
-    const std::vector<Face> possible = possible_faces(candidates, nearest);
+    const std::vector<Face> possible = possible_faces(candidates, nearest, least);
+    std::vector<Face> outside;  // that say so: each may then be a contact
     for (const Face face : possible) {
       const bool holds = face == nearest ? truth.inside : is_inside(face, nearest, truth.inside, candidates);
       truth.may_be_inside = truth.may_be_inside || holds || on_surface;
       truth.may_be_outside = truth.may_be_outside || !holds || on_surface;
       if (holds || on_surface) truth.held.push_back(answer(face, true));
+      if (!holds) outside.push_back(face);
     }
     if (truth.may_be_outside) touch(triangles, truth);
+    for (const Face face : outside) add_touching(face, truth);
     const MarginAnswer reach = examine(face_gap(mesh_, nearest, x_, radius_));
     truth.needs_contact = reach.sign < 0 && !reach.grey;
     near = near || possible.size() > 1 || on_surface || reach.near;
@@ -110,16 +116,21 @@ class Asking {
   }
 
   /// The exact one first. A face is possible if every triangle around it says so: where the foot on one of them lies
-  /// off the face for certain, that triangle is nearer, by however little.
-  std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest) const {
+  /// off the face for certain, that triangle is nearer, by however little. But a foot that is off by 16 u moves a
+  /// distance that it is the smallest of by (16 u)² at most, and by less nobody need tell them apart: four times that,
+  /// as the distances here are known to half of it.
+  std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest, double least) const {
     std::vector<Face> faces{nearest};
-    for (const Index t : candidates)
+    for (const Index t : candidates) {
+      const double further = faces_.distance[at(t)] - least;
+      const bool is_as_near = further <= 4 * doubt_factor * doubt(t);
       for (int f = 0; f < 7; ++f) {
         const Face face = face_of(t, f);
         if (accepts(t, face) && std::ranges::find(faces, face) == faces.end() &&
-            std::ranges::all_of(around(face), [&](Index other) { return accepts(other, face); }))
+            (is_as_near || std::ranges::all_of(around(face), [&](Index other) { return accepts(other, face); })))
           faces.push_back(face);
       }
+    }
     return faces;
   }
 
@@ -186,6 +197,16 @@ class Asking {
       truth.is_exact.push_back(block.exact && outward && !truth.inside);
       grey = grey || !block.certain;
     }
+  }
+
+  /// Unless it is there already, or x lies farther than r for certain.
+  void add_touching(Face face, VolumePartTruth& truth) const {
+    const auto is_there = [&](const VolumeAnswer& a) { return a.contact.face == face; };
+    const MarginAnswer gap = examine(face_gap(mesh_, face, x_, radius_));
+    if ((gap.sign >= 0 && !gap.grey) || std::ranges::any_of(truth.touching, is_there)) return;
+    truth.touching.push_back(answer(face, false));
+    truth.is_certain.push_back(0);
+    truth.is_exact.push_back(0);
   }
 
   VolumeAnswer answer(Face face, bool inside) const {

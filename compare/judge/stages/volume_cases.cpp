@@ -239,6 +239,35 @@ CaseData uniform(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
+/// A bipyramid about the z axis; of three vertices a triangle, of fewer nothing that has an inside.
+Body of_vertices(int count) {
+  Body body;
+  const int ring = count < 5 ? count : count - 2;
+  for (int k = 0; k < ring; ++k) {
+    const double angle = 6.283185307179586 * k / ring;
+    body.x.push_back({std::cos(angle), std::sin(angle), 0});
+  }
+  if (count == 3) body.triangles = {{0, 1, 2}};
+  if (count < 5) return body;
+  body.x.insert(body.x.end(), {Vec3{0, 0, 1}, Vec3{0, 0, -1}});
+  for (int k = 0; k < ring; ++k) {
+    const int next = (k + 1) % ring;
+    body.triangles.push_back({k, next, ring});
+    body.triangles.push_back({next, k, ring + 1});
+  }
+  return body;
+}
+
+/// Few vertices, and none.
+CaseData few(Random& random) {
+  constexpr std::array<int, 8> counts{0, 1, 2, 3, 5, 6, 10, 50};
+  Body body = of_vertices(random.pick(std::span<const int>(counts)));
+  for (Vec3& p : body.x) p = sum(p, in_box(random, -0.02, 0.02));
+  Points points;
+  for (int i = random.below(points_a_volume); i > 0; --i) points.push_back(in_box(random, -1.5, 1.5));
+  return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
+}
+
 /// Coordinates of any bits in a frame of their own: a tetrahedron, in the sense that has positive volume.
 CaseData bits(Random& random) {
   Body body;
@@ -358,7 +387,8 @@ CaseData boundary(Random& random) {
   }
 }
 
-constexpr std::array<Generator, 15> table{{{"uniform", 30, true, uniform},
+constexpr std::array<Generator, 16> table{{{"uniform", 30, true, uniform},
+                                           {"few", 3, true, few},
                                            {"bits", 8, false, bits},
                                            {"dust", 6, false, uniform},
                                            {"lattice", 12, false, lattice},
