@@ -27,6 +27,9 @@ std::string print(const VolumeContact& c, const Topology& topology) {
          std::to_string(c.triangle);
 }
 
+/// What contacts ascend by.
+auto key_of(const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); }
+
 std::string point_name(std::size_t i) { return "point " + std::to_string(i) + ": "; }
 
 /// The contacts of one point with one part, against what is accepted.
@@ -108,14 +111,13 @@ class PartVerdict {
 
 /// Whether the list is one: in order, each contact once, of points and triangles that are there.
 bool is_list(const std::vector<VolumeContact>& contacts, std::size_t points, const Topology& topology, Tally& tally) {
-  const auto key = [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); };
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const VolumeContact& c = contacts[i];
     if (c.point < 0 || at(c.point) >= points || c.triangle < 0 || at(c.triangle) >= topology.triangles.size()) {
       tally.mismatch("contact " + std::to_string(i) + " is of a point or a triangle that does not exist");
       return false;
     }
-    if (i > 0 && !(key(contacts[i - 1]) < key(c))) {
+    if (i > 0 && !(key_of(contacts[i - 1]) < key_of(c))) {
       tally.mismatch("contact " + std::to_string(i) + " stands out of order, or twice");
       return false;
     }
@@ -259,18 +261,20 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     return {words("contacts", names), compare::numbers("depth", "m", depths)};
   }
   static std::vector<Quantity> outputs(const In& in, const Truth& truth) {
+    std::vector<const VolumeAnswer*> all;
+    for (const std::vector<VolumePartTruth>& parts : truth.parts)
+      for (const VolumePartTruth& part : parts) {
+        if (part.inside) all.push_back(&part.held.front());
+        for (std::size_t k = 0; k < part.touching.size(); ++k)
+          if (part.is_exact[k] != 0) all.push_back(&part.touching[k]);
+      }
+    std::ranges::sort(all, {}, [](const VolumeAnswer* a) { return key_of(a->contact); });
     std::vector<std::string> names;
     std::vector<double> depths;
-    for (std::size_t i = 0; i < truth.parts.size(); ++i)
-      for (const VolumePartTruth& part : truth.parts[i]) {
-        const auto add = [&](const VolumeAnswer& a) {
-          names.push_back(point_name(i) + print(a.contact, *in.topology));
-          depths.push_back(a.depth);
-        };
-        if (part.inside) add(part.held.front());
-        for (std::size_t k = 0; k < part.touching.size(); ++k)
-          if (part.is_exact[k] != 0) add(part.touching[k]);
-      }
+    for (const VolumeAnswer* a : all) {
+      names.push_back(point_name(at(a->contact.point)) + print(a->contact, *in.topology));
+      depths.push_back(a->depth);
+    }
     return {words("contacts", names), compare::numbers("depth", "m", depths)};
   }
   static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return volume_depth_forms(); }
