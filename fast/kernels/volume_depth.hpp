@@ -165,14 +165,21 @@ class VolumeQuestion {
   }
 
   /// Whether w, from a point of the edge, points outward or along the surface; an edge of one facet has no inner side.
+  /// Normals whose sum is below 2⁻¹⁰ are nearly opposite, and their rounding may decide its direction: on a knife's
+  /// edge all is outside, in a crevice inside.
   OGC_HD bool is_outside_of_edge(int e, const Real& w) const {
     Real sum;
-    int count = 0;
+    int count = 0, facet[2] = {};
     for_each_at_edge(e, [&](int t) {
       sum = sum + unit(normal(t));
-      ++count;
+      facet[count++ & 1] = t;
     });
-    return count < 2 || dot(w, sum).value >= 0;
+    if (count < 2) return true;
+    if (squared(sum) > 0x1p-20) return dot(w, sum).value >= 0;
+    const EdgeEnds& ends = volume_.surface.edges[e];
+    int opposite = -1;
+    for (const int v : volume_.surface.facets[facet[1]].corner) opposite = v == ends.a || v == ends.b ? opposite : v;
+    return dot(normal(facet[0]), difference<Rounded>(volume_.positions[opposite], corners(facet[0]).a)).value <= 0;
   }
 
   OGC_HD bool is_outside_of_vertex(int v) const {

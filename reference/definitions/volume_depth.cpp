@@ -65,10 +65,12 @@ class Asking {
     std::vector<Face> outside;  // that say so: each may then be a contact
     for (const Face face : possible) {
       const bool holds = face == nearest ? truth.inside : is_inside(face, nearest, truth.inside, candidates);
-      truth.may_be_inside = truth.may_be_inside || holds || on_surface;
-      truth.may_be_outside = truth.may_be_outside || !holds || on_surface;
-      if (holds || on_surface) truth.held.push_back(answer(face, true));
-      if (!holds) outside.push_back(face);
+      // beside a rim, which has no inner side, a face that has one may say so
+      const bool is_open = on_surface || (face != nearest && is_rim(nearest) && !is_rim(face));
+      truth.may_be_inside = truth.may_be_inside || holds || is_open;
+      truth.may_be_outside = truth.may_be_outside || !holds || is_open;
+      if (holds || is_open) truth.held.push_back(answer(face, true));
+      if (!holds || is_open) outside.push_back(face);
     }
     if (truth.may_be_outside) touch(triangles, truth);
     for (const Face face : outside) add_touching(face, truth);

@@ -268,18 +268,40 @@ CaseData few(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Coordinates of any bits in a frame of their own: a tetrahedron, in the sense that has positive volume.
+/// Whether a triangle has an area: none lower than 2⁻²⁰ of its longest side is legal, whose foot and normal single
+/// precision does not know.
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double longest = std::max({norm(minus(b, a)), norm(minus(c, a)), norm(minus(c, b))});
+  return norm(outer(minus(b, a), minus(c, a))) >= 0x1p-20 * longest * longest && longest > 0;
+}
+bool has_area(const std::vector<Vec3f>& x, const Triangle& t) {
+  const auto wide = [&](Index v) { return Vec3{x[at(v)].x, x[at(v)].y, x[at(v)].z}; };
+  return has_area(wide(t[0]), wide(t[1]), wide(t[2]));
+}
+
+/// Coordinates of any bits over eight octaves, at any scale: a tetrahedron, in the sense that has positive volume.
 CaseData bits(Random& random) {
+  const double scale = std::ldexp(1.0, random.below(25) - 12);
+  const auto some = [&] {
+    const auto one = [&] { return scale * random.sign() * random.pattern(0x1p-4f, 0x1p4f); };
+    const double x = one(), y = one();
+    return Vec3{x, y, one()};
+  };
   Body body;
-  for (const Vec3& p : points_of_bits(random)) body.x.push_back(p);
   body.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  const auto is_legal = [&](const Triangle& t) {
+    return has_area(body.x[at(t[0])], body.x[at(t[1])], body.x[at(t[2])]);
+  };
+  do {
+    body.x.clear();
+    for (int k = 0; k < 4; ++k) body.x.push_back(some());
+  } while (!std::ranges::all_of(body.triangles, is_legal));
   const Vec3 a = minus(body.x[1], body.x[0]), b = minus(body.x[2], body.x[0]), c = minus(body.x[3], body.x[0]);
   if (inner(outer(a, b), c) > 0)
     for (Triangle& t : body.triangles) std::swap(t[1], t[2]);
   Points points;
-  for (int i = 0; i < 6; ++i)
-    for (const Vec3& p : points_of_bits(random)) points.push_back(p);
-  return placed(random, std::move(body), std::move(points), random.pattern(), false, 1);
+  for (int i = 0; i < points_a_volume; ++i) points.push_back(some());
+  return placed(random, std::move(body), std::move(points), scale * random.pattern(0x1p-6f, 0x1p3f), false, 1);
 }
 
 /// Boxes and points of small integers: every tie is exact.
@@ -403,12 +425,6 @@ constexpr std::array<Generator, 16> table{{{"uniform", 30, true, uniform},
                                            {"ladder.deep", 6, false, deep},
                                            {"ladder.units", 8, false, units},
                                            {"ladder.boundary", 260, false, boundary}}};
-
-bool has_area(const std::vector<Vec3f>& x, const Triangle& t) {
-  const auto wide = [&](Index v) { return Vec3{x[at(v)].x, x[at(v)].y, x[at(v)].z}; };
-  const Vec3 n = outer(minus(wide(t[1]), wide(t[0])), minus(wide(t[2]), wide(t[0])));
-  return norm(n) > 0;
-}
 
 }  // namespace
 
