@@ -89,8 +89,8 @@ def faults(source, build, file, headers):
     same, planted = outcomes
     if same.returncode != 0:
         return [f"{file} does not compile with a copy of {', '.join(set(headers.values()))}:\n{same.stderr}"]
-    return [f"{file} compiles with a {enumeration} that it does not handle, or fails otherwise: write a `switch` without "
-            f"`default`\n{planted.stderr}" for enumeration in headers
+    return [f"{file} compiles with a {enumeration} that it does not handle, or fails otherwise: write a `switch` "
+            f"without `default`\n{planted.stderr}" for enumeration in headers
             if not re.search(UNHANDLED.format(enumeration), planted.stderr)]
 
 
