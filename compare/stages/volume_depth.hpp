@@ -13,8 +13,8 @@
 namespace ogc::compare {
 
 /// One volume: its surface alone, and points that ask it. Each edge has one triangle (a rim), or two that run through
-/// it in opposite senses; triangles have an area. A *part* is a connected component. Views; the owner must outlive the
-/// call.
+/// it in opposite senses; triangles have an area, none is lower than 2⁻²⁰ of its longest side, whose foot and normal
+/// single precision does not know. A *part* is a connected component. Views; the owner must outlive the call.
 struct VolumeDepthIn {
   const Topology* topology = nullptr;  ///< of the volume
   std::span<const Vec3f> positions;    ///< by vertex of the volume [m]

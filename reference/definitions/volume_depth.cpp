@@ -3,7 +3,7 @@
 // rounding.
 //
 // The side of a face that x has only perhaps its closest point on is that of the exactly nearest face, if the two have
-// a triangle in common, else of the nearest one among the triangles around it: a valley's edge, by itself, would call
+// a vertex in common, else of the nearest one among the triangles around it: a valley's edge, by itself, would call
 // everything inside. A rim alone decides for itself.
 #include "reference/definitions/volume_depth.hpp"
 
@@ -72,7 +72,7 @@ class Asking {
       if (holds || is_open) truth.held.push_back(answer(face, true));
       if (!holds || is_open) outside.push_back(face);
     }
-    if (truth.may_be_outside) touch(triangles, truth);
+    if (truth.may_be_outside) touch(triangles, nearest, truth);
     for (const Face face : outside) add_touching(face, truth);
     const MarginAnswer reach = examine(face_gap(mesh_, nearest, x_, radius_));
     truth.needs_contact = reach.sign < 0 && !reach.grey;
@@ -156,12 +156,16 @@ class Asking {
            std::ranges::any_of(mesh_.edges_of(face.index), [&](Index e) { return mesh_.triangles_of(e).size() == 1; });
   }
 
+  bool share_vertex(Face a, Face b) const {
+    const auto first = mesh_.vertices(a), second = mesh_.vertices(b);
+    return std::ranges::any_of(first.span(),
+                               [&](Index v) { return std::ranges::find(second.span(), v) != second.span().end(); });
+  }
+
   /// `nearest_inside`: what the exactly nearest face says.
   bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const {
     if (is_rim(face)) return false;
-    const std::vector<Index> at_nearest = around(nearest);
-    const auto is_at_nearest = [&](Index t) { return std::ranges::find(at_nearest, t) != at_nearest.end(); };
-    if (!is_rim(nearest) && std::ranges::any_of(around(face), is_at_nearest)) return nearest_inside;
+    if (!is_rim(nearest) && share_vertex(face, nearest)) return nearest_inside;
     std::vector<Index> star;
     for (const Index t : around(face))
       if (std::ranges::find(candidates, t) != candidates.end()) star.push_back(t);
@@ -169,7 +173,7 @@ class Asking {
   }
 
   /// Outside: faces in whose outward block x lies nearer than r, for certain or perhaps.
-  void touch(const std::vector<Index>& triangles, VolumePartTruth& truth) {
+  void touch(const std::vector<Index>& triangles, Face nearest, VolumePartTruth& truth) {
     std::vector<Face> faces;
     for (const Index t : triangles) {
       if (faces_.distance[at(t)] - doubt(t) > radius_) continue;
@@ -191,7 +195,8 @@ class Asking {
       near = near || nearness.is_near();
       if (!block.possible) continue;
       const std::vector<Index> star = around(face);
-      const bool outward = begins_outside(mesh_, block.exact ? face : exactly_nearest(star), x_);
+      const bool outward = block.exact ? begins_outside(mesh_, face, x_)
+                                       : !is_inside(face, nearest, truth.inside, star);
       const bool touches = std::ranges::any_of(star, [&](Index t) { return faces_.distance[at(t)] <= doubt(t); });
       if (!outward && !touches && !is_rim(face)) continue;
       truth.touching.push_back(answer(face, false));
