@@ -30,6 +30,8 @@
 #include "compare/stages/sweep.hpp"
 #include "compare/stages/tetrahedron.hpp"
 #include "compare/stages/truncate.hpp"
+#include "compare/stages/volume_depth.hpp"
+#include "compare/stages/volume_force.hpp"
 
 namespace ogc::compare {
 
@@ -167,6 +169,7 @@ struct Contestant {
   std::function<DetectEdgeEdgeOut(const DetectIn&)> detect_edge_edge;
   std::function<BoundOut(const BoundIn&)> bound;
   std::function<PlaneOut(const PlaneIn&)> plane;
+  std::function<VolumeDepthOut(const VolumeDepthIn&)> volume_depth;
   std::function<ActivationOut(const ActivationIn&)> activation;
   std::function<TruncateOut(const TruncateIn&)> truncate;
   std::function<ForceOut(const MembraneIn&)> membrane;
@@ -175,6 +178,7 @@ struct Contestant {
   std::function<ForceOut(const TetrahedronIn&)> tetrahedron;
   std::function<ForceOut(const ContactForceIn&)> contact_force;
   std::function<ForceOut(const FrictionForceIn&)> friction_force;
+  std::function<ForceOut(const VolumeForceIn&)> volume_force;
   std::function<BlockOut(const BlockIn&)> block;
   std::function<RestStateOut(const RestStateIn&)> rest_state;
   std::function<InitialGuessOut(const InitialGuessIn&)> initial_guess;
@@ -194,10 +198,12 @@ constexpr void visit_stages(Visit visit) {
   visit("detect_edge_edge", &Contestant::detect_edge_edge);
   visit("bound", &Contestant::bound);
   visit("plane", &Contestant::plane);
+  visit("volume_depth", &Contestant::volume_depth);
   visit("initial_guess", &Contestant::initial_guess);
   visit("activation", &Contestant::activation);
   visit("contact_force", &Contestant::contact_force);
   visit("friction_force", &Contestant::friction_force);
+  visit("volume_force", &Contestant::volume_force);
   visit("membrane", &Contestant::membrane);
   visit("bending", &Contestant::bending);
   visit("spring", &Contestant::spring);
@@ -217,6 +223,7 @@ struct Authority {
   std::function<DetectVertexFacetTruth(const DetectIn&)> detect_vertex_facet;
   std::function<DetectEdgeEdgeTruth(const DetectIn&)> detect_edge_edge;
   std::function<BoundTruth(const BoundIn&)> bound;
+  std::function<VolumeDepthTruth(const VolumeDepthIn&)> volume_depth;
   std::function<ActivationTruth(const ActivationIn&)> activation;
   std::function<TruncateTruth(const TruncateIn&)> truncate;
   std::function<ForceTruth(const MembraneIn&)> membrane;
@@ -225,6 +232,7 @@ struct Authority {
   std::function<ForceTruth(const TetrahedronIn&)> tetrahedron;
   std::function<ForceTruth(const ContactForceIn&)> contact_force;
   std::function<ForceTruth(const FrictionForceIn&)> friction_force;
+  std::function<ForceTruth(const VolumeForceIn&)> volume_force;
   std::function<BlockTruth(const BlockIn&)> block;
   std::function<RestStateTruth(const RestStateIn&)> rest_state;
   std::function<InitialGuessTruth(const InitialGuessIn&)> initial_guess;

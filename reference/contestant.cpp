@@ -1,6 +1,7 @@
 // The stages of the reference under the judge's names.
 #include "reference/contestant.hpp"
 
+#include "reference/definitions/volume_depth.hpp"
 #include "reference/energies/activation.hpp"
 #include "reference/energies/bending.hpp"
 #include "reference/energies/contact_force.hpp"
@@ -9,6 +10,7 @@
 #include "reference/energies/rest_state.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/energies/tetrahedron.hpp"
+#include "reference/energies/volume_force.hpp"
 #include "reference/geometry/block.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/closest_face.hpp"
@@ -35,6 +37,7 @@ compare::Authority authority() {
   authority.detect_edge_edge = detect_edge_edge;
   authority.bound = bound;
   authority.plane = plane;
+  authority.volume_depth = volume_depth;
   authority.activation = activation;
   authority.truncate = truncate;
   authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };
@@ -43,6 +46,7 @@ compare::Authority authority() {
   authority.tetrahedron = [](const compare::TetrahedronIn& in) { return tetrahedron(in); };
   authority.contact_force = [](const compare::ContactForceIn& in) { return contact_force(in); };
   authority.friction_force = [](const compare::FrictionForceIn& in) { return friction_force(in); };
+  authority.volume_force = [](const compare::VolumeForceIn& in) { return volume_force(in); };
   authority.rest_state = rest_state;
   authority.block = block;
   authority.initial_guess = initial_guess;

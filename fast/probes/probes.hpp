@@ -21,6 +21,7 @@
 #include "fast/probes/probe_planes.hpp"
 #include "fast/probes/probe_step.hpp"
 #include "fast/probes/probe_sweep.hpp"
+#include "fast/probes/probe_volumes.hpp"
 #include "fast/stages/rest_state.hpp"
 
 namespace ogc::fast {
@@ -227,6 +228,8 @@ compare::Contestant probe_contestant(
   contestant.friction_force = [backend](const compare::FrictionForceIn& in) {
     return probe_friction_force(*backend, in);
   };
+  contestant.volume_depth = [backend](const compare::VolumeDepthIn& in) { return probe_volume_depth(*backend, in); };
+  contestant.volume_force = [backend](const compare::VolumeForceIn& in) { return probe_volume_force(*backend, in); };
   contestant.block = [backend](const compare::BlockIn& in) { return probe_block(*backend, in); };
   contestant.initial_guess = [backend](const compare::InitialGuessIn& in) { return probe_initial_guess(*backend, in); };
   contestant.rest_state = [](const compare::RestStateIn& in) { return rest_state_out(in); };

@@ -26,8 +26,7 @@ Face face_of(const Complex& mesh, Index t, TriangleFeature feature) {
 Face nearest_face(const Complex& mesh, const std::vector<Index>& part, const Vec3f& x) {
   std::optional<std::pair<Face, Margin>> nearest;
   for (const Index t : part) {
-    const auto [a, b, c] = mesh.triangle(t);
-    const Face face = face_of(mesh, t, closest_feature({mesh.at(a), mesh.at(b), mesh.at(c)}, x));
+    const Face face = closest_face_of(mesh, t, x);
     const Margin gap = face_gap(mesh, face, x, 0);
     const int order = nearest ? compare_distances(gap, nearest->second) : -1;
     if (order < 0 || (order == 0 && face < nearest->first)) nearest = {face, gap};
@@ -88,13 +87,6 @@ compare::Vec3 direction_of(const Complex& mesh, Index t, Face face, const Vec3f&
   return unit(inside ? times(Exact(-1), offset) : offset);
 }
 
-PartContact contact_at(const Complex& mesh, Face face, const Vec3f& x, float contact_radius, bool inside) {
-  const Index t = owner_of(mesh, face);
-  const double depth = inside ? distance(face_gap(mesh, face, x, 0)) + static_cast<double>(contact_radius)
-                              : -signed_length(face_gap(mesh, face, x, contact_radius));
-  return {inside, t, face, weights_of(mesh, t, face, x), direction_of(mesh, t, face, x, inside), depth};
-}
-
 /// Faces of a part, each once.
 std::vector<Face> faces_of(const Complex& mesh, const std::vector<Index>& part) {
   std::vector<Face> faces;
@@ -110,6 +102,18 @@ std::vector<Face> faces_of(const Complex& mesh, const std::vector<Index>& part) 
 
 }  // namespace
 
+Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x) {
+  const auto [a, b, c] = volume.triangle(triangle);
+  return face_of(volume, triangle, closest_feature({volume.at(a), volume.at(b), volume.at(c)}, x));
+}
+
+PartContact part_contact(const Complex& volume, Face face, const Vec3f& x, float contact_radius, bool inside) {
+  const Index t = owner_of(volume, face);
+  const double depth = inside ? distance(face_gap(volume, face, x, 0)) + static_cast<double>(contact_radius)
+                              : -signed_length(face_gap(volume, face, x, contact_radius));
+  return {inside, t, face, weights_of(volume, t, face, x), direction_of(volume, t, face, x, inside), depth};
+}
+
 std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius) {
   std::map<Index, std::vector<Index>> parts;  // by component, which no edge leaves
   for (std::size_t t = 0; t < volume.topology.triangles.size(); ++t)
@@ -118,14 +122,14 @@ std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, fl
   for (const auto& [component, part] : parts) {
     const Face nearest = nearest_face(volume, part, x);
     if (!begins_outside(volume, nearest, x)) {
-      contacts.push_back(contact_at(volume, nearest, x, contact_radius, true));
+      contacts.push_back(part_contact(volume, nearest, x, contact_radius, true));
       continue;
     }
     for (const Face face : faces_of(volume, part)) {
       if (!in_block(volume, face, x, contact_radius) || !begins_outside(volume, face, x) ||
           sign(face_gap(volume, face, x, contact_radius)) >= 0)
         continue;
-      contacts.push_back(contact_at(volume, face, x, contact_radius, false));
+      contacts.push_back(part_contact(volume, face, x, contact_radius, false));
     }
   }
   std::ranges::sort(contacts, {}, [](const PartContact& c) { return std::tuple(c.inside, c.triangle, c.face); });

@@ -21,6 +21,12 @@ struct PartContact {
   double depth = 0;  ///< ‖x − c‖ + r inside, r − ‖x − c‖ outside [m], within 2 ulp
 };
 
+/// The contact of x at a face, as one of a part that holds x or not.
+PartContact part_contact(const Complex& volume, Face face, const Vec3f& x, float contact_radius, bool inside);
+
+/// The face of a triangle whose interior holds the point of the triangle closest to x.
+Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x);
+
 /// The contacts of x with all parts (connected components of the triangles) of a volume, ascending by inside, triangle,
 /// face. A part holds x if the way from its nearest face to x begins on the inner side; of equally near faces the
 /// lowest-dimensional, then the lowest-numbered one decides; faces at rims have no inner side. Such a part gives one

@@ -1,7 +1,6 @@
-// f₀ is the integral of f₁ (method.md §4.4), so that the energy's derivative by the squared slip, f₁(y)/(2 y), is given
-// with it, and finite where the slip vanishes.
 #include "reference/energies/friction_force.hpp"
 
+#include "reference/energies/lagged_friction.hpp"
 #include "reference/energies/meeting.hpp"
 #include "reference/energies/parallel.hpp"
 
@@ -14,27 +13,6 @@ using ByDistance = Derivative<Input, 1>;
 Input normal_force(const Meeting& meeting) {
   const ByDistance d(meeting.acting_distance(meeting.distance), 0);
   return -meeting.energy(d).slope[0];
-}
-
-/// ‖u‖. Where u cannot be told from 0 it has no direction, and ‖u‖ grows by the length of any change of u.
-Input length(const Inputs& inputs, const Triple<Input>& slip) {
-  Input y = sqrt(dot(slip, slip));
-  if (y.value > compare::contact_grey * compare::unit_roundoff * inputs.condition(slip)) return y;
-  y.count = y.slope.size();
-  for (std::size_t i = 0; i < y.count; ++i)
-    y.slope[i] = std::hypot(slip[0].slope[i], slip[1].slope[i], slip[2].slope[i]);
-  return y;
-}
-
-/// f₁(y)/y.
-Input slope_over_slip(const Input& y, const Input& limit) {
-  return y.value < limit.value ? (Input(2.0) - y / limit) / limit : Input(1.0) / y;
-}
-
-/// f₀(y).
-Input potential(const Input& y, const Input& limit) {
-  if (!(y.value < limit.value)) return y;
-  return y * y / limit - y * y * y / (Input(3.0) * limit * limit) + limit / Input(3.0);
 }
 
 struct Friction {
@@ -57,8 +35,8 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   };
   const Triple<ByVertex> slip = slip_of(meeting.weight[own]), of_whole = slip_of(1.0);
   const Triple<Input> u{slip[0].value, slip[1].value, slip[2].value};
-  const Input y = length(inputs, u), stiffness = strength * slope_over_slip(y, limit);
-  const ByVertex energy = chained(Input(strength * potential(y, limit)), Input(Input(0.5) * stiffness),
+  const Input y = slip_length(inputs, u, compare::contact_grey), stiffness = strength * slope_over_slip(y, limit);
+  const ByVertex energy = chained(Input(strength * lagged_potential(y, limit)), Input(Input(0.5) * stiffness),
                                   dot(slip, slip));
   Block block;
   for (const ByVertex& along : of_whole)

@@ -87,6 +87,8 @@ Authority remembering(const Authority& a, std::size_t parts) {
   r.tetrahedron = remembered(a.tetrahedron, parts);
   r.contact_force = remembered(a.contact_force, parts);
   r.friction_force = remembered(a.friction_force, parts);
+  r.volume_depth = remembered(a.volume_depth, parts);
+  r.volume_force = remembered(a.volume_force, parts);
   r.block = remembered(a.block, parts);
   r.initial_guess = remembered(a.initial_guess, parts);
   r.rest_state = remembered(a.rest_state, parts);

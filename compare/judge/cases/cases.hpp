@@ -17,6 +17,8 @@
 #include "compare/stages/spring.hpp"
 #include "compare/stages/tetrahedron.hpp"
 #include "compare/stages/truncate.hpp"
+#include "compare/stages/volume_depth.hpp"
+#include "compare/stages/volume_force.hpp"
 
 namespace ogc::compare {
 
@@ -81,6 +83,14 @@ struct PlaneCase {
   float bound_relaxation = 0.45f;      ///< γ_p
   CompressedRows partners{};           ///< as in Exclusions
   std::vector<std::uint8_t> is_fixed;  ///< by vertex: of group 0
+};
+
+/// A volume and who asks it.
+struct VolumeDepthCase {
+  std::shared_ptr<const Topology> topology;  ///< of the volume
+  std::vector<Vec3f> positions;              ///< by vertex [m]
+  float contact_radius = 0;                  ///< r [m]
+  std::vector<Vec3f> points;                 ///< each counts as a case [m]
 };
 
 /// A mesh and what is asked about it.

@@ -19,10 +19,12 @@ enum class Stage : std::uint8_t {
   detect_edge_edge,
   bound,
   plane,
+  volume_depth,
   initial_guess,
   activation,
   contact_force,
   friction_force,
+  volume_force,
   membrane,
   bending,
   spring,
@@ -38,8 +40,8 @@ struct StageTraits;
 namespace stages {
 /// Each defined in compare/judge/stages, in the file of its name.
 extern const StageTraits rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound,
-    plane, initial_guess, activation, contact_force, friction_force, membrane, bending, spring, tetrahedron, sweep,
-    truncate, step;
+    plane, volume_depth, initial_guess, activation, contact_force, friction_force, volume_force, membrane, bending,
+    spring, tetrahedron, sweep, truncate, step;
 }  // namespace stages
 
 /// The list of all stages, the only one that the judge has: an enumerator that is missing here does not compile
@@ -54,10 +56,12 @@ constexpr const StageTraits* find_traits(Stage stage) {
     case Stage::detect_edge_edge: return &stages::detect_edge_edge;
     case Stage::bound: return &stages::bound;
     case Stage::plane: return &stages::plane;
+    case Stage::volume_depth: return &stages::volume_depth;
     case Stage::initial_guess: return &stages::initial_guess;
     case Stage::activation: return &stages::activation;
     case Stage::contact_force: return &stages::contact_force;
     case Stage::friction_force: return &stages::friction_force;
+    case Stage::volume_force: return &stages::volume_force;
     case Stage::membrane: return &stages::membrane;
     case Stage::bending: return &stages::bending;
     case Stage::spring: return &stages::spring;

@@ -58,6 +58,15 @@ class Bits {
     add(plane.normal);
     add(plane.offset);
   }
+  void add(const VolumeContact& c) {
+    add(c.point);
+    add(c.inside);
+    add(c.triangle);
+    add(c.face);
+    add(c.weights);
+    add(c.direction);
+    add(c.depth);
+  }
   void add(const PlaneOut& out) {
     add(out.planes.offsets);
     add(out.planes.items);

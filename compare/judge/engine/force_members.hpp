@@ -102,6 +102,21 @@ void visit_members(Case& c, Visit visit) {
   visit("slip_limit", "m", c.slip_limit);
 }
 
+/// The members of a contact with a volume.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, VolumeForceCase>
+void visit_members(Case& c, Visit visit) {
+  visit("own", "", c.own);
+  visit("vertex", "m", c.vertex);
+  visit("start", "m", c.start);
+  visit("weights", "1", c.weights);
+  visit("direction", "1", c.direction);
+  visit("contact_radius", "m", c.contact_radius);
+  visit("stiffness", "N/m", c.stiffness);
+  visit("friction", "1", c.friction);
+  visit("slip_limit", "m", c.slip_limit);
+}
+
 /// By ContactSides.
 inline constexpr std::array<std::string_view, 4> side_names{"point_point", "point_edge", "edge_edge", "point_triangle"};
 

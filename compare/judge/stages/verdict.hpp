@@ -66,6 +66,9 @@ bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, 
 bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
 /// Every pair must be held apart, and no vertex by more than that.
 void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);
+/// By part: one contact that is accepted inside, or outside all that are certain and none but those that are possible;
+/// numbers within their tolerances.
+void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, const VolumeDepthOut& out, Tally& tally);
 /// Never above γ_p · min(…).
 void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& out, Tally& tally);
 

@@ -53,5 +53,7 @@ void add_right_step(compare::Contestant& exact, const compare::Authority& author
 std::vector<Fault> pair_guess_faults();
 std::vector<Fault> sweep_faults();
 void add_right_sweep(compare::Contestant& exact, const compare::Authority& authority);
+std::vector<Fault> volume_faults();
+void add_right_volumes(compare::Contestant& exact, const compare::Authority& authority);
 
 }  // namespace ogc::tests

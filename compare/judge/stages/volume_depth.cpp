@@ -1,0 +1,287 @@
+// Stage volume_depth. Each part of the volume answers by itself, so the verdict goes part by part.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "compare/judge/cases/dust.hpp"
+#include "compare/judge/cases/mutate.hpp"
+#include "compare/judge/engine/features.hpp"
+#include "compare/judge/engine/numbers_json.hpp"
+#include "compare/judge/engine/topology_json.hpp"
+#include "compare/judge/engine/units.hpp"
+#include "compare/judge/report/form_tools.hpp"
+#include "compare/judge/stages/parameter_ranges.hpp"
+#include "compare/judge/stages/stage_of.hpp"
+#include "compare/judge/stages/volume_cases.hpp"
+
+namespace ogc::compare {
+
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+std::string print(const VolumeContact& c, const Topology& topology) {
+  return std::string(c.inside != 0 ? "inside at " : "outside at ") + face_name(c.face, topology) + ", triangle " +
+         std::to_string(c.triangle);
+}
+
+/// What contacts ascend by.
+auto key_of(const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); }
+
+std::string point_name(std::size_t i) { return "point " + std::to_string(i) + ": "; }
+
+/// The contacts of one point with one part, against what is accepted.
+class PartVerdict {
+ public:
+  PartVerdict(std::size_t point, const VolumePartTruth& truth, std::vector<VolumeContact> mine,
+              const Topology& topology, Tally& tally)
+      : point_(point), truth_(truth), mine_(std::move(mine)), topology_(topology), tally_(tally) {}
+
+  void judge() {
+    const bool inside = std::ranges::any_of(mine_, [](const VolumeContact& c) { return c.inside != 0; });
+    if (inside)
+      judge_inside();
+    else
+      judge_outside();
+  }
+
+ private:
+  void mismatch(const std::string& what) { tally_.mismatch(point_name(point_) + what); }
+
+  static const VolumeAnswer* find(const std::vector<VolumeAnswer>& answers, const VolumeContact& c) {
+    const auto found = std::ranges::find_if(
+        answers, [&](const VolumeAnswer& a) { return a.contact.triangle == c.triangle && a.contact.face == c.face; });
+    return found == answers.end() ? nullptr : &*found;
+  }
+
+  std::string exactly() const {
+    return truth_.inside ? "exact " + print(truth_.held.front().contact, topology_) : "exact outside";
+  }
+
+  void judge_inside() {
+    if (mine_.size() != 1) return mismatch("a part that holds the point has one contact, not several side by side");
+    const VolumeAnswer* accepted = truth_.may_be_inside ? find(truth_.held, mine_[0]) : nullptr;
+    if (accepted == nullptr) return mismatch(print(mine_[0], topology_) + " is not accepted; " + exactly());
+    if (!truth_.inside || accepted != truth_.held.data()) tally_.answered_not_exactly();
+    judge_numbers(mine_[0], *accepted);
+  }
+
+  void judge_outside() {
+    if (!truth_.may_be_outside) return mismatch("is not inside of any part, which it is; " + exactly());
+    if (truth_.inside) tally_.answered_not_exactly();
+    if (truth_.needs_contact && mine_.empty()) return mismatch("is nearer than r and has no contact (covering)");
+    for (std::size_t k = 0; k < truth_.touching.size(); ++k) {
+      const VolumeContact& contact = truth_.touching[k].contact;
+      const bool answered = std::ranges::any_of(
+          mine_, [&](const VolumeContact& c) { return c.triangle == contact.triangle && c.face == contact.face; });
+      if (truth_.is_certain[k] != 0 && !answered) mismatch(print(contact, topology_) + " is missing");
+      if (!truth_.inside && answered != (truth_.is_exact[k] != 0)) tally_.answered_not_exactly();
+    }
+    for (const VolumeContact& contact : mine_) {
+      if (const VolumeAnswer* accepted = find(truth_.touching, contact))
+        judge_numbers(contact, *accepted);
+      else
+        mismatch(print(contact, topology_) + " is no contact");
+    }
+  }
+
+  void judge_numbers(const VolumeContact& c, const VolumeAnswer& exact) {
+    const auto where = [&] { return point_name(point_) + print(c, topology_); };
+    tally_.error(0, in_units(std::abs(c.depth - exact.depth), exact.depth_scale),
+                 [&] { return where() + text(": depth %.9g, exact %.9g", c.depth, exact.depth); });
+    double worst = 0;
+    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(c.weights[k] - exact.weights[k]));
+    tally_.error(1, in_units(worst, exact.weight_scale),
+                 [&] { return where() + text(": weights off by %.9g of scale %.9g", worst, exact.weight_scale); });
+    const double turned = std::hypot(c.direction.x - exact.direction.x, c.direction.y - exact.direction.y,
+                                     c.direction.z - exact.direction.z);
+    tally_.error(2, std::isinf(exact.direction_scale) ? 0 : in_units(turned, exact.direction_scale), [&] {
+      return where() + text(": direction off by %.9g of scale %.9g", turned, exact.direction_scale);
+    });
+  }
+
+  std::size_t point_;
+  const VolumePartTruth& truth_;
+  std::vector<VolumeContact> mine_;
+  const Topology& topology_;
+  Tally& tally_;
+};
+
+/// Whether the list is one: in order, each contact once, of points and triangles that are there.
+bool is_list(const std::vector<VolumeContact>& contacts, std::size_t points, const Topology& topology, Tally& tally) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const VolumeContact& c = contacts[i];
+    if (c.point < 0 || at(c.point) >= points || c.triangle < 0 || at(c.triangle) >= topology.triangles.size()) {
+      tally.mismatch("contact " + std::to_string(i) + " is of a point or a triangle that does not exist");
+      return false;
+    }
+    if (i > 0 && !(key_of(contacts[i - 1]) < key_of(c))) {
+      tally.mismatch("contact " + std::to_string(i) + " stands out of order, or twice");
+      return false;
+    }
+  }
+  return true;
+}
+
+std::uint64_t marked(const std::vector<std::uint8_t>& flags) {
+  return static_cast<std::uint64_t>(std::ranges::count(flags, std::uint8_t{1}));
+}
+
+WrongForm depth_told(std::string name, std::string meaning, void (*change)(VolumeAnswer&, float)) {
+  return told(std::move(name), std::move(meaning), &Authority::volume_depth,
+              [change](const VolumeDepthIn& in, VolumeDepthTruth& truth) {
+                for (auto& parts : truth.parts)
+                  for (VolumePartTruth& part : parts)
+                    for (auto* answers : {&part.held, &part.touching})
+                      for (VolumeAnswer& answer : *answers) change(answer, in.contact_radius);
+              });
+}
+
+std::vector<WrongForm> volume_depth_forms() {
+  return {depth_told("radius_missing_inside", "depth ‖x − c‖ inside, without r",
+                     [](VolumeAnswer& a, float r) {
+                       if (a.contact.inside != 0) a.depth -= r;
+                     }),
+          depth_told("distance_for_depth", "‖x − c‖ outside, where r − ‖x − c‖ is the depth",
+                     [](VolumeAnswer& a, float r) {
+                       if (a.contact.inside == 0) a.depth = r - a.depth;
+                     }),
+          depth_told("direction_flipped", "−n for n",
+                     [](VolumeAnswer& a, float) {
+                       a.direction = {-a.direction.x, -a.direction.y, -a.direction.z};
+                     }),
+          asked("radius_doubled", "2 r for r", &Authority::volume_depth,
+                [](VolumeDepthIn& in) { in.contact_radius *= 2; })};
+}
+
+}  // namespace
+
+void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, const VolumeDepthOut& out, Tally& tally) {
+  const auto& asked = case_of<VolumeDepthCase>(test.data);
+  const Topology& topology = *asked.topology;
+  tally.begin(test.name);
+  const std::size_t points = asked.points.size();
+  tally.count(points, points * topology.triangles.size(), marked(truth.grey), marked(truth.near));
+  if (!is_list(out.contacts, points, topology, tally)) return;
+  const auto part_of = [&](const VolumeContact& c) {
+    return topology.component[at(topology.triangles[at(c.triangle)][0])];
+  };
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    const std::size_t first = next;
+    while (next < out.contacts.size() && at(out.contacts[next].point) == i) ++next;
+    for (const VolumePartTruth& part : truth.parts[i]) {
+      std::vector<VolumeContact> mine;
+      for (std::size_t k = first; k < next; ++k)
+        if (part_of(out.contacts[k]) == part.component) mine.push_back(out.contacts[k]);
+      PartVerdict(i, part, std::move(mine), topology, tally).judge();
+    }
+  }
+}
+
+namespace {
+
+struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authority::volume_depth>,
+                     TakenWhole,
+                     Numbered,
+                     OwnCases,
+                     ParametersOfCase<VolumeDepth>,
+                     InEveryRun {
+  using Case = VolumeDepthCase;
+  static constexpr StageInfo info{.name = "volume_depth",
+                                  .question = "parts of a volume that hold a point or are near, depth and direction",
+                                  .unit = "point",
+                                  .reference = "reference/definitions/volume_depth.cpp",
+                                  .kind = CaseKind::mesh,
+                                  .has_boundary = true,
+                                  .determinism = Determinism::cpu_to_gpu};
+  static constexpr std::array metrics{MetricInfo{"depth", "u cond", volume_depth_tolerance},
+                                      MetricInfo{"weights", "u cond", volume_weight_tolerance},
+                                      MetricInfo{"direction", "u cond", volume_direction_tolerance}};
+  static constexpr std::array parameters{ranges::contact_radius};
+  static float* parameter(Case& c, std::string_view) { return &c.contact_radius; }
+
+  static std::span<const Generator> generators() { return volume_depth_generators(); }
+
+  static void check(const Case& c, FirstProblem& problem) {
+    problem.vectors("a coordinate", c.positions);
+    problem.vectors("a coordinate of a point", c.points);
+    problem.number("a contact radius", c.contact_radius, least_length, most_length);
+    problem.require(c.positions.size() == at(c.topology->vertex_count), "positions need one entry a vertex");
+    const std::string why = volume_problem(*c.topology, c.positions);
+    problem.require(why.empty(), why.c_str());
+  }
+  /// Points alone: a volume whose vertices are moved may fold.
+  static void mutate(Random& random, Case& c) { mutate_points(random, c.points); }
+  static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.points}); }
+  static Case of_state(const States& states, std::uint64_t index, Random& random) {
+    return volume_of_state(states.whole(states.frame(index), random), random);
+  }
+
+  static Json write(const Case& c) {
+    return {{"mesh", topology_to_json(*c.topology)},
+            {"positions", points_to_json(c.positions)},
+            {"contact_radius", hexadecimal(c.contact_radius)},
+            {"points", points_to_json(c.points)}};
+  }
+  static Case read(const Json& data) {
+    Case c{to_topology(data.at("mesh")), {}, number(data.at("contact_radius")), {}};
+    for (const Json& p : data.at("positions")) c.positions.push_back(to_point(p));
+    for (const Json& p : data.at("points")) c.points.push_back(to_point(p));
+    if (c.positions.size() != at(c.topology->vertex_count)) throw InputError("positions need one entry a vertex");
+    return c;
+  }
+
+  static Shape shape(const Case& c) {
+    Shape shape;
+    shape.add(*c.topology, c.positions);
+    for (const Vec3f& p : c.points) shape.dots.push_back(shape.add(p));
+    return shape;
+  }
+  static std::vector<Quantity> inputs(const Case& c) {
+    return joined(
+        {scalar("contact_radius", "m", c.contact_radius)}, mesh_quantities(*c.topology),
+        std::vector{compare::points("positions", "m", c.positions), compare::points("points", "m", c.points)});
+  }
+
+  static In question(const Case& c) { return {c.topology.get(), c.positions, c.contact_radius, c.points}; }
+  static constexpr auto judge = judge_volume_depth;
+  static void add(Bits& bits, const Out& out) { bits.add(out.contacts); }
+  static std::int64_t items(const Case& c) { return static_cast<std::int64_t>(c.points.size()); }
+
+  static std::vector<Quantity> outputs(const In& in, const Out& out) {
+    std::vector<std::string> names;
+    std::vector<float> depths;
+    for (const VolumeContact& c : out.contacts) {
+      names.push_back(point_name(at(c.point)) + print(c, *in.topology));
+      depths.push_back(c.depth);
+    }
+    return {words("contacts", names), compare::numbers("depth", "m", depths)};
+  }
+  static std::vector<Quantity> outputs(const In& in, const Truth& truth) {
+    std::vector<const VolumeAnswer*> all;
+    for (const std::vector<VolumePartTruth>& parts : truth.parts)
+      for (const VolumePartTruth& part : parts) {
+        if (part.inside) all.push_back(&part.held.front());
+        for (std::size_t k = 0; k < part.touching.size(); ++k)
+          if (part.is_exact[k] != 0) all.push_back(&part.touching[k]);
+      }
+    std::ranges::sort(all, {}, [](const VolumeAnswer* a) { return key_of(a->contact); });
+    std::vector<std::string> names;
+    std::vector<double> depths;
+    for (const VolumeAnswer* a : all) {
+      names.push_back(point_name(at(a->contact.point)) + print(a->contact, *in.topology));
+      depths.push_back(a->depth);
+    }
+    return {words("contacts", names), compare::numbers("depth", "m", depths)};
+  }
+  static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return volume_depth_forms(); }
+};
+
+}  // namespace
+
+constinit const StageTraits stages::volume_depth = make_traits<VolumeDepth>();
+
+}  // namespace ogc::compare

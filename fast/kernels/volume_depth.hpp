@@ -1,0 +1,267 @@
+// Who is inside a volume, or nearer to it than r (§3.9, method.md §9): each part of its surface is asked by itself, by
+// the side of its face that is nearest to a point. The search of the nearest begins at the distance of a triangle of
+// the part, so that no point is forgotten because it lies deep, and shrinks from there.
+//
+// The side of x at a face, all in rounded double:
+//
+//   triangle   that of its normal
+//   edge       that of the sum of its triangles' unit normals: it halves the outside of a ridge, and the inside of a
+//              valley, where x's closest point is on the edge
+//   vertex     that of the edge whose direction from the vertex lies nearest to x's: on the sphere about the vertex the
+//              way from x to that direction crosses no triangle, as a crossing would lie nearer
+//   rim        outside: an edge of one triangle, and a vertex of such an edge, have no inner side
+#pragma once
+
+#include "fast/kernels/block.hpp"
+#include "fast/kernels/bvh.hpp"
+#include "fast/kernels/closest_face.hpp"
+
+namespace ogc::fast {
+
+/// A volume on the backend.
+struct VolumeView {
+  SurfaceView surface;
+  PaddedVecs positions;           ///< by vertex [m]
+  TreeView tree;                  ///< of all facets, refitted at these positions
+  const int* part_of = nullptr;   ///< by vertex: number of its part
+  const int* first_of = nullptr;  ///< by part: one of its facets
+  int part_count = 0;
+  float contact_radius = 0;  ///< r [m]
+};
+
+/// One contact of a point with a part; c is the closest point of `face`.
+struct FoundVolumeContact {
+  int triangle = -1, face = -1;  ///< the lowest-numbered facet that contains the face; as SurfaceView numbers faces
+  bool inside = false;
+  float weights[3] = {};  ///< of c, by corner of the triangle [1]
+  Vec direction;          ///< n, out of the part [1]
+  float depth = 0;        ///< [m]
+};
+
+/// A point before a volume.
+class VolumeQuestion {
+ public:
+  OGC_HD VolumeQuestion(const VolumeView& volume, const Vec& point) : volume_(volume), x_(point) {}
+
+  /// Calls visit(contact) for each contact with a part: one at the nearest face of a part that holds the point; else
+  /// one for each face in whose outward block the point lies nearer than r.
+  template <class Visit>
+  OGC_HD void visit_contacts(int part, Visit visit) const {
+    const Nearest nearest = nearest_of(part);
+    if (!is_outside(nearest.face)) {
+      visit(contact_at(nearest.face, true));
+      return;
+    }
+    if (!is_near(nearest.triangle, nearest.distance)) return;
+    // x lies in the block of the nearest face, whatever rounding says of it: who is near has a contact
+    visit(contact_at(nearest.face, false));
+    const float limit = gap_limit(volume_.contact_radius);
+    for_each_near(volume_.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+      const int t = offer.primitive;
+      if (part_of(t) != part) return;
+      const int face = touched_face(t);
+      if (face >= 0 && face != nearest.face && is_outside(face)) visit(contact_at(face, false));
+    });
+  }
+
+ private:
+  struct Nearest {
+    Distance distance;
+    int face = -1, triangle = -1;
+  };
+
+  OGC_HD int part_of(int t) const { return volume_.part_of[volume_.surface.facets[t].corner[0]]; }
+  OGC_HD Corners corners(int t) const {
+    const Facet& facet = volume_.surface.facets[t];
+    return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
+  }
+
+  /// The face of a facet whose interior holds the facet's point closest to x.
+  OGC_HD int face_of(int t) const {
+    const Facet& facet = volume_.surface.facets[t];
+    const TriangleFeature feature = closest_feature(x_, corners(t), facet.descending);
+    const int f = static_cast<int>(feature);
+    if (f < 3) return volume_.surface.vertex_face(facet.corner[f]);
+    if (f < 6) return volume_.surface.edge_face(facet.edge[f - 3]);
+    return volume_.surface.triangle_face(t);
+  }
+
+  /// Of faces at one distance the lowest-numbered: numbers have the order of dimensions.
+  OGC_HD Nearest nearest_of(int part) const {
+    Nearest nearest;
+    nearest.distance.value = infinity;
+    float limit = infinity;
+    const auto meet = [&](int t) {
+      const Distance d = point_triangle_distance(x_, corners(t));
+      if (d.value > nearest.distance.value) return;
+      const int face = face_of(t);
+      if (d.value == nearest.distance.value && face > nearest.face) return;
+      nearest = {d, face, t};
+      limit = gap_limit(round_up(add(d.value, d.slack)));
+    };
+    meet(volume_.first_of[part]);
+    for_each_near(volume_.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+      if (part_of(offer.primitive) == part) meet(offer.primitive);
+    });
+    return nearest;
+  }
+
+  /// Whether x is nearer than r to a facet that is at this distance; exact where its slack leaves that open.
+  OGC_HD bool is_near(int t, const Distance& d) const {
+    const Corners at = corners(t);
+    return is_within(x_, at, closest_feature(x_, at, volume_.surface.facets[t].descending), d, volume_.contact_radius);
+  }
+
+  /// The face of a facet in whose block x lies nearer than r, if the facet is the lowest-numbered one that contains it;
+  /// else −1.
+  OGC_HD int touched_face(int t) const {
+    const SurfaceView& surface = volume_.surface;
+    const Corners at = corners(t);
+    const Facet& facet = surface.facets[t];
+    const TriangleFeature feature = closest_feature(x_, at, facet.descending);
+    const int f = static_cast<int>(feature);
+    int face = surface.triangle_face(t);
+    if (f < 3) face = surface.vertex_face(facet.corner[f]);
+    if (f >= 3 && f < 6) face = surface.edge_face(facet.edge[f - 3]);
+    if (owner_of(face) != t || !is_within(x_, at, feature, point_triangle_distance(x_, at), volume_.contact_radius))
+      return -1;
+    if (f < 3 && !in_vertex_block(x_, facet.corner[f], surface, volume_.positions)) return -1;
+    if (f >= 3 && f < 6 && !in_edge_block(x_, facet.edge[f - 3], surface, volume_.positions)) return -1;
+    return face;
+  }
+
+  /// The kinds of faces, by number.
+  OGC_HD bool is_vertex(int face) const { return face < volume_.surface.vertex_count; }
+  OGC_HD bool is_edge(int face) const {
+    return !is_vertex(face) && face < volume_.surface.vertex_count + volume_.surface.edge_count;
+  }
+
+  /// Calls visit(t) for each facet at an edge, ascending.
+  template <class Visit>
+  OGC_HD void for_each_at_edge(int e, Visit visit) const {
+    const EdgeEnds& ends = volume_.surface.edges[e];
+    const Rows& rows = volume_.surface.vertex_triangles;
+    for (int k = rows.offsets[ends.a]; k < rows.offsets[ends.a + 1]; ++k) {
+      const Facet& facet = volume_.surface.facets[rows.items[k]];
+      if (facet.edge[0] == e || facet.edge[1] == e || facet.edge[2] == e) visit(rows.items[k]);
+    }
+  }
+
+  OGC_HD int owner_of(int face) const {
+    const SurfaceView& surface = volume_.surface;
+    if (is_vertex(face)) return surface.vertex_triangles.items[surface.vertex_triangles.offsets[face]];
+    if (!is_edge(face)) return face - surface.vertex_count - surface.edge_count;
+    int owner = -1;
+    for_each_at_edge(face - surface.vertex_count, [&](int t) { owner = owner < 0 ? t : owner; });
+    return owner;
+  }
+
+  OGC_HD static Real scaled(double s, const Real& a) { return Rounded{s} * a; }
+  OGC_HD static double length(const Real& a) { return square_root(squared(a)); }
+  OGC_HD static Real unit(const Real& a) { return scaled(divide(1.0, length(a)), a); }
+  OGC_HD Real normal(int t) const {
+    const Corners at = corners(t);
+    return cross(difference<Rounded>(at.b, at.a), difference<Rounded>(at.c, at.a));
+  }
+
+  /// Whether w, from a point of the edge, points outward or along the surface; an edge of one facet has no inner side.
+  /// Normals whose sum is below 2⁻¹⁰ are nearly opposite, and their rounding may decide its direction: on a knife's
+  /// edge all is outside, in a crevice inside.
+  OGC_HD bool is_outside_of_edge(int e, const Real& w) const {
+    Real sum;
+    int count = 0, facet[2] = {};
+    for_each_at_edge(e, [&](int t) {
+      sum = sum + unit(normal(t));
+      facet[count++ & 1] = t;
+    });
+    if (count < 2) return true;
+    if (squared(sum) > 0x1p-20) return dot(w, sum).value >= 0;
+    const EdgeEnds& ends = volume_.surface.edges[e];
+    int opposite = -1;
+    for (const int v : volume_.surface.facets[facet[1]].corner) opposite = v == ends.a || v == ends.b ? opposite : v;
+    return dot(normal(facet[0]), difference<Rounded>(volume_.positions[opposite], corners(facet[0]).a)).value <= 0;
+  }
+
+  OGC_HD bool is_outside_of_vertex(int v) const {
+    const SurfaceView& surface = volume_.surface;
+    const Real w = difference<Rounded>(x_, volume_.positions[v]);
+    const Rows& rows = surface.vertex_edges;
+    double steepest = -infinity;
+    int edge = -1;
+    for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
+      const int e = rows.items[k], other = surface.edges[e].a == v ? surface.edges[e].b : surface.edges[e].a;
+      int count = 0;
+      for_each_at_edge(e, [&](int) { ++count; });
+      if (count < 2) return true;
+      const Real along = difference<Rounded>(volume_.positions[other], volume_.positions[v]);
+      const double cosine = divide(dot(w, along).value, length(along));
+      if (cosine > steepest) steepest = cosine, edge = e;
+    }
+    return edge < 0 || is_outside_of_edge(edge, w);
+  }
+
+  OGC_HD bool is_outside(int face) const {
+    const SurfaceView& surface = volume_.surface;
+    if (is_vertex(face)) return is_outside_of_vertex(face);
+    if (is_edge(face)) {
+      const int e = face - surface.vertex_count;
+      const EdgeEnds& ends = surface.edges[e];
+      const Real u = difference<Rounded>(x_, volume_.positions[ends.a]),
+                 along = difference<Rounded>(volume_.positions[ends.b], volume_.positions[ends.a]);
+      return is_outside_of_edge(e, u - scaled(segment_parameter(u, along), along));
+    }
+    const int t = face - surface.vertex_count - surface.edge_count;
+    return dot(difference<Rounded>(x_, corners(t).a), normal(t)).value >= 0;
+  }
+
+  /// Weights, direction and depth. On the interior of a facet the direction is its normal; so it is where x − c is
+  /// below 2⁻⁴⁸ of the coordinates that it comes from: their rounding.
+  OGC_HD FoundVolumeContact contact_at(int face, bool inside) const {
+    const SurfaceView& surface = volume_.surface;
+    FoundVolumeContact contact;
+    contact.face = face;
+    contact.inside = inside;
+    contact.triangle = owner_of(face);
+    const Facet& facet = surface.facets[contact.triangle];
+    const Corners at = corners(contact.triangle);
+    TriangleFeature feature = TriangleFeature::interior;
+    for (int k = 0; k < 3; ++k) {
+      if (is_vertex(face) && facet.corner[k] == face) feature = static_cast<TriangleFeature>(k);
+      if (is_edge(face) && facet.edge[k] == face - surface.vertex_count) feature = static_cast<TriangleFeature>(3 + k);
+    }
+    const Vec weights = closest_weights(x_, at, feature);
+    contact.weights[0] = weights.x, contact.weights[1] = weights.y, contact.weights[2] = weights.z;
+    const Real n = normal(contact.triangle);
+    double away = 0;
+    Real direction = unit(n);
+    if (feature == TriangleFeature::interior) {
+      away = divide(modulus(dot(difference<Rounded>(x_, at.a), n).value), length(n));
+    } else {
+      const Real apart = from_foot(at, feature);
+      away = length(apart);
+      if (away > mul(0x1p-48, norm_1(difference<Rounded>(x_, at.a)))) {
+        const Real outward = unit(apart);
+        direction = inside ? -outward : outward;
+      }
+    }
+    contact.direction = {static_cast<float>(direction.x.value), static_cast<float>(direction.y.value),
+                         static_cast<float>(direction.z.value)};
+    const auto radius = static_cast<double>(volume_.contact_radius);
+    contact.depth = static_cast<float>(inside ? add(away, radius) : sub(radius, away));
+    return contact;
+  }
+
+  /// x − c for a corner or an edge.
+  OGC_HD Real from_foot(const Corners& at, TriangleFeature feature) const {
+    const int f = static_cast<int>(feature);
+    if (f < 3) return difference<Rounded>(x_, at[f]);
+    const Vec &a = at[f - 3], &b = at[(f - 2) % 3];
+    const Real u = difference<Rounded>(x_, a), along = difference<Rounded>(b, a);
+    return u - scaled(segment_parameter(u, along), along);
+  }
+
+  const VolumeView& volume_;
+  Vec x_;
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,32 @@
+// IPC's lagged potential over a slip that knows its inputs (method.md §4.4), for contacts of all kinds. f₀ is the
+// integral of f₁, so that the energy's derivative by the squared slip, f₁(y)/(2 y), is given with it, and finite where
+// the slip vanishes.
+#pragma once
+
+#include "reference/energies/inputs.hpp"
+
+namespace ogc::reference {
+
+/// ‖u‖. Where u cannot be told from 0, being known to `units` of u · condition, it has no direction, and ‖u‖ grows by
+/// the length of any change of u.
+inline Input slip_length(const Inputs& inputs, const Triple<Input>& slip, double units) {
+  Input y = sqrt(dot(slip, slip));
+  if (y.value > units * compare::unit_roundoff * inputs.condition(slip)) return y;
+  y.count = y.slope.size();
+  for (std::size_t i = 0; i < y.count; ++i)
+    y.slope[i] = std::hypot(slip[0].slope[i], slip[1].slope[i], slip[2].slope[i]);
+  return y;
+}
+
+/// f₁(y)/y.
+inline Input slope_over_slip(const Input& y, const Input& limit) {
+  return y.value < limit.value ? (Input(2.0) - y / limit) / limit : Input(1.0) / y;
+}
+
+/// f₀(y).
+inline Input lagged_potential(const Input& y, const Input& limit) {
+  if (!(y.value < limit.value)) return y;
+  return y * y / limit - y * y * y / (Input(3.0) * limit * limit) + limit / Input(3.0);
+}
+
+}  // namespace ogc::reference

@@ -1,0 +1,313 @@
+// Faults of volume_depth and volume_force.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "tests/compare/judge/faults.hpp"
+
+namespace ogc::tests {
+
+using namespace compare;
+
+namespace {
+
+Fault asked(const std::string& name, const std::function<void(VolumeForceCase&)>& change) {
+  return {"volume_force: " + name, Stage::volume_force, [change](Contestant& contestant, const Authority&) {
+            contestant.volume_force = [right = contestant.volume_force, change](const VolumeForceIn& in) {
+              VolumeForceIn other = in;
+              for (VolumeForceCase& c : other.cases) change(c);
+              return right(other);
+            };
+          }};
+}
+
+using Spoil = std::function<void(const VolumeForceCase&, Vec3f&, std::array<float, 6>&)>;
+
+Fault spoiled(const std::string& name, const Spoil& spoil) {
+  return {"volume_force: " + name, Stage::volume_force, [spoil](Contestant& contestant, const Authority&) {
+            contestant.volume_force = [right = contestant.volume_force, spoil](const VolumeForceIn& in) {
+              ForceOut out = right(in);
+              for (std::size_t i = 0; i < in.cases.size(); ++i) spoil(in.cases[i], out.force[i], out.block[i]);
+              return out;
+            };
+          }};
+}
+
+/// n·Σ wᵢ (x₀ − xᵢ).
+double height(const VolumeForceCase& c) {
+  const auto along = [&](std::size_t k) {
+    const Vec3f &x = c.vertex[0], &y = c.vertex[k];
+    return c.direction[0] * (double{x.x} - y.x) + c.direction[1] * (double{x.y} - y.y) +
+           c.direction[2] * (double{x.z} - y.z);
+  };
+  return c.weights[0] * along(1) + c.weights[1] * along(2) + c.weights[2] * along(3);
+}
+
+/// w of the vertex asked about.
+float weight(const VolumeForceCase& c) { return c.own == 0 ? 1 : c.weights[static_cast<std::size_t>(c.own) - 1]; }
+
+/// The question, with x₀ moved along n so that it lies deeper by `step` and has moved no further.
+void lower(VolumeForceCase& c, double step) {
+  for (auto* points : {&c.vertex, &c.start}) {
+    Vec3f& x = (*points)[0];
+    x = {static_cast<float>(x.x - step * c.direction[0]), static_cast<float>(x.y - step * c.direction[1]),
+         static_cast<float>(x.z - step * c.direction[2])};
+  }
+}
+
+/// The exact contacts, rounded.
+VolumeDepthOut rounded(const VolumeDepthTruth& truth) {
+  VolumeDepthOut out;
+  const auto add = [&](const VolumeAnswer& a) {
+    VolumeContact c = a.contact;
+    for (std::size_t k = 0; k < 3; ++k) c.weights[k] = static_cast<float>(a.weights[k]);
+    c.direction = {static_cast<float>(a.direction.x), static_cast<float>(a.direction.y),
+                   static_cast<float>(a.direction.z)};
+    c.depth = static_cast<float>(a.depth);
+    out.contacts.push_back(c);
+  };
+  for (const auto& parts : truth.parts)
+    for (const VolumePartTruth& part : parts) {
+      if (part.inside) add(part.held.front());
+      for (std::size_t k = 0; k < part.touching.size(); ++k)
+        if (part.is_exact[k] != 0) add(part.touching[k]);
+    }
+  return out;
+}
+
+void sort(VolumeDepthOut& out) {
+  std::ranges::sort(out.contacts, {},
+                    [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
+}
+
+/// `change(in, out)` spoils the right contacts.
+Fault depth_spoiled(const std::string& name, const std::function<void(const VolumeDepthIn&, VolumeDepthOut&)>& change) {
+  return {"volume_depth: " + name, Stage::volume_depth, [change](Contestant& contestant, const Authority&) {
+            contestant.volume_depth = [right = contestant.volume_depth, change](const VolumeDepthIn& in) {
+              VolumeDepthOut out = right(in);
+              change(in, out);
+              sort(out);
+              return out;
+            };
+          }};
+}
+
+/// `change(contact, in)` for each contact.
+Fault each_spoiled(const std::string& name, const std::function<void(VolumeContact&, const VolumeDepthIn&)>& change) {
+  return depth_spoiled(name, [change](const VolumeDepthIn& in, VolumeDepthOut& out) {
+    for (VolumeContact& c : out.contacts) change(c, in);
+  });
+}
+
+/// Contacts for which `is_lost(contact, in)` holds are left out.
+Fault lost(const std::string& name, const std::function<bool(const VolumeContact&, const VolumeDepthIn&)>& is_lost) {
+  return depth_spoiled(name, [is_lost](const VolumeDepthIn& in, VolumeDepthOut& out) {
+    std::erase_if(out.contacts, [&](const VolumeContact& c) { return is_lost(c, in); });
+  });
+}
+
+/// The unit normal of a triangle, and the height of x over it [m].
+std::pair<Vec3, double> plane_of(const VolumeDepthIn& in, Index triangle, const Vec3f& x) {
+  const auto& t = in.topology->triangles[static_cast<std::size_t>(triangle)];
+  const auto from = [&](std::size_t k, const Vec3f& to) {
+    const Vec3f& p = in.positions[static_cast<std::size_t>(t[k])];
+    return Vec3{double{to.x} - p.x, double{to.y} - p.y, double{to.z} - p.z};
+  };
+  const Vec3 a = from(0, in.positions[static_cast<std::size_t>(t[1])]),
+             b = from(0, in.positions[static_cast<std::size_t>(t[2])]), w = from(0, x);
+  const Vec3 n{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+  return {{n.x / length, n.y / length, n.z / length}, (n.x * w.x + n.y * w.y + n.z * w.z) / length};
+}
+
+/// The contact on the other side of the surface.
+void turn_over(VolumeContact& c, float radius) {
+  c.depth = 2 * radius - c.depth;
+  c.direction = {-c.direction.x, -c.direction.y, -c.direction.z};
+  c.inside = c.inside == 0;
+}
+
+std::vector<Fault> depth_faults() {
+  return {
+      each_spoiled(
+          "side of one triangle's normal at ridges and vertices",
+          [](VolumeContact& c, const VolumeDepthIn& in) {
+            const double height = plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).second;
+            if (c.face.kind != FaceKind::triangle && (height < 0) != (c.inside != 0)) turn_over(c, in.contact_radius);
+          }),
+      each_spoiled("depth without r inside",
+                   [](VolumeContact& c, const VolumeDepthIn& in) {
+                     if (c.inside != 0) c.depth -= in.contact_radius;
+                   }),
+      depth_spoiled("inside and outside entered together",
+                    [](const VolumeDepthIn& in, VolumeDepthOut& out) {
+                      const std::size_t count = out.contacts.size();
+                      for (std::size_t i = 0; i < count; ++i) {
+                        VolumeContact c = out.contacts[i];
+                        if (c.inside == 0) continue;
+                        turn_over(c, in.contact_radius);
+                        out.contacts.push_back(c);
+                      }
+                    }),
+      depth_spoiled("all parts asked as one: the nearest part that holds the point alone",
+                    [](const VolumeDepthIn&, VolumeDepthOut& out) {
+                      std::vector<VolumeContact> kept;
+                      for (const VolumeContact& c : out.contacts) {
+                        if (!kept.empty() && kept.back().point == c.point && c.inside != 0) {
+                          if (kept.back().inside != 0 && kept.back().depth <= c.depth) continue;
+                          while (!kept.empty() && kept.back().point == c.point) kept.pop_back();
+                        }
+                        kept.push_back(c);
+                      }
+                      out.contacts = kept;
+                    }),
+      lost("a search radius that misses deep points",
+           [](const VolumeContact& c, const VolumeDepthIn& in) { return c.depth > 3 * in.contact_radius; }),
+      lost("contacts of one part dropped where another one holds the point",
+           [](const VolumeContact& c, const VolumeDepthIn& in) {
+             return c.inside == 0 && c.depth > 0.9f * in.contact_radius;
+           }),
+      lost("no contact with a vertex",
+           [](const VolumeContact& c, const VolumeDepthIn&) {
+             return c.inside == 0 && c.face.kind == FaceKind::vertex;
+           }),
+      lost("no contact with an edge",
+           [](const VolumeContact& c, const VolumeDepthIn&) { return c.inside == 0 && c.face.kind == FaceKind::edge; }),
+      each_spoiled("direction of the triangle's normal for edges and vertices, too",
+                   [](VolumeContact& c, const VolumeDepthIn& in) {
+                     const Vec3 n = plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).first;
+                     c.direction = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
+                   }),
+      each_spoiled("direction x - c inside, too",
+                   [](VolumeContact& c, const VolumeDepthIn&) {
+                     if (c.inside != 0) c.direction = {-c.direction.x, -c.direction.y, -c.direction.z};
+                   }),
+      each_spoiled("weights of two corners exchanged",
+                   [](VolumeContact& c, const VolumeDepthIn&) { std::swap(c.weights[0], c.weights[1]); }),
+      each_spoiled("the last triangle around a face in place of the first",
+                   [](VolumeContact& c, const VolumeDepthIn& in) {
+                     if (c.face.kind == FaceKind::edge)
+                       c.triangle = in.topology->edge_triangles[static_cast<std::size_t>(c.face.index)].back();
+                   }),
+      each_spoiled("depth 0.01 % too large", [](VolumeContact& c, const VolumeDepthIn&) { c.depth *= 1.0001f; }),
+      {"volume_depth: the volume of the step before", Stage::volume_depth,
+       [](Contestant& contestant, const Authority&) {
+         contestant.volume_depth = [right = contestant.volume_depth](const VolumeDepthIn& in) {
+           std::vector<Vec3f> before(in.positions.begin(), in.positions.end());
+           for (Vec3f& p : before) p.x -= 0.1f * in.contact_radius;
+           VolumeDepthIn other = in;
+           other.positions = before;
+           return right(other);
+         };
+       }},
+      {"volume_depth: radius 0.01 % too large", Stage::volume_depth,
+       [](Contestant& contestant, const Authority&) {
+         contestant.volume_depth = [right = contestant.volume_depth](const VolumeDepthIn& in) {
+           VolumeDepthIn other = in;
+           other.contact_radius *= 1.0001f;
+           return right(other);
+         };
+       }},
+      depth_spoiled("rims with an inner side",
+                    [](const VolumeDepthIn& in, VolumeDepthOut& out) {
+                      for (VolumeContact& c : out.contacts) {
+                        if (c.inside != 0 || c.face.kind != FaceKind::edge ||
+                            in.topology->edge_triangles[static_cast<std::size_t>(c.face.index)].size() != 1)
+                          continue;
+                        if (plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).second < 0)
+                          turn_over(c, in.contact_radius);
+                      }
+                    }),
+  };
+}
+
+}  // namespace
+
+void add_right_volumes(Contestant& exact, const Authority& authority) {
+  exact.volume_depth = [authority](const VolumeDepthIn& in) {
+    VolumeDepthOut out = rounded(authority.volume_depth(in));
+    sort(out);
+    return out;
+  };
+  exact.volume_force = [authority](const VolumeForceIn& in) { return rounded(authority.volume_force(in)); };
+}
+
+namespace {
+
+std::vector<Fault> force_faults_of_volumes() {
+  return {
+      asked("n of the other sign",
+            [](VolumeForceCase& c) {
+              for (float& x : c.direction) x = -x;
+            }),
+      asked("n turned inward where the point is inside",
+            [](VolumeForceCase& c) {
+              if (height(c) < 0)
+                for (float& x : c.direction) x = -x;
+            }),
+      asked("depth without r", [](VolumeForceCase& c) { c.contact_radius = 0x1p-20f; }),
+      asked("depth r at the surface from inside, as from outside: ‖φ‖ for φ",
+            [](VolumeForceCase& c) {
+              const double h = height(c);
+              if (h < 0) lower(c, 2 * h);
+            }),
+      asked("slip since now, not since the start of the step", [](VolumeForceCase& c) { c.start = c.vertex; }),
+      asked("slip of the point alone: a moving volume does not carry along",
+            [](VolumeForceCase& c) {
+              for (std::size_t k = 1; k < 4; ++k) c.start[k] = c.vertex[k];
+            }),
+      asked("friction with the wrong sign of the slip",
+            [](VolumeForceCase& c) {
+              // x + (x − xᵗ) for xᵗ
+              for (std::size_t k = 0; k < 4; ++k) {
+                const Vec3f x = c.vertex[k], s = c.start[k];
+                c.start[k] = {2 * x.x - s.x, 2 * x.y - s.y, 2 * x.z - s.z};
+              }
+            }),
+      asked("friction forgotten", [](VolumeForceCase& c) { c.friction = 0; }),
+      asked("1/y below the limit too", [](VolumeForceCase& c) { c.slip_limit = 0x1p-38f; }),
+      asked("weights of two corners exchanged", [](VolumeForceCase& c) { std::swap(c.weights[1], c.weights[2]); }),
+      asked("weights of the nearest corner alone",
+            [](VolumeForceCase& c) {
+              const auto largest = std::max_element(c.weights.begin(), c.weights.end());
+              const std::ptrdiff_t k = largest - c.weights.begin();
+              c.weights = {};
+              c.weights[static_cast<std::size_t>(k)] = 1;
+            }),
+      asked("radius 0.01 % too large", [](VolumeForceCase& c) { c.contact_radius *= 1.0001f; }),
+      spoiled("weight not squared in the block",
+              [](const VolumeForceCase& c, Vec3f&, std::array<float, 6>& block) {
+                const float w = weight(c);
+                if (w > 0)
+                  for (float& b : block) b /= w;
+              }),
+      spoiled("nothing left on the corners: action without reaction",
+              [](const VolumeForceCase& c, Vec3f& force, std::array<float, 6>&) {
+                if (c.own > 0) force = {};
+              }),
+      spoiled("the corners pushed the way of the point",
+              [](const VolumeForceCase& c, Vec3f& force, std::array<float, 6>&) {
+                if (c.own > 0) force = {-force.x, -force.y, -force.z};
+              }),
+      spoiled("no force deeper than r",
+              [](const VolumeForceCase& c, Vec3f& force, std::array<float, 6>& block) {
+                if (height(c) < -c.contact_radius) force = {}, block = {};
+              }),
+      spoiled("force 0.1 % too small",
+              [](const VolumeForceCase&, Vec3f& force, std::array<float, 6>&) {
+                force = {0.999f * force.x, 0.999f * force.y, 0.999f * force.z};
+              }),
+  };
+}
+
+}  // namespace
+
+std::vector<Fault> volume_faults() {
+  std::vector<Fault> all = depth_faults();
+  const std::vector<Fault> of_forces = force_faults_of_volumes();
+  all.insert(all.end(), of_forces.begin(), of_forces.end());
+  return all;
+}
+
+}  // namespace ogc::tests

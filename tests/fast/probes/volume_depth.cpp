@@ -1,0 +1,86 @@
+// The search of volumes on the CPU, against what can be written down by hand.
+#include "compare/stages/volume_depth.hpp"
+
+#include "compare/contestant.hpp"
+#include "fast/cpu/cpu.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+
+namespace {
+
+/// Boxes about centres, 2 m wide each: a part for each.
+struct Boxes {
+  std::vector<Vec3f> positions;
+  std::vector<Triangle> triangles;
+  Topology topology;
+
+  explicit Boxes(const std::vector<Vec3f>& centres) {
+    // quads of the cube, counterclockwise as seen from outside; bit 0: x, bit 1: y, bit 2: z
+    constexpr std::array<std::array<Index, 4>, 6> quads{
+        {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+    for (const Vec3f& c : centres) {
+      const auto base = static_cast<Index>(positions.size());
+      for (int k = 0; k < 8; ++k)
+        positions.push_back({c.x + ((k & 1) != 0 ? 1.0f : -1.0f), c.y + ((k & 2) != 0 ? 1.0f : -1.0f),
+                             c.z + ((k & 4) != 0 ? 1.0f : -1.0f)});
+      for (const auto& [p, q, s, t] : quads) {
+        triangles.push_back({base + p, base + q, base + s});
+        triangles.push_back({base + p, base + s, base + t});
+      }
+    }
+    topology = build_topology(static_cast<Index>(positions.size()), triangles);
+  }
+
+  std::vector<VolumeContact> ask(const std::vector<Vec3f>& points, float r) const {
+    return ogc::fast::cpu_contestant().volume_depth({&topology, positions, r, points}).contacts;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the depth is r from both sides of a volume's surface", "[unit]") {
+  const Boxes box({{0, 0, 0}});
+  for (const float height : {-1e-6f, 1e-6f}) {
+    const auto contacts = box.ask({{0.25f, 0.125f, 1 + height}}, 0.5f);
+    REQUIRE(contacts.size() == 1);
+    CHECK(contacts[0].inside == (height < 0 ? 1 : 0));
+    CHECK(contacts[0].depth == Approx(0.5).margin(2e-6));
+    CHECK(contacts[0].direction.z == 1);
+    CHECK(contacts[0].face.kind == FaceKind::triangle);
+  }
+}
+
+TEST_CASE("a point deep inside is found, however small r is", "[unit]") {
+  const Boxes box({{0, 0, 0}});
+  const auto contacts = box.ask({{0.1f, 0.2f, 0.3f}}, 1e-3f);
+  REQUIRE(contacts.size() == 1);
+  CHECK(contacts[0].inside == 1);
+  CHECK(contacts[0].depth == Approx(0.701));
+  CHECK(contacts[0].direction.z == 1);
+}
+
+TEST_CASE("at ridges and corners a point is outside and is pushed away from them", "[unit]") {
+  const Boxes box({{0, 0, 0}});
+  const auto at_edge = box.ask({{1.25f, 1.25f, 0.125f}}, 0.5f);
+  REQUIRE(at_edge.size() == 1);
+  CHECK(at_edge[0].face.kind == FaceKind::edge);
+  CHECK(at_edge[0].direction.x == Approx(std::sqrt(0.5)));
+  CHECK(at_edge[0].depth == Approx(0.5 - 0.25 * std::sqrt(2.0)));
+  const auto at_corner = box.ask({{-1.125f, -1.125f, -1.125f}}, 0.5f);
+  REQUIRE(at_corner.size() == 1);
+  CHECK(at_corner[0].face.kind == FaceKind::vertex);
+  CHECK(at_corner[0].direction.x == Approx(-std::sqrt(1.0 / 3)));
+}
+
+TEST_CASE("each part answers by itself: one holds the point, the other is near", "[unit]") {
+  const Boxes boxes({{0, 0, 0}, {2.25f, 0, 0}, {9, 0, 0}});
+  const auto contacts = boxes.ask({{0.875f, 0.0625f, 0.125f}}, 0.5f);
+  REQUIRE(contacts.size() == 2);
+  CHECK(contacts[0].inside == 0);
+  CHECK(contacts[0].depth == Approx(0.5 - 0.375));
+  CHECK(contacts[0].direction.x == -1);
+  CHECK(contacts[1].inside == 1);
+  CHECK(contacts[1].depth == Approx(0.5 + 0.125));
+  CHECK(contacts[1].direction.x == 1);
+}
