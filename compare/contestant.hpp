@@ -156,8 +156,11 @@ struct ContestantFailure : std::runtime_error {
 /// Empty functions are stages that the contestant does not have.
 struct Contestant {
   std::string name;  ///< for reports
-  /// Whether its steps know bounds=planes. A plug-in's do not: compare/plugin.h has no planes in its trace.
+  /// Whether its steps know bounds=planes and bounds=dat. A plug-in's do not: compare/plugin.h has no planes in its
+  /// trace.
   bool has_steps_with_planes = true;
+  /// Whether its planes divide gaps by approach. A plug-in's do not: compare/plugin.h has no displacements there.
+  bool divides_by_approach = true;
   /// Whether its steps know guess=pairs. A plug-in's do not: compare/plugin.h has no such setting.
   bool has_steps_by_pairs = true;
   /// By stage: compare/stages/STAGE.hpp says what is asked.

@@ -79,6 +79,10 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
   if (scene.settings.guess == compare::Guess::pairs)
     throw compare::InputError(
         "setting 'guess' can't be 'pairs' with Newton's method; give guess=rounds or --solver vbd");
+  if (scene.settings.bounds == compare::Bounds::dat)
+    throw compare::InputError(
+        "setting 'bounds' can't be 'dat' with Newton's method, whose line search scales all vertices at once; give "
+        "bounds=planes or --solver vbd");
   refuse_volumes(scene, "newton", "leave the body a surface");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
 }

@@ -19,7 +19,7 @@ constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
 constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
 constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
-constexpr std::array<std::string_view, 3> bounds_names{"ball", "planes", "off"};
+constexpr std::array<std::string_view, 4> bounds_names{"ball", "planes", "off", "dat"};
 constexpr std::array<std::string_view, 2> guess_names{"rounds", "pairs"};
 
 constexpr std::array<SettingInfo, 18> problem_table{{
@@ -34,8 +34,8 @@ constexpr std::array<SettingInfo, 18> problem_table{{
      &Settings::query_radius_cap},
     {"bounds", "1",
      "what keeps a vertex from passing through others between two detections: a ball as in the paper, planes between "
-     "near pairs, or nothing",
-     0, 2, &Settings::bounds, bounds_names},
+     "near pairs, nothing, or planes as in Divide and Truncate (vbd)",
+     0, 3, &Settings::bounds, bounds_names},
     {"bound_relaxation", "1",
      "share of its distance to the nearest neighbour that a vertex may move before the next detection, γ_p of Eq. 21",
      0x1p-10, 0.5 - 0x1p-10, &Settings::bound_relaxation},

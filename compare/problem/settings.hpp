@@ -21,8 +21,10 @@ enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ip
 /// motion through its own block.
 enum class DampingForm : std::int64_t { strain, per_vertex };
 /// What keeps a vertex from passing through others between two detections (method.md §5.6): a ball about X_prev, as in
-/// the paper; planes between near pairs, and a ball for the others; nothing.
-enum class Bounds : std::int64_t { ball, planes, off };
+/// the paper; planes between near pairs, and a ball for the others; nothing; planes as *Divide and Truncate* has them.
+enum class Bounds : std::int64_t { ball, planes, off, dat };
+/// Whether near pairs have planes.
+constexpr bool has_planes(Bounds bounds) { return bounds == Bounds::planes || bounds == Bounds::dat; }
 /// How a step's first positions are found (method.md §5.2): by rounds of truncation, or at once, by a certificate of
 /// every pair that could meet.
 enum class Guess : std::int64_t { rounds, pairs };

@@ -43,7 +43,7 @@ struct VertexPlanes {
 };
 
 /// What stage truncate is asked about a vertex that bears these planes and that inertia alone holds; empty where it
-/// bears none.
+/// bears none. `is_prescribed`: it does not slide; with bounds=dat none does, and `current` is X_prev.
 inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Vec3f& current, bool is_prescribed) {
   if (planes.empty()) return {};
   HalfSpacesIn all{.offsets = {0, static_cast<Index>(planes.size())},
@@ -63,7 +63,23 @@ struct PlaneIn {
   std::span<const std::uint8_t> is_fixed;  ///< by vertex: it never moves, and bears no plane
   float query_radius = 0;                  ///< r_q [m]
   float bound_relaxation = 0.45f;          ///< γ_p
+  /// w by vertex [m], 0 of fixed ones: how the gap of each pair is divided (bounds=dat); empty: it is halved
+  std::span<const Vec3f> displacement{};
 };
+
+/// What divides the gaps (method.md §5.6): `to` − `from` by vertex, rounded once to single precision. In the guess loop
+/// from X to the target, later from X_prev of the detection before to X.
+inline std::vector<Vec3f> displacements(std::span<const Vec3f> from, std::span<const Vec3f> to) {
+  std::vector<Vec3f> all;
+  all.reserve(from.size());
+  for (std::size_t v = 0; v < from.size(); ++v)
+    all.push_back({to[v].x - from[v].x, to[v].y - from[v].y, to[v].z - from[v].z});
+  return all;
+}
+
+/// Share of 2γ_p d that each side of a pair has at least where both can move, with bounds=dat. A side without room
+/// could not go back until the next detection, and rounding could not tell that it keeps its half-space at X.
+inline constexpr double least_division = 0x1p-4;
 
 /// PlaneIn::is_fixed of a scene: by vertex, 1 where its rigid group is 0.
 inline std::vector<std::uint8_t> fixed_flags(std::span<const Index> groups) {
@@ -113,6 +129,15 @@ struct PlaneFreedom {
   /// in units of u · max(d, Σ|δ|).
   double narrowing = 0;
   PrimitivePair narrowest;  ///< of which that is
+  /// Where there are displacements: how far the room of a separated pair's side, its offset less its farthest vertex
+  /// along n, is from 2γ_p s d at most, in units of u · (max(d, Σ|δ|) + d W/(a + b)). With the answer's n,
+  ///
+  ///   a = max(0, largest n·w of the first side),  b = max(0, largest −n·w of the second),
+  ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 where a = b = 0,
+  ///
+  /// and W = max ‖w‖ of the pair. Sides that cannot move are not asked for it, nor are those against them.
+  double division = 0;
+  PrimitivePair worst_divided;  ///< of which that is
   /// By vertex, by how much b_v is smaller than γ_p min(r_q, smallest d of its pairs that no plane separates), in units
   /// of u γ_p · max(d, Σ|δ|) of the pair that excuses it best; 0 of vertices that cannot move and inside solids.
   std::vector<double> ball_shortfall;
@@ -130,6 +155,9 @@ struct PlaneTruth {
 /// closest ones face each other; its length (1); the offsets' and the judge's arithmetic in double (less than 1 of
 /// both). A direction that is computed in single precision does not stay below.
 inline constexpr double plane_narrowing_tolerance = 3;
+/// In units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and that of s < 1: a and b of three
+/// products in single precision are off by 4 u W, so s by 4 u W/(a + b), of 2γ_p d < d.
+inline constexpr double plane_division_tolerance = 4;
 /// In units of u γ_p · max(d, Σ|δ|): a smallest distance (`detect_below_tolerance`), one product, rounded down (2), in
 /// a kernel that may round to nearest and step down once more (4).
 inline constexpr double plane_ball_tolerance = detect_below_tolerance + 4;

@@ -28,7 +28,8 @@ struct HalfSpacesIn {
   std::vector<HalfSpace> items;
   std::vector<Vec3f> current;               ///< where the vertex is, in its region [m]
   std::vector<std::array<float, 6>> block;  ///< H: xx, xy, xz, yy, yz, zz [N/m], positive definite
-  std::vector<std::uint8_t> is_prescribed;  ///< 1: it does not slide, and H is not read
+  /// 1: it does not slide, and H is not read: a prescribed vertex, or any with bounds=dat, from X_prev
+  std::vector<std::uint8_t> is_prescribed;
 
   /// Those of case i.
   std::span<const HalfSpace> of(std::size_t i) const {

@@ -52,4 +52,6 @@ FiftyLayersSizes fifty_layers_1m_sizes() {
   return {.name = "fifty_layers_1m", .vertices_a_side = 141, .contact_radius = 2e-3};
 }
 
+FiftyLayersSizes two_hundred_layers_sizes() { return {.name = "two_hundred_layers", .layers = 200, .steps = 7200}; }
+
 }  // namespace ogc::experiments

@@ -28,4 +28,8 @@ compare::Scene fifty_layers(const FiftyLayersSizes& sizes = {});
 /// The sizes of Table 1's row of 1M vertices: 50 × (141 × 141), r = 2 mm.
 FiftyLayersSizes fifty_layers_1m_sizes();
 
+/// Two hundred of its layers, 980,000 vertices: a scene of *Divide and Truncate* (Chen, Hsu, Ayman, Macklin, 2026),
+/// whose sheets we do not know. [D] Those of fifty_layers, with 7,200 steps: the stack is 0.94 m high.
+FiftyLayersSizes two_hundred_layers_sizes();
+
 }  // namespace ogc::experiments

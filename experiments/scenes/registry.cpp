@@ -62,6 +62,15 @@ compare::Scene fifty_layers_1m_at(Scale scale) {
   return fifty_layers(fifty_layers_1m_sizes());
 }
 
+compare::Scene two_hundred_layers_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return fewer_layers(two_hundred_layers_sizes(), 12, 10, {16, 6, 2}, 110);
+    case Scale::small: return fewer_layers(two_hundred_layers_sizes(), 40, 20, {24, 9, 3}, 1200);
+    case Scale::paper: break;
+  }
+  return fifty_layers(two_hundred_layers_sizes());
+}
+
 compare::Scene three_cloths_at(Scale scale) {
   switch (scale) {
     case Scale::smoke:
@@ -175,7 +184,7 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-constexpr std::array<SceneInfo, 12> table{{
+constexpr std::array<SceneInfo, 13> table{{
     {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence",
      activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
@@ -194,6 +203,8 @@ constexpr std::array<SceneInfo, 12> table{{
     {"three_cloths_on_sphere", "Fig. 17", "three square cloths, one above the other, fall onto a fixed sphere",
      three_cloths_at},
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
+    {"two_hundred_layers", "Divide and Truncate", "two hundred square cloths fall off-centre onto a fixed cylinder",
+     two_hundred_layers_at},
 }};
 
 constexpr std::array<std::string_view, 3> scale_names{"smoke", "small", "paper"};

@@ -48,6 +48,7 @@ struct FeasibleRegion {
   Ball ball;
   const HalfSpace* planes = nullptr;  ///< on the backend
   int count = 0;                      ///< half-spaces, at most most_planes
+  bool slides = true;                 ///< false: what lies outside is scaled towards X_prev (bounds=dat)
 };
 
 /// N, planes of a vertex at most: a spot of collapsed triangles would have hundreds.
@@ -60,6 +61,7 @@ struct FeasibleRegions {
   const HalfSpace* planes = nullptr;  ///< of vertex v from v · most_planes
   const int* counts = nullptr;        ///< planes by vertex; null: there are balls alone
   bool is_off = false;                ///< nothing holds a vertex
+  bool slides = true;                 ///< as in FeasibleRegion
 
   /// Whether bounds are planes, so that regions are more than balls.
   OGC_HD bool has_planes() const { return counts != nullptr; }
@@ -69,7 +71,7 @@ struct FeasibleRegions {
   OGC_HD FeasibleRegion region(int v, const Ball& ball) const {
     if (is_off) return {{ball.centre, unbounded}};
     if (counts == nullptr) return {ball};
-    return {ball, planes + static_cast<std::ptrdiff_t>(v) * most_planes, counts[v]};
+    return {ball, planes + static_cast<std::ptrdiff_t>(v) * most_planes, counts[v], slides};
   }
   OGC_HD FeasibleRegion operator[](int v) const { return region(v, ball(v)); }
 

@@ -92,15 +92,18 @@ struct BeginTetrahedron {
 /// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified; a guess
 /// by pairs has a certificate of its own.
 struct BeginRegions {
-  const Vec* position;     ///< x by vertex [m]
-  FeasibleRegions ended;   ///< those that the last detection left
-  Vec* previous;           ///< X_prev by vertex [m], written
-  StepControl* control;    ///< on the backend: counts vertices that their region does not hold
-  int* touched = nullptr;  ///< by vertex, where the detection marks what touches (mark_touched.hpp): 0, written
+  const Vec* position;          ///< x by vertex [m]
+  FeasibleRegions ended;        ///< those that the last detection left
+  Vec* previous;                ///< X_prev by vertex [m], written
+  StepControl* control;         ///< on the backend: counts vertices that their region does not hold
+  int* touched = nullptr;       ///< by vertex, where the detection marks what touches (mark_touched.hpp): 0, written
+  Vec* displacement = nullptr;  ///< by vertex, where it divides gaps (bounds=dat) [m]: y − x, or x − X_prev, written
+  const Vec* target = nullptr;  ///< y by vertex in the guess loop, later null; read where displacements are written
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
     if (control->rounds > 0 && control->left == 0 && is_outside(ended[v], x)) control->count_violation();
+    if (displacement != nullptr) displacement[v] = target != nullptr ? target[v] - x : x - previous[v];
     previous[v] = x;
     if (touched != nullptr) touched[v] = 0;
   }

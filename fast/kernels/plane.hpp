@@ -99,12 +99,35 @@ OGC_HD inline Distance distance_of(const PairPoints<2, 2>& pair) {
   return edge_edge_distance({pair.first[0], pair.first[1]}, {pair.second[0], pair.second[1]});
 }
 
-/// The plane of a pair at its positions, which is not nearer than `below`, with γ_p = `share`: each side may approach
-/// by γ_p of the gap, where the other is fixed by 2γ_p. Offsets are taken from the points themselves, so n need not be
-/// exact; whether every point keeps its own is tested as it will be tested later, and a pair that fails has no plane.
-/// The offset of a fixed side lies half way from it to the other's.
-template <int m, int n>
-OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share) {
+/// What the first side has of 2γ_p of the gap where both can move: half of it.
+struct Halved {
+  OGC_HD double operator()(const Vec&) const { return 0.5; }
+};
+
+/// The same in proportion to how fast the sides approach along n (method.md §5.6, dat): the largest n·w of the first
+/// over its sum with the largest −n·w of the second, what leaves being slow. Within least_division of 0 and 1.
+template <int first_count, int second_count>
+struct ByApproach {
+  Vec first[first_count], second[second_count];  ///< w by vertex of the side [m]
+
+  static constexpr double least_division = 0x1p-4;
+
+  OGC_HD double operator()(const Vec& n) const {
+    double a = 0, b = 0;
+    for (const Vec& w : first) a = larger(a, excess(n, 0, w).value);
+    for (const Vec& w : second) b = larger(b, -excess(n, 0, w).value);
+    const double both = add(a, b);
+    if (!(both > 0)) return 0.5;
+    return smaller(1 - least_division, larger(least_division, divide(a, both)));
+  }
+};
+
+/// The plane of a pair at its positions, which is not nearer than `below`, with γ_p = `share`: both sides together may
+/// approach by 2γ_p of the gap, of which the first has division(n); where a side is fixed the other has all. Offsets
+/// are taken from the points themselves, so n need not be exact; whether every point keeps its own is tested as it will
+/// be tested later, and a pair that fails has no plane. A fixed side has its offset half way from it to the other's.
+template <int m, int n, class Division = Halved>
+OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share, const Division& division = {}) {
   PairPlane plane;
   plane.below = below;
   const Real direction = separating_direction(pair);
@@ -116,11 +139,12 @@ OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share
   for (int k = 1; k < m; ++k) top = larger(top, excess(normal, 0, pair.first[k]).value);
   for (int k = 1; k < n; ++k) bottom = smaller(bottom, excess(normal, 0, pair.second[k]).value);
   const double gap = sub(bottom, top), own = static_cast<double>(share);
-  const auto approach = [own](bool is_fixed, bool is_other_fixed) {
-    return is_fixed ? sub(0.5, own) : (is_other_fixed ? add(own, own) : own);
+  const double both = add(own, own), part = division(normal);  // of two halves each is γ_p, to the bit
+  const auto approach = [own, both](bool is_fixed, bool is_other_fixed, double own_part) {
+    return is_fixed ? sub(0.5, own) : (is_other_fixed ? both : mul(both, own_part));
   };
-  PairPlane placed{normal, below, add(top, mul(approach(pair.is_first_fixed, pair.is_second_fixed), gap)),
-                   sub(bottom, mul(approach(pair.is_second_fixed, pair.is_first_fixed), gap))};
+  PairPlane placed{normal, below, add(top, mul(approach(pair.is_first_fixed, pair.is_second_fixed, part), gap)),
+                   sub(bottom, mul(approach(pair.is_second_fixed, pair.is_first_fixed, sub(1, part)), gap))};
   bool separates = placed.first < placed.second;
   for (const Vec& x : pair.first) separates = separates && is_behind(placed.of_first(), x);
   for (const Vec& x : pair.second) separates = separates && is_behind(placed.of_second(), x);
@@ -281,6 +305,7 @@ template <class Metric>
 OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric) {
   if (region.count == 0) return truncate(region.ball, proposal);
   if (is_within(region, proposal)) return {proposal, false};
+  if (!region.slides) return scale_into(region, region.ball.centre, proposal);
   return slide_into(region, current, proposal, metric);
 }
 
@@ -288,7 +313,7 @@ OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Ve
 OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& current, const Vec& target) {
   if (region.count == 0) return truncate(region.ball, target);
   if (is_within(region, target)) return {target, false};
-  return scale_into(region, current, target);
+  return scale_into(region, region.slides ? current : region.ball.centre, target);
 }
 
 }  // namespace ogc::fast

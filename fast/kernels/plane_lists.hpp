@@ -35,6 +35,7 @@ struct PlaneListsView {
   PaddedVecs positions;                    ///< of the detection
   const std::uint8_t* is_fixed = nullptr;  ///< by vertex
   float share = 0;                         ///< γ_p
+  const Vec* displacement = nullptr;       ///< w by vertex [m], which divides gaps; null: they are halved
   const float* query_radius = nullptr;     ///< r_q [m]
   const NotedPair* noted = nullptr;        ///< pairs within r_q in any order, numbered by their place
   PairPlane* planes = nullptr;             ///< by noted pair
@@ -86,6 +87,24 @@ struct PlaneListsView {
     if (of.second_from == 1)
       return f(PairPoints<1, 3>{{x[v[0]]}, {x[v[1]], x[v[2]], x[v[3]]}, fixed(0, 0), fixed(1, 2) && fixed(3, 3)});
     return f(PairPoints<2, 2>{{x[v[0]], x[v[1]]}, {x[v[2]], x[v[3]]}, fixed(0, 1), fixed(2, 3)});
+  }
+  /// The displacements of a pair, as its points.
+  OGC_HD ByApproach<1, 3> approach(const NotedPair& pair, const PairPoints<1, 3>&) const {
+    const Vertices of = vertices(pair);
+    const Vec* w = displacement;
+    return {{w[of.at[0]]}, {w[of.at[1]], w[of.at[2]], w[of.at[3]]}};
+  }
+  OGC_HD ByApproach<2, 2> approach(const NotedPair& pair, const PairPoints<2, 2>&) const {
+    const Vertices of = vertices(pair);
+    const Vec* w = displacement;
+    return {{w[of.at[0]], w[of.at[1]]}, {w[of.at[2]], w[of.at[3]]}};
+  }
+  /// The plane of a pair that is not nearer than `below`.
+  OGC_HD PairPlane plane(const NotedPair& pair, float below) const {
+    return at_points(pair, [this, &pair, below](const auto& points) {
+      if (displacement == nullptr) return plane_of(points, below, share);
+      return plane_of(points, below, share, approach(pair, points));
+    });
   }
 };
 
@@ -156,9 +175,7 @@ struct PlacePlanes {
     const NotedPair pair = lists.pair(i);
     bool is_near = true;
     lists.for_each_moving(pair, [&](int v) { is_near = is_near && plane.below < lists.threshold[v]; });
-    if (is_near)
-      plane = lists.at_points(
-          pair, [&plane, share = lists.share](const auto& points) { return plane_of(points, plane.below, share); });
+    if (is_near) plane = lists.plane(pair, plane.below);
     if (plane.exists()) return;
     lists.for_each_moving(pair, [&](int v) { lower(&lists.unplaned[v], plane.below); });
   }

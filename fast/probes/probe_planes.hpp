@@ -15,9 +15,12 @@ namespace ogc::fast {
 /// The stage `plane`. `list_capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
 template <class Backend>
 compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int list_capacity = 0) {
-  Detection<Backend> detection(backend, *in.topology, in.exclusions, list_capacity, 0, compare::Bounds::planes,
+  const auto bounds = in.displacement.empty() ? compare::Bounds::planes : compare::Bounds::dat;
+  Detection<Backend> detection(backend, *in.topology, in.exclusions, list_capacity, 0, bounds,
                                {in.is_fixed.begin(), in.is_fixed.end()});
   ProbeMemory<Backend> memory(backend);
+  const std::vector<compare::Vec3f> displacement(in.displacement.begin(), in.displacement.end());
+  if (!displacement.empty()) detection.divide_planes_by(memory.template in<Vec>(displacement));
   const Vec* positions = memory.template in<Vec>(std::vector<compare::Vec3f>(in.positions.begin(), in.positions.end()));
   const float* query_radius = memory.template in<float>(std::vector<float>{in.query_radius});
   detection.rebuild(positions);

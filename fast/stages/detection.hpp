@@ -133,6 +133,8 @@ class Detection {
             .d_min_vertex = planes_.is_used() ? planes_.nearest() : d_min_vertex_.data()};
   }
 
+  /// As Planes::divide_by.
+  void divide_planes_by(const Vec* displacement) { planes_.divide_by(displacement); }
   /// Host only: see Planes::download.
   compare::VertexPlanes download_planes() const { return planes_.download(); }
   /// Of the last complete detection. `centre`: the positions that it was for, on the backend.

@@ -23,6 +23,7 @@ class Planes {
       case compare::Bounds::ball: return;
       case compare::Bounds::off: is_off_ = true; return;
       case compare::Bounds::planes: is_used_ = true; break;
+      case compare::Bounds::dat: is_used_ = true, slides_ = false; break;
     }
     const std::size_t vertices = is_fixed.size();
     is_fixed_.upload(is_fixed.data(), vertices);
@@ -37,6 +38,8 @@ class Planes {
 
   /// Whether bounds are planes.
   bool is_used() const { return is_used_; }
+  /// Gaps are divided by these displacements from now on [m], by vertex, on the backend; null: they are halved.
+  void divide_by(const Vec* displacement) { displacement_ = displacement; }
 
   /// Host only: room for so many noted pairs.
   void reserve(int noted_capacity) {
@@ -47,7 +50,7 @@ class Planes {
 
   /// X_prev and b_v with the half-spaces that stand here.
   FeasibleRegions regions(const Vec* centre, const float* radius) const {
-    FeasibleRegions regions{.centre = centre, .radius = radius, .is_off = is_off_};
+    FeasibleRegions regions{.centre = centre, .radius = radius, .is_off = is_off_, .slides = slides_};
     if (is_used_) regions.planes = rows_.data(), regions.counts = counts_.data();
     return regions;
   }
@@ -64,6 +67,7 @@ class Planes {
                                .positions = positions,
                                .is_fixed = is_fixed_.data(),
                                .share = share,
+                               .displacement = displacement_,
                                .query_radius = query_radius,
                                .noted = noted.noted,
                                .planes = planes_.data(),
@@ -120,7 +124,8 @@ class Planes {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  bool is_used_ = false, is_off_ = false;
+  bool is_used_ = false, is_off_ = false, slides_ = true;
+  const Vec* displacement_ = nullptr;
   Buffer<std::uint8_t> is_fixed_;
   Buffer<PairPlane> planes_;
   Buffer<int> pair_counts_, pair_offsets_, pair_filled_, pair_rows_, counts_, no_sum_;

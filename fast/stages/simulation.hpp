@@ -149,6 +149,10 @@ class ResidentSimulation : public compare::Simulation {
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
     s.touched.resize(n);
+    if (scene_.settings.bounds == compare::Bounds::dat) {
+      s.displacement.resize(n);
+      detection_.divide_planes_by(s.displacement.data());
+    }
     s.padded_start.resize(n);
     s.padded.resize(2 * n);
     s.strain_start.resize(rest_.triangles.size());
@@ -267,7 +271,7 @@ class ResidentSimulation : public compare::Simulation {
     result.contact_energy = energies_ ? row.contact : not_asked;
     result.gravity_energy = energies_ ? row.gravity : not_asked;
     result.inverted_tetrahedra = row.inverted;
-    result.smallest_distance = scene_.settings.bounds == compare::Bounds::planes
+    result.smallest_distance = compare::has_planes(scene_.settings.bounds)
                                    ? row.smallest_bound
                                    : row.smallest_bound / scene_.settings.bound_relaxation;
     result.status = static_cast<std::uint32_t>(row.status);

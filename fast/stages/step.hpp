@@ -43,6 +43,7 @@ struct StepSettings {
   float detection_radius = 0;                                                    ///< r and the margin of contacts [m]
   Vec acceleration;                                                              ///< [m/s²]
   int iterations = 0;                                                            ///< of a step
+  bool divides = false;     ///< whether displacements divide the gaps of pairs (bounds=dat)
   bool energies = false;    ///< whether a row has the energies of elements and contacts
   ControlSettings control;  ///< what the device decides by
 };
@@ -69,6 +70,7 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y),
                      static_cast<float>(scene.gravity.z)};
   to.iterations = static_cast<int>(from.iterations);
+  to.divides = from.bounds == compare::Bounds::dat;
   to.energies = energies;
   to.control.contact_radius = to.detection_radius;
   to.control.largest_query_radius = std::max(static_cast<float>(from.query_radius_cap * from.contact_radius),
@@ -95,20 +97,21 @@ struct StepState {
   /// whether the step begins with Gᵗ and θᵗ; whether with Gᵗ of the tetrahedra
   bool damped = false, solids_damped = false;
   Buffer<Vec> start, velocity, target, previous, position;  ///< by vertex: xᵗ [m], vᵗ [m/s], y, X_prev, x [m]
-  Buffer<PaddedVec> padded_start, padded;                   ///< by vertex: xᵗ; x, twice as many [m]
-  Buffer<float> mass;                                       ///< by vertex [kg]
-  Buffer<int> prescribed_number;        ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
-  Buffer<Vec> prescribed_targets;       ///< [step of the frame][number]
-  Buffer<TriangleRest> triangles;       ///< by triangle
-  Buffer<HingeRest> hinges;             ///< by hinge
-  Buffer<HingeWeights> weights;         ///< by hinge; empty where no body bends isometrically
-  Buffer<SpringRest> springs;           ///< by spring
-  Buffer<TetrahedronRest> tetrahedra;   ///< by tetrahedron
-  Buffer<Symmetric2> strain_start;      ///< Gᵗ by triangle [1]
-  Buffer<SolidStrain> solid_start;      ///< Gᵗ by tetrahedron [1]
-  Buffer<float> angle_start;            ///< θᵗ by hinge [rad]
-  Buffer<StepControl> control;          ///< one item
-  Buffer<StepRow> rows;                 ///< by step of the frame
+  Buffer<Vec> displacement;                ///< by vertex: what divides gaps [m]; empty where they are halved
+  Buffer<PaddedVec> padded_start, padded;  ///< by vertex: xᵗ; x, twice as many [m]
+  Buffer<float> mass;                      ///< by vertex [kg]
+  Buffer<int> prescribed_number;           ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
+  Buffer<Vec> prescribed_targets;          ///< [step of the frame][number]
+  Buffer<TriangleRest> triangles;          ///< by triangle
+  Buffer<HingeRest> hinges;                ///< by hinge
+  Buffer<HingeWeights> weights;            ///< by hinge; empty where no body bends isometrically
+  Buffer<SpringRest> springs;              ///< by spring
+  Buffer<TetrahedronRest> tetrahedra;      ///< by tetrahedron
+  Buffer<Symmetric2> strain_start;         ///< Gᵗ by triangle [1]
+  Buffer<SolidStrain> solid_start;         ///< Gᵗ by tetrahedron [1]
+  Buffer<float> angle_start;               ///< θᵗ by hinge [rad]
+  Buffer<StepControl> control;             ///< one item
+  Buffer<StepRow> rows;                    ///< by step of the frame
   Buffer<int> touched;                  ///< by vertex, in the guess loop: not 0 where it is part of an active contact
   Buffer<double> sums_guess, sums_end;  ///< by SumColumn, after the guess loop and at the end
 };
@@ -192,9 +195,10 @@ class Step {
                         BeginTetrahedron{s.tetrahedra.data(), s.start.data(), s.solid_start.data()});
   }
 
-  /// The regions that end here are certified, then X_prev ← x.
-  StepStart start_of_detection() {
-    return {{state_.position.data(), regions(), state_.previous.data(), control(), state_.touched.data()}};
+  /// The regions that end here are certified, then X_prev ← x. `target`: y in the guess loop, later null.
+  StepStart start_of_detection(const Vec* target) {
+    return {{state_.position.data(), regions(), state_.previous.data(), control(), state_.touched.data(),
+             settings_.divides ? state_.displacement.data() : nullptr, target}};
   }
 
   /// The lists of a detection and the stream that the sweep reads.
@@ -212,7 +216,7 @@ class Step {
   void detect() {
     clock_.time(StepStage::detection, [&] {
       detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
-                        settings_.bound_relaxation, StepLaunches{start_of_detection(), listing<EndDetection>()});
+                        settings_.bound_relaxation, StepLaunches{start_of_detection(nullptr), listing<EndDetection>()});
     });
     observe(compare::StepEventKind::detection);
   }
@@ -220,10 +224,10 @@ class Step {
   /// As much of it as a round of the guess loop needs: bounds, and who is part of an active contact.
   void detect_in_round() {
     clock_.time(StepStage::detection, [&] {
-      detection_.detect_unlisted(state_.position.data(), settings_.detection_radius, &control()->query_radius,
-                                 settings_.bound_relaxation,
-                                 RoundLaunches{start_of_detection(), control(), state_.previous.data(),
-                                               settings_.contact_radius, state_.touched.data()});
+      detection_.detect_unlisted(
+          state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
+          RoundLaunches{start_of_detection(state_.target.data()), control(), state_.previous.data(),
+                        settings_.contact_radius, state_.touched.data()});
     });
     observe(compare::StepEventKind::detection);
   }

@@ -129,6 +129,20 @@ class PlaneMaker {
     return true;
   }
 
+  /// What the first side has of 2γ_p d where both can move.
+  Long first_part(const NearPair& pair) const {
+    if (in_.displacement.empty()) return 0.5;
+    std::array<Long, 2> approach{0, 0};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Long along_n = height(pair.normal, in_.displacement[at(pair.vertices[k])]);
+      Long& largest = approach[k < pair.second_from ? 0 : 1];
+      largest = std::max(largest, k < pair.second_from ? along_n : -along_n);
+    }
+    const Long both = approach[0] + approach[1];
+    if (!(both > 0)) return 0.5;
+    return std::clamp(approach[0] / both, Long{compare::least_division}, 1 - Long{compare::least_division});
+  }
+
   void place(NearPair& pair, const Direction& direction) const {
     const Long length = std::sqrt(inner(direction, direction)), share = Long{in_.bound_relaxation};
     if (!(length > 0)) return;
@@ -144,12 +158,13 @@ class PlaneMaker {
     }
     const Long gap = bottom - top;
     const bool first_fixed = is_fixed(pair, false), second_fixed = is_fixed(pair, true);
+    const Long part = first_part(pair);
     // half way between a fixed side and the other's offset: it bears none
-    const auto room = [share](bool fixed, bool other_fixed) {
-      return fixed ? Long{0.5} - share : (other_fixed ? 2 * share : share);
+    const auto room = [share](bool fixed, bool other_fixed, Long own_part) {
+      return fixed ? Long{0.5} - share : (other_fixed ? 2 * share : 2 * share * own_part);
     };
-    pair.first_offset = static_cast<double>(top + room(first_fixed, second_fixed) * gap);
-    pair.second_offset = static_cast<double>(bottom - room(second_fixed, first_fixed) * gap);
+    pair.first_offset = static_cast<double>(top + room(first_fixed, second_fixed, part) * gap);
+    pair.second_offset = static_cast<double>(bottom - room(second_fixed, first_fixed, 1 - part) * gap);
     pair.has_plane = pair.first_offset < pair.second_offset;
     for (std::size_t k = 0; k < 4; ++k)
       pair.has_plane = pair.has_plane && keeps(pair.as_borne(k), mesh_.at(pair.vertices[k]));

@@ -27,6 +27,7 @@ struct NearPair {
 
 /// All pairs within r_q, ascending, each with the plane that it may have: of the closest points c_p, c_q, found
 /// exactly, n = (c_q − c_p)/d; the two offsets lie γ_p d from the sides, or 2γ_p d from one where the other is fixed.
+/// With displacements both sides that can move share 2γ_p d as PlaneFreedom::division says.
 /// `sought`: by vertex; where it is not empty, only pairs with a vertex that is marked there. In parallel; the answer
 /// does not depend on the number of threads.
 std::vector<NearPair> near_pairs_with_planes(const compare::PlaneIn& in, std::span<const std::uint8_t> sought = {});

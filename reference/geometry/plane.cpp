@@ -181,6 +181,7 @@ struct MeasuredPair {
   bool has_room = false;      ///< for a plane in single precision
   bool is_separated = false;  ///< by the answer
   double together = 0;        ///< how far both sides may come together along the plane that separates them [m]
+  double division = 0;        ///< as PlaneFreedom::division, of this pair
 
   /// Not above what a kernel may take for its distance, d less its tolerance.
   double surely_above() const { return std::max(0.0, distance - compare::detect_below_tolerance * u * scale); }
@@ -250,8 +251,56 @@ class FreedomCheck {
       measured.is_separated = true;
       measured.together = (room(pair.name, pair.first, *normal, 1) + room(pair.name, pair.second, *normal, -1)) /
                           std::hypot(double{normal->x}, double{normal->y}, double{normal->z});
+      if (!in_.displacement.empty()) measured.division = division(pair, *normal, measured);
     }
     return measured;
+  }
+
+  using Long = long double;
+  static Long inner(const Vec3f& n, const Vec3f& x) { return Long{n.x} * x.x + Long{n.y} * x.y + Long{n.z} * x.z; }
+
+  template <class Vertices>
+  bool can_move(const Vertices& side) const {
+    return std::ranges::any_of(side, [this](Index v) { return answered_.moves(v); });
+  }
+
+  /// How far along `sign` n a side's offset lies before the farthest of all its vertices, times the length of n.
+  template <class Vertices>
+  Long way_to_offset(const PrimitivePair& name, const Vertices& side, const Vec3f& n, Long sign) const {
+    Long farthest = -Long{infinity}, offset = 0;
+    for (const Index v : side) {
+      farthest = std::max(farthest, sign * inner(n, in_.positions[at(v)]));
+      if (answered_.moves(v)) offset = Long{answered_.offset(v, name)};
+    }
+    return offset - farthest;
+  }
+
+  /// The largest `sign` n·w of a side's vertices, which may be negative, over the length of n.
+  template <class Vertices>
+  Long speed_of(const Vertices& side, const Vec3f& n, Long sign) const {
+    Long largest = -Long{infinity};
+    for (const Index v : side) largest = std::max(largest, sign * inner(n, in_.displacement[at(v)]));
+    return largest / std::sqrt(inner(n, n));
+  }
+
+  /// Where rounding can hide whether a side approaches at all, and the other does not, any division is right: W/(a + b)
+  /// is without bounds there.
+  template <class Pair>
+  double division(const Pair& pair, const Vec3f& n, const MeasuredPair& measured) const {
+    if (!can_move(pair.first) || !can_move(pair.second)) return 0;
+    Long largest = 0;
+    for (const Index v : measured.vertices)
+      largest = std::max(largest, std::sqrt(inner(in_.displacement[at(v)], in_.displacement[at(v)])));
+    const Long first = speed_of(pair.first, n, 1), second = speed_of(pair.second, n, -1), doubt = 4 * u * largest;
+    const Long a = std::max(Long{0}, first), b = std::max(Long{0}, second);
+    if (a + b <= doubt && largest > 0 && std::max(first, second) > -doubt) return 0;
+    Long share = 0.5;
+    if (a + b > 0) share = std::clamp(a / (a + b), Long{compare::least_division}, 1 - Long{compare::least_division});
+    const Long length = std::sqrt(inner(n, n)), whole = 2 * Long{in_.bound_relaxation} * measured.distance;
+    const Long error = std::max(std::abs(way_to_offset(pair.name, pair.first, n, 1) / length - share * whole),
+                                std::abs(way_to_offset(pair.name, pair.second, n, -1) / length - (1 - share) * whole));
+    const Long doubtful = a + b > 0 ? measured.distance * largest / (a + b) : Long{0};
+    return static_cast<double>(error / (u * (measured.scale + doubtful)));
   }
 
   /// How far a side may come along `sign` n, times the length of n: as far as the vertex that is next to its offset; 0
@@ -293,6 +342,10 @@ class FreedomCheck {
       freedom_.due += is_due ? 1 : 0;
       if (is_due && !pair.is_separated && freedom_.missing++ == 0) freedom_.first_missing = pair.name;
       if (!pair.is_separated) continue;
+      if (pair.division > freedom_.division) {
+        freedom_.division = pair.division;
+        freedom_.worst_divided = pair.name;
+      }
       const double narrowing = (2 * double{in_.bound_relaxation} * pair.distance - pair.together) / (u * pair.scale);
       if (!(narrowing > freedom_.narrowing)) continue;
       freedom_.narrowing = narrowing;

@@ -65,7 +65,8 @@ void ContactStep::detect_here() {
     std::vector<Vec3f> here = rounded(x_);
     const float query_radius = sufficient_query_radius(topology_, exclusions_, movable_, here,
                                                        static_cast<float>(detection_radius(settings_)), query_radius_);
-    return detect(scene_, topology_, exclusions_, std::move(here), query_radius);
+    const std::vector<Vec3f> displacement = displacements_at(here);
+    return detect(scene_, topology_, exclusions_, std::move(here), query_radius, displacement);
   });
   regions_ = FeasibleRegions(detected_, settings_.bounds);
   const State centre = widened(detected_.previous);
@@ -76,6 +77,14 @@ void ContactStep::detect_here() {
   detect_next_ = false;
   fresh_ = true;
   iterations_since_ = 0;
+}
+
+std::vector<Vec3f> ContactStep::displacements_at(const std::vector<Vec3f>& here) const {
+  if (settings_.bounds != compare::Bounds::dat) return {};
+  std::vector<Vec3f> to = here;
+  for (const std::size_t v : movable_)
+    if (guessing_) to[v] = rounded({target_[v]}).front();
+  return guessing_ ? compare::displacements(here, to) : compare::displacements(detected_.previous, here);
 }
 
 bool ContactStep::many(std::size_t cut) const {
@@ -99,6 +108,7 @@ bool ContactStep::in_contact() const {
 }
 
 void ContactStep::guess(GuessEnd end) {
+  guessing_ = true;
   detect_here();
   potential_.lag_friction(x_);
   for (std::int64_t round = 1; end == GuessEnd::rounds || !in_contact(); ++round) {
@@ -118,6 +128,7 @@ void ContactStep::guess(GuessEnd end) {
     if (round >= settings_.guess_rounds) break;
     detect_here();
   }
+  guessing_ = false;
   detect_next_ = !fresh_;
   if (metrics_.guess_rounds > 0) metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
 }
@@ -154,7 +165,7 @@ void ContactStep::move_towards_target(std::size_t vertex, std::size_t& cut) {
   fresh_ = fresh_ && x_[vertex] == inside.x;
   x_[vertex] = inside.x;
   cut += inside.cut;
-  if (!inside.cut || !is_prescribed || settings_.bounds != compare::Bounds::planes) return;
+  if (!inside.cut || !is_prescribed || !compare::has_planes(settings_.bounds)) return;
   const Vec3f& p = detected_.previous[vertex];
   ++lagging_;
   advanced_ = advanced_ || inside.x != Triple<double>{p.x, p.y, p.z};

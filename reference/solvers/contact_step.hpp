@@ -105,6 +105,8 @@ class ContactStep {
  private:
   static double now_ms();
 
+  /// What divides gaps at `here` with bounds=dat; else empty.
+  std::vector<compare::Vec3f> displacements_at(const std::vector<compare::Vec3f>& here) const;
   bool many(std::size_t cut) const;
   void move_towards_target(std::size_t vertex, std::size_t& cut);
   /// In place of a round that cut many vertices (guess=pairs).
@@ -114,6 +116,7 @@ class ContactStep {
   /// detection; whether one has asked in this step.
   std::size_t lagging_ = 0;
   bool advanced_ = false, lag_asked_ = false;
+  bool guessing_ = false;  ///< in the guess loop
   double started_ms_ = 0;
   std::vector<double> stage_ms_;
 };

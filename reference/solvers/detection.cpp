@@ -68,7 +68,8 @@ double detection_radius(const compare::Settings& settings) {
 }
 
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
-                const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius) {
+                const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius,
+                std::span<const compare::Vec3f> displacement) {
   const auto contact_radius = static_cast<float>(detection_radius(scene.settings));
   const compare::DetectIn in{&topology, exclusions, positions, contact_radius, query_radius};
   compare::DetectVertexFacetOut facets = exact_vertex_facet(in);
@@ -77,9 +78,10 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
   Detected result;
   result.bound =
       bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;
-  if (scene.settings.bounds == compare::Bounds::planes) {
+  if (compare::has_planes(scene.settings.bounds)) {
     const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions.groups);
-    compare::PlaneOut held = pair_planes({&topology, exclusions, positions, is_fixed, query_radius, relaxation});
+    compare::PlaneOut held = pair_planes(
+        {&topology, exclusions, positions, is_fixed, query_radius, relaxation, displacement});
     result.bound = std::move(held.bound);
     result.planes = std::move(held.planes);
   }

@@ -1,6 +1,7 @@
 // Contact detection for solvers in double. It reads single-precision positions, so X_prev is x rounded.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "reference/geometry/pair_planes.hpp"
@@ -32,9 +33,11 @@ float sufficient_query_radius(const compare::Topology& topology, const compare::
 /// r and the margin by which contacts are listed before they act [m].
 double detection_radius(const compare::Settings& settings);
 
-/// Stages detect_vertex_facet, detect_edge_edge and bound, or plane, at `positions`.
+/// Stages detect_vertex_facet, detect_edge_edge and bound, or plane, at `positions`. `displacement`: what divides gaps,
+/// with bounds=dat; else empty.
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
-                const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius);
+                const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius,
+                std::span<const compare::Vec3f> displacement = {});
 
 /// All pairs within r_q at `positions`, ascending, each with the plane between its sides.
 std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,

@@ -17,7 +17,7 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 /// many of the smallest numbers. A projection in double rounds each coordinate and the step to it a few times more:
 /// 2⁻⁵⁰ of either.
 FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bounds)
-    : centre_(widened(detected.previous)), planes_(centre_.size()) {
+    : centre_(widened(detected.previous)), planes_(centre_.size()), is_scaled_(bounds == compare::Bounds::dat) {
   for (std::size_t v = 0; v < centre_.size(); ++v) {
     const Triple<double>& p = centre_[v];
     const double bound = double{detected.bound[v]},
@@ -26,7 +26,8 @@ FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bound
     radius_.push_back(std::max(0.0, (bound - rounding) * (1 - 0x1p-50)));
     switch (bounds) {
       case compare::Bounds::ball: break;
-      case compare::Bounds::planes: add_planes(v, detected, rounding); break;
+      case compare::Bounds::planes:
+      case compare::Bounds::dat: add_planes(v, detected, rounding); break;
       case compare::Bounds::off: radius_.back() = std::numeric_limits<double>::infinity(); break;
     }
   }
@@ -62,6 +63,7 @@ FeasibleRegions::Inside FeasibleRegions::inside(std::size_t vertex, const Triple
     return {into_ball(vertex, x), cut};
   }
   if (holds(vertex, x)) return {x, false};
+  if (is_scaled_) return scaled(vertex, centre_[vertex], x);
   Triple<double> y = x;
   for (int pass = 0; pass < slide_passes && !holds(vertex, y); ++pass) {
     for (const HalfSpace& plane : planes_[vertex]) {
@@ -78,7 +80,7 @@ FeasibleRegions::Inside FeasibleRegions::inside(std::size_t vertex, const Triple
 FeasibleRegions::Inside FeasibleRegions::inside_on_path(std::size_t vertex, const Triple<double>& from,
                                                         const Triple<double>& x) const {
   if (radius_[vertex] == 0 || planes_[vertex].empty()) return inside(vertex, from, x);
-  return holds(vertex, x) ? Inside{x, false} : scaled(vertex, from, x);
+  return holds(vertex, x) ? Inside{x, false} : scaled(vertex, is_scaled_ ? centre_[vertex] : from, x);
 }
 
 FeasibleRegions::Inside FeasibleRegions::scaled(std::size_t vertex, const Triple<double>& from,

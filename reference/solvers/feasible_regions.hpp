@@ -27,7 +27,8 @@ class FeasibleRegions {
     bool cut = false;
   };
   /// x or, where it lies outside, the point of the ball closest to it; with half-spaces a point of the region near it:
-  /// along these in the given metric (none: the shortest way), then on the way from `from`, which lies inside.
+  /// along these in the given metric (none: the shortest way), then on the way from `from`, which lies inside. With
+  /// bounds=dat the way from X_prev, for prescribed vertices, too.
   Inside inside(std::size_t vertex, const Triple<double>& from, const Triple<double>& x,
                 const Metric& metric = {}) const;
   /// The same of a prescribed vertex, which does not slide.
@@ -48,6 +49,7 @@ class FeasibleRegions {
   State centre_;
   std::vector<double> radius_;
   std::vector<std::vector<HalfSpace>> planes_;
+  bool is_scaled_ = false;  ///< nothing slides
 };
 
 }  // namespace ogc::reference

@@ -89,6 +89,9 @@ class ReferenceStep {
   }
 
   void detect(StepEvent& event) {
+    std::vector<Vec3f> displacement;
+    if (settings_.bounds == compare::Bounds::dat)
+      displacement = is_swept_ ? compare::displacements(previous_, x_) : compare::displacements(x_, out_.target);
     previous_ = x_;
     const compare::DetectIn question{in_.topology, exclusions_, x_, static_cast<float>(settings_.contact_radius),
                                      out_.query_radius};
@@ -97,10 +100,10 @@ class ReferenceStep {
     event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
                          event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bound_relaxation)})
                       .exact.bound;
-    if (settings_.bounds == compare::Bounds::planes) {
+    if (compare::has_planes(settings_.bounds)) {
       const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions_.groups);
-      compare::PlaneOut held = pair_planes(
-          {in_.topology, exclusions_, x_, is_fixed, out_.query_radius, static_cast<float>(settings_.bound_relaxation)});
+      compare::PlaneOut held = pair_planes({in_.topology, exclusions_, x_, is_fixed, out_.query_radius,
+                                            static_cast<float>(settings_.bound_relaxation), displacement});
       event.bound = std::move(held.bound);
       event.planes = std::move(held.planes);
     }
@@ -109,11 +112,16 @@ class ReferenceStep {
     contacts_ = {event.vertex_facet.contacts, event.edge_edge.contacts};
   }
 
+  /// In the guess loop, where x is X_prev.
+  bool does_not_slide(std::size_t v) const {
+    return exclusions_.groups[v] > 0 || settings_.bounds == compare::Bounds::dat;
+  }
+
   /// Where v goes on its way to its target; counts a cut.
   Vec3f truncated(std::size_t v, Index& cut) const {
     const auto planes = planes_.of(static_cast<Index>(v));
     const compare::TruncateIn question{
-        {previous_[v]}, {out_.target[v]}, {bound_[v]}, half_spaces_of(planes, x_[v], exclusions_.groups[v] > 0)};
+        {previous_[v]}, {out_.target[v]}, {bound_[v]}, half_spaces_of(planes, x_[v], does_not_slide(v))};
     const compare::TruncateTruth truth = truncate(question);
     if (truth.cut[0] == 0) return out_.target[v];
     ++cut;
@@ -145,6 +153,7 @@ class ReferenceStep {
   }
 
   void sweep(StepEvent& event) {
+    is_swept_ = true;
     const std::vector<Vec3f> old = x_;
     const compare::SweepIn question{
         in_.scene, in_.topology,           &out_.rest,          out_.colour, old, start_, out_.target, previous_,
@@ -158,6 +167,7 @@ class ReferenceStep {
   const compare::Settings& settings_;
   PairGuesser guesser_;
   bool is_by_pairs_ = false;  ///< the last guess was
+  bool is_swept_ = false;     ///< the guess loop is over
   compare::Exclusions exclusions_;
   std::vector<Vec3f> start_, x_, previous_;
   std::vector<float> bound_;

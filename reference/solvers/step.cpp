@@ -34,7 +34,7 @@ double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
                const std::vector<Index>& groups, const compare::Settings& settings) {
   StepLag lag;
-  if (settings.bounds != compare::Bounds::planes) return lag;
+  if (!compare::has_planes(settings.bounds)) return lag;
   for (std::size_t v = 0; v < x.size(); ++v) {
     if (groups[v] <= 0 || x[v] == target[v]) continue;
     ++lag.lagging;

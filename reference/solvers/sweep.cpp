@@ -18,12 +18,20 @@ std::span<const compare::VertexPlane> planes_of(const compare::SweepIn& in, Inde
   return in.planes != nullptr ? in.planes->of(v) : std::span<const compare::VertexPlane>{};
 }
 
+bool is_scaled(const compare::SweepIn& in) { return in.scene->settings.bounds == compare::Bounds::dat; }
+
+/// From where a vertex that does not slide is scaled.
+const compare::Vec3f& start_of_way(const compare::SweepIn& in, std::size_t i) {
+  return is_scaled(in) ? in.previous[i] : in.old[i];
+}
+
 VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& answer, const SweepStencils& stencils,
-                         Index v) {
+                         Index v, bool is_held_to_way) {
   const auto i = static_cast<std::size_t>(v);
   const double step = in.scene->settings.time_step;
-  const FreeVertex vertex{in.old[i],       in.target[i], in.previous[i], in.bound[i], in.rest->mass[i] / (step * step),
-                          planes_of(in, v)};
+  const FreeVertex vertex{
+      in.old[i],        in.target[i],  in.previous[i], in.bound[i], in.rest->mass[i] / (step * step),
+      planes_of(in, v), is_held_to_way};
   return update_of(terms_of_vertex(in, stencils, SweepPositions(in, answer, v), v), vertex, answer.position[i]);
 }
 
@@ -32,7 +40,7 @@ VertexUpdate prescribed_vertex(const compare::SweepIn& in, std::size_t i) {
   const compare::TruncateIn question{{in.previous[i]},
                                      {in.target[i]},
                                      {in.bound[i]},
-                                     half_spaces_of(planes_of(in, static_cast<Index>(i)), in.old[i], true)};
+                                     half_spaces_of(planes_of(in, static_cast<Index>(i)), start_of_way(in, i), true)};
   const compare::TruncateTruth truth = truncate(question);
   const bool cut = truth.cut[0] != 0, grey = truth.grey[0] != 0;
   const compare::Vec3f& p = in.previous[i];
@@ -51,7 +59,7 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
   std::vector<VertexUpdate> updates(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     if (in.colour[i] >= 0)
-      updates[i] = free_vertex(in, answer, stencils, static_cast<Index>(i));
+      updates[i] = free_vertex(in, answer, stencils, static_cast<Index>(i), is_scaled(in));
     else if (groups[i] > 0)
       updates[i] = prescribed_vertex(in, i);
     else
@@ -70,12 +78,17 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
 
 namespace {
 
+/// The position of an update, which its ball holds; where nothing slides, as far as half-spaces allow on its way there.
 compare::Vec3f stored(const compare::Vec3& position, const compare::SweepIn& in, std::size_t v) {
   const compare::TruncateIn region{{in.previous[v]},
                                    {in.old[v]},
                                    {in.bound[v]},
-                                   half_spaces_of(planes_of(in, static_cast<Index>(v)), in.old[v], true)};
-  return stored_in_region(position, region, 0);
+                                   half_spaces_of(planes_of(in, static_cast<Index>(v)), start_of_way(in, v), true)};
+  if (!is_scaled(in)) return stored_in_region(position, region, 0);
+  compare::TruncateIn way = region;
+  way.position = {stored_within(position, in.previous[v], in.bound[v])};
+  const compare::TruncateTruth truth = truncate(way);
+  return truth.cut[0] != 0 ? stored_in_region(truth.position[0], way, 0) : way.position[0];
 }
 
 }  // namespace
@@ -98,7 +111,7 @@ compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencil
   for (const std::vector<Index>& members : classes) {
     std::vector<VertexUpdate> updates(members.size());
     tbb::parallel_for(std::size_t{0}, members.size(),
-                      [&](std::size_t k) { updates[k] = free_vertex(in, out, stencils, members[k]); });
+                      [&](std::size_t k) { updates[k] = free_vertex(in, out, stencils, members[k], false); });
     for (std::size_t k = 0; k < members.size(); ++k) store(static_cast<std::size_t>(members[k]), updates[k]);
   }
   return out;

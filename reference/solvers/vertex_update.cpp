@@ -5,8 +5,8 @@
 //
 // Stored, the proposal is off by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no
 // farther apart; what it does to single directions depends on where they lie, so a vertex that may be cut is held to
-// the largest of the three errors. One that half-spaces cut, or may, is held to its region alone, which the judge
-// checks.
+// the largest of the three errors. One that half-spaces cut, or may, is held to its region, which the judge checks,
+// and where it does not slide to the way from X_prev to its proposal: a point of a way is no farther off than its end.
 #include "reference/solvers/vertex_update.hpp"
 
 #include <algorithm>
@@ -72,10 +72,21 @@ Vec3 projected(const Vec3& x, const FreeVertex& vertex) {
   return length > vertex.bound ? plus(wide(vertex.previous), times(vertex.bound / length, step)) : x;
 }
 
-double truncation_error(const FreeVertex& vertex) {
+/// ‖X_prev‖_∞ + b_v.
+double size_of(const FreeVertex& vertex) {
   const Vec3f& p = vertex.previous;
-  return compare::truncate_position_tolerance * u *
-         (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + vertex.bound);
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + vertex.bound;
+}
+double truncation_error(const FreeVertex& vertex) { return compare::truncate_position_tolerance * u * size_of(vertex); }
+/// The same with half-spaces.
+double region_error(const FreeVertex& vertex) { return compare::truncate_region_tolerance * u * size_of(vertex); }
+
+/// The point between X_prev and the proposal that is closest to x.
+Vec3 nearest_on_way(const FreeVertex& vertex, const Vec3& proposal, const Vec3& x) {
+  const Vec3 from = wide(vertex.previous), way = minus(proposal, from);
+  const double square = inner(way, way);
+  const double share = square > 0 ? std::clamp(inner(minus(x, from), way) / square, 0.0, 1.0) : 0;
+  return plus(from, times(share, way));
 }
 
 /// How far beyond the nearest of its half-spaces x lies [m]; negative inside all, minus infinity without any.
@@ -137,6 +148,9 @@ VertexUpdate update_with(const System& system, const FreeVertex& vertex, const V
   if (beyond > -slack) {
     update.cut = beyond > slack || reach - largest > vertex.bound ? Cut::yes : Cut::doubtful;
     update.accepted = infinity;
+    if (!vertex.is_scaled) return update;
+    update.position = nearest_on_way(vertex, proposal, wide(answer));
+    update.accepted = largest + region_error(vertex);
     return update;
   }
   if (reach + largest <= vertex.bound) {

@@ -16,6 +16,7 @@ struct FreeVertex {
   float bound = 0;                                 ///< b_v [m]
   double inertia = 0;                              ///< m/h² [N/m]
   std::span<const compare::VertexPlane> planes{};  ///< that the vertex bears
+  bool is_scaled = false;                          ///< it stops on the way from X_prev, in place of sliding
 };
 
 /// Whether truncation changes an update; doubtful where both are right.

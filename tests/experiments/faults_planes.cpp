@@ -1,5 +1,6 @@
 // Faults of the planes: what lets a pair pass, and what holds vertices that nothing holds.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -83,6 +84,100 @@ Fault asked_wrongly(const std::string& name, const std::function<void(PlaneIn&)>
               return right(other);
             };
           }};
+}
+
+std::array<std::vector<Index>, 2> sides_of(const Topology& topology, const PrimitivePair& pair) {
+  const auto second = static_cast<std::size_t>(pair.second);
+  if (pair.kind == Kind::vertex_triangle)
+    return {{{pair.first}, {topology.triangles[second].begin(), topology.triangles[second].end()}}};
+  const Edge &e = topology.edges[static_cast<std::size_t>(pair.first)], &f = topology.edges[second];
+  return {{{e.begin(), e.end()}, {f.begin(), f.end()}}};
+}
+
+double height(const Vec3f& n, const Vec3f& x) { return double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z; }
+
+/// n·w of the pair's first side and −n·w of its second, by vertex.
+struct Speeds {
+  std::vector<double> first, second;
+};
+
+/// Offsets of all pairs that displacements divide, made anew with another share s of the first side.
+Fault divided_otherwise(const std::string& name, const std::function<double(const Speeds&)>& share_of_first) {
+  return plane_fault(name, [share_of_first](const PlaneIn& in, Index v, VertexPlane& plane) {
+    if (in.displacement.empty()) return;
+    const auto moves = [&](Index i) { return in.is_fixed[static_cast<std::size_t>(i)] == 0; };
+    const std::array<std::vector<Index>, 2> sides = sides_of(*in.topology, plane.pair);
+    for (const auto& side : sides)
+      if (std::ranges::none_of(side, moves)) return;
+    const bool second = is_second(in, plane.pair, v);
+    const Vec3f n = second ? Vec3f{-plane.normal.x, -plane.normal.y, -plane.normal.z} : plane.normal;
+    Speeds speeds;
+    double top = -std::numeric_limits<double>::infinity(), bottom = -top;
+    for (const Index i : sides[0]) {
+      top = std::max(top, height(n, in.positions[static_cast<std::size_t>(i)]));
+      speeds.first.push_back(height(n, in.displacement[static_cast<std::size_t>(i)]));
+    }
+    for (const Index i : sides[1]) {
+      bottom = std::min(bottom, height(n, in.positions[static_cast<std::size_t>(i)]));
+      speeds.second.push_back(-height(n, in.displacement[static_cast<std::size_t>(i)]));
+    }
+    const double whole = 2 * double{in.bound_relaxation} * (bottom - top), s = share_of_first(speeds);
+    plane.offset = second ? (1 - s) * whole - bottom : top + s * whole;
+  });
+}
+
+double largest(const std::vector<double>& all) { return std::max(0.0, *std::ranges::max_element(all)); }
+double divided(double a, double b) {
+  return a + b > 0 ? std::clamp(a / (a + b), least_division, 1 - least_division) : 0.5;
+}
+
+std::vector<Fault> division_faults() {
+  return {
+      asked_wrongly("a gap halved where approach divides it", [](PlaneIn& in) { in.displacement = {}; }),
+      divided_otherwise("offsets swapped: who approaches slowly gets the room",
+                        [](const Speeds& w) { return divided(largest(w.second), largest(w.first)); }),
+      divided_otherwise("speeds of the wrong side: those of leaving",
+                        [](const Speeds& w) {
+                          return divided(std::max(0.0, -*std::ranges::min_element(w.first)),
+                                         std::max(0.0, -*std::ranges::min_element(w.second)));
+                        }),
+      divided_otherwise("negative approach not clamped",
+                        [](const Speeds& w) {
+                          const double a = *std::ranges::max_element(w.first), b = *std::ranges::max_element(w.second);
+                          return a + b != 0 ? std::clamp(a / (a + b), least_division, 1 - least_division) : 0.5;
+                        }),
+      divided_otherwise("the modulus of speeds",
+                        [](const Speeds& w) {
+                          const auto modulus = [](const std::vector<double>& all) {
+                            double most = 0;
+                            for (const double speed : all) most = std::max(most, std::abs(speed));
+                            return most;
+                          };
+                          return divided(modulus(w.first), modulus(w.second));
+                        }),
+      divided_otherwise("the mean speed of a side in place of its largest",
+                        [](const Speeds& w) {
+                          const auto mean = [](const std::vector<double>& all) {
+                            double sum = 0;
+                            for (const double speed : all) sum += speed;
+                            return std::max(0.0, sum / static_cast<double>(all.size()));
+                          };
+                          return divided(mean(w.first), mean(w.second));
+                        }),
+      divided_otherwise(
+          "the first vertex of each side for all of it",
+          [](const Speeds& w) { return divided(std::max(0.0, w.first.front()), std::max(0.0, w.second.front())); }),
+      divided_otherwise("all room to one side where the other does not approach",
+                        [](const Speeds& w) {
+                          const double a = largest(w.first), b = largest(w.second);
+                          return a + b > 0 ? a / (a + b) : 0.5;
+                        }),
+      divided_otherwise("room for whoever approaches alone, none where nobody does",
+                        [](const Speeds& w) {
+                          const double a = largest(w.first), b = largest(w.second);
+                          return divided(a, b) * (a + b > 0 ? 1 : least_division);
+                        }),
+  };
 }
 
 /// The corners of a triangle that the closest point does not depend on bear no plane: "their approach does not matter".
@@ -257,7 +352,7 @@ void add_right_planes(Contestant& exact, const Authority&) { exact.plane = refer
 
 std::vector<Fault> plane_faults() {
   std::vector<Fault> all = plane_by_plane();
-  for (auto* faults : {row_by_row, ball_by_ball})
+  for (auto* faults : {row_by_row, ball_by_ball, division_faults})
     for (Fault& fault : faults()) all.push_back(std::move(fault));
   all.push_back(balls_alone());
   all.push_back(fixed_as_free());

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/geometry/pair_planes.hpp"
+#include "reference/geometry/truncate.hpp"
 #include "reference/solvers/step.hpp"
 #include "tests/compare/judge/faults.hpp"
 
@@ -67,6 +69,61 @@ void hold_in_first_round(const StepIn& in, StepOut& out) {
   }
 }
 
+/// Cut vertices of the first round slide, although bounds are those that scale.
+void slide_with_dat(const StepIn& in, StepOut& out) {
+  if (in.scene->settings.bounds != Bounds::dat) return;
+  const StepEvent& detection = out.events[0];
+  for (std::size_t v = 0; v < out.target.size(); ++v) {
+    const Vec3f& x = detection.position[v];
+    const TruncateIn question{{x},
+                              {out.target[v]},
+                              {detection.bound[v]},
+                              half_spaces_of(detection.planes.of(static_cast<Index>(v)), x, false)};
+    const TruncateTruth truth = reference::truncate(question);
+    if (truth.cut[0] != 0) out.events[1].position[v] = reference::stored_in_region(truth.position[0], question, 0);
+  }
+}
+
+/// Where half-spaces stop a vertex in an iteration it goes on beside its way, inside its region.
+void stop_beside_the_way(const StepIn& in, StepOut& out) {
+  if (in.scene->settings.bounds != Bounds::dat) return;
+  const StepEvent* detection = nullptr;
+  for (StepEvent& event : out.events) {
+    if (is_detection(event)) detection = &event;
+    if (event.kind != StepEventKind::sweep) continue;
+    for (std::size_t v = 0; v < event.position.size(); ++v) {
+      Vec3f& x = event.position[v];
+      const Vec3f& p = detection->position[v];
+      const Vec3 way{double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z};
+      for (const VertexPlane& plane : detection->planes.of(static_cast<Index>(v))) {
+        const Vec3 n{plane.normal.x, plane.normal.y, plane.normal.z};
+        if (n.x * x.x + n.y * x.y + n.z * x.z < plane.offset - 0x1p-20 * std::abs(plane.offset)) continue;
+        const Vec3 aside{n.y * way.z - n.z * way.y - 0.1 * way.x, n.z * way.x - n.x * way.z - 0.1 * way.y,
+                         n.x * way.y - n.y * way.x - 0.1 * way.z};
+        x = {static_cast<float>(x.x + 0.1 * aside.x), static_cast<float>(x.y + 0.1 * aside.y),
+             static_cast<float>(x.z + 0.1 * aside.z)};
+        break;
+      }
+    }
+  }
+}
+
+/// y − x divides the gaps in detections between iterations, too.
+void divide_by_prediction(const StepIn& in, StepOut& out) {
+  const Settings& settings = in.scene->settings;
+  if (settings.bounds != Bounds::dat) return;
+  const Exclusions excluded = exclusions(*in.scene);
+  const std::vector<std::uint8_t> is_fixed = fixed_flags(excluded.groups);
+  for (std::size_t i = 1; i < out.events.size(); ++i) {
+    StepEvent& event = out.events[i];
+    if (!is_detection(event) || out.events[i - 1].kind != StepEventKind::sweep) continue;
+    const std::vector<Vec3f> displacement = displacements(event.position, out.target);
+    event.planes = reference::pair_planes({in.topology, excluded, event.position, is_fixed, out.query_radius,
+                                           static_cast<float>(settings.bound_relaxation), displacement})
+                       .planes;
+  }
+}
+
 /// The first corner takes the colour of the last.
 void share_a_colour(const StepIn&, StepOut& out) {
   for (const RestTetrahedron& t : out.rest.tetrahedra) {
@@ -123,6 +180,13 @@ std::vector<Fault> step_faults() {
                   if (is_detection(event)) event.planes = out.events.front().planes;
               }),
       asked_wrongly("balls where planes are asked for", [](Scene& scene) { scene.settings.bounds = Bounds::ball; }),
+      asked_wrongly("halved gaps and sliding where approach divides and nothing slides",
+                    [](Scene& scene) {
+                      if (scene.settings.bounds == Bounds::dat) scene.settings.bounds = Bounds::planes;
+                    }),
+      spoiled("sliding left on where approach divides", slide_with_dat),
+      spoiled("a vertex stops beside its way where approach divides", stop_beside_the_way),
+      spoiled("gaps of every detection divided by what inertia asks for", divide_by_prediction),
       spoiled("two corners of a tetrahedron of one colour", share_a_colour),
       spoiled("a ball for vertices inside solids", bound_what_is_inside),
       spoiled("two neighbours of one colour",

@@ -81,6 +81,7 @@ struct PlaneCase {
   float bound_relaxation = 0.45f;      ///< γ_p
   CompressedRows partners{};           ///< as in Exclusions
   std::vector<std::uint8_t> is_fixed;  ///< by vertex: of group 0
+  std::vector<Vec3f> displacement{};   ///< by vertex [m], as in PlaneIn; or empty
 };
 
 /// A mesh and what is asked about it.

@@ -169,7 +169,58 @@ CaseData solid(Random& random) {
   return with_planes(random, mesh, static_cast<float>(random.magnitude(-2, 0)));
 }
 
-constexpr std::array<Generator, 20> table{{{"soup", 20, true, soup},
+/// A displacement of each vertex that can move, of sizes that have nothing to do with the gap: it only divides.
+CaseData divided(Random& random, const CaseData& data) {
+  auto test = case_of<PlaneCase>(data);
+  const double size = test.query_radius * random.magnitude(-4, 2), common = random.one_in(3) ? size : 0;
+  const Vec3 together = scaled(in_box(random, -1, 1), common);
+  const bool is_sparse = random.one_in(4);
+  for (std::size_t v = 0; v < test.positions.size(); ++v) {
+    Vec3 w = sum(together, scaled(in_box(random, -1, 1), size));
+    if (is_sparse && random.one_in(2)) w = {};
+    if (test.is_fixed[v] != 0) w = {};
+    test.displacement.push_back({static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.z)});
+  }
+  return test;
+}
+
+/// Any state.
+CaseData approach(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 4> states{soup, cloth, few, groups};
+  return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
+}
+/// Pairs that are close, collapsed, in a crowd, or of fixed vertices.
+CaseData close_approach(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 5> states{gap, collapsed, crowd, fixed, corner};
+  return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
+}
+
+/// Two sheets one above the other, so that n is the axis, whose vertices move along it: of the first, of the second,
+/// of both or of none, towards the other, away from it or not at all, or by almost nothing beside their way across.
+CaseData along_normal(Random& random) {
+  MeshBuilder builder;
+  builder.grid(1, 1, {}, {1, 0, 0}, {0, 1, 0});
+  const auto second = builder.points.size();
+  builder.grid(1, 1, {random.between(-0.4, 0.4), 0.3, random.magnitude(-4, -0.5)}, {1, 0, 0}, {0, 1, 0});
+  const MeshCase mesh = finish(random, builder, {0, random.between(0.2, 1)});
+  PlaneCase test = with_planes(random, mesh, mesh.contact_radius);
+  const Vec3f &a = mesh.positions[0], &b = mesh.positions[second];
+  Vec3 up{double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
+  const auto across = [&] {
+    return random.one_in(2) ? Vec3{} : scaled(in_box(random, -1, 1), random.magnitude(-3, 2));
+  };
+  const double first_speed = random.one_in(4) ? 0 : random.rung(), second_speed = random.one_in(4) ? 0 : random.rung();
+  for (std::size_t v = 0; v < test.positions.size(); ++v) {
+    const double spread = random.one_in(2) ? 1 : random.unit();
+    const Vec3 w = sum(scaled(up, spread * (v < second ? first_speed : second_speed)), across());
+    test.displacement.push_back(test.is_fixed[v] != 0
+                                    ? Vec3f{}
+                                    : Vec3f{static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.z)});
+  }
+  return test;
+}
+
+constexpr std::array<Generator, 23> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 4, true, few},
                                            {"bits", 10, false, bits},
@@ -188,6 +239,9 @@ constexpr std::array<Generator, 20> table{{{"soup", 20, true, soup},
                                            {"ladder.fixed", 10, false, fixed},
                                            {"ladder.corner", 8, false, corner},
                                            {"ladder.far", 8, false, far},
+                                           {"approach", 8, true, approach, 0, std::nullopt, false, true},
+                                           {"ladder.approach", 8, false, close_approach, 0, std::nullopt, false, true},
+                                           {"ladder.speeds", 8, false, along_normal, 0, std::nullopt, false, true},
                                            {"solid", 4, false, solid, 0, Stage::tetrahedron}}};
 
 }  // namespace

@@ -415,9 +415,10 @@ CaseData models(Random& random) {
   return changed(data, [&](Scene& scene) { choose_models(random, scene); });
 }
 
-CaseData with_planes(const CaseData& data) {
-  return changed(data, [](Scene& scene) { scene.settings.bounds = Bounds::planes; });
+CaseData with_bounds(const CaseData& data, Bounds bounds) {
+  return changed(data, [bounds](Scene& scene) { scene.settings.bounds = bounds; });
 }
+CaseData with_planes(const CaseData& data) { return with_bounds(data, Bounds::planes); }
 
 /// Half-spaces in place of balls.
 CaseData planes(Random& random) {
@@ -426,7 +427,18 @@ CaseData planes(Random& random) {
 }
 CaseData planes_at_rest(Random& random) { return with_planes(at_rest(random)); }
 
-constexpr std::array<Generator, 16> table{{{"fall", 12, true, fall},
+/// Half-spaces that approach divides, on whose way vertices stop: often with a detection after each iteration.
+CaseData dat(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 4> scenes{onto, collide, handle, at_rest};
+  const CaseData data = random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random);
+  const bool detects_often = random.one_in(2);
+  return changed(data, [detects_often](Scene& scene) {
+    scene.settings.bounds = Bounds::dat;
+    if (detects_often) scene.settings.redetect_every = 1;
+  });
+}
+
+constexpr std::array<Generator, 17> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -440,6 +452,7 @@ constexpr std::array<Generator, 16> table{{{"fall", 12, true, fall},
                                            {"models", 5, false, models},
                                            {"planes", 10, false, planes, 0, Stage::plane},
                                            {"ladder.planes", 10, false, planes_at_rest, 0, Stage::plane},
+                                           {"dat", 12, false, dat, 0, Stage::plane},
                                            {"pairs", 24, false, pairs, 0, std::nullopt, true},
                                            {"ladder.stack", 24, false, stack_by_pairs, 0, std::nullopt, true}}};
 

@@ -166,7 +166,8 @@ bool is_asked(const Contestant& contestant, Stage stage, const Generator& genera
   const bool is_step_with_planes = stage == Stage::step && generator.also_needs == Stage::plane;
   return (!generator.also_needs || has_stage(contestant, *generator.also_needs)) &&
          (!is_step_with_planes || contestant.has_steps_with_planes) &&
-         (!generator.by_pairs || contestant.has_steps_by_pairs);
+         (!generator.by_pairs || contestant.has_steps_by_pairs) &&
+         (!generator.divides || contestant.divides_by_approach);
 }
 
 bool StageReport::passed() const {

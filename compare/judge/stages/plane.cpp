@@ -98,6 +98,8 @@ void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& trut
   if (free.bounded_inside > 0)
     tally.mismatch("bound: " + std::to_string(free.bounded_inside) + " vertices inside a solid have a bound");
   tally.error(0, free.narrowing, [&] { return name(free.narrowest) + " may not come as close as with balls"; });
+  if (!in.displacement.empty())
+    tally.error(2, free.division, [&] { return name(free.worst_divided) + " is not divided by approach"; });
   for (std::size_t v = 0; v < free.ball_shortfall.size(); ++v)
     tally.error(1, free.ball_shortfall[v], [&] {
       return vertex(v) + ": " +
@@ -132,6 +134,18 @@ std::vector<WrongForm> plane_forms() {
                         in.exclusions.partners = nullptr;
                         return right(in, out);
                       }),
+          plane_asked("halved", "the gap is halved where displacements divide it",
+                      [](const AskPlane& right, PlaneIn in, const PlaneOut& out) {
+                        in.displacement = {};
+                        return right(in, out);
+                      }),
+          plane_asked("leaving_for_approaching", "sides that leave each other get the room of those that approach",
+                      [](const AskPlane& right, PlaneIn in, const PlaneOut& out) {
+                        std::vector<Vec3f> turned(in.displacement.begin(), in.displacement.end());
+                        for (Vec3f& w : turned) w = {-w.x, -w.y, -w.z};
+                        in.displacement = turned;
+                        return right(in, out);
+                      }),
           plane_asked("balls_alone", "no planes: each vertex has the ball of its nearest pair",
                       [](const AskPlane& right, const PlaneIn& in, const PlaneOut& out) {
                         PlaneTruth truth = right(in, out);
@@ -162,8 +176,10 @@ struct Plane : Numbered, InEveryRun {
                                   .kind = CaseKind::mesh,
                                   .has_boundary = false,
                                   .determinism = Determinism::cpu_to_gpu};
-  static constexpr std::array metrics{MetricInfo{"narrowing", "u max(d, Σ|δ|)", plane_narrowing_tolerance},
-                                      MetricInfo{"ball", "u γ_p max(d, Σ|δ|)", plane_ball_tolerance}};
+  static constexpr std::array metrics{
+      MetricInfo{"narrowing", "u max(d, Σ|δ|)", plane_narrowing_tolerance},
+      MetricInfo{"ball", "u γ_p max(d, Σ|δ|)", plane_ball_tolerance},
+      MetricInfo{"division", "u (max(d, Σ|δ|) + d W/(a + b))", plane_division_tolerance}};
   static constexpr std::array parameters{ranges::query_radius, ranges::bound_relaxation};
   static std::string set(Case& c, std::span<const Override> values) {
     for (const Override& value : values)
@@ -178,6 +194,11 @@ struct Plane : Numbered, InEveryRun {
     problem.require(c.positions.size() == n && c.rigid_groups.size() == n,
                     "an array does not have one entry for each vertex");
     problem.require(c.is_fixed == fixed_flags(c.rigid_groups), "fixed vertices are not those of group 0");
+    problem.require(c.displacement.empty() || c.displacement.size() == n,
+                    "displacements are neither none nor one for each vertex");
+    for (std::size_t v = 0; v < std::min(c.displacement.size(), c.is_fixed.size()); ++v)
+      problem.require(c.is_fixed[v] == 0 || c.displacement[v] == Vec3f{}, "a fixed vertex has a displacement");
+    problem.vectors("a displacement", c.displacement);
     problem.vectors("a coordinate", c.positions);
     problem.number("a query radius", c.query_radius, 0x1p-60f, vast);
     problem.number("a bound relaxation", c.bound_relaxation, 0x1p-10f, 0.5f - 0x1p-10f);
@@ -206,14 +227,20 @@ struct Plane : Numbered, InEveryRun {
   static Json write(const Case& c) {
     Json json = mesh_case_to_json(as_state(c));
     json["bound_relaxation"] = hexadecimal(c.bound_relaxation);
+    if (c.displacement.empty()) return json;
+    json["displacement"] = Json::array();
+    for (const Vec3f& w : c.displacement) json["displacement"].push_back(to_json(w));
     return json;
   }
   static Case read(const Json& data) {
     MeshCase state = to_mesh_case(data);
     std::vector<std::uint8_t> is_fixed = fixed_flags(state.rigid_groups);
-    return {std::move(state.topology), std::move(state.rigid_groups),       std::move(state.positions),
-            state.query_radius,        number(data.at("bound_relaxation")), std::move(state.partners),
-            std::move(is_fixed)};
+    Case c{std::move(state.topology), std::move(state.rigid_groups),       std::move(state.positions),
+           state.query_radius,        number(data.at("bound_relaxation")), std::move(state.partners),
+           std::move(is_fixed)};
+    if (data.contains("displacement"))
+      for (const Json& w : data.at("displacement")) c.displacement.push_back(to_point(w));
+    return c;
   }
 
   static Shape shape(const Case& c) {
@@ -222,8 +249,11 @@ struct Plane : Numbered, InEveryRun {
     return shape;
   }
   static std::vector<Quantity> inputs(const Case& c) {
-    return joined({scalar("query_radius", "m", c.query_radius), scalar("bound_relaxation", "1", c.bound_relaxation)},
-                  state_quantities(*c.topology, c.positions, c.rigid_groups, c.partners));
+    std::vector<Quantity> all = joined(
+        {scalar("query_radius", "m", c.query_radius), scalar("bound_relaxation", "1", c.bound_relaxation)},
+        state_quantities(*c.topology, c.positions, c.rigid_groups, c.partners));
+    if (!c.displacement.empty()) all.push_back(points("displacement", "m", c.displacement));
+    return all;
   }
 
   static const Topology* mesh(const Case& c) { return c.topology.get(); }
@@ -234,14 +264,16 @@ struct Plane : Numbered, InEveryRun {
             c.query_radius,
             c.bound_relaxation,
             part.partners(c.partners),
-            MeshPart::picked(c.is_fixed, part.vertices)};
+            MeshPart::picked(c.is_fixed, part.vertices),
+            c.displacement.empty() ? std::vector<Vec3f>{} : MeshPart::picked(c.displacement, part.vertices)};
   }
   static ShortenedNumbers numbers(Case& c) { return {coordinates(c), {&c.query_radius}}; }
 
   static In question(const Case& c) {
     return {c.topology.get(), {c.rigid_groups, c.partners.rows() > 0 ? &c.partners : nullptr},
             c.positions,      c.is_fixed,
-            c.query_radius,   c.bound_relaxation};
+            c.query_radius,   c.bound_relaxation,
+            c.displacement};
   }
   static In question_of(const TestCase& test) { return question(case_of<Case>(test.data)); }
   static bool can_judge(const Contestant& c, const Authority& a) { return c.plane && a.plane; }

@@ -147,6 +147,10 @@ class StepVerdict {
   /// X_prev is x, sets and smallest distances are those at X_prev, bounds those of the answer's own distances.
   void judge_detection(std::size_t i) {
     const StepEvent& event = out_.events[i];
+    if (policy() == Bounds::dat) {
+      const bool is_after_sweep = i > 0 && out_.events[i - 1].kind == StepEventKind::sweep;
+      displacement_ = is_after_sweep ? displacements(detection_->position, at_) : displacements(at_, out_.target);
+    }
     detection_ = &event;
     for (std::size_t v = 0; v < at_.size(); ++v)
       if (!(event.position[v] == at_[v]))
@@ -173,7 +177,8 @@ class StepVerdict {
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
   }
 
-  bool has_planes() const { return in_.scene->settings.bounds == Bounds::planes; }
+  Bounds policy() const { return in_.scene->settings.bounds; }
+  bool has_planes() const { return compare::has_planes(policy()); }
 
   /// With planes nobody is asked for smallest distances: those of the truth stand in.
   static DetectVertexFacetOut with_distances(DetectVertexFacetOut out, const DetectVertexFacetTruth& truth) {
@@ -189,9 +194,9 @@ class StepVerdict {
   void judge_planes(std::size_t i, const DetectIn& detection) {
     const StepEvent& event = out_.events[i];
     const std::vector<std::uint8_t> is_fixed = fixed_flags(groups_);
-    const PlaneIn question{in_.topology,      detection.exclusions,
-                           event.position,    is_fixed,
-                           out_.query_radius, static_cast<float>(in_.scene->settings.bound_relaxation)};
+    const PlaneIn question{in_.topology, detection.exclusions, event.position,
+                           is_fixed,     out_.query_radius,    static_cast<float>(in_.scene->settings.bound_relaxation),
+                           displacement_};
     const PlaneOut answer{event.planes, event.bound};
     part(where(i), Stage::plane, [&](Tally& own) {
       if (can_judge_plane(test_, question, answer, own))
@@ -280,8 +285,10 @@ class StepVerdict {
       cut += is_cut;
       // in the guess loop inertia alone holds it
       const auto planes = detection_->planes.of(static_cast<Index>(v));
-      const TruncateIn question{
-          {at_[v]}, {out_.target[v]}, {detection_->bound[v]}, half_spaces_of(planes, at_[v], groups_[v] > 0)};
+      const TruncateIn question{{at_[v]},
+                                {out_.target[v]},
+                                {detection_->bound[v]},
+                                half_spaces_of(planes, at_[v], groups_[v] > 0 || policy() == Bounds::dat)};
       part(where(i) + vertex(v), Stage::truncate, [&](Tally& own) {
         judge_truncate({&test_, 1}, question, authority_.truncate(question), {{event.position[v]}, {is_cut}}, own);
       });
@@ -335,6 +342,7 @@ class StepVerdict {
   std::vector<Vec3f> start_;
   std::vector<Vec3f> at_;                 ///< x before the event
   const StepEvent* detection_ = nullptr;  ///< the last
+  std::vector<Vec3f> displacement_;       ///< what divides its gaps, with bounds=dat
   int detections_ = 0;
   std::uint64_t wrong_before_, decisions_ = 0, grey_ = 0;
 };

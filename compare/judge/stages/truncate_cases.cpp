@@ -234,7 +234,23 @@ CaseData crowded(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-constexpr std::array<Generator, 16> table{{{"uniform", 20, true, truncate_uniform},
+/// What does not slide and starts at X_prev, as every vertex does with bounds=dat: half-spaces with hardly any room or
+/// none, proposals that graze them, lead along them, or lead away.
+CaseData from_previous(Random& random) {
+  const double bound = random.magnitude(-4, 0);
+  RegionBuilder region(random, in_box(random, -1, 1), bound);
+  const Vec3 way = direction(random);
+  for (int k = 1 + random.below(random.one_in(2) ? 2 : 8); k > 0; --k) {
+    const Vec3 a = direction(random),
+               across{way.y * a.z - way.z * a.y, way.z * a.x - way.x * a.z, way.x * a.y - way.y * a.x};
+    const Vec3 n = random.one_in(3) ? across : a;
+    region.add(sum(n, scaled(way, random.one_in(3) ? random.rung() : 0)), bound * std::abs(random.rung()));
+  }
+  region.c.is_prescribed = 1;
+  return region.finish(scaled(way, bound * random.magnitude(-2, 1)));
+}
+
+constexpr std::array<Generator, 17> table{{{"uniform", 20, true, truncate_uniform},
                                            {"bits", 20, false, truncate_bits},
                                            {"dust", 8, false, truncate_uniform},
                                            {"lattice", 20, false, truncate_lattice},
@@ -249,7 +265,8 @@ constexpr std::array<Generator, 16> table{{{"uniform", 20, true, truncate_unifor
                                            {"ladder.outside", 8, false, outside, 0, Stage::plane},
                                            {"ladder.sub_ulp", 20, false, sub_ulp, 0, Stage::plane},
                                            {"ladder.stiff", 8, false, stiff, 0, Stage::plane},
-                                           {"ladder.crowded", 6, false, crowded, 0, Stage::plane}}};
+                                           {"ladder.crowded", 6, false, crowded, 0, Stage::plane},
+                                           {"ladder.scaled", 10, false, from_previous, 0, Stage::plane}}};
 
 }  // namespace
 

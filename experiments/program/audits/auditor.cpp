@@ -66,7 +66,8 @@ Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
   };
   switch (bounds_) {
     case compare::Bounds::ball: certify(), judge_balls(snapshot, verdict); break;
-    case compare::Bounds::planes: certify(), judge_planes(snapshot, verdict); break;
+    case compare::Bounds::planes:
+    case compare::Bounds::dat: certify(), judge_planes(snapshot, verdict); break;
     case compare::Bounds::off: break;
   }
   return verdict;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "compare/oracle/smallest_distances.hpp"
+#include "experiments/scenes/registry.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
@@ -80,4 +81,21 @@ TEST_CASE("fifty_layers: at the start nothing is nearer than the layers to each 
   round_to_single(scene);
   const SmallestDistances found = smallest_distances(build_topology(scene), scene.mesh.positions, rigid_groups(scene));
   CHECK(std::min(found.vertex_triangle, found.edge_edge) == Approx(1.05 * r).epsilon(1e-5));
+}
+
+TEST_CASE("two_hundred_layers: four times the layers of fifty_layers, as far apart, at every scale", "[unit]") {
+  const FiftyLayersSizes sizes = two_hundred_layers_sizes(), fifty;
+  CHECK(sizes.layers == 200);
+  CHECK(sizes.layers * sizes.vertices_a_side * sizes.vertices_a_side == 980000);
+  CHECK(sizes.vertices_a_side == fifty.vertices_a_side);
+  CHECK(sizes.contact_radius == fifty.contact_radius);
+  for (const Scale scale : {Scale::smoke, Scale::small}) {
+    const Scene scene = make_scene("two_hundred_layers", scale);
+    const auto layers = std::ranges::count_if(scene.bodies, [](const Body& body) { return !body.fixed; });
+    CHECK(layers == (scale == Scale::smoke ? 12 : 40));
+    const SmallestDistances found = smallest_distances(build_topology(scene), scene.mesh.positions,
+                                                       rigid_groups(scene));
+    CHECK(std::min(found.vertex_triangle, found.edge_edge) ==
+          Approx(1.05 * scene.settings.contact_radius).epsilon(1e-5));
+  }
 }

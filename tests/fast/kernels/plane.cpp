@@ -65,21 +65,32 @@ class RandomPairs {
 };
 
 struct Counts {
-  int planes = 0, without = 0, wrong = 0, meeting = 0, broken = 0, met = 0;
+  int planes = 0, without = 0, wrong = 0, meeting = 0, broken = 0, met = 0, off_way = 0;
 };
+
+/// Whether x lies between `from` and `to`, but for storing it and stepping three times, 4 u of a coordinate in each.
+bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
+  const auto wide = [](const Vec& a) { return Vector<double>{a.x, a.y, a.z}; };
+  const Vector<double> way = wide(to) - wide(from), gone = wide(x) - wide(from);
+  const double square = dot(way, way), share = square > 0 ? std::clamp(dot(gone, way) / square, 0.0, 1.0) : 0;
+  const Vector<double> off = gone - share * way;
+  const double size = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  return std::sqrt(dot(off, off)) <= std::sqrt(3.0) * 8 * 0x1p-24 * size;
+}
 
 /// All points of a pair after each has taken a proposal as far as its region allows it.
 template <int m, int n>
 PairPoints<m, n> moved(RandomPairs& random, const PairPoints<m, n>& pair, const PairPlane& plane, float radius,
-                       Counts& counts) {
+                       Counts& counts, bool slides = true) {
   PairPoints<m, n> to = pair;
   const auto move = [&](Vec& x, const HalfSpace& side, bool is_fixed) {
     if (is_fixed) return;
-    const FeasibleRegion region{{x, radius}, &side, 1};
+    const FeasibleRegion region{{x, radius}, &side, 1, slides};
     Vec current = x;
     for (int k = 0; k < 3; ++k) {
       const Vec proposal = current + random.point(4 * radius);
       const Truncated kept = held(region, current, proposal, InertiaMetric{});
+      if (!slides) counts.off_way += !is_on_way(x, proposal, kept.position);
       counts.broken += !is_exactly_in(region, kept.position);
       counts.broken += !kept.cut && !same_bits(kept.position, proposal);
       current = kept.position;
@@ -100,17 +111,28 @@ bool is_separated(const PairPlane& plane, const PairPoints<m, n>& pair) {
   return separated;
 }
 
+/// Displacements of any size, whose speeds are anything.
 template <int m, int n>
-void check(RandomPairs& random, Counts& counts) {
+ByApproach<m, n> approach(RandomPairs& random) {
+  ByApproach<m, n> all{};
+  const float first = random.size(), second = random.number() > 0.5F ? 0.0F : first * random.size();
+  for (Vec& w : all.first) w = random.point(first);
+  for (Vec& w : all.second) w = random.point(second);
+  return all;
+}
+
+template <int m, int n>
+void check(RandomPairs& random, Counts& counts, bool divides = false) {
   const PairPoints<m, n> pair = random.pair<m, n>();
-  const PairPlane plane = plane_of(pair);
+  const PairPlane plane = divides ? ogc::fast::plane_of(pair, distance_of(pair).below(), share, approach<m, n>(random))
+                                  : plane_of(pair);
   if (!plane.exists()) {
     ++counts.without;
     return;
   }
   ++counts.planes;
   counts.wrong += !is_separated(plane, pair);
-  const PairPoints<m, n> to = moved(random, pair, plane, 8 * plane.below, counts);
+  const PairPoints<m, n> to = moved(random, pair, plane, 8 * plane.below, counts, !divides);
   counts.met += !is_separated(plane, to);
 }
 
@@ -127,6 +149,49 @@ TEST_CASE("plane: no vertex that keeps its side lets its pair meet, whatever it 
   CHECK(counts.wrong == 0);
   CHECK(counts.broken == 0);
   CHECK(counts.met == 0);
+}
+
+TEST_CASE("plane: where approach divides the gap and nothing slides no pair meets either", "[property]") {
+  RandomPairs random;
+  Counts counts;
+  for (int i = 0; i < 50000; ++i) {
+    check<1, 3>(random, counts, true);
+    check<2, 2>(random, counts, true);
+  }
+  CHECK(counts.planes > 90000);
+  CHECK(counts.wrong == 0);
+  CHECK(counts.broken == 0);
+  CHECK(counts.met == 0);
+  CHECK(counts.off_way == 0);
+}
+
+TEST_CASE("plane: approach along the normal divides the gap, with a sixteenth for who does not approach", "[unit]") {
+  // a vertex 1 m below a triangle
+  const PairPoints<1, 3> pair{{{0, 0, 0}}, {{-1, -1, 1}, {1, -1, 1}, {0, 2, 1}}, false, false};
+  const auto room_of_first = [&](const ByApproach<1, 3>& w) {
+    const PairPlane plane = ogc::fast::plane_of(pair, 1, share, w);
+    CHECK(plane.first + (1 - plane.second) == Approx(2 * static_cast<double>(share)));  // of both
+    return plane.first / (2 * static_cast<double>(share));
+  };
+  CHECK(room_of_first({{{0, 0, 0}}, {}}) == Approx(0.5));
+  CHECK(room_of_first({{{9, 0, -1}}, {{0, 0, 2}, {0, 0, 1}, {5, 5, 0}}}) == Approx(0.5));
+  CHECK(room_of_first({{{0, 0, 3}}, {{0, 0, -1}, {0, 0, 5}, {}}}) == Approx(0.75));
+  CHECK(room_of_first({{{0, 0, 1}}, {{0, 0, 1}, {0, 0, 1}, {}}}) == Approx(15.0 / 16));
+  CHECK(room_of_first({{{0, 0, -1}}, {{0, 0, 1}, {0, 0, -1e-6F}, {}}}) == Approx(1.0 / 16));
+}
+
+TEST_CASE("plane: what does not slide is scaled from X_prev, prescribed or not", "[unit]") {
+  const HalfSpace wall{{0, 0, 1}, 0.5};
+  const FeasibleRegion region{{{0, 0, 0}, 10}, &wall, 1, false};
+  const Vec current{1, 0, 0.25F}, proposal{2, 2, 1};
+  for (const Truncated& kept :
+       {held(region, current, proposal, InertiaMetric{}), held_on_path(region, current, proposal)}) {
+    CHECK(kept.cut);
+    CHECK(kept.position.x == Approx(1).epsilon(1e-6));
+    CHECK(kept.position.y == Approx(1).epsilon(1e-6));
+    CHECK(kept.position.z == Approx(0.5).epsilon(1e-6));
+  }
+  CHECK(held(region, current, {3, 3, -4}, InertiaMetric{}).position.z == -4);
 }
 
 TEST_CASE("plane: as near as the closest points, and no less room than a ball of the pair's distance", "[property]") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "compare/oracle/audit.hpp"
 #include "fast/cpu/backend.hpp"
@@ -27,9 +28,11 @@ struct Held {
 
 /// What a detection at `positions` gives.
 Held detect(const compare::Topology& topology, const std::vector<compare::Vec3f>& positions,
-            const std::vector<std::uint8_t>& is_fixed, float r, float r_q, int capacity = 0) {
+            const std::vector<std::uint8_t>& is_fixed, float r, float r_q, int capacity = 0,
+            const std::vector<compare::Vec3f>& displacement = {}) {
   CpuBackend backend;
   Detection<CpuBackend> detection(backend, topology, {}, capacity, 0, compare::Bounds::planes, is_fixed);
+  if (!displacement.empty()) detection.divide_planes_by(reinterpret_cast<const Vec*>(displacement.data()));
   const auto* x = reinterpret_cast<const Vec*>(positions.data());
   do {
     detection.detect(x, r, &r_q, 0.45f);
@@ -147,6 +150,28 @@ TEST_CASE("planes: each pair within r_q has a plane or is covered by balls, exac
   CHECK(separated > 1000);
 }
 
+TEST_CASE("planes: divided by approach they hold every pair apart, exactly, and each side has its share",
+          "[property]") {
+  const tests::TestMesh surface = layers(7);
+  const compare::Topology topology = surface.topology();
+  const auto is_fixed = every_seventh(surface.positions.size());
+  std::mt19937 engine(15);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  std::vector<compare::Vec3f> displacement;
+  for (const std::uint8_t fixed : is_fixed)
+    displacement.push_back(fixed != 0 ? compare::Vec3f{} : compare::Vec3f{unit(engine), unit(engine), unit(engine)});
+  const compare::PlaneIn in{&topology, {}, surface.positions, is_fixed, 1.2F, 0.45F, displacement};
+  const Held divided = detect(topology, surface.positions, is_fixed, 0.3F, 1.2F, 0, displacement),
+             halved = detect(topology, surface.positions, is_fixed, 0.3F, 1.2F);
+  CHECK(reference::plane_guarantee(in, divided.out).kept());
+  const compare::PlaneFreedom free = reference::plane_freedom(in, divided.out);
+  CHECK(free.missing == 0);
+  CHECK(free.narrowing <= compare::plane_narrowing_tolerance);
+  CHECK(free.division <= compare::plane_division_tolerance);
+  CHECK(reference::plane_freedom(in, halved.out).division > 1e5);
+  CHECK(divided.out.bound == halved.out.bound);
+}
+
 TEST_CASE("planes: no vertex has a smaller ball than without planes, and some have larger ones", "[property]") {
   const tests::TestMesh surface = layers(4);
   const compare::Topology topology = surface.topology();
@@ -234,7 +259,7 @@ TEST_CASE("planes: two hooked corners stay hooked, however far they are pulled",
   add_hook(scene, 0.02, -0.1, false);
   add_hook(scene, -0.02, 0.1, true);
   scene.rest_positions = scene.mesh.positions;
-  scene.settings.bounds = compare::Bounds::planes;
+  scene.settings.bounds = GENERATE(compare::Bounds::planes, compare::Bounds::dat);
   const compare::Topology topology = compare::build_topology(scene);
   const auto simulation = start_cpu(scene, {});
   std::int64_t contacts = 0;
@@ -288,7 +313,7 @@ TEST_CASE("planes: a simulation that is replaced by a new one after each step co
   add_sheet(scene, 8, 0.06, 0.003, false);
   add_sheet(scene, 6, 0.1, 0, true);
   for (std::size_t v = 0; v < 64; ++v) scene.velocities[v] = {0.5, -1, 0};
-  scene.settings.bounds = compare::Bounds::planes;
+  scene.settings.bounds = GENERATE(compare::Bounds::planes, compare::Bounds::dat);
   const auto whole = positions_after(scene, 20);
   compare::Snapshot state = start_cpu(scene, {})->snapshot();
   for (int k = 0; k < 20; ++k) {

@@ -67,7 +67,7 @@ std::size_t half_spaces_of_held_run(StartSolver start, const compare::Scene& sce
 
 TEST_CASE("what lies in a region keeps its half-spaces after rounding, too", "[property]") {
   const Detected detected = random_regions(3000);
-  const FeasibleRegions regions(detected, compare::Bounds::planes);
+  const FeasibleRegions regions(detected, GENERATE(compare::Bounds::planes, compare::Bounds::dat));
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> draw(-1, 1);
   const State centre = widened(detected.previous);
@@ -105,6 +105,21 @@ TEST_CASE("a proposal beyond one half-space slides along it, in the metric that 
   CHECK_FALSE(FeasibleRegions(detected, compare::Bounds::off).inside(0, {0, 0, 0}, {2000, 3000, 0}).cut);
 }
 
+TEST_CASE("with bounds=dat a proposal is scaled from X_prev, wherever the vertex is", "[unit]") {
+  Detected detected;
+  detected.previous = {{0, 0, 0}};
+  detected.bound = {10};
+  detected.planes = {{0, 1}, {{{}, {0, 1, 0}, 1}}};
+  const FeasibleRegions regions(detected, compare::Bounds::dat);
+  for (const auto& kept :
+       {regions.inside(0, {1, 0.5, 0}, {2, 3, 0}), regions.inside_on_path(0, {1, 0.5, 0}, {2, 3, 0})}) {
+    CHECK(kept.cut);
+    CHECK(kept.x[0] == Approx(2.0 / 3).epsilon(1e-5));
+    CHECK(kept.x[1] == Approx(1).epsilon(1e-5));
+  }
+  CHECK_FALSE(regions.inside(0, {1, 0.5, 0}, {2, -3, 0}).cut);
+}
+
 TEST_CASE("reference VBD and Newton keep the guarantee with planes as with balls", "[property]") {
   compare::Scene scene = drop_scene();
   scene.settings.iterations = 10;
@@ -115,6 +130,15 @@ TEST_CASE("reference VBD and Newton keep the guarantee with planes as with balls
     scene.settings.bounds = compare::Bounds::planes;
     CHECK(half_spaces_of_held_run(start, scene, 12) > 1000);
   }
+}
+
+TEST_CASE("reference VBD keeps the guarantee with bounds=dat, Newton refuses it by name", "[property]") {
+  compare::Scene scene = drop_scene();
+  scene.settings.iterations = 10;
+  scene.settings.bounds = compare::Bounds::dat;
+  compare::round_to_single(scene);
+  CHECK(half_spaces_of_held_run(start_reference_vbd, scene, 12) > 1000);
+  CHECK_THROWS_WITH(start_newton(scene, {}), ContainsSubstring("'bounds' can't be 'dat'"));
 }
 
 TEST_CASE("without bounds a step of either solver cuts nothing", "[unit]") {
