@@ -72,8 +72,8 @@ struct Counts {
 bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
   const auto wide = [](const Vec& a) { return Vector<double>{a.x, a.y, a.z}; };
   const Vector<double> way = wide(to) - wide(from), gone = wide(x) - wide(from);
-  const double square = dot(way, way), share = square > 0 ? std::clamp(dot(gone, way) / square, 0.0, 1.0) : 0;
-  const Vector<double> off = gone - share * way;
+  const double square = dot(way, way), part = square > 0 ? std::clamp(dot(gone, way) / square, 0.0, 1.0) : 0;
+  const Vector<double> off = gone - part * way;
   const double size = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
   return std::sqrt(dot(off, off)) <= std::sqrt(3.0) * 8 * 0x1p-24 * size;
 }
