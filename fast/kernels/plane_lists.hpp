@@ -29,8 +29,8 @@ OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, con
     control.count_lag(x.x != p.x || x.y != p.y || x.z != p.z);
 }
 
-/// A pair in the row of a vertex, with its distance: rows are read in one stream, and those of collapsed spots have a
-/// thousand.
+/// A pair in the row of a vertex, with its distance: rows are read in one stream, and those of collapsed spots are
+/// long.
 struct RowPair {
   int number = 0;   ///< of the noted pair
   float below = 0;  ///< its distance, rounded down [m]

@@ -266,7 +266,7 @@ def mat_windows(scale, seconds=0):
     for share in MAT_WINDOWS:
         yield from (from_mat(share, f"vbd_{bounds}", ("--backend", "cpu", *options), steps, scale, pictured=False)
                     for bounds, (_, options) in MAT_BOUNDS.items())
-        yield from_mat(share, "ipc", ("--solver", "ipc"), 50 * steps, scale, least=IPC_STEPS,
+        yield from_mat(share, "ipc", ("--solver", "ipc"), 50 * steps, scale, least=IPC_STEPS, first=2,  # one step's end
                        seconds=seconds or WINDOW_SECONDS[scale])
 
 

@@ -107,8 +107,9 @@ class Job:
 
     `state`: (another job's name, frame) that it begins with, `more_steps` long where that is not 0. `scene`: a file
     that it writes first (layers.Stack). `may_fail`: to fail is a result. `processor_time`: what it uses of it is kept
-    beside the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed. `seconds`: it is
-    asked to stop after so long, and is whole then; where it must have `least` steps, not before it has them."""
+    beside the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed, the `first` ones
+    among them. `seconds`: it is asked to stop after so long, and is whole then; where it must have `least` steps, not
+    before it has them."""
 
     name: str
     arguments: tuple
@@ -119,6 +120,7 @@ class Job:
     processor_time: bool = False
     under: tuple = ()
     pictured: bool = True
+    first: int = 0
     seconds: float = 0
     least: int = 0
 
@@ -210,7 +212,7 @@ class Job:
         if not by_time and not manifest_of(folder).get("status", "").startswith(("finished", "failed: Newton")):
             return
         names = ("run.json", "steps.csv", "iterations.csv", PROCESSOR_TIME, ENDED_BY_TIME, AUDIT)
-        chosen = chosen_frames(folder, frames, last) if self.pictured else []
+        chosen = chosen_frames(folder, frames, last, self.first) if self.pictured else []
         beside = [root / f"{self.name}{MEMORY}", *(folder / name for name in names)]
         yield from (path for path in beside if path.is_file())
         yield from chosen
@@ -298,11 +300,11 @@ def taken_before(folder):
     return used
 
 
-def chosen_frames(folder, frames, last):
-    """So many frames of a run, the first, evenly on to the last, and the `last` ones."""
+def chosen_frames(folder, frames, last, first=0):
+    """So many frames of a run, the first, evenly on to the last, and the `first` and the `last` ones."""
     found = sorted((folder / "frames").glob("frame_*.h5"))
     spread = {round(i * (len(found) - 1) / (frames - 1)) for i in range(frames)} if frames > 1 and found else set()
-    return [frame for i, frame in enumerate(found) if i in spread or i >= len(found) - last]
+    return [frame for i, frame in enumerate(found) if i in spread or i < first or i >= len(found) - last]
 
 
 def command_in(command, limit=Limit(), log=None, out=None, seconds=0, waits=False):

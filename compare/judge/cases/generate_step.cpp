@@ -451,7 +451,7 @@ constexpr std::array<Generator, 17> table{{{"fall", 12, true, fall},
                                            {"solid", 8, false, solid, 0, Stage::tetrahedron},
                                            {"models", 5, false, models},
                                            {"planes", 10, false, planes, 0, Stage::plane},
-                                           {"ladder.planes", 10, false, planes_at_rest, 0, Stage::plane},
+                                           {"ladder.planes", 22, false, planes_at_rest, 0, Stage::plane},
                                            {"dat", 12, false, dat, 0, Stage::plane},
                                            {"pairs", 24, false, pairs, 0, std::nullopt, true},
                                            {"ladder.stack", 24, false, stack_by_pairs, 0, std::nullopt, true}}};

@@ -344,8 +344,9 @@ class Book(Scratch):
         (self.folder / "frames").mkdir()
         for step in range(0, 105, 5):
             (self.folder / f"frames/frame_{step:06d}.h5").touch()
-        for frames, last, steps in ((4, 0, [0, 35, 65, 100]), (0, 0, []), (2, 2, [0, 95, 100])):
-            found = jobs.chosen_frames(self.folder, frames, last)
+        for frames, last, first, steps in ((4, 0, 0, [0, 35, 65, 100]), (0, 0, 0, []), (2, 2, 0, [0, 95, 100]),
+                                           (2, 0, 2, [0, 5, 100])):
+            found = jobs.chosen_frames(self.folder, frames, last, first)
             self.assertEqual([int(path.stem[-6:]) for path in found], steps)
 
     def test_an_audit_that_goes_on_is_packed_again_and_what_parts_share_once(self):
