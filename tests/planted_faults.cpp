@@ -23,6 +23,7 @@ StageReport judged(const tests::Fault& fault, const Authority& authority, std::u
   JudgeOptions options;
   options.cases = cases;
   options.batch = 1000;
+  options.generator = fault.generator;
   return judge_stage(fault.stage, wrong, authority, options);
 }
 

@@ -35,6 +35,12 @@ Fault spoiled(const std::string& name, const std::function<void(const StepIn&, S
           }};
 }
 
+/// Of all generators' cases too few could show it.
+Fault shown_by(const std::string& generator, Fault fault) {
+  fault.generator = generator;
+  return fault;
+}
+
 /// max(1, ⌊γ_e K⌋) in place of ⌈γ_e K⌉: as γ_e a little above (⌊γ_e K⌋ − 1)/K.
 void round_threshold_down(Scene& scene) {
   const std::vector<Index> groups = rigid_groups(scene);
@@ -184,9 +190,9 @@ std::vector<Fault> step_faults() {
                     [](Scene& scene) {
                       if (scene.settings.bounds == Bounds::dat) scene.settings.bounds = Bounds::planes;
                     }),
-      spoiled("sliding left on where approach divides", slide_with_dat),
-      spoiled("a vertex stops beside its way where approach divides", stop_beside_the_way),
-      spoiled("gaps of every detection divided by what inertia asks for", divide_by_prediction),
+      shown_by("dat", spoiled("sliding left on where approach divides", slide_with_dat)),
+      shown_by("dat", spoiled("a vertex stops beside its way where approach divides", stop_beside_the_way)),
+      shown_by("dat", spoiled("gaps of every detection divided by what inertia asks for", divide_by_prediction)),
       spoiled("two corners of a tetrahedron of one colour", share_a_colour),
       spoiled("a ball for vertices inside solids", bound_what_is_inside),
       spoiled("two neighbours of one colour",

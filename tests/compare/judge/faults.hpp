@@ -20,6 +20,7 @@ struct Fault {
   compare::Stage stage;
   /// Spoils the stage of a right contestant.
   std::function<void(compare::Contestant&, const compare::Authority&)> plant;
+  std::string generator{};  ///< whose cases alone can show it; empty: those of all
 };
 
 /// All of them, at least one a stage.
