@@ -48,13 +48,14 @@ class ReferenceStep {
     for (auto kind = order.next(); kind; kind = order.next()) {
       StepEvent event;
       event.kind = *kind;
+      held_.clear();
       if (*kind == StepEventKind::detection)
         detect(event);
       else if (*kind == StepEventKind::guess)
         guess(event, order);
       else
         sweep(event);
-      order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_));
+      order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_, held_));
       if (std::exchange(is_by_pairs_, false)) order.left_regions();
       event.position = x_;
       out_.events.push_back(std::move(event));
@@ -129,10 +130,9 @@ class ReferenceStep {
   }
 
   void guess(StepEvent& event, const StepOrder& order) {
-    const std::vector<bool> held = order.holds_contacts() ? touched_vertices(contacts_, *in_.topology)
-                                                          : std::vector<bool>(x_.size(), false);
+    held_ = order.holds_contacts() ? touched_vertices(contacts_, *in_.topology) : std::vector<bool>(x_.size(), false);
     for (std::size_t v = 0; v < x_.size(); ++v)
-      if (!held[v]) x_[v] = truncated(v, event.cut);
+      if (!held_[v]) x_[v] = truncated(v, event.cut);
     if (settings_.guess == compare::Guess::pairs && order.are_many(event.cut)) guess_by_pairs(event);
   }
 
@@ -173,6 +173,7 @@ class ReferenceStep {
   std::vector<float> bound_;
   compare::VertexPlanes planes_;
   ContactSets contacts_;
+  std::vector<bool> held_;  ///< by vertex: contact holds it in the round of the guess that just took place
   compare::StepOut out_;
 };
 

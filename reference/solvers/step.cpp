@@ -26,17 +26,44 @@ bool leaves_balls(const compare::StepIn& in, const compare::StepOut& answer, std
   return false;
 }
 
+/// By vertex: whether a contact of the detection has it. An answer may be any: faces that are not there have none.
+std::vector<bool> touched_in(const compare::StepEvent& detection, const compare::Topology& topology) {
+  std::vector<bool> touched(static_cast<std::size_t>(topology.vertex_count), false);
+  const auto touch = [&](const auto& vertices) {
+    for (const Index v : vertices) touched[static_cast<std::size_t>(v)] = true;
+  };
+  const auto is_among = [](Index i, std::size_t count) { return i >= 0 && static_cast<std::size_t>(i) < count; };
+  const auto touch_face = [&](const compare::Face& face) {
+    const auto i = static_cast<std::size_t>(face.index);
+    switch (face.kind) {
+      case compare::FaceKind::vertex:
+        if (is_among(face.index, touched.size())) touched[i] = true;
+        break;
+      case compare::FaceKind::edge:
+        if (is_among(face.index, topology.edges.size())) touch(topology.edges[i]);
+        break;
+      case compare::FaceKind::triangle:
+        if (is_among(face.index, topology.triangles.size())) touch(topology.triangles[i]);
+        break;
+    }
+  };
+  for (const compare::VertexFacetContact& c : detection.vertex_facet.contacts)
+    touch_face({compare::FaceKind::vertex, c.vertex}), touch_face(c.face);
+  for (const compare::EdgeEdgeContact& c : detection.edge_edge.contacts) touch_face(c.first), touch_face(c.second);
+  return touched;
+}
+
 Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
 }  // namespace
 
 StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
-               const std::vector<Index>& groups, const compare::Settings& settings) {
+               const std::vector<Index>& groups, const compare::Settings& settings, const std::vector<bool>& held) {
   StepLag lag;
   if (!compare::has_planes(settings.bounds)) return lag;
   for (std::size_t v = 0; v < x.size(); ++v) {
-    if (groups[v] <= 0 || x[v] == target[v]) continue;
+    if (groups[v] <= 0 || x[v] == target[v] || (!held.empty() && held[v])) continue;
     ++lag.lagging;
     lag.has_advanced = lag.has_advanced || !(x[v] == previous[v]);
   }
@@ -67,15 +94,21 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
                                                            settings.query_radius_cap * settings.contact_radius);
   StepOrder order(settings, compare::bounded_count(*in.topology, groups));
   const std::vector<Vec3f>* previous = &start;
+  std::vector<bool> touched(start.size(), false);
   for (auto kind = order.next(); kind; kind = order.next()) {
     const std::size_t i = truth.events.size();
     truth.events.push_back(*kind);
     const bool is_there = i < answer.events.size();
     const Index cut = is_there ? answer.events[i].cut : 0;
-    if (is_there && *kind == compare::StepEventKind::detection) previous = &answer.events[i].position;
-    order.took_place(cut, is_there
-                              ? lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings)
-                              : StepLag{});
+    if (is_there && *kind == compare::StepEventKind::detection) {
+      previous = &answer.events[i].position;
+      touched = touched_in(answer.events[i], *in.topology);
+    }
+    StepLag lag;
+    if (is_there)
+      lag = lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings,
+                   *kind == compare::StepEventKind::guess && order.holds_contacts() ? touched : std::vector<bool>{});
+    order.took_place(cut, lag);
     if (settings.guess == compare::Guess::pairs && *kind == compare::StepEventKind::guess &&
         (order.are_many(cut) || leaves_balls(in, answer, i)))
       order.left_regions();

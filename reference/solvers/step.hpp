@@ -10,10 +10,11 @@
 
 namespace ogc::reference {
 
-/// Prescribed vertices at x that are behind their targets; nothing where bounds are no planes.
+/// Prescribed vertices at x that bounds keep behind their targets; nothing where bounds are no planes. `held`: by
+/// vertex, whether contact holds it in a round of the guess instead, which asks for nothing; empty: none.
 StepLag lag_of(const std::vector<compare::Vec3f>& x, const std::vector<compare::Vec3f>& previous,
                const std::vector<compare::Vec3f>& target, const std::vector<compare::Index>& groups,
-               const compare::Settings& settings);
+               const compare::Settings& settings, const std::vector<bool>& held = {});
 
 /// r_q, prescribed targets, the order of events, velocities. The answer's target, position and velocity must have one
 /// entry a vertex, its events may be any.
