@@ -27,7 +27,8 @@ from plots.run_folder import RunError, commits_in_words
 
 SCENE, STEPS = commands.THREE_CLOTHS, commands.THREE_CLOTHS_STEP
 # What is not as the paper has it, as folders are called and in words.
-CHOICES = {"any": "γ_e = 0", "slow": "ε_v = 1e-4 m/s", "planes": "half-spaces", "pairs": "pair by pair"}
+CHOICES = {"any": "γ_e = 0", "slow": "ε_v = 1e-4 m/s", "planes": "half-spaces", "pairs": "pair by pair",
+           "narrow": "γ_p = 0.2"}
 MARKS = (50, 500)  # iterations of the paper's curves of Newton and of VBD
 
 

@@ -25,6 +25,7 @@ THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd":
 ANY = ("--set", "redetect_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
 PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "truncation=pair")  # what Newton's step is cut to
+NARROW = ("--set", "bound_relaxation=0.2")  # gaps close by two fifths at most until the next detection
 NEWTON = ("--solver", "newton", "--residual",
           *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "friction_solves=50")
                                                for word in ("--set", value)))
@@ -92,10 +93,13 @@ def three_cloths(scale, backends, start_iterations=None):
                    (*again, "--backend", backends[-1], *vbd, *ANY, "--steps", other), begin)
                for other, begin in others]
     bounds = [] if scale == "smoke" else [("_any_planes", (*ANY, *PLANES)), ("_any_pairs", (*ANY, *PAIRS))]
+    narrow = [("_any_pairs_narrow", (*ANY, *PAIRS, *NARROW))] if others else []
+    at_step = (*with_slow, *bounds, *narrow)
     double = [Job("vbd_double", (*solve, "--solver", "reference_vbd", *vbd), state),
-              *(Job(f"newton{suffix}", (*solve, *newton, *more), state) for suffix, more in (*with_slow, *bounds)),
+              *(Job(f"newton{suffix}", (*solve, *newton, *more), state) for suffix, more in at_step),
               *(Job(f"newton{suffix}_at_{other}", (*again, *newton, *more, "--steps", other), begin)
-                for other, begin in others for suffix, more in (("_any", ANY), ("_any_pairs", (*ANY, *PAIRS))))]
+                for other, begin in others
+                for suffix, more in (("_any", ANY), ("_any_pairs", (*ANY, *PAIRS)), *narrow))]
     return [start, *single], double
 
 
