@@ -178,27 +178,30 @@ def activations(scale, backend):
 
 # Table 1: each row's whole run, its audit, one step from five of its states, and windows on the CPU from the same.
 # Steps between stored, audited states: as many as go into 1/60 s, one where a step is longer than half of that.
-MAT, MAT_PLANES, PLANES = "mat_twist", "mat_twist_planes", ("--set", "bounds=planes")
+MAT, MAT_PLANES = "mat_twist", "mat_twist_planes"
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
-               "robot_shirt": 10, MAT: 4, MAT_PLANES: 4}
+               "robot_shirt": 10, MAT: 4}
+WITH_PLANES = "_planes"  # ends a row's name
+ROWS = tuple(scene + end for scene in FRAME_STEPS for end in ("", WITH_PLANES))
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
 
 
 def scene_of(row):
-    """A row is called as its scene, or as the scene and what is set otherwise."""
-    return MAT if row == MAT_PLANES else row
+    """Each scene has a row with the paper's bounds, called as it is, and one with planes."""
+    return row.removesuffix(WITH_PLANES)
 
 
 def of_row(row, data):
-    """The dress is a stand-in without the data of Codimensional IPC; the mat is there with either kind of bounds."""
-    return (*(("--set", f"data={data}") if data and row == "dress" else ()), *(PLANES if row == MAT_PLANES else ()))
+    """The dress is a stand-in without the data of Codimensional IPC."""
+    bounds = PLANES if row.endswith(WITH_PLANES) else ()
+    return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *bounds)
 
 
 def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data="", folder=""):
     """So many times the row's scene to its end, or to step `steps`; the audit comes after the run, in time of its own,
     or beside it (`audit`: every, frame, end, off). They lie in `folder`, or that of the row."""
     beside = "off" if audit == "afterwards" else audit
-    options = (*(("--steps", steps) if steps else ()), *of_row(row, data), "--set", f"frame_steps={FRAME_STEPS[row]}")
+    options = (*(("--steps", steps) if steps else ()), *of_row(row, data), "--set", f"frame_steps={FRAME_STEPS[scene_of(row)]}")
     for number in range(1, runs + 1):
         name = f"{folder or row}/whole" + (f"_{number}" if number > 1 else "")
         yield Job(name, (scene_of(row), "--scale", scale, "--backend", backend, "--audit", beside, *options))
@@ -210,7 +213,7 @@ def from_states(row, kind, more_steps, scale, options, data=""):
     """So many steps from five states of the row's whole run, without frames of their own."""
     every = ("--audit", "off", "--set", "frame_steps=1000000", *of_row(row, data), *options)
     for share in SHARES:
-        state = (f"{row}/whole", Share(share, FRAME_STEPS[row]))
+        state = (f"{row}/whole", Share(share, FRAME_STEPS[scene_of(row)]))
         arguments = (scene_of(row), "--scale", scale, *every)
         yield Job(f"{row}/{kind}_{share}", arguments, state, more_steps, pictured=False)
 
@@ -218,9 +221,9 @@ def from_states(row, kind, more_steps, scale, options, data=""):
 def residuals(row, scale, backend, data=""):
     """One step whose residual is measured. A row an iteration has the contacts of the last detection, and takes the
     reference a second at 100,000 vertices; of the million vertices nothing is measured."""
-    if row == "fifty_layers_1m":
+    if scene_of(row) == "fifty_layers_1m":
         return []
-    options = ("--backend", backend, "--residual", *(() if row == "fifty_layers" else ("--iterations",)))
+    options = ("--backend", backend, "--residual", *(() if scene_of(row) == "fifty_layers" else ("--iterations",)))
     return from_states(row, "residual", 1, scale, options, data)
 
 
@@ -259,7 +262,7 @@ def mat_without_friction(scale, backend):
 
 
 def from_mat(share, name, options, more_steps, scale, **more):
-    state = ("planes/whole", Share(share, FRAME_STEPS[MAT_PLANES]))
+    state = ("planes/whole", Share(share, FRAME_STEPS[MAT]))
     words = (MAT, "--scale", scale, "--audit", "off", "--set", "frame_steps=1", *options)
     return Job(f"window_{share}/{name}", words, state, more_steps, **more)
 

@@ -56,9 +56,8 @@ def table(folder):
     """Of each row of Table 1 the run on a GPU that judges its claims, as CSV."""
     evidence = Evidence(folder)
     asked = {claim["scene"]: claim["run"] for claim in verdicts.load() if claim["id"].endswith(".cuda_average")}
-    bounds = {row: {"bounds": name} for name, (row, _) in commands.MAT_BOUNDS.items()}
-    wanted = {row: {"scene": commands.scene_of(row), **asked[commands.scene_of(row)], **bounds.get(row, {})}
-              for row in ROWS}
+    wanted = {row: {"scene": commands.scene_of(row), **asked[commands.scene_of(row)],
+                    "bounds": "planes" if row.endswith(commands.WITH_PLANES) else "ball"} for row in ROWS}
     found = {row: evidence.runs_as(wanted[row]) for row in ROWS}
     rows = [row_of(row, runs[-1]) for row, runs in found.items() if runs]
     if not rows:

@@ -185,10 +185,10 @@ class Afterwards(unittest.TestCase):
 class Frames(unittest.TestCase):
     def test_every_row_stores_a_state_in_a_60th_of_a_second(self):
         """As many steps as go into it, at least one; of h as the paper prints it where no run is accepted."""
-        self.assertEqual(set(commands.FRAME_STEPS), set(table1.ROWS))
         results, claims = SOURCE / "paper_figures/results/h200", SOURCE / "paper_figures/claims"
-        for row, n in commands.FRAME_STEPS.items():
+        for row in table1.ROWS:
             scene = commands.scene_of(row)
+            n = commands.FRAME_STEPS[scene]
             printed = next(claim["value"] for claim in json.loads((claims / f"{scene}.json").read_text())["claims"]
                            if claim["id"] == f"{scene}.time_step")
             paths = [*results.glob(f"table1_paper/{row}_whole_run.json"), *results.glob(f"{row}_run.json")]
