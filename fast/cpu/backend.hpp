@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -131,6 +133,22 @@ class CpuBackend {
         if (i + ahead < end) look_ahead(f, i + ahead);
         f(i, SerialTeam<W>{});
       }
+    });
+  }
+
+  /// A thread goes through a row and keeps its smallest numbers in order.
+  template <class F>
+  void for_each_row(int n, const int* offsets, const float* values, F f) {
+    for_each(n, [f, offsets, values](int i) {
+      float least[F::rank + 1];  // ascending
+      std::fill(std::begin(least), std::end(least), std::numeric_limits<float>::infinity());
+      for (int k = offsets[i]; k < offsets[i + 1]; ++k) {
+        if (!(values[k] < least[F::rank])) continue;
+        int at = F::rank;
+        for (; at > 0 && values[k] < least[at - 1]; --at) least[at] = least[at - 1];
+        least[at] = values[k];
+      }
+      f(i, least[0], least[F::rank]);
     });
   }
 

@@ -26,6 +26,7 @@
 #include "fast/cuda/check.cuh"
 #include "fast/cuda/collectives.cuh"
 #include "fast/cuda/follow.cuh"
+#include "fast/cuda/least.cuh"
 #include "fast/cuda/search.cuh"
 #include "fast/cuda/team.cuh"
 #include "fast/stages/backend.hpp"
@@ -82,6 +83,18 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
   int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   for (; i < m; i += stride) f(i);
   for (i -= m; i < count; i += stride) g(i);
+}
+
+/// f of each row, a warp a row (fast/cuda/least.cuh).
+template <class F>
+__global__ void __launch_bounds__(cuda_block_size) run_each_row(int n, const int* offsets, const float* values, F f) {
+  follow_launch();
+  const int warps = static_cast<int>(gridDim.x * blockDim.x) / 32, lane = static_cast<int>(threadIdx.x) % 32;
+  for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x) / 32; i < n; i += warps) {
+    const float own = least_of_row(values + offsets[i], offsets[i + 1] - offsets[i], F::rank);
+    const float after = __shfl_sync(0xffffffffu, own, F::rank);
+    if (lane == 0) f(i, own, after);
+  }
 }
 
 /// One thread that decides what a conditional node does.
@@ -157,6 +170,13 @@ class CudaBackend {
   void for_both(int m, F f, const int* n, int capacity, G g) {
     if (m <= 0) return for_each_counted(n, capacity, g);
     follow(typeid(G), run_both<F, G>, blocks(std::int64_t{m} + capacity), block_threads_, m, f, n, capacity, g);
+  }
+
+  /// A warp a row; a warp of a larger loop takes several.
+  template <class F>
+  void for_each_row(int n, const int* offsets, const float* values, F f) {
+    if (n <= 0) return;
+    follow(typeid(F), run_each_row<F>, blocks(std::int64_t{32} * n), block_threads_, n, offsets, values, f);
   }
 
   /// Few team lanes: SpreadTeam; as many as fill the device: SerialLaneTeam. `overlapping` lets the launch begin while

@@ -132,10 +132,43 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
 
 }  // namespace detail
 
+/// What W neighbouring threads of a warp ask together (OneLane says what).
+template <int W>
+class NeighbourLanes {
+ public:
+  template <class Is>
+  __device__ int first(int count, int from, Is is) const {
+    for (int base = from; base < count; base += W) {
+      const int k = base + lane();
+      const unsigned votes = __ballot_sync(everyone(), k < count && is(k)) >> begin();
+      if (votes != 0) return base + __ffs(static_cast<int>(votes)) - 1;
+    }
+    return count;
+  }
+  template <class Of>
+  __device__ double smallest(int count, double most, Of of) const {
+    for (int k = lane(); k < count; k += W) most = smaller(most, of(k));
+#pragma unroll
+    for (int s = W / 2; s > 0; s /= 2) most = smaller(most, __shfl_xor_sync(everyone(), most, s));
+    return most;
+  }
+
+ protected:
+  /// Team lane of this thread, and the first one's lane of its warp.
+  __device__ static int lane() { return static_cast<int>(threadIdx.x) & (W - 1); }
+  __device__ static int begin() { return static_cast<int>(threadIdx.x) & 31 & ~(W - 1); }
+
+ private:
+  /// The team's lanes of the warp; other teams may be elsewhere.
+  __device__ static unsigned everyone() { return (0xffffffffu >> (32 - W)) << begin(); }
+};
+
 /// `present` of both: false for a team that only fills a block. `sum` of both: as SerialTeam::sum; every thread of the
 /// block calls it once, or `leave` in its place: the launch after this one relies on the launch before it having ended.
 template <int W>
-class SpreadTeam {
+class SpreadTeam : public NeighbourLanes<W> {
+  using NeighbourLanes<W>::lane;
+
  public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
@@ -166,19 +199,22 @@ class SpreadTeam {
     return detail::total_of_lanes<W>(total);
   }
 
-  /// Team lane 0 of warp 0, where the total is.
+  /// The team lanes of warp 0 have it.
+  __device__ bool holds_total() const { return warp() == 0; }
+  /// Team lane 0 of them.
   __device__ bool leader() const { return present_ && warp() == 0 && lane() == 0; }
 
  private:
   __device__ static int warp() { return static_cast<int>(threadIdx.x) / 32; }
-  __device__ static int lane() { return static_cast<int>(threadIdx.x) & (W - 1); }
 
   bool present_;
 };
 
 /// A team whose team lanes run all parts of a sum (head of this file).
 template <int W>
-class SerialLaneTeam {
+class SerialLaneTeam : public NeighbourLanes<W> {
+  using NeighbourLanes<W>::lane;
+
  public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
@@ -205,12 +241,11 @@ class SerialLaneTeam {
     return detail::total_of_lanes<W>(total);
   }
 
-  /// Team lane 0; each of them has the total.
+  /// Each team lane has it.
+  __device__ static bool holds_total() { return true; }
   __device__ bool leader() const { return present_ && lane() == 0; }
 
  private:
-  __device__ static int lane() { return static_cast<int>(threadIdx.x) & (W - 1); }
-
   template <bool begins, class Load, class Add, class Accumulator>
   __device__ static void add(const Part<Load, Add>& part, Accumulator& total) {
     Accumulator own{};

@@ -3,7 +3,6 @@
 
 #include "fast/kernels/detect_edge_edge.hpp"
 #include "fast/kernels/detect_vertex_facet.hpp"
-#include "fast/kernels/plane.hpp"
 
 namespace ogc::fast {
 
@@ -14,7 +13,7 @@ struct CollectContacts {
   /// decides pairs of edges; its radius also leaves out pairs that were noted for their planes alone
   CollectEdgeEdge edge_edge;
   ListsView lists;                    ///< where contacts are entered, and whose overflow flag ends the launch
-  const PairPlane* planes = nullptr;  ///< beside the noted pairs, where those beyond r are noted, too
+  const float* distances = nullptr;   ///< of the noted pairs, rounded down [m], where those beyond r are noted, too
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
@@ -25,7 +24,7 @@ struct CollectContacts {
 
   /// The contact that the i-th pair is; its bucket is −1 where it is none.
   OGC_HD RawContact contact(int i) const {
-    if (planes != nullptr && !(planes[i].below < edge_edge.contact_radius)) return {-1, -1, -1, -1};
+    if (distances != nullptr && !(distances[i] < edge_edge.contact_radius)) return {-1, -1, -1, -1};
     const NotedPair pair = lists.noted[i];
     const bool certain = pair.second < 0;
     const int second = certain ? ~pair.second : pair.second;

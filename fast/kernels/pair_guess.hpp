@@ -39,7 +39,8 @@ OGC_HD inline Vector<double> move_of(const Vec& from, const Vec& to) {
 
 /// What kernels share.
 struct PairGuessView {
-  PlaneListsView lists;  ///< surface, X, is_fixed, γ_p, noted pairs, and by pair what is known of it
+  PlaneListsView lists;         ///< surface, X, is_fixed, γ_p, noted pairs
+  PairPlane* planes = nullptr;  ///< by noted pair: what is known of it
   FeasibleRegions regions;
   const Vec* target = nullptr;      ///< y by vertex [m]
   Vec* way = nullptr;               ///< by vertex: where its move leads at most [m]
@@ -237,7 +238,7 @@ struct CheckPair {
     if (is_inside) return 1;
     const double apart = largest_difference(move, of.second_from);
     if (!(apart > 0)) return 1;
-    PairPlane& known = view.lists.planes[i];
+    PairPlane& known = view.planes[i];
     if (known.below < 0) known.below = view.lists.at_points(pair, [](const auto& p) { return distance_of(p).below(); });
     const double by_distance = divide(room(static_cast<double>(known.below)), apart);
     if (by_distance > 1) return 1;

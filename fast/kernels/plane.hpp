@@ -8,6 +8,7 @@
 #include "fast/kernels/arithmetic/solve3.hpp"
 #include "fast/kernels/closest_face.hpp"
 #include "fast/kernels/closest_points.hpp"
+#include "fast/kernels/team.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
@@ -151,11 +152,17 @@ OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share
   return separates ? placed : plane;
 }
 
+/// The first half-space from number `from` on that x does not keep for certain; region.count where there is none. Team
+/// lanes share them out: one after the other they are the longest chain of a colour.
+template <class Lanes>
+OGC_HD int first_left(const FeasibleRegion& region, const Vec& x, const Lanes& lanes, int from = 0) {
+  return lanes.first(region.count, from, [&](int k) { return !is_behind(region.planes[k], x); });
+}
+
 /// Decided on the stored numbers: x is in the region for certain.
-OGC_HD inline bool is_within(const FeasibleRegion& region, const Vec& x) {
-  for (int k = 0; k < region.count; ++k)
-    if (!is_behind(region.planes[k], x)) return false;
-  return is_within(region.ball, x);
+template <class Lanes = OneLane>
+OGC_HD bool is_within(const FeasibleRegion& region, const Vec& x, const Lanes& lanes = {}) {
+  return first_left(region, x, lanes) == region.count && is_within(region.ball, x);
 }
 
 /// The direction in which a vertex leaves a half-space with the least increase of its energy: H⁻¹ n.
@@ -205,18 +212,20 @@ OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
 }
 
 /// Along the violated half-spaces in their order, then into the ball.
-template <class Metric>
-OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric) {
+template <class Metric, class Lanes>
+OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric, const Lanes& lanes) {
   const Point centre = wide(region.ball.centre);
   for (int pass = 0; pass < passes; ++pass) {
     bool moved = false;
-    for (int k = 0; k < region.count; ++k) {
-      const double out = beyond(region.planes[k], y);
-      if (!(out > 0)) continue;
-      const Point n = wide(region.planes[k].normal);
-      Point u = wide(metric(region.planes[k].normal));
+    const auto next = [&](int from) {
+      return lanes.first(region.count, from, [&](int k) { return beyond(region.planes[k], y) > 0; });
+    };
+    for (int k = next(0); k < region.count; k = next(k + 1)) {
+      const HalfSpace& plane = region.planes[k];
+      const Point n = wide(plane.normal);
+      Point u = wide(metric(plane.normal));
       if (!(dot(n, u) > 0)) u = n;
-      y -= (out / dot(n, u)) * u;
+      y -= (beyond(plane, y) / dot(n, u)) * u;
       moved = true;
     }
     const Point away = y - centre;
@@ -230,13 +239,10 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
 /// One coordinate by one float towards the inside of what x violates first: the coordinate that leads farthest inside.
 /// Storing takes a point out of a half-space by half a spacing of each coordinate times |n_k| at most, so that two
 /// steps of the best coordinate take it back; those of a small coordinate, whose spacing is small, would lead nowhere.
-OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
-  Vec outward = x - region.ball.centre;
-  for (int k = 0; k < region.count; ++k) {
-    if (is_behind(region.planes[k], x)) continue;
-    outward = region.planes[k].normal;
-    break;
-  }
+template <class Lanes>
+OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
+  const int left = first_left(region, x, lanes);
+  const Vec outward = left < region.count ? region.planes[left].normal : x - region.ball.centre;
   const auto inner = [](float c, float along) { return nextafterf(c, along > 0 ? -0x1p127f : 0x1p127f); };
   const Vec moved{inner(x.x, outward.x), inner(x.y, outward.y), inner(x.z, outward.z)};
   const float a = (x.x - moved.x) * outward.x, b = (x.y - moved.y) * outward.y, c = (x.z - moved.z) * outward.z;
@@ -246,23 +252,25 @@ OGC_HD inline Vec nudged(const FeasibleRegion& region, Vec x) {
 }
 
 /// The stored position, nudged where storing took it out of the region; whether that helps, `is_within` says.
-OGC_HD inline Vec stored_inside(const FeasibleRegion& region, const Point& y) {
+template <class Lanes>
+OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lanes& lanes) {
   Vec x = stored(y);
-  for (int nudge = 0; nudge < nudges && !is_within(region, x); ++nudge) x = nudged(region, x);
+  for (int nudge = 0; nudge < nudges && !is_within(region, x, lanes); ++nudge) x = nudged(region, x, lanes);
   return x;
 }
 
 /// The share of the way from `from`, which is in the region, to y that stays in it, with room for `steps` at its end.
-OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& from, const Point& y, int steps) {
+template <class Lanes>
+OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, const Point& y, int steps,
+                           const Lanes& lanes) {
   const Point step = y - from, away = from - wide(region.ball.centre);
-  double share = 1;
-  for (int k = 0; k < region.count; ++k) {
+  double share = lanes.smallest(region.count, 1, [&](int k) {
     const HalfSpace& plane = region.planes[k];
     const Point n = wide(plane.normal);
     const double room = larger(room_to_store(plane, from, steps), room_to_store(plane, y, steps)),
                  out = dot(n, y) - plane.offset + room, rise = dot(n, step);
-    if (out > 0 && rise > 0) share = smaller(share, larger(0.0, 1 - out / rise));
-  }
+    return out > 0 && rise > 0 ? larger(0.0, 1 - out / rise) : 1.0;
+  });
   // ‖a + s b‖ = R; where a lies beyond the safe radius, too, as long as the way leads inward first
   const double radius = safe_radius(region, steps), bb = dot(step, step), ab = dot(away, step),
                left = radius * radius - dot(away, away), root = ab * ab + bb * left;
@@ -273,13 +281,14 @@ OGC_HD inline double share_inside(const FeasibleRegion& region, const Point& fro
 /// The farthest stored position of the region on the way to y, or just short of it; `from` where there is none. Where
 /// the way leads along one half-space and ends at another, or at the ball, a step out of one may lead out of the other:
 /// then it ends so much earlier that it does not.
-OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y) {
+template <class Lanes>
+OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y, const Lanes& lanes) {
   const Point start = wide(from);
-  double share = share_inside(region, start, y, 0);
+  double share = share_inside(region, start, y, 0, lanes);
   for (int attempt = 0; attempt < 4 && share > 0; ++attempt) {
-    const Vec x = stored_inside(region, start + share * (y - start));
-    if (is_within(region, x)) return x;
-    share = attempt == 0 ? share_inside(region, start, y, nudges) : 0.5 * share;
+    const Vec x = stored_inside(region, start + share * (y - start), lanes);
+    if (is_within(region, x, lanes)) return x;
+    share = attempt == 0 ? share_inside(region, start, y, nudges, lanes) : 0.5 * share;
   }
   return from;
 }
@@ -288,32 +297,35 @@ OGC_HD inline Vec scaled(const FeasibleRegion& region, const Vec& from, const Po
 
 /// A position of the region near a finite proposal outside it: along the half-spaces, nudged where storing took it out,
 /// scaled towards `current` where it is still outside; in the worst case `current`, which the region holds.
-template <class Metric>
-OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric) {
-  const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric);
-  const Vec x = slide::stored_inside(region, y);
-  return {is_within(region, x) ? x : slide::scaled(region, current, y), true};
+template <class Metric, class Lanes>
+OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric,
+                                            Lanes lanes) {
+  const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric, lanes);
+  const Vec x = slide::stored_inside(region, y, lanes);
+  return {is_within(region, x, lanes) ? x : slide::scaled(region, current, y, lanes), true};
 }
 
 /// The same on the straight way from `current`: for prescribed vertices, whose groups shall stay rigid.
-OGC_HD OGC_OUT_OF_LINE inline Truncated scale_into(FeasibleRegion region, Vec current, Vec proposal) {
-  return {slide::scaled(region, current, slide::wide(proposal)), true};
+template <class Lanes>
+OGC_HD OGC_OUT_OF_LINE Truncated scale_into(FeasibleRegion region, Vec current, Vec proposal, Lanes lanes) {
+  return {slide::scaled(region, current, slide::wide(proposal), lanes), true};
 }
 
-/// The proposal of a free vertex as its region allows it; `cut`: it was changed.
-template <class Metric>
-OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric) {
+/// The proposal of a free vertex as its region allows it; `cut`: it was changed. All of `lanes` call it together.
+template <class Metric, class Lanes = OneLane>
+OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
+                      const Lanes& lanes = {}) {
   if (region.count == 0) return truncate(region.ball, proposal);
-  if (is_within(region, proposal)) return {proposal, false};
-  if (!region.slides) return scale_into(region, region.ball.centre, proposal);
-  return slide_into(region, current, proposal, metric);
+  if (is_within(region, proposal, lanes)) return {proposal, false};
+  if (!region.slides) return scale_into(region, region.ball.centre, proposal, lanes);
+  return slide_into(region, current, proposal, metric, lanes);
 }
 
 /// The same of a prescribed vertex.
 OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& current, const Vec& target) {
   if (region.count == 0) return truncate(region.ball, target);
   if (is_within(region, target)) return {target, false};
-  return scale_into(region, region.slides ? current : region.ball.centre, target);
+  return scale_into(region, region.slides ? current : region.ball.centre, target, OneLane{});
 }
 
 }  // namespace ogc::fast

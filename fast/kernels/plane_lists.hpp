@@ -1,13 +1,13 @@
 // From the pairs within r_q that a search noted to each vertex's half-spaces and ball (method.md §5.6):
 //
-//   MeasurePairs     by pair    its distance; how many pairs each vertex has
-//   (scan of these numbers)
-//   FillPairRows     by pair    into the rows of its vertices, in any order
-//   ChooseThreshold  by vertex  δ_v, the (N+1)-th smallest distance of its pairs
+//   MeasurePairs     by pair    its distance, and its place in the row of each of its vertices
+//   (scan of the rows' lengths)
+//   FillPairRows     by pair    its distance into these rows
+//   ChooseThreshold  by row     δ_v, the (N+1)-th smallest distance
 //   PlacePlanes      by pair    nearer than δ_v of all its vertices it gets a plane; any other limits their balls
-//   WriteHalfSpaces  by vertex  its planes in ascending order of pair, at most N; the ball
+//   SortHalfSpaces   by plane   its place in ascending order of pair; the ball
 //
-// Nothing depends on the order in which pairs were noted: rows are sorted, thresholds and balls are minima. Fixed
+// Nothing depends on the order in which pairs were noted: planes are sorted, thresholds and balls are minima. Fixed
 // vertices bear no plane and have no row.
 #pragma once
 
@@ -29,11 +29,9 @@ OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, con
     control.count_lag(x.x != p.x || x.y != p.y || x.z != p.z);
 }
 
-/// A pair in the row of a vertex, with its distance: rows are read in one stream, and those of collapsed spots are
-/// long.
-struct RowPair {
-  int number = 0;   ///< of the noted pair
-  float below = 0;  ///< its distance, rounded down [m]
+/// The places of a pair in the rows of its vertices.
+struct RowPlaces {
+  int at[4];
 };
 
 /// What the kernels of this file share.
@@ -45,16 +43,18 @@ struct PlaneListsView {
   const Vec* displacement = nullptr;       ///< w by vertex [m], which divides gaps; null: they are halved
   const float* query_radius = nullptr;     ///< r_q [m]
   const NotedPair* noted = nullptr;        ///< pairs within r_q in any order, numbered by their place
-  PairPlane* planes = nullptr;             ///< by noted pair
+  float* distance = nullptr;               ///< by noted pair, rounded down [m]
+  RowPlaces* places = nullptr;             ///< by noted pair
   int* pair_counts = nullptr;              ///< by vertex: pairs that it is part of
   int* pair_offsets = nullptr;             ///< vertices + 1
-  int* pair_filled = nullptr;              ///< by vertex
-  RowPair* pair_rows = nullptr;            ///< a vertex's pairs, in any order: from pair_offsets[v]
+  float* pair_rows = nullptr;              ///< distances of a vertex's pairs, in any order: from pair_offsets[v] [m]
   float* threshold = nullptr;              ///< δ_v [m]
   float* nearest = nullptr;                ///< by vertex: not above the distance of its nearest pair, at most r_q [m]
   float* unplaned = nullptr;               ///< the same of its nearest pair without a plane
-  HalfSpace* rows = nullptr;               ///< n·x ≤ o of vertex v from v · most_planes, in ascending order of pair
-  NotedPair* pairs = nullptr;              ///< beside the rows: whose planes they are
+  HalfSpace* placed = nullptr;             ///< n·x ≤ o of vertex v from v · most_planes, in any order
+  NotedPair* placed_pairs = nullptr;       ///< beside them: whose planes they are
+  HalfSpace* rows = nullptr;               ///< the same in ascending order of pair
+  NotedPair* pairs = nullptr;
   int* counts = nullptr;                   ///< half-spaces by vertex, at most most_planes
   float* bound = nullptr;                  ///< b_v by vertex [m]: γ_p times `unplaned`
 
@@ -76,13 +76,6 @@ struct PlaneListsView {
     }
     const EdgeEnds p = surface.edges[pair.first], q = surface.edges[pair.second];
     return {{p.a, p.b, q.a, q.b}, 2};
-  }
-  /// f(v) for each vertex that can move.
-  template <class F>
-  OGC_HD void for_each_moving(const NotedPair& pair, F f) const {
-    const Vertices of = vertices(pair);
-    for (int k = 0; k < 4; ++k)
-      if (is_fixed[of.at[k]] == 0) f(of.at[k]);
   }
   /// f of the PairPoints of a pair.
   template <class F>
@@ -120,25 +113,27 @@ struct PreparePlanes {
   PlaneListsView lists;
 
   OGC_HD void operator()(int v) const {
-    lists.pair_counts[v] = lists.pair_filled[v] = 0;
-    lists.nearest[v] = lists.unplaned[v] = *lists.query_radius;
+    lists.pair_counts[v] = lists.counts[v] = 0;
+    lists.unplaned[v] = *lists.query_radius;
   }
 };
 
-/// for_each_counted over noted pairs: their distances, rounded down, and the number of pairs and the smallest distance
-/// of each vertex.
+/// for_each_counted over noted pairs: their distances, rounded down, and their places in the rows of their vertices.
 struct MeasurePairs {
   PlaneListsView lists;
 
   OGC_HD void operator()(int i) const {
     const NotedPair pair = lists.pair(i);
-    const float below = lists.at_points(pair, [](const auto& points) { return distance_of(points).below(); });
-    lists.planes[i] = {{}, below};
-    lists.for_each_moving(pair, [&](int v) {
-      atomic_add(&lists.pair_counts[v], 1);
-      lower(&lists.nearest[v], below);
-    });
+    const PlaneListsView::Vertices of = lists.vertices(pair);
+    RowPlaces places;  // asked for before the distance: they are on their way meanwhile
+    for (int k = 0; k < 4; ++k)
+      places.at[k] = lists.is_fixed[of.at[k]] != 0 ? nowhere : atomic_add(&lists.pair_counts[of.at[k]], 1);
+    lists.places[i] = places;
+    lists.distance[i] = lists.at_points(pair, [](const auto& points) { return distance_of(points).below(); });
   }
+
+  /// A vertex that never moves has no row.
+  static constexpr int nowhere = -1;
 };
 
 /// for_each_counted over noted pairs: enters each in the rows of its vertices.
@@ -146,30 +141,22 @@ struct FillPairRows {
   PlaneListsView lists;
 
   OGC_HD void operator()(int i) const {
-    const RowPair entry{i, lists.planes[i].below};
-    lists.for_each_moving(lists.pair(i), [&](int v) {
-      lists.pair_rows[lists.pair_offsets[v] + atomic_add(&lists.pair_filled[v], 1)] = entry;
-    });
+    const RowPlaces places = lists.places[i];
+    const PlaneListsView::Vertices of = lists.vertices(lists.pair(i));
+    const float below = lists.distance[i];
+    for (int k = 0; k < 4; ++k)
+      if (places.at[k] != MeasurePairs::nowhere) lists.pair_rows[lists.pair_offsets[of.at[k]] + places.at[k]] = below;
   }
 };
 
-/// for_each over vertices: δ_v, infinite where there are at most N pairs.
+/// for_each_row over the distances of vertices' pairs: δ_v, infinite where there are at most N.
 struct ChooseThreshold {
+  static constexpr int rank = most_planes;
   PlaneListsView lists;
 
-  OGC_HD void operator()(int v) const {
-    float nearest[most_planes + 1];  // ascending
-    for (float& d : nearest) d = __builtin_huge_valf();
-    for (int k = lists.pair_offsets[v]; k < lists.pair_offsets[v + 1]; ++k) {
-      float d = lists.pair_rows[k].below;
-      if (!(d < nearest[most_planes])) continue;
-      for (float& other : nearest) {
-        const float nearer = smaller(d, other);
-        d = larger(d, other);
-        other = nearer;
-      }
-    }
-    lists.threshold[v] = nearest[most_planes];
+  OGC_HD void operator()(int v, float nearest, float after_rank) const {
+    lists.nearest[v] = smaller(nearest, *lists.query_radius);
+    lists.threshold[v] = after_rank;
   }
 };
 
@@ -179,56 +166,53 @@ struct PlacePlanes {
   PlaneListsView lists;
 
   OGC_HD void operator()(int i) const {
-    PairPlane& plane = lists.planes[i];
+    const float below = lists.distance[i];
     const NotedPair pair = lists.pair(i);
-    bool is_near = true;
-    lists.for_each_moving(pair, [&](int v) { is_near = is_near && plane.below < lists.threshold[v]; });
-    if (is_near) plane = lists.plane(pair, plane.below);
-    if (plane.exists()) return;
-    lists.for_each_moving(pair, [&](int v) { lower(&lists.unplaned[v], plane.below); });
+    const PlaneListsView::Vertices of = lists.vertices(pair);
+    bool moves[4], is_near = true;
+    for (int k = 0; k < 4; ++k) {
+      moves[k] = lists.is_fixed[of.at[k]] == 0;
+      is_near = is_near && (!moves[k] || below < lists.threshold[of.at[k]]);
+    }
+    const PairPlane plane = is_near ? lists.plane(pair, below) : PairPlane{};
+    for (int k = 0; k < 4; ++k) {
+      const int v = of.at[k];
+      if (!moves[k]) continue;
+      if (!plane.exists()) {
+        lower(&lists.unplaned[v], below);
+        continue;
+      }
+      // at most N pairs are nearer than δ_v
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(v) * most_planes + atomic_add(&lists.counts[v], 1);
+      lists.placed[at] = k < of.second_from ? plane.of_first() : plane.of_second();
+      lists.placed_pairs[at] = pair;
+    }
   }
 };
 
-/// for_each over vertices: the rows of half-spaces, their numbers and the balls.
-struct WriteHalfSpaces {
+/// for_each over N places of each vertex: each plane to its place in the order, the ball beside the first.
+struct SortHalfSpaces {
   PlaneListsView lists;
 
-  OGC_HD void operator()(int v) const {
-    int place[most_planes], count = 0;
-    const float threshold = lists.threshold[v];
-    for (int k = lists.pair_offsets[v]; k < lists.pair_offsets[v + 1]; ++k) {
-      const RowPair entry = lists.pair_rows[k];
-      if (!(entry.below < threshold)) continue;  // nobody placed a plane there
-      const int i = entry.number;
-      if (!lists.planes[i].exists()) continue;
-      int at = count++;
-      for (; at > 0 && comes_before(i, place[at - 1]); --at) place[at] = place[at - 1];
-      place[at] = i;
-    }
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * most_planes;
-    for (int k = 0; k < count; ++k) {
-      lists.rows[row + k] = half_space(place[k], v);
-      lists.pairs[row + k] = lists.pair(place[k]);
-    }
-    lists.counts[v] = count;
-    lists.bound[v] = lists.surface.is_inside_solid(v)
-                         ? largest_float
-                         : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
+  OGC_HD void operator()(int i) const {
+    const int v = i / most_planes, k = i % most_planes, count = lists.counts[v];
+    if (k == 0)
+      lists.bound[v] = lists.surface.is_inside_solid(v)
+                           ? largest_float
+                           : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
+    if (k >= count) return;
+    const NotedPair own = lists.placed_pairs[i];
+    int before = 0;
+    for (int other = 0; other < count; ++other) before += comes_before(lists.placed_pairs[i - k + other], own) ? 1 : 0;
+    lists.rows[i - k + before] = lists.placed[i];
+    lists.pairs[i - k + before] = own;
   }
 
  private:
-  OGC_HD bool comes_before(int i, int j) const {
-    const NotedPair a = lists.pair(i), b = lists.pair(j);
+  OGC_HD bool comes_before(const NotedPair& a, const NotedPair& b) const {
     if (lists.is_vertex_facet(a) != lists.is_vertex_facet(b)) return lists.is_vertex_facet(a);
     const int first = a.first < 0 ? ~a.first : a.first, other = b.first < 0 ? ~b.first : b.first;
     return first != other ? first < other : a.second < b.second;
-  }
-  OGC_HD HalfSpace half_space(int i, int v) const {
-    const NotedPair pair = lists.pair(i);
-    const PairPlane plane = lists.planes[i];
-    const auto of = lists.vertices(pair);
-    const bool is_of_first = of.at[0] == v || (of.second_from == 2 && of.at[1] == v);
-    return is_of_first ? plane.of_first() : plane.of_second();
   }
 };
 

@@ -285,18 +285,16 @@ struct GatherDefault {
   }
 };
 
-/// Writes a position of the vertex's region and counts where the proposal was changed. One that is not finite is not
-/// written: the vertex stays and the step fails.
-template <class Metric>
+/// The leader writes a position of the vertex's region and counts where the proposal was changed. One that is not finite
+/// is not written: the vertex stays and the step fails. All threads that hold the team's total call it together.
+template <class Metric, class Team>
 OGC_HD void write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
-                       const Metric& metric) {
-  if (!is_finite(proposal)) {
-    view.write(v, stay);
-    view.control->count_not_finite();
-    return;
-  }
-  const Truncated kept = held(region, stay, proposal, metric);
+                       const Metric& metric, const Team& team) {
+  const bool may_be_written = is_finite(proposal);
+  const Truncated kept = may_be_written ? held(region, stay, proposal, metric, team) : Truncated{stay, false};
+  if (!team.leader()) return;
   view.write(v, kept.position);
+  if (!may_be_written) view.control->count_not_finite();
   if (kept.cut) view.control->count_cut();
 }
 
@@ -316,11 +314,11 @@ struct UpdateVertex {
     const Vec own = view.old[v], target = view.target[v];
     const Ball ball = view.regions.ball(v);
     ForceAndBlock total = Gather{}(view, first_slot + i, vertex, own, team);
-    if (!team.leader() || (asks_late && view.is_off())) return;
+    if (!team.holds_total() || (asks_late && view.is_off())) return;
     add_inertia(vertex.inertia, own, target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
     write_held(view, v, own + change, own, view.regions.region(v, ball),
-               BlockMetric{total.block, 1.0f / vertex.inertia});
+               BlockMetric{total.block, 1.0f / vertex.inertia}, team);
   }
 };
 

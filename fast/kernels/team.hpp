@@ -5,6 +5,7 @@
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/rounding.hpp"
 
 namespace ogc::fast {
 
@@ -57,10 +58,28 @@ OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, A
   sum += part.term(loaded);
 }
 
+/// What a team asks of items k < count, of one lane. A team of several shares the items out; its lanes hold the same
+/// numbers, call together, and get the same answer, which is that of one.
+struct OneLane {
+  /// The smallest k ≥ from of which is(k) holds; count where there is none.
+  template <class Is>
+  OGC_HD int first(int count, int from, Is is) const {
+    for (int k = from; k < count; ++k)
+      if (is(k)) return k;
+    return count;
+  }
+  /// The smallest of `most` and all of(k), which are numbers.
+  template <class Of>
+  OGC_HD double smallest(int count, double most, Of of) const {
+    for (int k = 0; k < count; ++k) most = smaller(most, of(k));
+    return most;
+  }
+};
+
 /// W team lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded sum
 /// is -0 only of two -0, so leaving out the empty lanes of a part changes no bit.
 template <int W>
-struct SerialTeam {
+struct SerialTeam : OneLane {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
 
@@ -70,7 +89,7 @@ struct SerialTeam {
   /// What all teams of a launch call in place of `sum`.
   OGC_HD static void leave() {}
 
-  /// Σ over all terms of all parts. The leader of a team gets the total.
+  /// Σ over all terms of all parts, for who holds_total().
   template <class Accumulator, class... Parts>
   OGC_HD Accumulator sum(const Parts&... parts) const {
     Accumulator lanes[W] = {};
@@ -81,7 +100,9 @@ struct SerialTeam {
     return lanes[0];
   }
 
-  /// Whether this thread writes the team's result.
+  /// Whether this thread is one of those that have the total; they may ask `first` and `smallest` together.
+  OGC_HD bool holds_total() const { return true; }
+  /// Whether this thread, one of them, writes the team's result.
   OGC_HD bool leader() const { return true; }
 
  private:

@@ -21,6 +21,10 @@
 //                                    bit; the thread where team.leader() holds has the total and writes it. Or all
 //                                    teams of a launch leave (team.leave()) in place of the sum. Start::overlapping:
 //                                    all that f reads before a Part's `add` is not written by the launch before
+//   for_each_row(int n, const int* offsets, const float* values, F f)
+//                                    f(i, least, after) for each row of numbers values[offsets[i]] …
+//                                    values[offsets[i + 1] − 1], in any order: the smallest, and the one that
+//                                    F::rank ≤ 31 others come before in ascending order; infinite where there is none
 //   search(Searches first, Searches second)
 //                                    two kinds of searches (fast/kernels/search.hpp) side by side
 //   exclusive_scans(const Scan& first, const Scan& second)

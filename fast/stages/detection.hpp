@@ -83,7 +83,7 @@ class Detection {
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
               const Launches& launches = {}) {
     find(positions, contact_radius, query_radius, bound_relaxation, launches);
-    lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bound_relaxation), planes_.planes(),
+    lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bound_relaxation), planes_.distances(),
                     launches);
   }
 
@@ -93,13 +93,13 @@ class Detection {
                        const Launches& launches) {
     find(positions, contact_radius, query_radius, bound_relaxation, launches);
     launches.mark(backend_, bounds(bound_relaxation), bounded(),
-                  lists_.collect({padded_.data()}, contact_radius, planes_.planes()));
+                  lists_.collect({padded_.data()}, contact_radius, planes_.distances()));
   }
 
   /// The contacts of the last detect_unlisted, with its radius, listed as `detect` does. `launches`: the last launch.
   template <class Launches = PlainLaunches>
   void list_contacts(float contact_radius, const Launches& launches = {}) {
-    lists_.assemble(backend_, {padded_.data()}, contact_radius, 0, bounds(0), planes_.planes(), launches);
+    lists_.assemble(backend_, {padded_.data()}, contact_radius, 0, bounds(0), planes_.distances(), launches);
   }
   /// For who looks on: they may be listed once more.
   void forget_contacts() { lists_.forget_contacts(backend_); }

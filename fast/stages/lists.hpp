@@ -71,12 +71,12 @@ class Lists {
   int noted_capacity() const { return noted_capacity_; }
 
   /// After both searches: noted pairs to records and incidences. `bounds`, which need no list, stand beside the first
-  /// launch for `bounded` vertices; `planes`: see CollectContacts; `launches` makes the last (Detection::detect).
+  /// launch for `bounded` vertices; `distances`: see CollectContacts; `launches` makes the last (Detection::detect).
   template <class Launches>
   void assemble(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
-                const ConservativeBound& bounds, const PairPlane* planes, const Launches& launches) {
+                const ConservativeBound& bounds, const float* distances, const Launches& launches) {
     const ListsView lists = view();
-    backend.for_both(bounded, bounds, lists.noted_count, noted_capacity_, collect(positions, contact_radius, planes));
+    backend.for_both(bounded, bounds, lists.noted_count, noted_capacity_, collect(positions, contact_radius, distances));
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_},
                             {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
     backend.for_both(1, CheckCapacity{lists}, lists.contact_count, capacity_,
@@ -86,8 +86,8 @@ class Lists {
   }
 
   /// What decides which noted pairs are contacts.
-  CollectContacts collect(PaddedVecs positions, float contact_radius, const PairPlane* planes) {
-    return {{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, view(), planes};
+  CollectContacts collect(PaddedVecs positions, float contact_radius, const float* distances) {
+    return {{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, view(), distances};
   }
 
   /// Contacts that were listed are none; the same noted pairs may be listed again.

@@ -47,8 +47,8 @@ class PairGuess {
                       .is_fixed = is_fixed_.data(),
                       .share = bound_relaxation,
                       .query_radius = &state_.data()->reach,
-                      .noted = noted.noted,
-                      .planes = planes_.data()},
+                      .noted = noted.noted},
+            .planes = planes_.data(),
             .regions = regions,
             .target = target,
             .way = way_.data(),
@@ -71,7 +71,7 @@ class PairGuess {
     detection.note_guess_pairs(contact_radius, &view.state->reach, {view.way, view.lists.positions, view.allowed()});
     const ListsView lists = detection.lists();
     backend.for_each(1, EndPairSearch{view.control, lists});
-    backend.for_each_counted(lists.noted_count, lists.noted_capacity, ForgetPairs{view.lists.planes});
+    backend.for_each_counted(lists.noted_count, lists.noted_capacity, ForgetPairs{view.planes});
   }
 
   /// One pass over all pairs.

@@ -27,13 +27,14 @@ class Planes {
     }
     const std::size_t vertices = is_fixed.size();
     is_fixed_.upload(is_fixed.data(), vertices);
-    for (Buffer<int>* counts : {&pair_counts_, &pair_filled_, &counts_}) {
+    for (Buffer<int>* counts : {&pair_counts_, &counts_}) {
       counts->resize(vertices);
       counts->fill_zero();
     }
     pair_offsets_.resize(vertices + 1), no_sum_.resize(1);
     for (Buffer<float>* by_vertex : {&threshold_, &nearest_, &unplaned_}) by_vertex->resize(vertices);
-    rows_.resize(vertices * most_planes), pairs_.resize(vertices * most_planes);
+    for (Buffer<HalfSpace>* planes : {&placed_, &rows_}) planes->resize(vertices * most_planes);
+    for (Buffer<NotedPair>* pairs : {&placed_pairs_, &pairs_}) pairs->resize(vertices * most_planes);
   }
 
   /// Whether bounds are planes.
@@ -44,7 +45,8 @@ class Planes {
   /// Host only: room for so many noted pairs.
   void reserve(int noted_capacity) {
     if (!is_used_) return;
-    planes_.resize(static_cast<std::size_t>(noted_capacity));
+    distance_.resize(static_cast<std::size_t>(noted_capacity));
+    places_.resize(static_cast<std::size_t>(noted_capacity));
     pair_rows_.resize(4 * static_cast<std::size_t>(noted_capacity));
   }
 
@@ -56,8 +58,8 @@ class Planes {
   }
   /// By vertex: not above the distance of its nearest pair, at most r_q [m].
   const float* nearest() const { return nearest_.data(); }
-  /// By noted pair; null where bounds are no planes.
-  const PairPlane* planes() const { return is_used_ ? planes_.data() : nullptr; }
+  /// By noted pair: not above its distance [m]; null where bounds are no planes.
+  const float* distances() const { return is_used_ ? distance_.data() : nullptr; }
 
   /// After the searches: planes and balls (`bound`) of `vertices` vertices from the pairs that `noted` has. Where there
   /// was no room for all pairs nobody may use what comes of it.
@@ -70,14 +72,16 @@ class Planes {
                                .displacement = displacement_,
                                .query_radius = query_radius,
                                .noted = noted.noted,
-                               .planes = planes_.data(),
+                               .distance = distance_.data(),
+                               .places = places_.data(),
                                .pair_counts = pair_counts_.data(),
                                .pair_offsets = pair_offsets_.data(),
-                               .pair_filled = pair_filled_.data(),
                                .pair_rows = pair_rows_.data(),
                                .threshold = threshold_.data(),
                                .nearest = nearest_.data(),
                                .unplaned = unplaned_.data(),
+                               .placed = placed_.data(),
+                               .placed_pairs = placed_pairs_.data(),
                                .rows = rows_.data(),
                                .pairs = pairs_.data(),
                                .counts = counts_.data(),
@@ -87,9 +91,9 @@ class Planes {
     backend.for_each_counted(noted.noted_count, capacity, MeasurePairs{lists});
     backend.exclusive_scans({lists.pair_counts, lists.pair_offsets, vertices}, {lists.pair_counts, no_sum_.data(), 0});
     backend.for_each_counted(noted.noted_count, capacity, FillPairRows{lists});
-    backend.for_each(vertices, ChooseThreshold{lists});
+    backend.for_each_row(vertices, lists.pair_offsets, lists.pair_rows, ChooseThreshold{lists});
     backend.for_each_counted(noted.noted_count, capacity, PlacePlanes{lists});
-    backend.for_each(vertices, WriteHalfSpaces{lists});
+    backend.for_each(vertices * most_planes, SortHalfSpaces{lists});
   }
 
   /// Host only: what the vertices bear since the last detection; empty where bounds are no planes.
@@ -127,12 +131,11 @@ class Planes {
   bool is_used_ = false, is_off_ = false, slides_ = true;
   const Vec* displacement_ = nullptr;
   Buffer<std::uint8_t> is_fixed_;
-  Buffer<PairPlane> planes_;
-  Buffer<int> pair_counts_, pair_offsets_, pair_filled_, counts_, no_sum_;
-  Buffer<RowPair> pair_rows_;
-  Buffer<float> threshold_, nearest_, unplaned_;
-  Buffer<HalfSpace> rows_;
-  Buffer<NotedPair> pairs_;
+  Buffer<float> distance_, pair_rows_, threshold_, nearest_, unplaned_;
+  Buffer<RowPlaces> places_;
+  Buffer<int> pair_counts_, pair_offsets_, counts_, no_sum_;
+  Buffer<HalfSpace> placed_, rows_;
+  Buffer<NotedPair> placed_pairs_, pairs_;
 };
 
 }  // namespace ogc::fast

@@ -1,0 +1,49 @@
+// The smallest numbers of a row, by a warp: lane k holds the one that k others come before. A chunk of 32 is sorted and
+// merged into them; one of which nothing is smaller than what is asked for is passed over.
+#pragma once
+
+#include <cuda_runtime.h>
+
+namespace ogc::fast {
+
+/// The smaller of this lane's number and its partner's, the lane xor `distance`, in lanes that are to have `low`; the
+/// larger in others. Numbers are not NaN.
+__device__ inline float exchanged(float own, int distance, bool low) {
+  const float other = __shfl_xor_sync(0xffffffffu, own, distance);
+  return low ? fminf(own, other) : fmaxf(own, other);
+}
+
+/// A bitonic row of 32, a number a lane, sorted in ascending order.
+__device__ inline float merged(float own, int lane) {
+#pragma unroll
+  for (int distance = 16; distance > 0; distance /= 2) own = exchanged(own, distance, (lane & distance) == 0);
+  return own;
+}
+
+/// Any row of 32 sorted in ascending order: runs of 2, 4, 8 and 16, every second one descending, then all.
+__device__ inline float sorted(float own, int lane) {
+#pragma unroll
+  for (int run = 2; run < 32; run *= 2)
+#pragma unroll
+    for (int distance = run / 2; distance > 0; distance /= 2)
+      own = exchanged(own, distance, ((lane & distance) == 0) == ((lane & run) == 0));
+  return merged(own, lane);
+}
+
+/// Of values[0] … values[count − 1] lane k gets the one that k others come before, for k ≤ rank < 32; infinite where
+/// there is none. The 32 threads of a warp call it together.
+__device__ inline float least_of_row(const float* values, int count, int rank) {
+  const int lane = static_cast<int>(threadIdx.x) % 32;
+  const float infinite = __int_as_float(0x7f800000);
+  float least = infinite;
+  for (int begin = 0; begin < count; begin += 32) {
+    const float own = begin + lane < count ? values[begin + lane] : infinite;
+    if (!__any_sync(0xffffffffu, own < __shfl_sync(0xffffffffu, least, rank))) continue;
+    // the smaller of an ascending and a descending row, lane by lane, are the 32 least of both, a bitonic row
+    const float descending = __shfl_xor_sync(0xffffffffu, sorted(own, lane), 31);
+    least = merged(fminf(least, descending), lane);
+  }
+  return least;
+}
+
+}  // namespace ogc::fast
