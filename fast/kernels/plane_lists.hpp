@@ -55,8 +55,8 @@ struct PlaneListsView {
   NotedPair* placed_pairs = nullptr;       ///< beside them: whose planes they are
   HalfSpace* rows = nullptr;               ///< the same in ascending order of pair
   NotedPair* pairs = nullptr;
-  int* counts = nullptr;                   ///< half-spaces by vertex, at most most_planes
-  float* bound = nullptr;                  ///< b_v by vertex [m]: γ_p times `unplaned`
+  int* counts = nullptr;   ///< half-spaces by vertex, at most most_planes
+  float* bound = nullptr;  ///< b_v by vertex [m]: γ_p times `unplaned`
 
   /// Such a pair is stored as ~vertex and facet.
   OGC_HD bool is_vertex_facet(const NotedPair& pair) const { return pair.first < 0; }

@@ -285,8 +285,8 @@ struct GatherDefault {
   }
 };
 
-/// The leader writes a position of the vertex's region and counts where the proposal was changed. One that is not finite
-/// is not written: the vertex stays and the step fails. All threads that hold the team's total call it together.
+/// The leader writes a position of the vertex's region and counts where the proposal was changed. One that is not
+/// finite is not written: the vertex stays and the step fails. All threads that hold the team's total call it together.
 template <class Metric, class Team>
 OGC_HD void write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
                        const Metric& metric, const Team& team) {

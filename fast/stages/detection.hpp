@@ -83,8 +83,8 @@ class Detection {
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
               const Launches& launches = {}) {
     find(positions, contact_radius, query_radius, bound_relaxation, launches);
-    lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bound_relaxation), planes_.distances(),
-                    launches);
+    lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bound_relaxation),
+                    planes_.distances(), launches);
   }
 
   /// As `detect` without the lists: smallest distances, bounds, and whatever launches.mark does with the noted pairs.

@@ -76,7 +76,8 @@ class Lists {
   void assemble(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
                 const ConservativeBound& bounds, const float* distances, const Launches& launches) {
     const ListsView lists = view();
-    backend.for_both(bounded, bounds, lists.noted_count, noted_capacity_, collect(positions, contact_radius, distances));
+    backend.for_both(bounded, bounds, lists.noted_count, noted_capacity_,
+                     collect(positions, contact_radius, distances));
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_},
                             {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
     backend.for_both(1, CheckCapacity{lists}, lists.contact_count, capacity_,

@@ -201,7 +201,8 @@ def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data=""
     """So many times the row's scene to its end, or to step `steps`; the audit comes after the run, in time of its own,
     or beside it (`audit`: every, frame, end, off). They lie in `folder`, or that of the row."""
     beside = "off" if audit == "afterwards" else audit
-    options = (*(("--steps", steps) if steps else ()), *of_row(row, data), "--set", f"frame_steps={FRAME_STEPS[scene_of(row)]}")
+    options = (*(("--steps", steps) if steps else ()), *of_row(row, data),
+               "--set", f"frame_steps={FRAME_STEPS[scene_of(row)]}")
     for number in range(1, runs + 1):
         name = f"{folder or row}/whole" + (f"_{number}" if number > 1 else "")
         yield Job(name, (scene_of(row), "--scale", scale, "--backend", backend, "--audit", beside, *options))
@@ -209,10 +210,10 @@ def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data=""
             yield Audit(name)
 
 
-def from_states(row, kind, more_steps, scale, options, data=""):
-    """So many steps from five states of the row's whole run, without frames of their own."""
+def from_states(row, kind, more_steps, scale, options, data="", shares=SHARES):
+    """So many steps from states of the row's whole run, without frames of their own."""
     every = ("--audit", "off", "--set", "frame_steps=1000000", *of_row(row, data), *options)
-    for share in SHARES:
+    for share in shares:
         state = (f"{row}/whole", Share(share, FRAME_STEPS[scene_of(row)]))
         arguments = (scene_of(row), "--scale", scale, *every)
         yield Job(f"{row}/{kind}_{share}", arguments, state, more_steps, pictured=False)
@@ -225,6 +226,27 @@ def residuals(row, scale, backend, data=""):
         return []
     options = ("--backend", backend, "--residual", *(() if scene_of(row) == "fifty_layers" else ("--iterations",)))
     return from_states(row, "residual", 1, scale, options, data)
+
+
+# Time to quality: one step from the states where something moves, of four times the scene's iterations. The reference
+# measures a residual an iteration, half a second of a core for knot's 48,000 vertices, so it has twice as many.
+QUALITY_SHARES = (25, 50, 75)
+QUALITY_ITERATIONS = {"twist": 40, "cloth_on_sphere": 160, "knot": 100, "dress": 80, "robot_shirt": 40, MAT: 80}
+QUALITY_ROWS = tuple(row for row in ROWS if scene_of(row) in QUALITY_ITERATIONS)
+
+
+def quality(row, scale, backend, data=""):
+    """The residual after each iteration; the step's time is in its row."""
+    iterations = QUALITY_ITERATIONS[scene_of(row)]
+    options = ("--backend", backend, "--residual", "--iterations", "--set", f"iterations={iterations}")
+    return from_states(row, "quality", 1, scale, options, data, QUALITY_SHARES)
+
+
+def to_quality(scale, backend):
+    """Both rows of each scene, from the runs of Table 1, which are done once where they are at hand."""
+    for row in QUALITY_ROWS:
+        yield from (job for job in whole_runs(row, scale, backend) if isinstance(job, Job))
+        yield from quality(row, scale, backend)
 
 
 def cpu_windows(row, steps, scale, data=""):

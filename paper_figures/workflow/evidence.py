@@ -27,6 +27,7 @@ ROOM = Path(__file__).parent.parent  # paper_figures
 RESULTS, CLAIMS = ROOM / "results", ROOM / "claims"
 SCENES = "scenes"  # folder below the results: the scenes of accepted manifests, each named by its hash
 ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
+PAPER_BOUNDS = "ball"
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
 
 
@@ -179,15 +180,17 @@ class RunEvidence:
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
         membrane, activation, bounds, redetect_fraction (rounded to single precision in the manifest), and steps: so
-        many from the scene's start, not a window. A start that --jitter moved is another question."""
+        many from the scene's start, not a window. A start that --jitter moved is another question, and so are bounds
+        other than the paper's, where the claim names none."""
         m = self.manifest
-        if "jitter" in m and "jitter" not in wanted:
+        bounds = m["settings"].get("bounds", {}).get("value", PAPER_BOUNDS)
+        if "jitter" in m and "jitter" not in wanted or bounds != wanted.get("bounds", PAPER_BOUNDS):
             return False
         special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
                    "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
                    "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
-                   "bounds": lambda name: m["settings"].get("bounds", {}).get("value", "ball") == name,
+                   "bounds": lambda name: bounds == name,
                    "redetect_fraction":
                        lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,

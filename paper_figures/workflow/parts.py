@@ -99,6 +99,7 @@ def of_figures(wanted):
         "fig18_solvers": Part(folder("fig18_solvers", "cpu"), (solvers,), "fig18_solvers", frames=21),
         **of_mat(wanted),
         "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0),
+        "quality": Part(folder("table1"), (tuple(commands.to_quality(scale, backend)),), "quality", frames=0),
         "ledger": Part(folder("ledger"), (tuple(commands.ledgers(scale, backend)),), "ledger", frames=0),
     }
 

@@ -1,7 +1,9 @@
 #include "fast/cpu/backend.hpp"
 
 #include <atomic>
+#include <limits>
 #include <numeric>
+#include <random>
 
 #include "tests/catch.hpp"
 
@@ -18,7 +20,35 @@ void run_range(const Counted& counted, int begin, int end) {
   *counted.items += end - begin;
 }
 
+/// What for_each_row says of each row.
+struct TwoOfRow {
+  static constexpr int rank = 16;
+  float *least, *after;
+  void operator()(int i, float smallest, float after_rank) const { least[i] = smallest, after[i] = after_rank; }
+};
+
 }  // namespace
+
+TEST_CASE("of each row the smallest number, and the one that so many come before, equal ones counted", "[property]") {
+  CpuBackend backend;
+  std::mt19937 random(5);
+  std::vector<int> offsets{0};
+  std::vector<float> values;
+  for (int row = 0; row < 500; ++row) {
+    const auto count = row < 40 ? static_cast<unsigned long>(row) : random() % 1500;
+    for (auto k = count; k > 0; --k) values.push_back(static_cast<float>(random() % (row % 3 == 0 ? 7 : 100000)));
+    offsets.push_back(static_cast<int>(values.size()));
+  }
+  std::vector<float> least(500), after(500);
+  backend.for_each_row(500, offsets.data(), values.data(), TwoOfRow{least.data(), after.data()});
+  for (std::size_t row = 0; row < 500; ++row) {
+    std::vector<float> sorted(values.begin() + offsets[row], values.begin() + offsets[row + 1]);
+    std::ranges::sort(sorted);
+    sorted.resize(sorted.size() + TwoOfRow::rank + 1, std::numeric_limits<float>::infinity());
+    CHECK(least[row] == sorted[0]);
+    CHECK(after[row] == sorted[TwoOfRow::rank]);
+  }
+}
 
 TEST_CASE("loops of many items have parts for many threads, those of few items one", "[unit]") {
   CpuBackend backend;

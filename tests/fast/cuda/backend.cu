@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -63,6 +64,39 @@ struct Sums {
     small = add(small, other.small);
     count += other.count;
     return *this;
+  }
+};
+
+struct TwoOfRow {
+  static constexpr int rank = 16;
+  float *least, *after;
+  OGC_HD void operator()(int i, float smallest, float after_rank) const { least[i] = smallest, after[i] = after_rank; }
+};
+
+// Of a row, after a sum: the first number below 20, the next such one, and the smallest of all but at most 45. Teams of
+// one warp ask as often as their rows want, so that their ways part.
+struct AskRow {
+  static constexpr int parts = 1;
+  const int* offsets;
+  const float* values;
+  int* out;
+  template <class Lanes>
+  OGC_HD void ask(int row, int begin, int count, const Lanes& lanes, bool writes) const {
+    const auto is_low = [this, begin](int k) { return values[begin + k] < 20; };
+    const int first = lanes.first(count, 0, is_low);
+    const int next = first < count && count % 2 == 0 ? lanes.first(count, first + 1, is_low) : -1;
+    const double least = lanes.smallest(count, 45, [this, begin](int k) { return double{values[begin + k]}; });
+    if (writes) out[3 * row] = first, out[3 * row + 1] = next, out[3 * row + 2] = static_cast<int>(least);
+  }
+  template <class Team>
+  OGC_HD void operator()(int row, Team team) const {
+    const int begin = offsets[row], count = offsets[row + 1] - begin;
+    team.template sum<Sums>(part(
+        count, [this, begin](int k) { return values[begin + k]; },
+        [](float term, Sums& sums) {
+          sums += Sums{term, term, 1};
+        }));
+    if (team.holds_total()) ask(row, begin, count, team, team.leader());
   }
 };
 
@@ -202,6 +236,66 @@ TEST_CASE("two scans at once give the sums of each", "[gpu]") {
       CHECK((on_host(out[0]) == expected[0]));
       CHECK((on_host(out[1]) == expected[1]));
     }
+  }
+}
+
+TEST_CASE("of each row the smallest number, and the one that so many come before", "[gpu]") {
+  CudaBackend backend;
+  std::mt19937 random(5);
+  const int rows = 20'000;
+  std::vector<int> offsets{0};
+  std::vector<float> values;
+  for (int row = 0; row < rows; ++row) {
+    const auto count = row < 70 ? static_cast<unsigned long>(row) : random() % (row % 100 == 0 ? 2000 : 90);
+    for (auto k = count; k > 0; --k) values.push_back(static_cast<float>(random() % (row % 3 == 0 ? 7 : 100000)));
+    offsets.push_back(static_cast<int>(values.size()));
+  }
+  CudaBuffer<int> device_offsets = on_device(offsets);
+  CudaBuffer<float> device_values = on_device(values), least, after;
+  least.resize(rows), after.resize(rows);
+  backend.for_each_row(rows, device_offsets.data(), device_values.data(), TwoOfRow{least.data(), after.data()});
+  std::vector<float> expected_least, expected_after;
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::vector<float> sorted(values.begin() + offsets[row], values.begin() + offsets[row + 1]);
+    std::sort(sorted.begin(), sorted.end());
+    sorted.resize(sorted.size() + TwoOfRow::rank + 1, std::numeric_limits<float>::infinity());
+    expected_least.push_back(sorted[0]), expected_after.push_back(sorted[TwoOfRow::rank]);
+  }
+  CHECK((on_host(least) == expected_least));
+  CHECK((on_host(after) == expected_after));
+}
+
+TEST_CASE("what lanes ask together is what one lane finds", "[gpu]") {
+  CudaBackend backend;
+  const int rows = 3000;
+  std::mt19937 random(6);
+  std::vector<int> offsets{0};
+  std::vector<float> values;
+  for (int row = 0; row < rows; ++row) {
+    for (auto k = random() % 40; k > 0; --k) values.push_back(static_cast<float>(random() % 50));
+    offsets.push_back(static_cast<int>(values.size()));
+  }
+  std::vector<int> expected(3 * rows);
+  for (int row = 0; row < rows; ++row) {
+    const int begin = offsets[static_cast<std::size_t>(row)], end = offsets[static_cast<std::size_t>(row) + 1];
+    AskRow{offsets.data(), values.data(), expected.data()}.ask(row, begin, end - begin, OneLane{}, true);
+  }
+  CudaBuffer<int> device_offsets = on_device(offsets);
+  CudaBuffer<float> device_values = on_device(values);
+  const auto asked = [&]<int W>(int count) {
+    CudaBuffer<int> answers = on_device(std::vector<int>(3 * rows, -1));
+    backend.for_each_team<W>(count, AskRow{device_offsets.data(), device_values.data(), answers.data()},
+                             Start::after_previous);
+    std::vector<int> found = on_host(answers);
+    found.resize(3 * static_cast<std::size_t>(count));
+    return found;
+  };
+  for (const int count : {1, 7, rows}) {  // spread over a block's warps, and in turn
+    const std::vector<int> wanted(expected.begin(), expected.begin() + 3 * count);
+    CHECK((asked.operator()<1>(count) == wanted));
+    CHECK((asked.operator()<4>(count) == wanted));
+    CHECK((asked.operator()<16>(count) == wanted));
+    CHECK((asked.operator()<32>(count) == wanted));
   }
 }
 

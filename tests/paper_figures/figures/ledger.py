@@ -15,7 +15,7 @@ from pathlib import Path
 
 OGC, SOURCE = Path(sys.argv.pop(2)).resolve(), Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
-from paper_figures.figures import ledger  # noqa: E402
+from paper_figures.figures.measured import ledger  # noqa: E402
 from paper_figures.workflow import commands, slide  # noqa: E402
 from paper_figures.workflow.evidence import run_at  # noqa: E402
 from paper_figures.workflow.jobs import Job  # noqa: E402

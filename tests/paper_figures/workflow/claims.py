@@ -282,6 +282,12 @@ class Runs(unittest.TestCase):
     def test_a_start_that_was_moved_is_no_evidence_of_the_scene(self):
         self.assertEqual(self.judged(lambda m: m.update(jitter="1e-06", jitter_seed="7")), "not yet run")
 
+    def test_bounds_that_a_claim_does_not_name_are_the_papers(self):
+        planes = lambda m: m["settings"].update(bounds={"value": "planes", "unit": "1"})  # noqa: E731
+        self.assertEqual(self.judged(planes), "not yet run")
+        self.assertEqual(self.judged(planes, run={"scale": "paper", "bounds": "planes"}), "reproduced")
+        self.assertEqual(self.judged(lambda m: None, run={"scale": "paper", "bounds": "planes"}), "not yet run")
+
     def test_a_failed_audit_refutes_the_guarantee_and_nothing_else(self):
         failed = lambda m: m.update(status="failed: intersection", guarantee_kept=False)  # noqa: E731
         guarantee = {**GUARANTEE, "run": {"scale": "paper", "steps": 1000}}

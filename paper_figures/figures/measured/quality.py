@@ -1,0 +1,129 @@
+"""Time to quality: how long a step takes until its residual (Eq. 29) has fallen to a tenth and to a hundredth of the
+step's start, with the paper's bounds and with planes, from states of Table 1's whole runs. A step of many times the
+scene's iterations is watched; the time up to the k-th of n iterations is k/n of the step's (iterations.csv), so that
+the guess loop and detections are spread over all of them. Not in the paper.
+
+Runs and table need Python's own library alone; the picture needs matplotlib and is left out with --no-picture.
+"""
+
+import csv
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from paper_figures.workflow import commands
+from paper_figures.workflow.evidence import columns_of, run_at
+from paper_figures.workflow.jobs import RunFailure, options_of_figure
+
+SHARES = {"a tenth": 0.1, "a hundredth": 0.01}
+
+
+@dataclass
+class Watched:
+    """One step: milliseconds and residual before its iterations and after each."""
+
+    row: str
+    share: int  # of the whole run, where it begins [%]
+    run: object
+    times: list
+    residuals: list
+
+    @property
+    def bounds(self):
+        return "planes" if self.row.endswith(commands.WITH_PLANES) else "ball"
+
+
+def table1_of(folder, scale, backend):
+    """Where the workflow makes Table 1's whole runs, which begin everything here."""
+    return Path(folder).parent / f"table1-{scale}-{backend}"
+
+
+def watched(folder):
+    """The finished steps below the folder of Table 1."""
+    found = []
+    for row in commands.QUALITY_ROWS:
+        for share in commands.QUALITY_SHARES:
+            place = Path(folder) / row / f"quality_{share}"
+            run, rows = run_at(place), place / "iterations.csv"
+            if not run or run.manifest["status"] != "finished" or not rows.is_file():
+                continue
+            columns = columns_of(rows, rows.stat().st_mtime_ns)
+            found.append(Watched(row, share, run, columns["wall"], columns["residual"]))
+    return found
+
+
+def first_at(step, limit):
+    """Milliseconds until the residual is at most `limit`; None where it never is."""
+    return next((t for t, left in zip(step.times, step.residuals) if left <= limit), None)
+
+
+def row_of(step):
+    def cell(value):
+        return "" if value is None else f"{value:.4g}"
+
+    iterations = len(step.residuals) - 1
+    m = step.run.manifest
+    return {"scene": commands.scene_of(step.row), "bounds": step.bounds,
+            "state after step": int(step.run.column("step")[0]) - 1, "iterations": iterations,
+            "step [ms]": cell(step.times[-1]), "least residual [1]": cell(min(step.residuals)),
+            **{f"to {name} [ms]": cell(first_at(step, limit)) for name, limit in SHARES.items()},
+            "backend": m["backend"], "device": m["device"],
+            "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else "")}
+
+
+def write(out, steps):
+    rows = [row_of(step) for step in steps]
+    with Path(out).open("w", newline="") as file:
+        table = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        table.writeheader()
+        table.writerows(rows)
+
+
+def picture(steps, scale):
+    """A panel a scene; a colour a state."""
+    from plots import style  # here, so that runs and table need no matplotlib
+    plt = style.use()
+    scenes = list(dict.fromkeys(commands.scene_of(step.row) for step in steps))
+    columns = min(3, len(scenes))
+    figure, panels = plt.subplots(-(-len(scenes) // columns), columns, squeeze=False,
+                                  figsize=(4.2 * columns, 3.2 * -(-len(scenes) // columns)))
+    for axes in panels.flat[len(scenes):]:
+        axes.set_visible(False)
+    for scene, axes in zip(scenes, panels.flat):
+        for step in steps:
+            if commands.scene_of(step.row) != scene:
+                continue
+            colour = style.COLOURS[commands.QUALITY_SHARES.index(step.share)]
+            dash = style.DASHES[step.bounds == "planes"]
+            axes.plot(step.times[1:], step.residuals[1:], dash, color=colour, linewidth=1,
+                      label=f"{step.bounds}, from {step.share} % of the run")
+        for limit in SHARES.values():
+            axes.axhline(limit, color="black", linewidth=0.5)
+        axes.set(xscale="log", yscale="log", title=scene, xlabel="time into the step [ms]", ylabel="residual [1]")
+    panels.flat[0].legend(fontsize=6)
+    about = steps[0].run.manifest
+    commits = ", ".join(sorted({row_of(step)["commit"] for step in steps}))
+    figure.suptitle(f"Residual of a step against its time; balls solid, planes dashed. {scale}, {about['backend']}, "
+                    f"{about['device']}, commit {commits}", fontsize=8)
+    return figure
+
+
+def main():
+    options = options_of_figure(__doc__.splitlines()[0], commands.LEDGER_STEPS)
+    root = table1_of(options.folder, options.scale, options.backend)
+    try:
+        for job in commands.to_quality(options.scale, options.backend):
+            job.make(options.ogc, root)
+    except RunFailure as error:
+        sys.exit(f"quality: {error}")
+    options.folder.mkdir(parents=True, exist_ok=True)
+    steps = watched(root)
+    write(options.folder / "quality.csv", steps)
+    print(options.folder / "quality.csv")
+    if not options.no_picture:
+        from plots import style
+        style.save(picture(steps, options.scale), options.folder / "quality.png")
+
+
+if __name__ == "__main__":
+    main()
