@@ -211,7 +211,7 @@ struct WriteHalfSpaces {
       lists.pairs[row + k] = lists.pair(place[k]);
     }
     lists.counts[v] = count;
-    lists.bound[v] = lists.surface.is_inside_solid(v)
+    lists.bound[v] = lists.surface.is_off_surface(v)
                          ? largest_float
                          : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
   }

@@ -1,6 +1,6 @@
 // Who is inside a volume, or nearer to it than r (§3.9, method.md §9): each part of its surface is asked by itself, by
-// the side of its face that is nearest to a point. The search of the nearest begins at the distance of a triangle of
-// the part, so that no point is forgotten because it lies deep, and shrinks from there.
+// the side of its face that is nearest to a point. The search of the nearest begins at the distance of a facet of the
+// part, so that no point is forgotten because it lies deep, and shrinks from there.
 //
 // The side of x at a face, all in rounded double:
 //
@@ -18,15 +18,29 @@
 
 namespace ogc::fast {
 
-/// A volume on the backend.
+/// A part of a volume with a tree of its own: then the search of one meets no facet of others.
+struct VolumePart {
+  TreeView tree;            ///< of its facets, refitted at these positions
+  int* arrivals = nullptr;  ///< as in RefitTrees
+  int first_item = 0;       ///< of its places among those of all parts, each filled up to whole warps
+};
+
+/// A volume, or all of a scene, on the backend.
 struct VolumeView {
   SurfaceView surface;
-  PaddedVecs positions;           ///< by vertex [m]
-  TreeView tree;                  ///< of all facets, refitted at these positions
-  const int* part_of = nullptr;   ///< by vertex: number of its part
-  const int* first_of = nullptr;  ///< by part: one of its facets
+  PaddedVecs positions;               ///< by vertex [m]
+  const VolumePart* parts = nullptr;  ///< by part
   int part_count = 0;
   float contact_radius = 0;  ///< r [m]
+};
+
+/// What a part is to a point.
+enum class VolumeSide : int { far, inside, near };
+
+/// The facet of a part that is nearest to a point, or one of them with the nearest face.
+struct NearestFacet {
+  int facet = -1;
+  VolumeSide side = VolumeSide::far;  ///< far: outside, and not nearer than r
 };
 
 /// One contact of a point with a part; c is the closest point of `face`.
@@ -43,34 +57,35 @@ class VolumeQuestion {
  public:
   OGC_HD VolumeQuestion(const VolumeView& volume, const Vec& point) : volume_(volume), x_(point) {}
 
-  /// Calls visit(contact) for each contact with a part: one at the nearest face of a part that holds the point; else
-  /// one for each face in whose outward block the point lies nearer than r.
+  /// The search begins at the distance of `first`, one of the part's facets, which decides the time alone.
+  OGC_HD NearestFacet nearest_of(int part, int first) const {
+    const Nearest nearest = search(part, first);
+    if (!is_outside(nearest.face)) return {nearest.facet, VolumeSide::inside};
+    return {nearest.facet, is_near(nearest.facet, nearest.distance) ? VolumeSide::near : VolumeSide::far};
+  }
+
+  /// Calls visit(contact) for each contact with a part, of which `nearest` tells: one at the nearest face of a part
+  /// that holds the point; else one for each face in whose outward block the point lies nearer than r.
   template <class Visit>
-  OGC_HD void visit_contacts(int part, Visit visit) const {
-    const Nearest nearest = nearest_of(part);
-    if (!is_outside(nearest.face)) {
-      visit(contact_at(nearest.face, true));
-      return;
-    }
-    if (!is_near(nearest.triangle, nearest.distance)) return;
+  OGC_HD void visit_contacts(int part, const NearestFacet& nearest, Visit visit) const {
+    if (nearest.side == VolumeSide::far) return;
+    const int nearest_face = face_of(nearest.facet);
     // x lies in the block of the nearest face, whatever rounding says of it: who is near has a contact
-    visit(contact_at(nearest.face, false));
+    visit(contact_at(nearest_face, nearest.side == VolumeSide::inside));
+    if (nearest.side == VolumeSide::inside) return;
     const float limit = gap_limit(volume_.contact_radius);
-    for_each_near(volume_.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
-      const int t = offer.primitive;
-      if (part_of(t) != part) return;
-      const int face = touched_face(t);
-      if (face >= 0 && face != nearest.face && is_outside(face)) visit(contact_at(face, false));
+    for_each_near(volume_.parts[part].tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+      const int face = touched_face(offer.primitive);
+      if (face >= 0 && face != nearest_face && is_outside(face)) visit(contact_at(face, false));
     });
   }
 
  private:
   struct Nearest {
     Distance distance;
-    int face = -1, triangle = -1;
+    int face = -1, facet = -1;
   };
 
-  OGC_HD int part_of(int t) const { return volume_.part_of[volume_.surface.facets[t].corner[0]]; }
   OGC_HD Corners corners(int t) const {
     const Facet& facet = volume_.surface.facets[t];
     return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
@@ -87,7 +102,7 @@ class VolumeQuestion {
   }
 
   /// Of faces at one distance the lowest-numbered: numbers have the order of dimensions.
-  OGC_HD Nearest nearest_of(int part) const {
+  OGC_HD Nearest search(int part, int first) const {
     Nearest nearest;
     nearest.distance.value = infinity;
     float limit = infinity;
@@ -99,9 +114,9 @@ class VolumeQuestion {
       nearest = {d, face, t};
       limit = gap_limit(round_up(add(d.value, d.slack)));
     };
-    meet(volume_.first_of[part]);
-    for_each_near(volume_.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
-      if (part_of(offer.primitive) == part) meet(offer.primitive);
+    meet(first);
+    for_each_near(volume_.parts[part].tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+      if (!(offer.gap > limit) && offer.primitive != first) meet(offer.primitive);
     });
     return nearest;
   }
