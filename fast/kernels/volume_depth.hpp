@@ -10,11 +10,14 @@
 //   vertex     that of the edge whose direction from the vertex lies nearest to x's: on the sphere about the vertex the
 //              way from x to that direction crosses no triangle, as a crossing would lie nearer
 //   rim        outside: an edge of one triangle, and a vertex of such an edge, have no inner side
+//
+// Beyond the box of a part nobody is inside of it, so that most points need no search of most parts.
 #pragma once
 
 #include "fast/kernels/block.hpp"
 #include "fast/kernels/bvh.hpp"
 #include "fast/kernels/closest_face.hpp"
+#include "fast/kernels/separation.hpp"
 
 namespace ogc::fast {
 
@@ -59,8 +62,10 @@ class VolumeQuestion {
 
   /// The search begins at the distance of `first`, one of the part's facets, which decides the time alone.
   OGC_HD NearestFacet nearest_of(int part, int first) const {
+    const Box box = box_of(part);
+    if (squared_gap(box, {x_, x_}) > gap_limit(volume_.contact_radius)) return {first, VolumeSide::far};
     const Nearest nearest = search(part, first);
-    if (!is_outside(nearest.face)) return {nearest.facet, VolumeSide::inside};
+    if (is_in(box) && !is_outside(nearest.face)) return {nearest.facet, VolumeSide::inside};
     return {nearest.facet, is_near(nearest.facet, nearest.distance) ? VolumeSide::near : VolumeSide::far};
   }
 
@@ -70,9 +75,13 @@ class VolumeQuestion {
   OGC_HD void visit_contacts(int part, const NearestFacet& nearest, Visit visit) const {
     if (nearest.side == VolumeSide::far) return;
     const int nearest_face = face_of(nearest.facet);
-    // x lies in the block of the nearest face, whatever rounding says of it: who is near has a contact
-    visit(contact_at(nearest_face, nearest.side == VolumeSide::inside));
-    if (nearest.side == VolumeSide::inside) return;
+    if (nearest.side == VolumeSide::inside) {
+      visit(contact_at(nearest_face, true));
+      return;
+    }
+    // x lies in the block of the nearest face, whatever rounding says of it: who is near has a contact, if it is not
+    // beyond the box of a part that would hold it
+    if (is_outside(nearest_face)) visit(contact_at(nearest_face, false));
     const float limit = gap_limit(volume_.contact_radius);
     for_each_near(volume_.parts[part].tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
       const int face = touched_face(offer.primitive);
@@ -101,7 +110,8 @@ class VolumeQuestion {
     return volume_.surface.triangle_face(t);
   }
 
-  /// Of faces at one distance the lowest-numbered: numbers have the order of dimensions.
+  /// Of faces at one distance the lowest-numbered: numbers have the order of dimensions. Only then, and in the end,
+  /// faces are asked for, whose predicates are exact.
   OGC_HD Nearest search(int part, int first) const {
     Nearest nearest;
     nearest.distance.value = infinity;
@@ -109,16 +119,32 @@ class VolumeQuestion {
     const auto meet = [&](int t) {
       const Distance d = point_triangle_distance(x_, corners(t));
       if (d.value > nearest.distance.value) return;
-      const int face = face_of(t);
-      if (d.value == nearest.distance.value && face > nearest.face) return;
-      nearest = {d, face, t};
+      if (d.value == nearest.distance.value) {
+        if (nearest.face < 0) nearest.face = face_of(nearest.facet);
+        const int face = face_of(t);
+        if (face < nearest.face) nearest.face = face, nearest.facet = t;
+        return;
+      }
+      nearest = {d, -1, t};
       limit = gap_limit(round_up(add(d.value, d.slack)));
     };
     meet(first);
     for_each_near(volume_.parts[part].tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
-      if (!(offer.gap > limit) && offer.primitive != first) meet(offer.primitive);
+      if (offer.gap > limit || offer.primitive == first) return;
+      if (!is_beyond(separation(x_, corners(offer.primitive)), limit)) meet(offer.primitive);
     });
+    if (nearest.face < 0) nearest.face = face_of(nearest.facet);
     return nearest;
+  }
+
+  /// The box of a part, which no rounding moves.
+  OGC_HD Box box_of(int part) const {
+    const TreeView& tree = volume_.parts[part].tree;
+    return tree.node(tree.levels - 1, 0).whole();
+  }
+  OGC_HD bool is_in(const Box& box) const {
+    return box.lower.x <= x_.x && x_.x <= box.upper.x && box.lower.y <= x_.y && x_.y <= box.upper.y &&
+           box.lower.z <= x_.z && x_.z <= box.upper.z;
   }
 
   /// Whether x is nearer than r to a facet that is at this distance; exact where its slack leaves that open.

@@ -1,7 +1,9 @@
 #include "reference/definitions/part_contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -150,6 +152,20 @@ Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x) {
   return face_of(volume, triangle, closest_feature({volume.at(a), volume.at(b), volume.at(c)}, x));
 }
 
+bool in_box_of(const Complex& volume, const std::vector<Index>& triangles, const Vec3f& x) {
+  std::array<bool, 3> reaches_down{}, reaches_up{};
+  for (const Index t : triangles)
+    for (const Index v : volume.triangle(t)) {
+      const Vec3f& p = volume.at(v);
+      const std::array corner{p.x, p.y, p.z}, own{x.x, x.y, x.z};
+      for (std::size_t k = 0; k < 3; ++k) {
+        reaches_down[k] = reaches_down[k] || corner[k] <= own[k];
+        reaches_up[k] = reaches_up[k] || corner[k] >= own[k];
+      }
+    }
+  return std::ranges::all_of(reaches_down, std::identity{}) && std::ranges::all_of(reaches_up, std::identity{});
+}
+
 PartContact part_contact(const Complex& volume, Face face, const Vec3f& x, float contact_radius, bool inside) {
   const Index t = owner_of(volume, face);
   const double depth = inside ? distance(face_gap(volume, face, x, 0)) + static_cast<double>(contact_radius)
@@ -165,7 +181,7 @@ std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, fl
   for (const auto& [component, part] : parts) {
     const Within within(volume, part, x, contact_radius);
     const Face nearest = nearest_face(volume, within.nearest, x);
-    if (!begins_outside(volume, nearest, x)) {
+    if (in_box_of(volume, part, x) && !begins_outside(volume, nearest, x)) {
       contacts.push_back(part_contact(volume, nearest, x, contact_radius, true));
       continue;
     }
