@@ -13,13 +13,13 @@ namespace ogc::compare {
 
 namespace {
 
-const char* name_of(StepEventKind kind) {
+const char* event_name(StepEventKind kind) {
   constexpr const char* names[] = {"detection", "guess", "sweep"};
   return names[std::min(2, static_cast<int>(kind))];
 }
 
 std::string where_of(const StepOut& out, std::size_t event) {
-  return "event " + std::to_string(event) + ", " + name_of(out.events[event].kind);
+  return "event " + std::to_string(event) + ", " + event_name(out.events[event].kind);
 }
 
 class StepVerdict {
@@ -136,7 +136,7 @@ class StepVerdict {
       if (event.kind != truth_.events[i]) {
         const std::string after = i > 0 ? std::to_string(out_.events[i - 1].cut) + " vertices having been cut"
                                         : "at the start";
-        tally_.mismatch(where(i) + ": a " + compare::name_of(truth_.events[i]) + " is due, " + after);
+        tally_.mismatch(where(i) + ": a " + event_name(truth_.events[i]) + " is due, " + after);
         return;
       }
       switch (event.kind) {
