@@ -101,7 +101,11 @@ struct StepMetrics {
   double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
   double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q where nothing is near) [m]
   std::int64_t inverted_tetrahedra = 0;  ///< with J ≤ 0 at the end of the step
-  std::int64_t repeats = 0;              ///< times the step was repeated because a list grew
+  /// at the last detection: contacts with volumes, free vertices inside of some, and how far the deepest of them is
+  /// from the surface [m]
+  std::int64_t volume_contacts = 0, vertices_inside = 0;
+  double deepest = 0;
+  std::int64_t repeats = 0;  ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
   std::optional<StepLedger> ledger{};  ///< where it was asked for
   /// what the solver ran into, by name, and how it went on; shown to the user, not in steps.csv
@@ -165,6 +169,8 @@ struct Contestant {
   bool divides_by_approach = true;
   /// Whether its steps know guess=pairs. A plug-in's do not: compare/plugin.h has no such setting.
   bool has_steps_by_pairs = true;
+  /// Whether its sweeps and steps know volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
+  bool has_volumes = true;
   /// By stage: compare/stages/STAGE.hpp says what is asked.
   std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
   std::function<ClosestPointsOut(const ClosestPointsIn&)> closest_points;

@@ -89,7 +89,7 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
 
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour) {
-  refuse_volumes(scene, "reference_vbd", "leave the body a surface");
+  refuse_solid_volumes(scene, "reference_vbd");
   return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
 }
 

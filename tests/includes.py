@@ -56,6 +56,11 @@ PROJECT = {
     "tests": ("",),
 }
 
+# Headers of CGAL under the LGPL, as their SPDX lines say: the oracle, which any contestant may be audited by, has no
+# others.
+LESSER_CGAL = {"CGAL/Exact_predicates_inexact_constructions_kernel.h", "CGAL/Gmpq.h", "CGAL/Interval_nt.h",
+               "CGAL/Mpzf.h"}
+
 # Beginning of a foreign include -> rooms that may have it (besides tests).
 FOREIGN = {
     "CGAL/": ("compare/oracle", "reference"),
@@ -185,6 +190,8 @@ class House:
             self.report(file, number, f"<{included}> is neither standard nor in the table of tests/includes.py")
         elif not any(below(file, allowed) for allowed in FOREIGN[header]):
             self.report(file, number, f"<{included}> is allowed only in {', '.join(FOREIGN[header]) or 'tests'}")
+        elif header == "CGAL/" and room == "compare/oracle" and included not in LESSER_CGAL:
+            self.report(file, number, f"<{included}> is not among CGAL's headers under the LGPL that the oracle has")
 
     def check_top(self, files):
         names = {path.relative_to(self.root).parts[0] for path in files}
@@ -255,7 +262,7 @@ SOUND = {
     "compare/contestant.hpp": '#include "compare/stages/bound.hpp"\n',
     "compare/stages/bound.hpp": '#include "compare/problem/mesh.hpp"\n',
     "compare/files/scene.cpp": "#include <nlohmann/json.hpp>\n#include <fcntl.h>\n",
-    "compare/oracle/audit.cpp": '#include <CGAL/AABB_tree.h>\n#include "compare/problem/mesh.hpp"\n',
+    "compare/oracle/audit.cpp": '#include <CGAL/Gmpq.h>\n#include "compare/problem/mesh.hpp"\n',
     "reference/contestant.hpp": '#include "compare/contestant.hpp"\n',
     "fast/contestant.hpp": '#include "compare/contestant.hpp"\n',
     "fast/contact_sets.hpp": "#include <span>\n",
@@ -301,6 +308,8 @@ PLANTED = {
                                        "experiments may not", "experiments/x.cpp:1"),
     "CGAL in fast": ({"fast/x.cpp": "#include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in",
                      "fast/x.cpp:1"),
+    "CGAL under the GPL in the oracle": ({"compare/oracle/x.cpp": "#include <CGAL/AABB_tree.h>\n"},
+                                         "is not among CGAL's headers under the LGPL", "compare/oracle/x.cpp:1"),
     "assimp outside of its file": (
         {"compare/files/x.cpp": "#include <assimp/scene.h>\n"},
         "is allowed only in compare/files/meshes/assimp_mesh.cpp", "compare/files/x.cpp:1",

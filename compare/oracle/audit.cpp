@@ -57,10 +57,12 @@ class Auditor {
 
   void visit(Index i, Findings& found) const {
     if (i < topology_.vertex_count) {
-      if (!topology_.vertex_edges[at(i)].empty()) test({i, i}, IntersectionKind::vertex_triangle, i, found);
+      if (!topology_.vertex_edges[at(i)].empty() && topology_.on_surface(i))
+        test({i, i}, IntersectionKind::vertex_triangle, i, found);
     } else {
       const Index edge = i - topology_.vertex_count;
-      test(topology_.edges[at(edge)], IntersectionKind::edge_triangle, edge, found);
+      if (topology_.on_surface(topology_.edges[at(edge)]))
+        test(topology_.edges[at(edge)], IntersectionKind::edge_triangle, edge, found);
     }
   }
 
@@ -68,7 +70,7 @@ class Auditor {
     const std::array<Vec3, 2> segment{positions_[at(edge[0])], positions_[at(edge[1])]};
     tree_.for_each_meeting(box_of({segment[0], segment[1]}), [&](Index number) {
       const Triangle& t = topology_.triangles[at(number)];
-      if (left_out(edge, t, exclusions_)) return;
+      if (!topology_.on_surface(t) || left_out(edge, t, exclusions_)) return;
       if (kind == IntersectionKind::edge_triangle) ++found.pairs_tested;
       const std::array<Vec3, 3> corners{positions_[at(t[0])], positions_[at(t[1])], positions_[at(t[2])]};
       if (segment_meets_triangle(segment, corners)) found.intersections.push_back({kind, name, number});

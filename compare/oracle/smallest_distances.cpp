@@ -140,11 +140,11 @@ Nearest nearest_vertex_triangle(const Topology& topology, std::span<const Vec3> 
                                 const ExclusionView& exclusions) {
   const BoxTree tree = tree_over(positions, topology.triangles);
   return nearest_of(at(topology.vertex_count), [&](Search& search, Index v) {
-    if (topology.vertex_edges[at(v)].empty()) return;
+    if (topology.vertex_edges[at(v)].empty() || !topology.on_surface(v)) return;
     const std::array<Index, 1> vertex{v};
     tree.for_each_meeting(search.search_box(box_of_corners(positions, vertex)), [&](Index t) {
       const Triangle& triangle = topology.triangles[at(t)];
-      if (!left_out(vertex, triangle, exclusions))
+      if (topology.on_surface(triangle) && !left_out(vertex, triangle, exclusions))
         search.offer(v, t, corners(positions, vertex), corners(positions, triangle));
     });
   });
@@ -154,10 +154,11 @@ Nearest nearest_edge_edge(const Topology& topology, std::span<const Vec3> positi
   const BoxTree tree = tree_over(positions, topology.edges);
   return nearest_of(topology.edges.size(), [&](Search& search, Index e) {
     const Edge& edge = topology.edges[at(e)];
+    if (!topology.on_surface(edge)) return;
     tree.for_each_meeting(search.search_box(box_of_corners(positions, edge)), [&](Index other) {
       if (other <= e) return;
       const Edge& partner = topology.edges[at(other)];
-      if (!left_out(edge, partner, exclusions))
+      if (topology.on_surface(partner) && !left_out(edge, partner, exclusions))
         search.offer(e, other, corners(positions, edge), corners(positions, partner));
     });
   });

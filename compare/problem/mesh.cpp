@@ -185,8 +185,8 @@ Topology build_topology(const Mesh& mesh) {
   for (const Tetrahedron& tetrahedron : mesh.tetrahedra) {
     for (const Index v : tetrahedron) {
       if (!topology.vertex_edges[static_cast<std::size_t>(v)].empty()) continue;
-      topology.inside_solid.resize(mesh.positions.size());
-      topology.inside_solid[static_cast<std::size_t>(v)] = 1;
+      topology.off_surface.resize(mesh.positions.size());
+      topology.off_surface[static_cast<std::size_t>(v)] = 1;
     }
   }
   return topology;

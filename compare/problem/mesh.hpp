@@ -55,11 +55,18 @@ struct Topology {
   std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
   std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
 
-  /// By vertex, or empty where there is no such vertex: 1 inside a solid, that is of a tetrahedron and on no edge.
-  std::vector<std::uint8_t> inside_solid;
+  /// By vertex, or empty where there is no such vertex: 1 inside a solid, that is of a tetrahedron and on no edge, and
+  /// on a volume (§3.9), all of whose faces it then takes along.
+  std::vector<std::uint8_t> off_surface;
 
-  /// Vertices inside solids take no part in detection, contact or audit, and no bound holds them (method.md §2).
-  bool on_surface(Index v) const { return inside_solid.empty() || inside_solid[static_cast<std::size_t>(v)] == 0; }
+  /// What is not on the surface takes no part in detection, contact among surfaces or audit, and no bound holds it
+  /// (method.md §2).
+  bool on_surface(Index v) const { return off_surface.empty() || off_surface[static_cast<std::size_t>(v)] == 0; }
+  /// Of a face or edge by its vertices, which are all of one body.
+  template <std::size_t N>
+  bool on_surface(const std::array<Index, N>& vertices) const {
+    return on_surface(vertices[0]);
+  }
 };
 
 /// Builds the adjacency. Triangles and loose edges must have valid, distinct indices (see `validate`); throws

@@ -156,7 +156,15 @@ std::vector<Index> body_of_vertex(const Scene& scene) {
   return result;
 }
 
-Topology build_topology(const Scene& scene) { return build_topology(scene.mesh); }
+Topology build_topology(const Scene& scene) {
+  Topology topology = build_topology(scene.mesh);
+  for (const Body& body : scene.bodies) {
+    if (!body.is_volume()) continue;
+    topology.off_surface.resize(scene.mesh.positions.size());
+    std::fill_n(topology.off_surface.begin() + body.first_vertex, body.vertex_count, std::uint8_t{1});
+  }
+  return topology;
+}
 
 std::vector<Vec3f> to_single(const std::vector<Vec3>& positions) {
   std::vector<Vec3f> result(positions.size());

@@ -138,7 +138,7 @@ std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion
 /// Number of the body of each vertex; -1 where no body covers it. Length: vertex count.
 std::vector<Index> body_of_vertex(const Scene& scene);
 
-/// The topology of the scene's mesh.
+/// The topology of the scene's mesh; what is of volumes is not on the surface.
 Topology build_topology(const Scene& scene);
 
 /// Positions as the stages see them.

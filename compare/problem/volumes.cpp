@@ -258,6 +258,49 @@ void check_volume_bodies(std::vector<Problem>& problems, const Scene& scene, con
   check_parts(problems, scene, is_sound, names, limit);
 }
 
+VolumeSurface volume_surface(const Scene& scene) {
+  VolumeSurface volumes;
+  std::vector<Triangle> triangles;
+  for (const Body& body : scene.bodies) {
+    for (Index t = body.first_triangle; body.is_volume() && t < body.first_triangle + body.triangle_count; ++t) {
+      volumes.triangles.push_back(t);
+      triangles.push_back(scene.mesh.triangles[at(t)]);
+    }
+  }
+  volumes.topology = build_topology(static_cast<Index>(scene.mesh.positions.size()), triangles);
+  return volumes;
+}
+
+Face scene_face(const VolumeSurface& volumes, const Topology& scene, const Face& face) {
+  switch (face.kind) {
+    case FaceKind::vertex: return face;
+    case FaceKind::edge: {
+      const Edge& ends = volumes.topology.edges[at(face.index)];
+      return {face.kind, find_edge(scene, ends[0], ends[1])};
+    }
+    case FaceKind::triangle: return {face.kind, volumes.triangles[at(face.index)]};
+  }
+  __builtin_unreachable();
+}
+
+bool has_volumes(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [](const Body& body) { return body.is_volume(); });
+}
+
+std::vector<bool> volume_flags(const Scene& scene) {
+  std::vector<bool> flags(scene.mesh.positions.size());
+  for (const Body& body : scene.bodies)
+    if (body.is_volume()) std::fill_n(flags.begin() + body.first_vertex, body.vertex_count, true);
+  return flags;
+}
+
+void refuse_solid_volumes(const Scene& scene, std::string_view solver) {
+  const auto found = std::ranges::find_if(scene.bodies, [](const Body& b) { return b.is_volume() && b.is_solid(); });
+  if (found == scene.bodies.end()) return;
+  throw InputError("body '" + found->name + "' is a volume of tetrahedra, which " + std::string(solver) +
+                   " does not simulate; leave the body a surface");
+}
+
 void refuse_volumes(const Scene& scene, std::string_view solver, std::string_view remedy) {
   const auto found = std::ranges::find_if(scene.bodies, [](const Body& body) { return body.is_volume(); });
   if (found == scene.bodies.end()) return;

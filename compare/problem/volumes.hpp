@@ -29,6 +29,24 @@ struct VolumePart {
 /// scene.
 std::vector<VolumePart> volume_parts(const Scene& scene);
 
+/// The surfaces of all volumes of a scene as one question of the stage volume_depth: vertices keep their numbers.
+struct VolumeSurface {
+  Topology topology;             ///< of their triangles alone
+  std::vector<Index> triangles;  ///< by triangle there: its number in the scene, ascending
+};
+
+/// Of a scene without volumes: no triangle. Indices are valid, and bodies cover the scene.
+VolumeSurface volume_surface(const Scene& scene);
+
+/// A face there as one of the scene, whose topology is `scene`; the order of faces is the same.
+Face scene_face(const VolumeSurface& volumes, const Topology& scene, const Face& face);
+
+/// Whether any body is a volume.
+bool has_volumes(const Scene& scene);
+
+/// By vertex: whether its body is a volume.
+std::vector<bool> volume_flags(const Scene& scene);
+
 /// What is wrong with the scene's volumes, body by body: loose edges, none or free triangles without tetrahedra, edges
 /// of three triangles or of two that run through it in one sense, parts that are inside out or enclose nothing.
 /// Indices are valid, and bodies cover the scene; coordinates may be bad.
@@ -38,5 +56,8 @@ void check_volume_bodies(std::vector<Problem>& problems, const Scene& scene, con
 /// Throws InputError that names the scene's first volume, if it has any: `solver` does not simulate them, and
 /// `remedy` says what to do.
 void refuse_volumes(const Scene& scene, std::string_view solver, std::string_view remedy);
+
+/// The same of volumes of tetrahedra alone.
+void refuse_solid_volumes(const Scene& scene, std::string_view solver);
 
 }  // namespace ogc::compare

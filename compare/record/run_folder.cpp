@@ -13,6 +13,7 @@
 #include "compare/files/bytes.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/volumes.hpp"
 #include "compare/record/iterations_csv.hpp"
 #include "compare/record/steps_csv.hpp"
 
@@ -102,6 +103,10 @@ bool has_ledger(const Manifest& manifest) {
   return entry != manifest.provenance.extra.end() && entry->second == "yes";
 }
 
+StepGroups groups_of(const Scene& scene, const Manifest& manifest) {
+  return {!scene.mesh.tetrahedra.empty(), has_volumes(scene), has_ledger(manifest)};
+}
+
 }  // namespace
 
 void expect_new_run_folder(const fs::path& folder) {
@@ -124,7 +129,7 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, const Provenance& prov
   make_folder(folder_ / "frames");
   manifest_.scene_file = store_scene(folder_, scene_);
   steps_.emplace(folder_ / "steps.csv");
-  steps_->append(step_header(manifest_.stage_names, !scene_.mesh.tetrahedra.empty(), has_ledger(manifest_)));
+  steps_->append(step_header(manifest_.stage_names, groups_of(scene_, manifest_)));
   if (manifest_.provenance.started.empty()) manifest_.provenance.started = utc_now();
   manifest_.provenance.status = "running";
   write_manifest();
@@ -160,8 +165,7 @@ void RunWriter::keep_frames(const std::function<bool(std::int64_t)>& keep) {
 void RunWriter::write_manifest() const { write_durably(folder_ / "run.json", manifest_text(manifest_, scene_)); }
 
 void RunWriter::add_steps(const std::vector<StepMetrics>& rows) {
-  steps_->append(
-      step_lines(rows, manifest_.stage_names.size(), !scene_.mesh.tetrahedra.empty(), has_ledger(manifest_)));
+  steps_->append(step_lines(rows, manifest_.stage_names.size(), groups_of(scene_, manifest_)));
   if (const std::string iterations = iteration_lines(rows); !iterations.empty()) {
     if (!iterations_) iterations_.emplace(folder_ / "iterations.csv").append(iteration_header());
     iterations_->append(iterations);

@@ -37,8 +37,23 @@ constexpr std::array<StepColumn, 23> columns{{
     {"status", "bits", &StepMetrics::status},
 }};
 
-/// Behind those; scenes with tetrahedra alone have it.
-constexpr StepColumn solid_column{"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra};
+/// Behind those: of scenes with tetrahedra, of scenes with volumes.
+constexpr std::array<StepColumn, 1> solid_columns{{
+    {"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra},
+}};
+constexpr std::array<StepColumn, 3> volume_columns{{
+    {"volume_contacts", "1", &StepMetrics::volume_contacts},
+    {"vertices_inside", "1", &StepMetrics::vertices_inside},
+    {"deepest", "m", &StepMetrics::deepest},
+}};
+
+/// Those before a ledger's.
+std::vector<StepColumn> common_columns(const StepGroups& groups) {
+  std::vector<StepColumn> all(columns.begin(), columns.end());
+  if (groups.solids) all.insert(all.end(), solid_columns.begin(), solid_columns.end());
+  if (groups.volumes) all.insert(all.end(), volume_columns.begin(), volume_columns.end());
+  return all;
+}
 
 /// One column of a ledger.
 struct LedgerColumn {
@@ -129,15 +144,21 @@ StepTable parse_header(const std::string& file, std::string_view line) {
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (i >= titles.size() || !is_titled(columns[i], titles[i])) refuse(i, column_title(columns[i]));
   StepTable table;
-  table.has_solids = titles.size() > columns.size() && titles[columns.size()] == column_title(solid_column);
-  const std::size_t common = columns.size() + (table.has_solids ? 1 : 0);
-  table.has_ledger = titles.size() > common && titles[common] == column_title(ledger_columns.front());
-  if (table.has_ledger)
+  const auto begins = [&](std::size_t i, const std::string& title) { return i < titles.size() && titles[i] == title; };
+  std::size_t common = columns.size();
+  table.groups.solids = begins(common, column_title(solid_columns.front()));
+  common = common_columns(table.groups).size();
+  table.groups.volumes = begins(common, column_title(volume_columns.front()));
+  for (std::size_t i = 0; table.groups.volumes && i < volume_columns.size(); ++i)
+    if (!begins(common + i, column_title(volume_columns[i]))) refuse(common + i, column_title(volume_columns[i]));
+  common = common_columns(table.groups).size();
+  table.groups.ledger = begins(common, column_title(ledger_columns.front()));
+  if (table.groups.ledger)
     for (std::size_t i = 0; i < ledger_columns.size(); ++i)
       if (const std::string title = column_title(ledger_columns[i]);
           common + i >= titles.size() || titles[common + i] != title)
         refuse(common + i, title);
-  for (std::size_t i = common + (table.has_ledger ? ledger_columns.size() : 0); i < titles.size(); ++i) {
+  for (std::size_t i = common + (table.groups.ledger ? ledger_columns.size() : 0); i < titles.size(); ++i) {
     if (!titles[i].starts_with(stage_prefix) || !titles[i].ends_with(stage_unit)) refuse(i, "stage_NAME [ms]");
     table.stage_names.emplace_back(
         titles[i].substr(stage_prefix.size(), titles[i].size() - stage_prefix.size() - stage_unit.size()));
@@ -147,7 +168,7 @@ StepTable parse_header(const std::string& file, std::string_view line) {
 
 /// How many numbers a row has.
 std::size_t width_of(const StepTable& table) {
-  return columns.size() + (table.has_solids ? 1 : 0) + (table.has_ledger ? ledger_columns.size() : 0) +
+  return common_columns(table.groups).size() + (table.groups.ledger ? ledger_columns.size() : 0) +
          table.stage_names.size();
 }
 
@@ -158,12 +179,12 @@ bool parse_row(std::string_view line, const StepTable& table, StepMetrics& row) 
   const auto read = [&](std::size_t i, const StepColumn& column) {
     return std::visit([&](auto field) { return parse(parts[i], row.*field); }, column.field);
   };
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (!read(i, columns[i])) return false;
-  if (table.has_solids && !read(columns.size(), solid_column)) return false;
-  const std::size_t common = columns.size() + (table.has_solids ? 1 : 0);
-  if (table.has_ledger) row.ledger.emplace();
-  for (std::size_t i = 0; table.has_ledger && i < ledger_columns.size(); ++i)
+  const std::vector<StepColumn> own = common_columns(table.groups);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (!read(i, own[i])) return false;
+  const std::size_t common = own.size();
+  if (table.groups.ledger) row.ledger.emplace();
+  for (std::size_t i = 0; table.groups.ledger && i < ledger_columns.size(); ++i)
     if (!parse(parts[common + i], ledger_columns[i].of(*row.ledger))) return false;
   const std::size_t stage_count = table.stage_names.size(), first = parts.size() - stage_count;
   row.stage_ms.resize(stage_count);
@@ -176,32 +197,31 @@ bool parse_row(std::string_view line, const StepTable& table, StepMetrics& row) 
 
 std::span<const StepColumn> step_columns() { return columns; }
 
-std::string step_header(std::span<const std::string> stage_names, bool has_solids, bool has_ledger) {
+std::string step_header(std::span<const std::string> stage_names, const StepGroups& groups) {
   std::string text;
-  for (const StepColumn& column : columns) {
+  for (const StepColumn& column : common_columns(groups)) {
     if (!text.empty()) text += ',';
     text += column_title(column);
   }
-  if (has_solids) text += "," + column_title(solid_column);
-  if (has_ledger)
+  if (groups.ledger)
     for (const LedgerColumn& column : ledger_columns) text += "," + column_title(column);
   for (const std::string& name : stage_names) text.append(",").append(stage_prefix).append(name).append(stage_unit);
   text += '\n';
   return text;
 }
 
-std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, bool has_solids, bool has_ledger) {
+std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, const StepGroups& groups) {
+  const std::vector<StepColumn> common = common_columns(groups);
   std::string text;
   for (const StepMetrics& row : rows) {
     if (!row.stage_ms.empty() && row.stage_ms.size() != stage_count)
       throw std::invalid_argument("steps.csv: a row with times for another number of stages");
-    for (const StepColumn& column : columns) {
-      if (&column != &columns.front()) text += ',';
+    for (const StepColumn& column : common) {
+      if (&column != &common.front()) text += ',';
       std::visit([&](auto field) { print(text, row.*field); }, column.field);
     }
-    if (has_solids) text += "," + std::to_string(row.inverted_tetrahedra);
     StepLedger ledger = row.ledger.value_or(StepLedger{});
-    for (std::size_t i = 0; has_ledger && i < ledger_columns.size(); ++i) {
+    for (std::size_t i = 0; groups.ledger && i < ledger_columns.size(); ++i) {
       text += ',';
       print(text, row.ledger ? ledger_columns[i].of(ledger) : std::numeric_limits<double>::quiet_NaN());
     }

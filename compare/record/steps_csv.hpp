@@ -22,25 +22,29 @@ struct StepColumn {
   std::string_view former_name{};  ///< in run format 1, where it is another one; read, never written
 };
 
-/// All columns but those of solids, ledger and stages, in the order of the file.
+/// All columns but those of groups and stages, in the order of the file.
 std::span<const StepColumn> step_columns();
 
-/// The header line; stages become "stage_NAME [ms]". Only rows of scenes with solids have `inverted_tetrahedra`, only
-/// runs with a ledger its columns.
-std::string step_header(std::span<const std::string> stage_names, bool has_solids = false, bool has_ledger = false);
+/// Which groups of columns stand behind those, in this order: of scenes with solids `inverted_tetrahedra`; of scenes
+/// with volumes `volume_contacts`, `vertices_inside`, `deepest`; of runs with a ledger its columns.
+struct StepGroups {
+  bool solids = false, volumes = false, ledger = false;
+  friend bool operator==(const StepGroups&, const StepGroups&) = default;
+};
+
+/// The header line; stages become "stage_NAME [ms]".
+std::string step_header(std::span<const std::string> stage_names, const StepGroups& groups = {});
 
 /// One line a row; numbers read back as the same double, "nan" where a quantity was not asked for. Rows without times
 /// by stage get "nan" in each stage's column, rows without a ledger in each of its. Throws std::invalid_argument where
 /// a row has times for another number of stages.
-std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, bool has_solids = false,
-                       bool has_ledger = false);
+std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, const StepGroups& groups = {});
 
 /// What steps.csv holds so far.
 struct StepTable {
   std::vector<std::string> stage_names;  ///< columns of `--profile`
   std::vector<StepMetrics> rows{};       ///< in the order of the steps
-  bool has_solids = false;               ///< with a column `inverted_tetrahedra`
-  bool has_ledger = false;               ///< with the columns of a ledger
+  StepGroups groups{};                   ///< which columns there are
 };
 
 /// Reads steps.csv of a run up to the row of step `last`. A last line without its end (the run was killed) is left out.

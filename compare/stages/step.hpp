@@ -26,6 +26,9 @@ struct StepEvent {
   DetectEdgeEdgeOut edge_edge;        ///< of a detection
   std::vector<float> bound;           ///< b_v [m]
   VertexPlanes planes{};              ///< where bounds are planes; smallest distances are then not asked for
+  /// The stage volume_depth, asked by the free vertices of surfaces at X_prev of all volumes: `point` is the vertex,
+  /// `triangle` and `face` are numbers of the scene.
+  VolumeDepthOut volumes{};
 };
 
 /// A step from X⁰, V⁰ of a rounded scene to its first targets of prescribed vertices.

@@ -13,14 +13,16 @@
 #include "compare/stages/detect_vertex_facet.hpp"
 #include "compare/stages/plane.hpp"
 #include "compare/stages/rest_state.hpp"
+#include "compare/stages/volume_depth.hpp"
 
 namespace ogc::compare {
 
 /// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, springs (the scene's),
-/// tetrahedra, contact and friction as in the stages of these names. Prescribed vertices (`is_prescribed`) go to y,
-/// truncated; all others stay. While colour c is solved, a vertex u is read at its new position if colour(u) < c, else
-/// at its old one; own position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given
-/// numbers and rounded at most once.
+/// tetrahedra, contact and friction, and volumes as in the stages of these names. Prescribed vertices
+/// (`is_prescribed`) go to y, truncated; all others stay, and those of volumes: they are where the step has them.
+/// While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at its old one; own
+/// position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and rounded
+/// at most once.
 struct SweepIn {
   const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
   const Topology* topology = nullptr;  ///< of the scene's mesh
@@ -34,6 +36,9 @@ struct SweepIn {
   std::span<const EdgeEdgeContact> edge_edge;
   /// Half-spaces that the vertices bear since that detection; null: they have balls alone
   const VertexPlanes* planes = nullptr;
+  /// Of free vertices: `point` is the vertex, `triangle` and `face` are numbers of the scene; canonical order. What was
+  /// frozen acts, and `inside`, `face` and `depth` are not read.
+  std::span<const VolumeContact> volumes{};
 };
 
 /// The answer.

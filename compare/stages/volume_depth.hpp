@@ -35,10 +35,10 @@ struct VolumeContact {
   float depth = 0;  ///< ‖x − c‖ + r inside, r − ‖x − c‖ outside [m]
 };
 
-/// A part holds x if the way from its nearest face a to x begins on the inner side of a's triangles (of equally near
-/// faces the lowest-dimensional, then the lowest-numbered one); rims have no inner side, and x on the surface is
-/// outside. Such a part gives one contact, at a; any other gives one for each face in whose outward block (Eq. 8–10,
-/// the outer half) x lies nearer than r.
+/// A part holds x if the way from its nearest face a (of equals the lowest-dimensional, then the lowest-numbered one)
+/// to x begins on the inner side of a's triangles; rims have no inner side, and x is outside on the surface and beyond
+/// the closed box of the part's vertices. Such a part gives one contact, at a; any other one for each face in whose
+/// outward block (Eq. 8–10, the outer half) x lies nearer than r.
 struct VolumeDepthOut {
   std::vector<VolumeContact> contacts;  ///< ascending by point, inside, triangle, face
 };

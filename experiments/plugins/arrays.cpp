@@ -38,7 +38,7 @@ std::vector<Bytes> inputs_of(const Topology& topology) {
 }
 
 std::vector<std::uint8_t> inside_solid(const Topology& topology) {
-  std::vector<std::uint8_t> inside = topology.inside_solid;
+  std::vector<std::uint8_t> inside = topology.off_surface;
   inside.resize(static_cast<std::size_t>(topology.vertex_count));
   return inside;
 }

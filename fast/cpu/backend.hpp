@@ -84,6 +84,12 @@ inline UpdateVertex<GatherPackedSolids> on_packs(const UpdateVertex<GatherSolids
 inline UpdateVertex<GatherPackedEverything> on_packs(const UpdateVertex<GatherEverything>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
+inline UpdateVertex<GatherPackedVolumes> on_packs(const UpdateVertex<GatherVolumes>& f) {
+  return {f.view, f.first_slot, f.asks_late};
+}
+inline UpdateVertex<GatherPackedEverythingAndVolumes> on_packs(const UpdateVertex<GatherEverythingAndVolumes>& f) {
+  return {f.view, f.first_slot, f.asks_late};
+}
 
 /// Prefetches what f(i, team) is going to read where hardware does not predict it.
 template <class F>

@@ -1,7 +1,7 @@
 // The sum of a vertex in packs, compiled for several machines and chosen at run time, to the same bits.
 #pragma once
 
-#include "fast/kernels/sweep_solids.hpp"
+#include "fast/kernels/volumes/stream.hpp"
 
 namespace ogc::fast {
 
@@ -11,14 +11,15 @@ struct TeamLaneSums {
   int count = 0;                        ///< items of the part; where they are fewer than W the last sums are 0
 };
 
-/// Parts that are not computed in packs: triangles and hinges where they have sums here, springs, and tetrahedra where
-/// they have.
+/// Parts that are not computed in packs: triangles and hinges where they have sums here, springs, volumes, and
+/// tetrahedra where they have.
 struct OtherParts {
   /// null sums: packs compute the part, or there is none
-  TeamLaneSums triangles, hinges, springs, tetrahedra;
+  TeamLaneSums triangles, hinges, springs, tetrahedra, volumes;
 };
 
-/// As GatherDefault with a SerialTeam and, between hinges and contacts, springs and tetrahedra; or as GatherSolids.
+/// As GatherDefault with a SerialTeam and, between hinges and contacts, springs, tetrahedra and volumes; or as
+/// GatherSolids.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const OtherParts& other);
 /// One function for each number W of team lanes.
@@ -88,13 +89,17 @@ struct GatherPackedSolids {
   }
 };
 
-/// As GatherEveryModel, or as GatherEverything: in packs but for springs, tetrahedra and triangles and hinges of bodies
-/// with other models than the default ones, which are computed one by one; as there with other activations.
+/// As GatherEveryModel, or as those with more: in packs but for springs, tetrahedra, volumes, and triangles and hinges
+/// of bodies with other models than the default ones, which are computed one by one; as there with other activations.
 template <class Gather>
 struct GatherPackedModels {
-  static constexpr int parts = Gather::parts;                                   ///< of the sum; devices alone read it
-  static constexpr bool has_solids = std::is_same_v<Gather, GatherEverything>;  ///< whether tetrahedra are a part
-  const PackKernels& kernels = pack_kernels();                                  ///< those of this machine
+  static constexpr int parts = Gather::parts;  ///< of the sum; devices alone read it
+  /// whether tetrahedra are a part, and volumes
+  static constexpr bool has_solids = std::is_same_v<Gather, GatherEverything> ||
+                                     std::is_same_v<Gather, GatherEverythingAndVolumes>,
+                        has_volumes = std::is_same_v<Gather, GatherVolumes> ||
+                                      std::is_same_v<Gather, GatherEverythingAndVolumes>;
+  const PackKernels& kernels = pack_kernels();  ///< those of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -111,7 +116,7 @@ struct GatherPackedModels {
     const SurfaceModels models = view.models[vertex.body];
     const SurfaceMaterial material = view.materials[vertex.body];
     const OwnVertex at{own, own - view.start[vertex.vertex]};
-    ForceAndBlock triangles[W], hinges[W], springs[W], tetrahedra[W];
+    ForceAndBlock triangles[W], hinges[W], springs[W], tetrahedra[W], volumes[W];
     OtherParts other;
     if (!has_default_membrane(models)) {
       const auto add = [&](int i, ForceAndBlock& sum) {
@@ -135,10 +140,13 @@ struct GatherPackedModels {
       const AddAnyTetrahedron add{view, view.solids[vertex.body], models, at};
       other.tetrahedra = one_by_one(tetrahedron_part(view, slot, add), tetrahedra);
     }
+    if constexpr (has_volumes) other.volumes = one_by_one(volume_part(view, slot, vertex.vertex, own), volumes);
     return kernels.surfaces.template gather<W>()(view, slot, vertex, own, other);
   }
 };
 using GatherPackedEveryModel = GatherPackedModels<GatherEveryModel>;
 using GatherPackedEverything = GatherPackedModels<GatherEverything>;
+using GatherPackedVolumes = GatherPackedModels<GatherVolumes>;
+using GatherPackedEverythingAndVolumes = GatherPackedModels<GatherEverythingAndVolumes>;
 
 }  // namespace ogc::fast

@@ -166,6 +166,7 @@ template <int W>
   }
   lanes.add_part(other.springs);
   lanes.add_part(other.tetrahedra);
+  lanes.add_part(other.volumes);
   add_contact_parts<W, P>(view, slot, lanes);
   return lanes.total();
 }

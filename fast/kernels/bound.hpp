@@ -37,7 +37,7 @@ struct ConservativeBound {
   /// above it.
   OGC_HD void operator()(int v) const {
     if (*overflow != 0) return;
-    if (surface.is_inside_solid(v)) {
+    if (surface.is_off_surface(v)) {
       bound[v] = largest_float;
       return;
     }

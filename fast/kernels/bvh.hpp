@@ -260,14 +260,15 @@ struct RefitTrees {
     }
   }
 
- private:
-  /// A place of a tree; beyond its primitives the child is empty.
+  /// A place of a tree, with which its thread climbs; beyond the primitives the child is empty.
   template <class Of>
   OGC_HD static void place(const TreeView& tree, int* arrivals, int j, Of child_of) {
     Child own;
     if (j < tree.count) own = child_of(tree.order[j]);
     climb(tree, arrivals, j, own);
   }
+
+ private:
   OGC_HD Child facet_child(int t) const {
     Box box;
     for (const int corner : reach.surface.facets[t].corner) box.include(reach.positions[corner]);
@@ -391,7 +392,8 @@ OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
   return spread_bits(x[0] ^ flips) << 2 | spread_bits(x[1] ^ flips) << 1 | spread_bits(x[2] ^ flips);
 }
 
-/// Hilbert keys of all vertices, edges and facets for one sort; the two highest bits keep the three kinds apart.
+/// Hilbert keys of all vertices, edges and facets that are searched, for one sort; the two highest bits keep the three
+/// kinds apart.
 struct HilbertKeys {
   SurfaceView surface;
   const Vec* positions;    ///< by vertex [m]
@@ -400,17 +402,18 @@ struct HilbertKeys {
   int* values;             ///< number within its kind; the sort moves it with its key
 
   OGC_HD void operator()(int i) const {
-    const int e = i - surface.vertex_count, t = e - surface.edge_count;
+    const int e = i - surface.searched_vertices, t = e - surface.searched_edges, place = e < 0 ? i : (t < 0 ? e : t);
+    const int number = surface.searched != nullptr ? surface.searched[i] : place;
     Box box;
     if (e < 0) {
-      box.include(positions[i]);
+      box.include(positions[number]);
     } else if (t < 0) {
-      box.include(positions[surface.edges[e].a]);
-      box.include(positions[surface.edges[e].b]);
+      box.include(positions[surface.edges[number].a]);
+      box.include(positions[surface.edges[number].b]);
     } else {
-      for (const int corner : surface.facets[t].corner) box.include(positions[corner]);
+      for (const int corner : surface.facets[number].corner) box.include(positions[corner]);
     }
-    values[i] = e < 0 ? i : (t < 0 ? e : t);
+    values[i] = number;
     keys[i] = static_cast<std::uint64_t>(e < 0 ? 0 : (t < 0 ? 1 : 2)) << 62 | hilbert_key(cell(box));
   }
 

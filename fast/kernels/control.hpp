@@ -69,6 +69,8 @@ struct StepControl {
   /// detection, so that another detection is due; whether an unsafe pair was seen in this pass.
   int pairs = 0, unsafe = 0, left = 0, unsafe_seen = 0;
   int not_finite = 0, violations = 0;
+  /// With volumes, at the end: contacts, vertices inside; how deep the deepest was at the last detection, bits [m].
+  int volume_contacts = 0, vertices_inside = 0, deepest = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
   /// Threads of one launch call these together; sums and maxima do not depend on their order.
@@ -114,6 +116,7 @@ struct BeginStep {
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
     c.lagging = c.advanced = c.lag_asked = 0;
     c.pairs = c.unsafe = c.left = c.unsafe_seen = 0;
+    c.volume_contacts = c.vertices_inside = c.deepest = 0;
     c.rounds = c.detections = c.since_detection = c.iterations = c.turn = 0;
   }
 };

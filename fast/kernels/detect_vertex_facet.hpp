@@ -34,7 +34,7 @@ struct DetectVertexFacet {
 
   /// A vertex inside a solid looks where nothing is: its squared gap to any box is finite, and beyond any limit.
   OGC_HD Vec searched_from(int v) const {
-    return surface.is_inside_solid(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
+    return surface.is_off_surface(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
   }
 
   /// The search of the i-th vertex along the Hilbert curve.

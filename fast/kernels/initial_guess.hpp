@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/control.hpp"
@@ -26,6 +27,8 @@ struct BeginVertex {
   Vec* position;                  ///< x by vertex [m], written
   Vec* target;                    ///< y by vertex [m], written
   StepControl* control;           ///< on the backend: raises largest_move, counts what is not finite
+  /// by vertex, not 0 on driven volumes, which are at their targets from here on; null: there is none
+  const std::uint8_t* is_driven_volume = nullptr;
 
   OGC_HD void operator()(int v) const {
     const Vec x = start[v];
@@ -33,7 +36,7 @@ struct BeginVertex {
     Vec y = x;
     if (number == -1) y = inertia_target(x, velocity[v], acceleration, step);
     if (number >= 0) y = prescribed_targets[control->steps_done * prescribed_count + number];
-    position[v] = x;
+    position[v] = is_driven_volume != nullptr && is_driven_volume[v] != 0 ? y : x;
     target[v] = y;
     const Vec move = y - x;
     const float length = square_root(dot(move, move));

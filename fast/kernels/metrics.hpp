@@ -23,10 +23,10 @@ enum SumColumn : int {
   sum_moved = 5,    ///< Σ m (y − xᵗ), three columns [kg m]
   sum_membrane = 8,
   sum_bending = 9 /* springs included */,
-  sum_vertex_facet = 10,
-  sum_edge_edge = 11,  ///< [J]
-  sum_solid = 12,      ///< [J]
-  sum_inverted = 13,   ///< tetrahedra with J ≤ 0
+  sum_vertex_facet = 10,  ///< and of contacts with volumes [J]
+  sum_edge_edge = 11,     ///< [J]
+  sum_solid = 12,         ///< [J]
+  sum_inverted = 13,      ///< tetrahedra with J ≤ 0
   sum_columns = 14
 };
 
@@ -42,6 +42,9 @@ struct StepRow {
   /// at the end [J]; without StepSettings::energies elastic is that of tetrahedra alone, and contact is 0
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
   int inverted = 0;  ///< tetrahedra with J ≤ 0
+  /// at the last detection: contacts with volumes, vertices inside, the deepest [m]
+  int volume_contacts = 0, vertices_inside = 0;
+  float deepest = 0;
 };
 
 /// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
@@ -250,6 +253,9 @@ struct FinishStep {
     row.elastic = sums_end[sum_membrane] + sums_end[sum_bending] + sums_end[sum_solid];
     row.inverted = static_cast<int>(sums_end[sum_inverted]);
     row.contact = sums_end[sum_vertex_facet] + sums_end[sum_edge_edge];
+    row.volume_contacts = c.volume_contacts;
+    row.vertices_inside = c.vertices_inside;
+    row.deepest = float_from_bits(c.deepest);
     rows[c.steps_done] = row;
     if (c.active != 0) ++c.steps_done;
   }

@@ -78,7 +78,7 @@ struct SpanMoves {
   PairGuessView view;
 
   OGC_HD void operator()(int v) const {
-    if (view.lists.surface.is_inside_solid(v)) return;
+    if (view.lists.surface.is_off_surface(v)) return;
     const Vector<double> w = move_of(view.lists.positions[v], view.target[v]);
     const double part[3] = {w.x, w.y, w.z};
     for (int k = 0; k < 3; ++k) {
@@ -114,7 +114,7 @@ struct BeginMoves {
 
   OGC_HD void operator()(int v) const {
     const float longest = view.state->longest;
-    const bool is_whole = longest == largest_float || view.lists.surface.is_inside_solid(v);
+    const bool is_whole = longest == largest_float || view.lists.surface.is_off_surface(v);
     const Vec to = is_whole ? view.target[v] : truncate({view.lists.positions[v], longest}, view.target[v]).position;
     view.way[v] = view.position[v] = to;
     view.share[v] = view.next[v] = 1;
@@ -149,7 +149,7 @@ struct GuessVertexFacet : NearVertexFacet {
 
   /// As of NearVertexFacet, and no more than what the pair's own moves allow.
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
-    if (surface.is_inside_solid(search.owner)) return -1.0F;
+    if (surface.is_off_surface(search.owner)) return -1.0F;
     const float near = NearVertexFacet::candidate_limit(search, offer);
     if (near < 0) return near;
     const int* corner = surface.facets[offer.primitive].corner;

@@ -197,7 +197,7 @@ struct SortHalfSpaces {
   OGC_HD void operator()(int i) const {
     const int v = i / most_planes, k = i % most_planes, count = lists.counts[v];
     if (k == 0)
-      lists.bound[v] = lists.surface.is_inside_solid(v)
+      lists.bound[v] = lists.surface.is_off_surface(v)
                            ? largest_float
                            : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
     if (k >= count) return;

@@ -44,22 +44,27 @@ struct VertexSeeds {
 /// The complex on the backend.
 struct SurfaceView {
   int vertex_count = 0, edge_count = 0, triangle_count = 0;
-  const Facet* facets = nullptr;               ///< by triangle
-  const EdgeEnds* edges = nullptr;             ///< by edge
-  Rows neighbours;                             ///< V_v of Eq. 8 and 15
-  Rows opposites;                              ///< V_e of Eq. 9
-  Rows vertex_edges, vertex_triangles;         ///< by vertex: numbers of its edges and of its triangles
-  const std::uint8_t* inside_solid = nullptr;  ///< by vertex; null where there is none (compare::Topology)
-  const int* groups = nullptr;                 ///< pairs whose vertices all carry one number ≥ 0 are left out
-  const EdgeSeeds* edge_seeds = nullptr;       ///< by edge
-  const FacetSeeds* facet_seeds = nullptr;     ///< by triangle
-  const VertexSeeds* vertex_seeds = nullptr;   ///< by vertex
+  const Facet* facets = nullptr;              ///< by triangle
+  const EdgeEnds* edges = nullptr;            ///< by edge
+  Rows neighbours;                            ///< V_v of Eq. 8 and 15
+  Rows opposites;                             ///< V_e of Eq. 9
+  Rows vertex_edges, vertex_triangles;        ///< by vertex: numbers of its edges and of its triangles
+  const std::uint8_t* off_surface = nullptr;  ///< by vertex; null where there is none (compare::Topology)
+  const int* groups = nullptr;                ///< pairs whose vertices all carry one number ≥ 0 are left out
+  const EdgeSeeds* edge_seeds = nullptr;      ///< by edge
+  const FacetSeeds* facet_seeds = nullptr;    ///< by triangle
+  const VertexSeeds* vertex_seeds = nullptr;  ///< by vertex
   /// pairs are left out where a vertex of one side stands in the row of one of the other; without offsets where there
   /// is none
   Rows partners;
+  /// What searches look at: numbers of vertices, then of edges, then of facets, without those of volumes; null: all of
+  /// them, in order
+  const int* searched = nullptr;
+  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< how many
 
-  /// Whether the vertex is on no boundary triangle, so that no detection looks at it (method.md §8.3).
-  OGC_HD bool is_inside_solid(int v) const { return inside_solid != nullptr && inside_solid[v] != 0; }
+  /// Whether no detection looks at the vertex: inside a solid it is on no boundary triangle (method.md §8.3), and what
+  /// is of a volume is asked for by others (volume_depth.hpp).
+  OGC_HD bool is_off_surface(int v) const { return off_surface != nullptr && off_surface[v] != 0; }
 
   /// A face as one number: vertices, then edges, then triangles, so that numbers have the order of compare::Face.
   OGC_HD int vertex_face(int v) const { return v; }

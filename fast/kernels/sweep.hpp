@@ -69,6 +69,14 @@ struct TetrahedronIncidence;
 struct TetrahedronRow;
 struct TetrahedronGradients;
 struct SolidMaterial;
+struct VolumeIncidence;
+
+/// The contacts of all slots with volumes: rows of fixed length (fast/kernels/volumes/).
+struct VolumeStream {
+  const VolumeIncidence* contacts = nullptr;  ///< row of a slot: from slot · capacity
+  const int* counts = nullptr;                ///< by slot: how many of its row there are
+  int capacity = 0;                           ///< of a row
+};
 
 /// The vertex of an encoded index. No branch: a processor cannot predict which buffer is read.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
@@ -107,6 +115,7 @@ struct SweepView {
   const TetrahedronGradients* gradients = nullptr;   ///< beside `tetrahedra`; null where no body damps
   const SolidMaterial* solids = nullptr;             ///< by body
   const Symmetric3* solid_start = nullptr;           ///< Gᵗ by tetrahedron
+  VolumeStream volumes;                              ///< read where there are volumes
 
   /// Whether it is another iteration's turn.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }

@@ -1,6 +1,6 @@
 // Who is inside a volume, or nearer to it than r (§3.9, method.md §9): each part of its surface is asked by itself, by
-// the side of its face that is nearest to a point. The search of the nearest begins at the distance of a triangle of
-// the part, so that no point is forgotten because it lies deep, and shrinks from there.
+// the side of its face that is nearest to a point. The search of the nearest begins at the distance of a facet of the
+// part, so that no point is forgotten because it lies deep, and shrinks from there.
 //
 // The side of x at a face, all in rounded double:
 //
@@ -10,23 +10,40 @@
 //   vertex     that of the edge whose direction from the vertex lies nearest to x's: on the sphere about the vertex the
 //              way from x to that direction crosses no triangle, as a crossing would lie nearer
 //   rim        outside: an edge of one triangle, and a vertex of such an edge, have no inner side
+//
+// Beyond the box of a part nobody is inside of it, so that most points need no search of most parts.
 #pragma once
 
 #include "fast/kernels/block.hpp"
 #include "fast/kernels/bvh.hpp"
 #include "fast/kernels/closest_face.hpp"
+#include "fast/kernels/separation.hpp"
 
 namespace ogc::fast {
 
-/// A volume on the backend.
+/// A part of a volume with a tree of its own: then the search of one meets no facet of others.
+struct VolumePart {
+  TreeView tree;            ///< of its facets, refitted at these positions
+  int* arrivals = nullptr;  ///< as in RefitTrees
+  int first_item = 0;       ///< of its places among those of all parts, each filled up to whole warps
+};
+
+/// A volume, or all of a scene, on the backend.
 struct VolumeView {
   SurfaceView surface;
-  PaddedVecs positions;           ///< by vertex [m]
-  TreeView tree;                  ///< of all facets, refitted at these positions
-  const int* part_of = nullptr;   ///< by vertex: number of its part
-  const int* first_of = nullptr;  ///< by part: one of its facets
+  PaddedVecs positions;               ///< by vertex [m]
+  const VolumePart* parts = nullptr;  ///< by part
   int part_count = 0;
   float contact_radius = 0;  ///< r [m]
+};
+
+/// What a part is to a point.
+enum class VolumeSide : int { far, inside, near };
+
+/// The facet of a part that is nearest to a point, or one of them with the nearest face.
+struct NearestFacet {
+  int facet = -1;
+  VolumeSide side = VolumeSide::far;  ///< far: outside, and not nearer than r
 };
 
 /// One contact of a point with a part; c is the closest point of `face`.
@@ -43,34 +60,41 @@ class VolumeQuestion {
  public:
   OGC_HD VolumeQuestion(const VolumeView& volume, const Vec& point) : volume_(volume), x_(point) {}
 
-  /// Calls visit(contact) for each contact with a part: one at the nearest face of a part that holds the point; else
-  /// one for each face in whose outward block the point lies nearer than r.
+  /// The search begins at the distance of `first`, one of the part's facets, which decides the time alone.
+  OGC_HD NearestFacet nearest_of(int part, int first) const {
+    const Box box = box_of(part);
+    if (squared_gap(box, {x_, x_}) > gap_limit(volume_.contact_radius)) return {first, VolumeSide::far};
+    const Nearest nearest = search(part, first);
+    if (is_in(box) && !is_outside(nearest.face)) return {nearest.facet, VolumeSide::inside};
+    return {nearest.facet, is_near(nearest.facet, nearest.distance) ? VolumeSide::near : VolumeSide::far};
+  }
+
+  /// Calls visit(contact) for each contact with a part, of which `nearest` tells: one at the nearest face of a part
+  /// that holds the point; else one for each face in whose outward block the point lies nearer than r.
   template <class Visit>
-  OGC_HD void visit_contacts(int part, Visit visit) const {
-    const Nearest nearest = nearest_of(part);
-    if (!is_outside(nearest.face)) {
-      visit(contact_at(nearest.face, true));
+  OGC_HD void visit_contacts(int part, const NearestFacet& nearest, Visit visit) const {
+    if (nearest.side == VolumeSide::far) return;
+    const int nearest_face = face_of(nearest.facet);
+    if (nearest.side == VolumeSide::inside) {
+      visit(contact_at(nearest_face, true));
       return;
     }
-    if (!is_near(nearest.triangle, nearest.distance)) return;
-    // x lies in the block of the nearest face, whatever rounding says of it: who is near has a contact
-    visit(contact_at(nearest.face, false));
+    // x lies in the block of the nearest face, whatever rounding says of it: who is near has a contact, if it is not
+    // beyond the box of a part that would hold it
+    if (is_outside(nearest_face)) visit(contact_at(nearest_face, false));
     const float limit = gap_limit(volume_.contact_radius);
-    for_each_near(volume_.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
-      const int t = offer.primitive;
-      if (part_of(t) != part) return;
-      const int face = touched_face(t);
-      if (face >= 0 && face != nearest.face && is_outside(face)) visit(contact_at(face, false));
+    for_each_near(volume_.parts[part].tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+      const int face = touched_face(offer.primitive);
+      if (face >= 0 && face != nearest_face && is_outside(face)) visit(contact_at(face, false));
     });
   }
 
  private:
   struct Nearest {
     Distance distance;
-    int face = -1, triangle = -1;
+    int face = -1, facet = -1;
   };
 
-  OGC_HD int part_of(int t) const { return volume_.part_of[volume_.surface.facets[t].corner[0]]; }
   OGC_HD Corners corners(int t) const {
     const Facet& facet = volume_.surface.facets[t];
     return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
@@ -86,24 +110,41 @@ class VolumeQuestion {
     return volume_.surface.triangle_face(t);
   }
 
-  /// Of faces at one distance the lowest-numbered: numbers have the order of dimensions.
-  OGC_HD Nearest nearest_of(int part) const {
+  /// Of faces at one distance the lowest-numbered: numbers have the order of dimensions. Only then, and in the end,
+  /// faces are asked for, whose predicates are exact.
+  OGC_HD Nearest search(int part, int first) const {
     Nearest nearest;
     nearest.distance.value = infinity;
     float limit = infinity;
     const auto meet = [&](int t) {
       const Distance d = point_triangle_distance(x_, corners(t));
       if (d.value > nearest.distance.value) return;
-      const int face = face_of(t);
-      if (d.value == nearest.distance.value && face > nearest.face) return;
-      nearest = {d, face, t};
+      if (d.value == nearest.distance.value) {
+        if (nearest.face < 0) nearest.face = face_of(nearest.facet);
+        const int face = face_of(t);
+        if (face < nearest.face) nearest.face = face, nearest.facet = t;
+        return;
+      }
+      nearest = {d, -1, t};
       limit = gap_limit(round_up(add(d.value, d.slack)));
     };
-    meet(volume_.first_of[part]);
-    for_each_near(volume_.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
-      if (part_of(offer.primitive) == part) meet(offer.primitive);
+    meet(first);
+    for_each_near(volume_.parts[part].tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+      if (offer.gap > limit || offer.primitive == first) return;
+      if (!is_beyond(separation(x_, corners(offer.primitive)), limit)) meet(offer.primitive);
     });
+    if (nearest.face < 0) nearest.face = face_of(nearest.facet);
     return nearest;
+  }
+
+  /// The box of a part, which no rounding moves.
+  OGC_HD Box box_of(int part) const {
+    const TreeView& tree = volume_.parts[part].tree;
+    return tree.node(tree.levels - 1, 0).whole();
+  }
+  OGC_HD bool is_in(const Box& box) const {
+    return box.lower.x <= x_.x && x_.x <= box.upper.x && box.lower.y <= x_.y && x_.y <= box.upper.y &&
+           box.lower.z <= x_.z && x_.z <= box.upper.z;
   }
 
   /// Whether x is nearer than r to a facet that is at this distance; exact where its slack leaves that open.

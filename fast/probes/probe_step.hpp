@@ -14,8 +14,8 @@ namespace ogc::fast {
 template <class Backend>
 compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
   StepState<Backend>& state = simulation.state();
-  StepTrace<Backend> trace(simulation.backend(), state, simulation.detection(), simulation.topology(),
-                           simulation.detection_radius());
+  StepTrace<Backend> trace(simulation.backend(), simulation.step(), state, simulation.detection(), simulation.volumes(),
+                           simulation.sweep().vertices(), simulation.topology());
   simulation.observe(&trace);
   simulation.advance(1);
   simulation.observe(nullptr);

@@ -10,23 +10,12 @@
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/probes/probe_memory.hpp"
+#include "fast/probes/sweep_records.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/sweep.hpp"
+#include "fast/stages/volumes.hpp"
 
 namespace ogc::fast {
-
-/// The contacts of a question as a detection would leave them.
-struct ContactRecords {
-  std::vector<VertexFacetRecord> vertex_facet;  ///< by record
-  std::vector<EdgeEdgeRecord> edge_edge;        ///< by record
-  std::vector<int> offsets;                     ///< of the incidences by vertex, vertex_count + 1
-};
-
-/// Those of a question.
-ContactRecords contact_records(const compare::SweepIn& in);
-
-/// The order of a sweep whose colours are given; −1: not free.
-Colouring colouring_of(std::span<const compare::Index> colour);
 
 /// Records on the backend with their incidences.
 template <class Backend>
@@ -125,7 +114,9 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   const auto vectors = [&](std::span<const compare::Vec3f> x) { return memory.template in<Vec>(whole(x)); };
   const RestState rest = rest_state_of({in.scene, in.topology}, *in.rest);
   const StepSettings settings = step_settings(*in.scene, in.old.size(), false);
-  Sweep<Backend> sweep(backend, rest, colouring_of(in.colour), *in.topology, *in.scene);
+  const Colouring colouring = colouring_of(in.colour);
+  Sweep<Backend> sweep(backend, rest, colouring, *in.topology, *in.scene);
+  Volumes<Backend> volumes({}, volume_parts(*in.scene, *in.topology), sweep.slots());
   StepControl control;
   control.active = 1;
   typename Backend::template Buffer<StepControl> control_buffer;
@@ -152,6 +143,10 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   sweep.reserve_contacts(contacts.incidences());
   sweep.resolve_contacts(contacts.view(), previous);
   sweep.complete(view);
+  if (volumes.is_used()) {
+    volumes.put(volume_rows(in, rest, colouring));
+    view.volumes = volumes.stream();
+  }
   sweep.iterate(view);
 
   backend.synchronize();

@@ -9,12 +9,10 @@
 
 #include "compare/stages/volume_depth.hpp"
 #include "compare/stages/volume_force.hpp"
-#include "fast/kernels/volume_depth.hpp"
-#include "fast/kernels/volume_force.hpp"
 #include "fast/probes/download.hpp"
 #include "fast/probes/probe_forces.hpp"
-#include "fast/stages/bvh.hpp"
 #include "fast/stages/surface.hpp"
+#include "fast/stages/volumes.hpp"
 
 namespace ogc::fast {
 
@@ -62,46 +60,31 @@ compare::ForceOut probe_volume_force(Backend& backend, const compare::VolumeForc
   return out;
 }
 
-/// The parts of a volume, as its questions name them.
-struct VolumeParts {
-  std::vector<int> part_of;   ///< by vertex; −1 where it is on no triangle
-  std::vector<int> first_of;  ///< by part: its lowest-numbered triangle
-
-  explicit VolumeParts(const compare::Topology& topology) {
-    std::vector<int> part_of_component(static_cast<std::size_t>(topology.vertex_count), -1);
-    part_of.assign(part_of_component.size(), -1);
-    for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
-      for (const compare::Index v : topology.triangles[t]) {
-        int& part = part_of_component[static_cast<std::size_t>(topology.component[static_cast<std::size_t>(v)])];
-        if (part < 0) {
-          part = static_cast<int>(first_of.size());
-          first_of.push_back(static_cast<int>(t));
-        }
-        part_of[static_cast<std::size_t>(v)] = part;
-      }
-    }
-  }
-};
-
-/// How many contacts each point has.
-struct CountVolumeContacts {
+/// How many contacts each point has, and where its next search begins.
+struct CountAtPoint {
   VolumeView volume;
-  const Vec* points;  ///< who asks [m]
-  int* count;         ///< by point, written
+  const Vec* points;       ///< who asks [m]
+  const int* first_facet;  ///< by part: any of its facets
+  int* nearest;            ///< by point, part by part, written: as AskVolumes has it
+  int* count;              ///< by point, written
 
   OGC_HD void operator()(int i) const {
     const VolumeQuestion question(volume, points[i]);
     int found = 0;
-    for (int part = 0; part < volume.part_count; ++part)
-      question.visit_contacts(part, [&](const FoundVolumeContact&) { ++found; });
+    for (int part = 0; part < volume.part_count; ++part) {
+      const NearestFacet answer = question.nearest_of(part, first_facet[part]);
+      nearest[i * volume.part_count + part] = answer_of(answer);
+      question.visit_contacts(part, answer, [&](const FoundVolumeContact&) { ++found; });
+    }
     count[i] = found;
   }
 };
 
 /// The contacts of each point, part after part.
-struct FindVolumeContacts {
+struct FindAtPoint {
   VolumeView volume;
   const Vec* points;          ///< who asks [m]
+  const int* nearest;         ///< of CountAtPoint
   const int* first;           ///< by point: place of its first contact
   FoundVolumeContact* found;  ///< written
 
@@ -109,57 +92,78 @@ struct FindVolumeContacts {
     const VolumeQuestion question(volume, points[i]);
     int at = first[i];
     for (int part = 0; part < volume.part_count; ++part)
-      question.visit_contacts(part, [&](const FoundVolumeContact& contact) { found[at++] = contact; });
+      question.visit_contacts(part, nearest_in(nearest[i * volume.part_count + part]),
+                              [&](const FoundVolumeContact& contact) { found[at++] = contact; });
   }
 };
+
+/// A contact of `point` in the words of the contract.
+inline compare::VolumeContact contact_of(compare::Index point, const FoundVolumeContact& c,
+                                         const compare::Topology& topology) {
+  return {.point = point,
+          .inside = static_cast<std::uint8_t>(c.inside),
+          .triangle = c.triangle,
+          .face = face_of(c.face, topology),
+          .weights = {c.weights[0], c.weights[1], c.weights[2]},
+          .direction = {c.direction.x, c.direction.y, c.direction.z},
+          .depth = c.depth};
+}
+
+/// In the order of the contract.
+inline void sort_contacts(std::vector<compare::VolumeContact>& contacts) {
+  std::ranges::sort(contacts, {},
+                    [](const compare::VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
+}
 
 /// The stage `volume_depth`.
 template <class Backend>
 compare::VolumeDepthOut probe_volume_depth(Backend& backend, const compare::VolumeDepthIn& in) {
   const Surface<Backend> surface(*in.topology, {});
-  Bvh<Backend> tree(surface.view());
+  const VolumeParts parts = volume_parts(*in.topology, in.positions);
+  VolumeTrees<Backend> trees(parts);
   ProbeMemory<Backend> memory(backend);
   const auto copied = [](std::span<const compare::Vec3f> x) { return std::vector<compare::Vec3f>(x.begin(), x.end()); };
-  const Vec* positions = memory.template in<Vec>(copied(in.positions));
-  const float* no_radius = memory.template in<float>(std::vector<float>{0});
-  tree.rebuild(backend, positions);
-  const RefitTrees refit = tree.refit(positions, no_radius);
-  backend.for_each(refit.count(), refit);
-  const VolumeParts parts(*in.topology);
-  const VolumeView volume{.surface = surface.view(),
-                          .positions = {memory.padded(copied(in.positions))},
-                          .tree = tree.facets(),
-                          .part_of = memory.template in<int>(parts.part_of),
-                          .first_of = memory.template in<int>(parts.first_of),
-                          .part_count = static_cast<int>(parts.first_of.size()),
-                          .contact_radius = in.contact_radius};
+  trees.refit(backend, surface.view(), memory.template in<Vec>(copied(in.positions)));
+  const VolumeView volume{
+      surface.view(), {memory.padded(copied(in.positions))}, trees.parts(), trees.count(), in.contact_radius};
   const Vec* points = memory.template in<Vec>(copied(in.points));
   const int n = static_cast<int>(in.points.size());
-  std::vector<int> count;
+  std::vector<int> first_facet, count, nearest;
+  for (const std::vector<int>& facets : parts) first_facet.push_back(facets.front());
   int* const counted = memory.template out<int>(count, in.points.size());
-  backend.for_each(n, CountVolumeContacts{volume, points, counted});
+  int* const answers = memory.template out<int>(nearest, in.points.size() * parts.size());
+  backend.for_each(n, CountAtPoint{volume, points, memory.template in<int>(first_facet), answers, counted});
   memory.fetch();
   std::vector<int> first(count.size() + 1);
   for (std::size_t i = 0; i < count.size(); ++i) first[i + 1] = first[i] + count[i];
   ProbeMemory<Backend> lists(backend);
   std::vector<FoundVolumeContact> found;
   FoundVolumeContact* const to = lists.template out<FoundVolumeContact>(found, static_cast<std::size_t>(first.back()));
-  backend.for_each(n, FindVolumeContacts{volume, points, lists.template in<int>(first), to});
+  backend.for_each(n, FindAtPoint{volume, points, answers, lists.template in<int>(first), to});
   lists.fetch();
   compare::VolumeDepthOut out;
   for (std::size_t i = 0; i < count.size(); ++i)
-    for (int k = first[i]; k < first[i + 1]; ++k) {
-      const FoundVolumeContact& c = found[static_cast<std::size_t>(k)];
-      out.contacts.push_back({.point = static_cast<compare::Index>(i),
-                              .inside = static_cast<std::uint8_t>(c.inside),
-                              .triangle = c.triangle,
-                              .face = face_of(c.face, *in.topology),
-                              .weights = {c.weights[0], c.weights[1], c.weights[2]},
-                              .direction = {c.direction.x, c.direction.y, c.direction.z},
-                              .depth = c.depth});
-    }
-  std::ranges::sort(out.contacts, {},
-                    [](const compare::VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
+    for (int k = first[i]; k < first[i + 1]; ++k)
+      out.contacts.push_back(
+          contact_of(static_cast<compare::Index>(i), found[static_cast<std::size_t>(k)], *in.topology));
+  sort_contacts(out.contacts);
+  return out;
+}
+
+/// The contacts of a simulation's last search, by the vertices of its slots; waits for what is enqueued.
+template <class Backend>
+compare::VolumeDepthOut download_volume_contacts(Backend& backend, const Volumes<Backend>& volumes,
+                                                 const SweepVertex* vertices, const compare::Topology& topology) {
+  compare::VolumeDepthOut out;
+  if (!volumes.is_used()) return out;
+  const auto slots = static_cast<std::size_t>(volumes.slots()), capacity = static_cast<std::size_t>(volumes.capacity());
+  const std::vector<int> counts = download_items(backend, volumes.stream().counts, slots);
+  const std::vector<FoundVolumeContact> found = download_items(backend, volumes.found(), slots * capacity);
+  const std::vector<SweepVertex> of_slot = download_items(backend, vertices, slots);
+  for (std::size_t slot = 0; slot < slots; ++slot)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(counts[slot]); ++k)
+      out.contacts.push_back(contact_of(of_slot[slot].vertex, found[slot * capacity + k], topology));
+  sort_contacts(out.contacts);
   return out;
 }
 

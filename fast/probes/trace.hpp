@@ -9,6 +9,7 @@
 
 #include "compare/stages/step.hpp"
 #include "fast/probes/download.hpp"
+#include "fast/probes/probe_volumes.hpp"
 #include "fast/stages/step.hpp"
 
 namespace ogc::fast {
@@ -17,14 +18,16 @@ namespace ogc::fast {
 template <class Backend>
 class StepTrace : public StepObserver {
  public:
-  /// `detection_radius`: as in StepSettings.
-  StepTrace(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection,
-            const compare::Topology& topology, float detection_radius)
+  /// `vertices`: of the slots, on the backend.
+  StepTrace(Backend& backend, Step<Backend>& step, StepState<Backend>& state, Detection<Backend>& detection,
+            const Volumes<Backend>& volumes, const SweepVertex* vertices, const compare::Topology& topology)
       : backend_(backend),
+        step_(step),
         state_(state),
         detection_(detection),
-        topology_(topology),
-        detection_radius_(detection_radius) {}
+        volumes_(volumes),
+        vertices_(vertices),
+        topology_(topology) {}
 
   void begin() override {
     events_.clear();
@@ -75,7 +78,10 @@ class StepTrace : public StepObserver {
     // No iteration yet: a round of the guess loop, which lists no contacts. They are listed to be looked at, and
     // forgotten.
     const bool is_unlisted = control.iterations == 0;
-    if (is_unlisted) detection_.list_contacts(detection_radius_);
+    if (is_unlisted) {
+      step_.find_in_volumes(previous);
+      detection_.list_contacts(step_.detection_radius());
+    }
     set_contacts(event);
     if (is_unlisted) detection_.forget_contacts();
     return event;
@@ -87,13 +93,16 @@ class StepTrace : public StepObserver {
     event.edge_edge = {std::move(sets.edge_edge), std::move(sets.d_min_edge)};
     event.bound = std::move(sets.bound);
     event.planes = detection_.download_planes();
+    event.volumes = download_volume_contacts(backend_, volumes_, vertices_, topology_);
   }
 
   Backend& backend_;
+  Step<Backend>& step_;
   StepState<Backend>& state_;
   Detection<Backend>& detection_;
+  const Volumes<Backend>& volumes_;
+  const SweepVertex* vertices_;
   const compare::Topology& topology_;
-  float detection_radius_;
   std::array<int, 3> seen_{};  ///< by kind: events counted at the last look
   std::vector<compare::StepEvent> events_;
 };

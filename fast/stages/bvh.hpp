@@ -12,25 +12,43 @@
 
 namespace ogc::fast {
 
+/// A tree over so many primitives, without memory.
+inline TreeView shape_of_tree(int count) {
+  TreeView tree;
+  tree.count = count;
+  int total = 0;
+  do {
+    tree.start[tree.levels] = total;
+    total += level_size(count, tree.levels);
+  } while (level_size(count, tree.levels++) > 1 || tree.levels < 2);
+  return tree;
+}
+/// Nodes of all levels of such a tree.
+inline int node_count(const TreeView& tree) {
+  return tree.start[tree.levels - 1] + level_size(tree.count, tree.levels - 1);
+}
+
 /// The trees of one surface.
 template <class Backend>
 class Bvh {
  public:
-  /// In index order until the first rebuild: correct, but slow.
-  explicit Bvh(const SurfaceView& surface) : surface_(surface) {
-    const std::size_t total = static_cast<std::size_t>(surface.vertex_count) + surface.edge_count +
-                              surface.triangle_count;
-    std::vector<int> order(total);
-    std::iota(order.begin(), order.begin() + edges_at(), 0);
-    std::iota(order.begin() + edges_at(), order.begin() + facets_at(), 0);
-    std::iota(order.begin() + facets_at(), order.end(), 0);
+  /// In index order until the first rebuild: correct, but slow. `searched`: Surface::searched of the same surface.
+  Bvh(const SurfaceView& surface, const std::vector<int>& searched) : surface_(surface) {
+    const std::size_t total = static_cast<std::size_t>(facets_at()) + surface.searched_facets;
+    std::vector<int> order = searched;
+    if (order.empty()) {
+      order.resize(total);
+      std::iota(order.begin(), order.begin() + edges_at(), 0);
+      std::iota(order.begin() + edges_at(), order.begin() + facets_at(), 0);
+      std::iota(order.begin() + facets_at(), order.end(), 0);
+    }
     order_.upload(order.data(), total);
     keys_.resize(total);
     vertex_limit_.resize(static_cast<std::size_t>(surface.vertex_count));
     no_radius_.resize(1);
     no_radius_.fill_zero();
-    edges_ = allocate(surface.edge_count, edge_nodes_, edge_arrivals_, order_.data() + edges_at());
-    facets_ = allocate(surface.triangle_count, facet_nodes_, facet_arrivals_, order_.data() + facets_at());
+    edges_ = allocate(surface.searched_edges, edge_nodes_, edge_arrivals_, order_.data() + edges_at());
+    facets_ = allocate(surface.searched_facets, facet_nodes_, facet_arrivals_, order_.data() + facets_at());
   }
 
   /// On the backend; boxes and reaches are those of the last refit.
@@ -56,7 +74,7 @@ class Bvh {
   void rebuild(Backend& backend, const Vec* positions) {
     const RefitTrees boxes = refit(positions, no_radius_.data());
     backend.for_each(boxes.count(), boxes);
-    const int total = facets_at() + surface_.triangle_count;
+    const int total = facets_at() + surface_.searched_facets;
     backend.for_each(total, HilbertKeys{.surface = surface_,
                                         .positions = positions,
                                         .facets = facets_,
@@ -70,19 +88,13 @@ class Bvh {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  int edges_at() const { return surface_.vertex_count; }
-  int facets_at() const { return surface_.vertex_count + surface_.edge_count; }
+  int edges_at() const { return surface_.searched_vertices; }
+  int facets_at() const { return surface_.searched_vertices + surface_.searched_edges; }
 
   static TreeView allocate(int count, Buffer<Quad>& nodes, Buffer<int>& arrivals, const int* order) {
-    TreeView tree;
+    TreeView tree = shape_of_tree(count);
     tree.order = order;
-    tree.count = count;
-    int total = 0;
-    do {
-      tree.start[tree.levels] = total;
-      total += level_size(count, tree.levels);
-    } while (level_size(count, tree.levels++) > 1 || tree.levels < 2);
-    const std::vector<Quad> all(static_cast<std::size_t>(total));
+    const std::vector<Quad> all(static_cast<std::size_t>(node_count(tree)));
     nodes.upload(all.data(), all.size());
     tree.nodes = nodes.data();
     arrivals.resize(all.size());

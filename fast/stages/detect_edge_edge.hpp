@@ -7,7 +7,7 @@ namespace ogc::fast {
 
 /// One for each edge.
 inline Searches<DetectEdgeEdge> searches_of(const DetectEdgeEdge& query) {
-  return {query.tree, query.surface.edge_count, query};
+  return {query.tree, query.surface.searched_edges, query};
 }
 
 }  // namespace ogc::fast

@@ -9,7 +9,7 @@ namespace ogc::fast {
 
 /// One for each vertex.
 inline Searches<DetectVertexFacet> searches_of(const DetectVertexFacet& query) {
-  return {query.tree, query.surface.vertex_count, query};
+  return {query.tree, query.surface.searched_vertices, query};
 }
 
 }  // namespace ogc::fast

@@ -59,7 +59,7 @@ class Detection {
             const std::vector<std::uint8_t>& is_fixed = {})
       : backend_(backend),
         surface_(topology, exclusions),
-        bvh_(surface_.view()),
+        bvh_(surface_.view(), surface_.searched()),
         skin_(surface_.view(), skin),
         lists_(surface_.view(), capacity > 0 ? capacity : 1024 + 4 * topology.vertex_count),
         planes_(bounds, is_fixed) {
@@ -110,9 +110,9 @@ class Detection {
     backend_.for_each(1, ForgetNoted{lists_.view()});
     backend_.search(
         Searches<GuessEdgeEdge>{
-            bvh_.edges(), surface_.view().edge_count, {{edge_edge_query(contact_radius), reach}, local}},
+            bvh_.edges(), surface_.view().searched_edges, {{edge_edge_query(contact_radius), reach}, local}},
         Searches<GuessVertexFacet>{
-            bvh_.facets(), surface_.view().vertex_count, {{vertex_facet_query(contact_radius), reach}, local}});
+            bvh_.facets(), surface_.view().searched_vertices, {{vertex_facet_query(contact_radius), reach}, local}});
   }
 
   /// As kernels see them; positions are those of the last detection.
@@ -205,8 +205,9 @@ class Detection {
     const DetectVertexFacet vertex_facet = vertex_facet_query(contact_radius);
     const DetectEdgeEdge edge_edge = edge_edge_query(contact_radius);
     if (planes_.is_used()) {
-      backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.edge_count, {edge_edge, query_radius}},
-                      Searches<NearVertexFacet>{bvh_.facets(), surface.vertex_count, {vertex_facet, query_radius}});
+      backend_.search(
+          Searches<NearEdgeEdge>{bvh_.edges(), surface.searched_edges, {edge_edge, query_radius}},
+          Searches<NearVertexFacet>{bvh_.facets(), surface.searched_vertices, {vertex_facet, query_radius}});
       planes_.make(backend_, surface, vertex_facet.positions, lists, bound_relaxation, query_radius, bound_.data());
     } else {
       backend_.search(searches_of(edge_edge), searches_of(vertex_facet));

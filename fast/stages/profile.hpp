@@ -11,11 +11,11 @@
 namespace ogc::fast {
 
 /// What `--profile` tells apart.
-enum class StepStage : int { begin, detection, initial_guess, sweep, metrics };
+enum class StepStage : int { begin, detection, initial_guess, sweep, metrics, volumes };
 
 /// Their names, in the order of the enumeration.
 inline std::vector<std::string> step_stage_names() {
-  return {"begin", "detection", "initial_guess", "sweep", "metrics"};
+  return {"begin", "detection", "initial_guess", "sweep", "metrics", "volumes"};
 }
 
 /// The clock of one simulation.
@@ -44,7 +44,7 @@ class StageClock {
   }
 
  private:
-  static constexpr std::size_t none = 5;  ///< no stage
+  static constexpr std::size_t none = 6;  ///< no stage
 
   /// Ends what has been measured so far and begins to measure `next`; returns what was measured.
   std::size_t change_to(std::size_t next) {

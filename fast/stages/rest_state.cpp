@@ -162,7 +162,7 @@ void add_contact_materials(const compare::Scene& scene, RestState& rest) {
 }  // namespace
 
 RestState build_rest_state(const compare::Scene& scene, const compare::Topology& topology) {
-  refuse_volumes(scene, "vbd", "leave the body a surface");
+  refuse_solid_volumes(scene, "vbd");
   RestState rest = without_shape(scene);
   add_masses(scene, rest);
   add_hinges(scene, topology, rest);

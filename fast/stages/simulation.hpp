@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -33,9 +34,10 @@ class ResidentSimulation : public compare::Simulation {
         detection_(backend_, topology_, exclusions_, list_capacity, 0, scene_.settings.bounds, fixed_vertices()),
         pair_guess_(scene_.settings, fixed_vertices()),
         sweep_(backend_, rest_, colouring_, topology_, scene_),
+        volumes_(detection_.surface(), volume_parts(scene_, topology_), sweep_.slots()),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
-        step_(backend_, state_, detection_, pair_guess_, sweep_, clock_,
+        step_(backend_, state_, detection_, pair_guess_, sweep_, volumes_, clock_,
               step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
     fill_state();
@@ -70,6 +72,7 @@ class ResidentSimulation : public compare::Simulation {
     result.bounds = last_bounds();
     result.query_radius = query_radius_;
     result.capacities = detection_.capacities();
+    if (volumes_.is_used()) result.capacities.push_back(volumes_.capacity());
     result.planes = detection_.download_planes();
     return result;
   }
@@ -78,7 +81,12 @@ class ResidentSimulation : public compare::Simulation {
     upload_motion(snapshot.positions, snapshot.velocities);
     step_number_ = snapshot.step;
     if (snapshot.capacities.empty()) return;
-    detection_.reserve(snapshot.capacities);
+    std::vector<std::int64_t> capacities = snapshot.capacities;
+    if (volumes_.is_used()) {
+      volumes_.reserve(row_of_volumes(capacities.back()));
+      capacities.pop_back();
+    }
+    detection_.reserve(capacities);
     lists_moved();
   }
 
@@ -101,9 +109,11 @@ class ResidentSimulation : public compare::Simulation {
   Backend& backend() { return backend_; }
   StepState<Backend>& state() { return state_; }
   Detection<Backend>& detection() { return detection_; }
+  Volumes<Backend>& volumes() { return volumes_; }
+  Sweep<Backend>& sweep() { return sweep_; }
   const compare::Scene& scene() const { return scene_; }
   const compare::Topology& topology() const { return topology_; }
-  float detection_radius() const { return step_.detection_radius(); }  ///< r, with the contact margin [m]
+  Step<Backend>& step() { return step_; }
 
  private:
   static constexpr int longest_frame = 64;  // rows and targets of a frame stay small; a longer one is several
@@ -174,6 +184,12 @@ class ResidentSimulation : public compare::Simulation {
       for (const compare::Index v : motion.vertices) number[static_cast<std::size_t>(v)] = s.prescribed_count++;
     }
     upload(s.prescribed_number, number);
+    if (volumes_.is_used()) {
+      std::vector<std::uint8_t> is_driven(n);
+      for (std::size_t v = 0; v < n; ++v)
+        is_driven[v] = number[v] >= 0 && scene_.bodies[static_cast<std::size_t>(rest_.body[v])].is_volume() ? 1 : 0;
+      upload(s.is_driven_volume, is_driven);
+    }
     s.prescribed_targets.resize(static_cast<std::size_t>(longest_frame) * static_cast<std::size_t>(s.prescribed_count));
   }
 
@@ -271,6 +287,9 @@ class ResidentSimulation : public compare::Simulation {
     result.contact_energy = energies_ ? row.contact : not_asked;
     result.gravity_energy = energies_ ? row.gravity : not_asked;
     result.inverted_tetrahedra = row.inverted;
+    result.volume_contacts = row.volume_contacts;
+    result.vertices_inside = row.vertices_inside;
+    result.deepest = static_cast<double>(row.deepest);
     result.smallest_distance = compare::has_planes(scene_.settings.bounds)
                                    ? row.smallest_bound
                                    : row.smallest_bound / scene_.settings.bound_relaxation;
@@ -278,7 +297,15 @@ class ResidentSimulation : public compare::Simulation {
     return result;
   }
 
+  /// Of a snapshot, where it is one. Throws std::invalid_argument.
+  int row_of_volumes(std::int64_t capacity) const {
+    if (capacity > 0 && capacity <= std::numeric_limits<int>::max() / std::max(1, sweep_.slots()))
+      return static_cast<int>(capacity);
+    throw std::invalid_argument("capacities of other lists");
+  }
+
   void grow() {
+    volumes_.grow();
     detection_.grow();
     lists_moved();
   }
@@ -312,6 +339,7 @@ class ResidentSimulation : public compare::Simulation {
   Detection<Backend> detection_;
   PairGuess<Backend> pair_guess_;
   Sweep<Backend> sweep_;
+  Volumes<Backend> volumes_;
   StageClock<Backend> clock_;
   StepState<Backend> state_;
   std::size_t moving_;

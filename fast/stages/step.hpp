@@ -2,9 +2,9 @@
 // step: flags on the device decide what happens, so a graph can record the sequence once and nothing in it waits for
 // the host.
 //
-//   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q
+//   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q; driven volumes at y, and their trees
 //   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then the contacts of the
-//               last detection are listed, and xᵗ and x where the sweep gathers them
+//               last detection are listed, those with volumes are found, and xᵗ and x where the sweep gathers them
 //               (guess=pairs: one round; where balls cut many, all moves by a certificate of pairs, and a detection)
 //   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due,
 //               X_prev ← x, detect before the next
@@ -28,12 +28,14 @@
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/metrics.hpp"
 #include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/volumes/sums.hpp"
 #include "fast/stages/detection.hpp"
 #include "fast/stages/pair_guess.hpp"
 #include "fast/stages/profile.hpp"
 #include "fast/stages/reduce.hpp"
 #include "fast/stages/step_detection.hpp"
 #include "fast/stages/sweep.hpp"
+#include "fast/stages/volumes.hpp"
 
 namespace ogc::fast {
 
@@ -100,6 +102,7 @@ struct StepState {
   Buffer<Vec> displacement;                ///< by vertex: what divides gaps [m]; empty where they are halved
   Buffer<PaddedVec> padded_start, padded;  ///< by vertex: xᵗ; x, twice as many [m]
   Buffer<float> mass;                      ///< by vertex [kg]
+  Buffer<std::uint8_t> is_driven_volume;   ///< by vertex; empty where there is none
   Buffer<int> prescribed_number;           ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
   Buffer<Vec> prescribed_targets;          ///< [step of the frame][number]
   Buffer<TriangleRest> triangles;          ///< by triangle
@@ -136,12 +139,14 @@ class Step {
  public:
   /// For a mesh of `vertices`; `state` is filled later.
   Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, PairGuess<Backend>& pair_guess,
-       Sweep<Backend>& sweep, StageClock<Backend>& clock, StepSettings settings, int vertices)
+       Sweep<Backend>& sweep, Volumes<Backend>& volumes, StageClock<Backend>& clock, StepSettings settings,
+       int vertices)
       : backend_(backend),
         state_(state),
         detection_(detection),
         pair_guess_(pair_guess),
         sweep_(sweep),
+        volumes_(volumes),
         clock_(clock),
         settings_(settings),
         reduction_(backend, vertices) {}
@@ -162,6 +167,21 @@ class Step {
       for (int i = 0; i < settings_.iterations; i += group) iterate(i, std::min(group, settings_.iterations - i));
     });
     clock_.time(StepStage::metrics, [&] { finish(); });
+  }
+
+  /// The contacts with volumes of who is at `position` (on the backend). The volumes are where the step has them
+  /// since its first detection.
+  void find_in_volumes(const Vec* position) {
+    clock_.time(StepStage::volumes, [&] {
+      volumes_.find(backend_,
+                    {.volumes = detection_.positions(),
+                     .position = position,
+                     .vertices = sweep_.vertices(),
+                     .tables = sweep_.tables(state_.previous.data()),
+                     .contact_radius = settings_.contact_radius,
+                     .control = control()},
+                    detection_.lists().overflow);
+    });
   }
 
  private:
@@ -185,7 +205,9 @@ class Step {
                                                   .step = settings_.step,
                                                   .position = s.position.data(),
                                                   .target = s.target.data(),
-                                                  .control = control()});
+                                                  .control = control(),
+                                                  .is_driven_volume = s.is_driven_volume.data()});
+    clock_.time(StepStage::volumes, [&] { volumes_.refit(backend_, s.position.data()); });
     if (s.damped) {
       backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
       backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
@@ -214,6 +236,7 @@ class Step {
 
   /// Everything is found anew, the stream of contacts included.
   void detect() {
+    find_in_volumes(state_.position.data());
     clock_.time(StepStage::detection, [&] {
       detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
                         settings_.bound_relaxation, StepLaunches{start_of_detection(nullptr), listing<EndDetection>()});
@@ -277,6 +300,7 @@ class Step {
     else
       guess_in_rounds();
     observe(compare::StepEventKind::guess);
+    find_in_volumes(state_.previous.data());
     clock_.time(StepStage::detection,
                 [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
     if (observer_ != nullptr) observer_->after_listing();
@@ -334,6 +358,7 @@ class Step {
     view.control = control();
     view.turn = turn;
     view.iteration = iteration;
+    if (volumes_.is_used()) view.volumes = volumes_.stream();
     view.contact_radius = settings_.contact_radius;
     view.friction_limit = settings_.friction_limit;
     sweep_.iterate(view, start);
@@ -350,7 +375,13 @@ class Step {
                                                   .control = control(),
                                                   .nearest = view.d_min_vertex});
     backend_.for_each(1, EndCheck{control()});
-    if (settings_.energies)
+    if (volumes_.is_used()) volumes_.count(backend_, settings_.contact_radius, control());
+    if (settings_.energies && volumes_.is_used())
+      reduction_.sum(s.sums_end.data(),
+                     VolumeSums{energy_sums(),
+                                {volumes_.stream(), sweep_.vertices(), position, settings_.contact_radius},
+                                volumes_.slots()});
+    else if (settings_.energies)
       reduction_.sum(s.sums_end.data(), energy_sums());
     else
       reduction_.sum(s.sums_end.data(), state_sums());
@@ -401,6 +432,7 @@ class Step {
   Detection<Backend>& detection_;
   PairGuess<Backend>& pair_guess_;
   Sweep<Backend>& sweep_;
+  Volumes<Backend>& volumes_;
   StageClock<Backend>& clock_;
   StepSettings settings_;
   Reduction<Backend, sum_columns> reduction_;

@@ -109,6 +109,23 @@ Facet facet_of(const compare::Topology& topology, std::size_t t) {
   return facet;
 }
 
+Searched find_searched(const compare::Topology& topology) {
+  Searched searched;
+  const auto take = [&](int number, const auto& vertices) {
+    if (!topology.on_surface(vertices)) return 0;
+    searched.numbers.push_back(number);
+    return 1;
+  };
+  for (int v = 0; v < topology.vertex_count; ++v) searched.vertices += take(v, v);
+  for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e)
+    searched.edges += take(e, topology.edges[static_cast<std::size_t>(e)]);
+  for (int t = 0; t < static_cast<int>(topology.triangles.size()); ++t)
+    searched.facets += take(t, topology.triangles[static_cast<std::size_t>(t)]);
+  // vertices inside solids are on no face, and searches leave them out by themselves
+  if (static_cast<std::size_t>(searched.edges) < topology.edges.size()) return searched;
+  return {{}, topology.vertex_count, searched.edges, searched.facets};
+}
+
 Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,
                  const compare::CompressedRows* partners, const std::vector<Facet>& facets) {
   const SeedFinder finder(topology, groups, partners);

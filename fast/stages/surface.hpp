@@ -24,6 +24,15 @@ struct Seeds {
 Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,
                  const compare::CompressedRows* partners, const std::vector<Facet>& facets);
 
+/// What searches look at (SurfaceView::searched), and how many of each kind; no numbers where that is all.
+struct Searched {
+  std::vector<int> numbers;  ///< of vertices, then of edges, then of facets
+  int vertices = 0, edges = 0, facets = 0;
+};
+
+/// All but what is of volumes.
+Searched find_searched(const compare::Topology& topology);
+
 /// The complex of one mesh.
 template <class Backend>
 class Surface {
@@ -44,14 +53,19 @@ class Surface {
     opposites_.upload(topology.edge_opposite);
     vertex_edges_.upload(topology.vertex_edges);
     vertex_triangles_.upload(topology.vertex_triangles);
-    inside_solid_.upload(topology.inside_solid.data(), topology.inside_solid.size());
+    off_surface_.upload(topology.off_surface.data(), topology.off_surface.size());
     std::vector<int> groups(exclusions.groups.begin(), exclusions.groups.end());
     groups.resize(static_cast<std::size_t>(vertex_count_), -1);
     groups_.upload(groups.data(), groups.size());
     if (exclusions.partners != nullptr) partners_.upload(*exclusions.partners);
     has_partners_ = exclusions.partners != nullptr;
     upload_seeds(find_seeds(topology, groups, exclusions.partners, facets));
+    searched_ = find_searched(topology);
+    searched_numbers_.upload(searched_.numbers.data(), searched_.numbers.size());
   }
+
+  /// On the host: what searches look at, as SurfaceView has it; empty: all.
+  const std::vector<int>& searched() const { return searched_.numbers; }
 
   /// As kernels see it.
   SurfaceView view() const {
@@ -64,12 +78,16 @@ class Surface {
             .opposites = opposites_.view(),
             .vertex_edges = vertex_edges_.view(),
             .vertex_triangles = vertex_triangles_.view(),
-            .inside_solid = inside_solid_.size() > 0 ? inside_solid_.data() : nullptr,
+            .off_surface = off_surface_.size() > 0 ? off_surface_.data() : nullptr,
             .groups = groups_.data(),
             .edge_seeds = edge_seeds_.data(),
             .facet_seeds = facet_seeds_.data(),
             .vertex_seeds = vertex_seeds_.data(),
-            .partners = has_partners_ ? partners_.view() : Rows{}};
+            .partners = has_partners_ ? partners_.view() : Rows{},
+            .searched = searched_numbers_.size() > 0 ? searched_numbers_.data() : nullptr,
+            .searched_vertices = searched_.vertices,
+            .searched_edges = searched_.edges,
+            .searched_facets = searched_.facets};
   }
 
  private:
@@ -89,11 +107,13 @@ class Surface {
   };
 
   int vertex_count_, edge_count_, triangle_count_;
+  Searched searched_;
+  typename Backend::template Buffer<int> searched_numbers_;
   typename Backend::template Buffer<Facet> facets_;
   typename Backend::template Buffer<EdgeEnds> edges_;
   RowBuffers neighbours_, opposites_, vertex_edges_, vertex_triangles_, partners_;
   bool has_partners_ = false;
-  typename Backend::template Buffer<std::uint8_t> inside_solid_;
+  typename Backend::template Buffer<std::uint8_t> off_surface_;
   typename Backend::template Buffer<int> groups_;
   typename Backend::template Buffer<EdgeSeeds> edge_seeds_;
   typename Backend::template Buffer<FacetSeeds> facet_seeds_;

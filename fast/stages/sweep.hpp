@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "compare/problem/volumes.hpp"
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/sweep.hpp"
 #include "fast/kernels/sweep_models.hpp"
 #include "fast/kernels/sweep_solids.hpp"
+#include "fast/kernels/volumes/stream.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
@@ -214,11 +216,12 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
 }
 
 /// Which sum over the stencils of a vertex a scene needs, by what the sum has and others lack: GatherDefault,
-/// GatherEveryModel, GatherSolids, GatherEverything.
-enum class SweepSum { surfaces, every_model, solids, everything };
+/// GatherEveryModel, GatherSolids, GatherEverything, GatherVolumes, GatherEverythingAndVolumes.
+enum class SweepSum { surfaces, every_model, solids, everything, volumes, everything_and_volumes };
 
-/// By the activation, springs, models and tetrahedra of the scene.
-inline SweepSum needed_sum(const RestState& rest) {
+/// By the activation, springs, models, tetrahedra and volumes of the scene.
+inline SweepSum needed_sum(const RestState& rest, bool has_volumes) {
+  if (has_volumes) return rest.tetrahedra.empty() ? SweepSum::volumes : SweepSum::everything_and_volumes;
   const bool every_model = rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
                            !std::all_of(rest.models.begin(), rest.models.end(), are_default);
   if (rest.tetrahedra.empty()) return every_model ? SweepSum::every_model : SweepSum::surfaces;
@@ -239,7 +242,7 @@ class Sweep {
         colours_(colouring.count),
         vertex_count_(static_cast<int>(rest.mass.size())),
         lanes_(scene.settings.lanes > 0 ? static_cast<int>(scene.settings.lanes) : default_lanes(rest.mass.size())),
-        sum_(needed_sum(rest)),
+        sum_(needed_sum(rest, compare::has_volumes(scene))),
         activation_(rest.activation) {
     const SweepStreams streams = build_streams(rest, colouring, scene.settings.time_step);
     upload(vertices_, streams.vertices);
@@ -263,7 +266,9 @@ class Sweep {
     const int bodies = static_cast<int>(rest.materials.size());
     tables_ = {body_.data(), contact_materials_.data(), bodies, rest_squared_.data(), nullptr};
     for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
-      if (rest.mobility[v] == Mobility::prescribed) prescribed_host_.push_back(static_cast<int>(v));
+      // a driven volume is at its targets already
+      if (rest.mobility[v] == Mobility::prescribed && !is_of_volume(scene, rest.body[v]))
+        prescribed_host_.push_back(static_cast<int>(v));
     }
     upload(prescribed_, prescribed_host_);
   }
@@ -290,6 +295,8 @@ class Sweep {
 
   /// Free vertices: items of a launch over contact_rows.
   int slots() const { return static_cast<int>(vertices_.size()); }
+  /// By slot; on the backend.
+  const SweepVertex* vertices() const { return vertices_.data(); }
   /// What makes the rows of the stream after a detection. Where *overflow is not 0 the old stream stays, which is
   /// whole.
   template <class Item>
@@ -346,6 +353,8 @@ class Sweep {
         case SweepSum::every_model: with(GatherEveryModel{}); break;
         case SweepSum::solids: with(GatherSolids{}); break;
         case SweepSum::everything: with(GatherEverything{}); break;
+        case SweepSum::volumes: with(GatherVolumes{}); break;
+        case SweepSum::everything_and_volumes: with(GatherEverythingAndVolumes{}); break;
       }
     }
   }
@@ -353,6 +362,10 @@ class Sweep {
  private:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
+
+  static bool is_of_volume(const compare::Scene& scene, int body) {
+    return scene.bodies[static_cast<std::size_t>(body)].is_volume();
+  }
 
   template <class T>
   static void upload(Buffer<T>& buffer, const std::vector<T>& items) {

@@ -41,11 +41,11 @@ Index owner_of(const Complex& mesh, Face face) {
   return face.kind == FaceKind::edge ? mesh.topology.edge_triangles[i].front() : face.index;
 }
 
-/// Neither does the triangle contain the vertex, nor are they in one rigid group, nor is the vertex inside a solid.
+/// Neither does the triangle contain the vertex, nor are they in one rigid group, and both are on the surface.
 bool is_candidate(const compare::DetectIn& in, Index v, Index t) {
   if (!in.topology->on_surface(v)) return false;
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
-  return !contains(corners, v) && !is_excluded(in.exclusions, {&v, 1}, corners);
+  return in.topology->on_surface(corners) && !contains(corners, v) && !is_excluded(in.exclusions, {&v, 1}, corners);
 }
 
 bool in_planes(const Complex& mesh, Face face, const Vec3f& x) {
@@ -99,7 +99,7 @@ std::vector<VertexFacetContact> vertex_facet_by_definition(const compare::Detect
   for (Index v = 0; v < in.topology->vertex_count; ++v) {
     if (!in.topology->on_surface(v)) continue;
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
-      if (is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
+      if (!in.topology->on_surface(mesh.triangle(t)) || is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
       for (const Face face : faces_of(mesh, t)) {
         // A face without v is a face of some triangle without v, or of triangles with v only; Eq. 12 asks about v ⊄ a
         // alone.

@@ -86,7 +86,7 @@ class Search {
     NearestOfEach of_vertex(points.size(), in_.query_radius), of_triangle(triangles.size(), in_.query_radius);
     for_near(points, triangles, [&](Index v, Index t) {
       const compare::Triangle& c = mesh_.triangle(t);
-      if (!in_.topology->on_surface(v)) return;
+      if (!in_.topology->on_surface(v) || !in_.topology->on_surface(c)) return;
       if (std::find(c.begin(), c.end(), v) != c.end() || is_excluded(in_.exclusions, {&v, 1}, c)) return;
       const Corners corners{mesh_.at(c[0]), mesh_.at(c[1]), mesh_.at(c[2])};
       const Margin gap = feature_gap(corners, closest_feature(corners, mesh_.at(v)), mesh_.at(v));
@@ -105,6 +105,7 @@ class Search {
     for_near(boxes, boxes, [&](Index e, Index f) {
       const compare::Edge &a = mesh_.edge(e), &b = mesh_.edge(f);
       const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+      if (!in_.topology->on_surface(a) || !in_.topology->on_surface(b)) return;
       if (f <= e || adjacent || is_excluded(in_.exclusions, a, b)) return;
       const EdgePair pair{{mesh_.at(a[0]), mesh_.at(a[1])}, {mesh_.at(b[0]), mesh_.at(b[1])}};
       const Margin gap = feature_gap(pair, closest_features(pair));

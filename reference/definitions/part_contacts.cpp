@@ -1,7 +1,9 @@
 #include "reference/definitions/part_contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -100,11 +102,68 @@ std::vector<Face> faces_of(const Complex& mesh, const std::vector<Index>& part) 
   return faces;
 }
 
+/// How far x is from the box of a triangle, and from the nearest of its corners, each rounded.
+struct Reach {
+  double box = 0, corner = INFINITY;
+};
+Reach reach_of(const Complex& mesh, Index t, const Vec3f& x) {
+  std::array<double, 3> low, high;
+  low.fill(INFINITY), high.fill(-INFINITY);
+  Reach reach;
+  const std::array own{double{x.x}, double{x.y}, double{x.z}};
+  for (const Index v : mesh.triangle(t)) {
+    const Vec3f& p = mesh.at(v);
+    const std::array corner{double{p.x}, double{p.y}, double{p.z}};
+    for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], corner[k]), high[k] = std::max(high[k], corner[k]);
+    reach.corner = std::min(reach.corner, std::hypot(corner[0] - own[0], corner[1] - own[1], corner[2] - own[2]));
+  }
+  const auto gap = [&](std::size_t k) { return std::max({0.0, low[k] - own[k], own[k] - high[k]}); };
+  reach.box = std::hypot(gap(0), gap(1), gap(2));
+  return reach;
+}
+
+/// Rounding in double moves a reach by less than this part of it.
+constexpr double reach_slack = 0x1p-40;
+
+/// The triangles of a part whose boxes x is no farther from than from some triangle, and those within the radius: no
+/// others can be nearest, or touch.
+struct Within {
+  std::vector<Index> nearest, touching;
+
+  Within(const Complex& mesh, const std::vector<Index>& part, const Vec3f& x, float contact_radius) {
+    std::vector<double> box;
+    double least = INFINITY;
+    for (const Index t : part) {
+      const Reach reach = reach_of(mesh, t, x);
+      box.push_back(reach.box * (1 - reach_slack));
+      least = std::min(least, reach.corner * (1 + reach_slack));
+    }
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (box[i] <= least) nearest.push_back(part[i]);
+      if (box[i] <= double{contact_radius}) touching.push_back(part[i]);
+    }
+  }
+};
+
 }  // namespace
 
 Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x) {
   const auto [a, b, c] = volume.triangle(triangle);
   return face_of(volume, triangle, closest_feature({volume.at(a), volume.at(b), volume.at(c)}, x));
+}
+
+bool in_box_of(const Complex& volume, const std::vector<Index>& triangles, const Vec3f& x) {
+  std::array<bool, 3> reaches_down{}, reaches_up{};
+  for (const Index t : triangles)
+    for (const Index v : volume.triangle(t)) {
+      const Vec3f& p = volume.at(v);
+      const std::array corner{p.x, p.y, p.z}, own{x.x, x.y, x.z};
+      for (std::size_t k = 0; k < 3; ++k) {
+        reaches_down[k] = reaches_down[k] || corner[k] <= own[k];
+        reaches_up[k] = reaches_up[k] || corner[k] >= own[k];
+      }
+    }
+  return std::ranges::all_of(reaches_down, std::identity{}) && std::ranges::all_of(reaches_up, std::identity{});
 }
 
 PartContact part_contact(const Complex& volume, Face face, const Vec3f& x, float contact_radius, bool inside) {
@@ -120,12 +179,13 @@ std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, fl
     parts[volume.topology.component[at(volume.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
   std::vector<PartContact> contacts;
   for (const auto& [component, part] : parts) {
-    const Face nearest = nearest_face(volume, part, x);
-    if (!begins_outside(volume, nearest, x)) {
+    const Within within(volume, part, x, contact_radius);
+    const Face nearest = nearest_face(volume, within.nearest, x);
+    if (in_box_of(volume, part, x) && !begins_outside(volume, nearest, x)) {
       contacts.push_back(part_contact(volume, nearest, x, contact_radius, true));
       continue;
     }
-    for (const Face face : faces_of(volume, part)) {
+    for (const Face face : faces_of(volume, within.touching)) {
       if (!in_block(volume, face, x, contact_radius) || !begins_outside(volume, face, x) ||
           sign(face_gap(volume, face, x, contact_radius)) >= 0)
         continue;

@@ -24,14 +24,18 @@ struct PartContact {
 /// The contact of x at a face, as one of a part that holds x or not.
 PartContact part_contact(const Complex& volume, Face face, const Vec3f& x, float contact_radius, bool inside);
 
+/// Whether x lies in the closed box of these triangles' corners.
+bool in_box_of(const Complex& volume, const std::vector<Index>& triangles, const Vec3f& x);
+
 /// The face of a triangle whose interior holds the point of the triangle closest to x.
 Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x);
 
 /// The contacts of x with all parts (connected components of the triangles) of a volume, ascending by inside, triangle,
 /// face. A part holds x if the way from its nearest face to x begins on the inner side; of equally near faces the
-/// lowest-dimensional, then the lowest-numbered one decides; faces at rims have no inner side. Such a part gives one
-/// contact, at that face; any other gives one for each face in whose outward block x lies nearer than r. Each edge has
-/// one triangle, or two that run through it in opposite senses, and no triangle is without area.
+/// lowest-dimensional, then the lowest-numbered one decides; faces at rims have no inner side, and beyond the part's
+/// box nobody is inside. Such a part gives one contact, at that face; any other gives one for each face in whose
+/// outward block x lies nearer than r. Each edge has one triangle, or two that run through it in opposite senses, and
+/// no triangle is without area.
 std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius);
 
 }  // namespace ogc::reference

@@ -60,22 +60,23 @@ class Asking {
       if (faces_.distance[at(t)] - doubt(t) <= below) candidates.push_back(t);
     const Face nearest = exactly_nearest(candidates);
     const bool on_surface = is_on_surface(candidates);
-    truth.inside = !begins_outside(mesh_, nearest, x_);
+    const bool in_box = in_box_of(mesh_, triangles, x_), faces_in = !begins_outside(mesh_, nearest, x_);
+    truth.inside = in_box && faces_in;
     const std::vector<Face> possible = possible_faces(candidates, nearest, least);
     std::vector<Face> outside;  // that say so: each may then be a contact
     for (const Face face : possible) {
-      const bool holds = face == nearest ? truth.inside : is_inside(face, nearest, truth.inside, candidates);
+      const bool holds = in_box && (face == nearest ? faces_in : is_inside(face, nearest, faces_in, candidates));
       // beside a rim, which has no inner side, a face that has one may say so
-      const bool is_open = on_surface || (face != nearest && is_rim(nearest) && !is_rim(face));
+      const bool is_open = in_box && (on_surface || (face != nearest && is_rim(nearest) && !is_rim(face)));
       truth.may_be_inside = truth.may_be_inside || holds || is_open;
       truth.may_be_outside = truth.may_be_outside || !holds || is_open;
       if (holds || is_open) truth.held.push_back(answer(face, true));
       if (!holds || is_open) outside.push_back(face);
     }
-    if (truth.may_be_outside) touch(triangles, nearest, truth);
+    if (truth.may_be_outside) touch(triangles, nearest, faces_in, truth);
     for (const Face face : outside) add_touching(face, truth);
     const MarginAnswer reach = examine(face_gap(mesh_, nearest, x_, radius_));
-    truth.needs_contact = reach.sign < 0 && !reach.grey;
+    truth.needs_contact = reach.sign < 0 && !reach.grey && (in_box || !(faces_in || on_surface));
     near = near || possible.size() > 1 || on_surface || reach.near;
     grey = grey || possible.size() > 1 || on_surface;
     return truth;
@@ -173,7 +174,8 @@ class Asking {
   }
 
   /// Outside: faces in whose outward block x lies nearer than r, for certain or perhaps.
-  void touch(const std::vector<Index>& triangles, Face nearest, VolumePartTruth& truth) {
+  /// `faces_in`: what the nearest face says.
+  void touch(const std::vector<Index>& triangles, Face nearest, bool faces_in, VolumePartTruth& truth) {
     std::vector<Face> faces;
     for (const Index t : triangles) {
       if (faces_.distance[at(t)] - doubt(t) > radius_) continue;
@@ -195,8 +197,7 @@ class Asking {
       near = near || nearness.is_near();
       if (!block.possible) continue;
       const std::vector<Index> star = around(face);
-      const bool outward = block.exact ? begins_outside(mesh_, face, x_)
-                                       : !is_inside(face, nearest, truth.inside, star);
+      const bool outward = block.exact ? begins_outside(mesh_, face, x_) : !is_inside(face, nearest, faces_in, star);
       const bool touches = std::ranges::any_of(star, [&](Index t) { return faces_.distance[at(t)] <= doubt(t); });
       if (!outward && !touches && !is_rim(face)) continue;
       truth.touching.push_back(answer(face, false));

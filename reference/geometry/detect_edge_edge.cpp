@@ -20,6 +20,7 @@ namespace {
 bool is_candidate_pair(const compare::DetectIn& in, Index e, Index f) {
   const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
                       &b = in.topology->edges[static_cast<std::size_t>(f)];
+  if (!in.topology->on_surface(a) || !in.topology->on_surface(b)) return false;
   const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
   return !adjacent && !is_excluded(in.exclusions, a, b);
 }

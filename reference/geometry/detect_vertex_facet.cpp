@@ -217,7 +217,8 @@ VertexAnswer query_vertex(const compare::DetectIn& in, DetectionExtent extent, c
   include(box, in.positions[static_cast<std::size_t>(v)]);
   tree.query(widened(box, in.query_radius * search_margin), [&](Index t) {
     const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
-    if (std::find(corners.begin(), corners.end(), v) != corners.end() || is_excluded(in.exclusions, {&v, 1}, corners))
+    if (std::find(corners.begin(), corners.end(), v) != corners.end() || !in.topology->on_surface(corners) ||
+        is_excluded(in.exclusions, {&v, 1}, corners))
       return;
     if (extent == DetectionExtent::exact && changes_nothing(in, v, t, of_vertex, of_triangle)) return;
     const float d = query.visit(t);

@@ -88,7 +88,8 @@ class NearPairs {
     for (const compare::Triangle& t : mesh_.topology.triangles) triangles.push_back(box_of(t));
     for_near(points, triangles, [&](Index v, Index t) {
       const compare::Triangle& c = mesh_.triangle(t);
-      if (!mesh_.topology.on_surface(v) || std::find(c.begin(), c.end(), v) != c.end()) return;
+      if (!mesh_.topology.on_surface(v) || !mesh_.topology.on_surface(c)) return;
+      if (std::find(c.begin(), c.end(), v) != c.end()) return;
       if (!is_excluded(exclusions_, {&v, 1}, c)) visit(FacetPair(mesh_, v, t));
     });
   }
@@ -99,6 +100,7 @@ class NearPairs {
     for (const compare::Edge& e : mesh_.topology.edges) boxes.push_back(box_of(e));
     for_near(boxes, boxes, [&](Index e, Index f) {
       const compare::Edge &a = mesh_.edge(e), &b = mesh_.edge(f);
+      if (!mesh_.topology.on_surface(a) || !mesh_.topology.on_surface(b)) return;
       const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
       if (e < f && !adjacent && !is_excluded(exclusions_, a, b)) visit(EdgesPair(mesh_, e, f));
     });

@@ -68,6 +68,7 @@ class Facets {
   /// Lowers both by their distance unless it is surely beyond `known`.
   void meet(Index v, Index t, float known) {
     const compare::Triangle& corners = mesh_.triangle(t);
+    if (!in_.topology->on_surface(v) || !in_.topology->on_surface(corners)) return;
     if (std::find(corners.begin(), corners.end(), v) != corners.end() || is_excluded(in_.exclusions, {&v, 1}, corners))
       return;
     const Corners places{mesh_.at(corners[0]), mesh_.at(corners[1]), mesh_.at(corners[2])};
@@ -112,6 +113,7 @@ class Edges {
   /// detection, for the sake of its last bit.
   void meet(Index e, Index other, float known) {
     const compare::Edge &a = mesh_.edge(std::min(e, other)), &b = mesh_.edge(std::max(e, other));
+    if (!in_.topology->on_surface(a) || !in_.topology->on_surface(b)) return;
     const bool adjacent = a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
     if (adjacent || is_excluded(in_.exclusions, a, b)) return;
     const std::array<Vec3f, 4> x{mesh_.at(a[0]), mesh_.at(a[1]), mesh_.at(b[0]), mesh_.at(b[1])};

@@ -17,6 +17,19 @@ constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
+/// Contacts stand point by point.
+void count_volume_contacts(const std::vector<compare::VolumeContact>& contacts, double contact_radius,
+                           compare::StepMetrics& metrics) {
+  metrics.volume_contacts = static_cast<std::int64_t>(contacts.size());
+  compare::Index last = -1;
+  for (const compare::VolumeContact& contact : contacts) {
+    if (contact.inside == 0) continue;
+    metrics.vertices_inside += contact.point != last;
+    last = contact.point;
+    metrics.deepest = std::max(metrics.deepest, double{contact.depth} - contact_radius);
+  }
+}
+
 }  // namespace
 
 double ContactStep::now_ms() {
@@ -33,10 +46,14 @@ ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& t
       options_(options),
       exclusions_(exclusions(scene)),
       potential_(scene, topology),
+      volumes_(scene, topology),
       stage_ms_(stages, 0) {
   bounded_ = static_cast<std::size_t>(compare::bounded_count(topology, exclusions_.groups));
-  for (std::size_t v = 0; v < exclusions_.groups.size(); ++v)
-    if (potential_.mobility()[v] != Mobility::fixed) movable_.push_back(v);
+  const std::vector<bool> is_volume = compare::volume_flags(scene);
+  for (std::size_t v = 0; v < exclusions_.groups.size(); ++v) {
+    if (potential_.mobility()[v] == Mobility::fixed) continue;
+    (is_volume[v] ? driven_ : movable_).push_back(v);
+  }
 }
 
 void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, std::int64_t number) {
@@ -52,6 +69,10 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
                              static_cast<double>(number) * settings_.time_step);
   double largest = 0;
   for (const std::size_t v : movable_) largest = std::max(largest, length(target_[v] - start_[v]));
+  for (const std::size_t v : driven_) {
+    largest = std::max(largest, length(target_[v] - start_[v]));
+    x_[v] = target_[v];
+  }
   const double listed = detection_radius(settings_);
   query_radius_ = static_cast<float>(
       std::min(listed + largest, std::max(listed, settings_.query_radius_cap * settings_.contact_radius)));
@@ -71,6 +92,7 @@ void ContactStep::detect_here() {
   regions_ = FeasibleRegions(detected_, settings_.bounds);
   const State centre = widened(detected_.previous);
   for (const std::size_t v : movable_) x_[v] = regions_.inside(v, centre[v], x_[v]).x;
+  detected_.sets.volumes = timed(detection_stage, [&] { return volumes_.contacts(detected_.previous); });
   potential_.set_contacts(detected_.sets, widened(detected_.previous));
   ++metrics_.broad_phases;
   ++metrics_.discrete_detections;
@@ -210,6 +232,7 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.query_radius = double{query_radius_};
   metrics_.residual = residual_;
   metrics_.smallest_distance = detected_.smallest_distance;
+  count_volume_contacts(detected_.sets.volumes, settings_.contact_radius, metrics_);
   metrics_.wall_ms = elapsed_ms();
   if (options_.profile) metrics_.stage_ms = stage_ms_;
   metrics_.momentum_lost_end = momentum_lost({x_, start_, target_}, potential_);

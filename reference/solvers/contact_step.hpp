@@ -8,6 +8,7 @@
 #pragma once
 
 #include "compare/contestant.hpp"
+#include "reference/definitions/scene_volumes.hpp"
 #include "reference/solvers/feasible_regions.hpp"
 
 namespace ogc::reference {
@@ -87,7 +88,9 @@ class ContactStep {
   compare::SimulationOptions options_;
   compare::Exclusions exclusions_;
   Potential potential_;
-  std::vector<std::size_t> movable_;  ///< free and prescribed vertices
+  SceneVolumes volumes_;
+  std::vector<std::size_t> movable_;  ///< free and prescribed vertices, without driven volumes
+  std::vector<std::size_t> driven_;   ///< vertices of driven volumes
   std::size_t bounded_ = 0;           ///< K, those of them that have a bound
 
   State start_, target_, x_;

@@ -1,5 +1,6 @@
 #include "reference/energies/contact_force.hpp"
 #include "reference/energies/friction_force.hpp"
+#include "reference/energies/volume_force.hpp"
 #include "reference/solvers/contacts.hpp"
 #include "reference/solvers/vertex_terms.hpp"
 
@@ -42,6 +43,28 @@ void add_terms(const compare::FrictionForceCase& question, VertexTerms& sum) {
                                 compare::friction_block_tolerance + inputs));
 }
 
+compare::VolumeForceCase question_of(const compare::SweepIn& in, const std::vector<Index>& body,
+                                     const compare::VolumeContact& contact, const SweepPositions& x) {
+  const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
+  const std::array<Index, 4> vertex{contact.point, corners[0], corners[1], corners[2]};
+  compare::VolumeForceCase question;
+  for (std::size_t k = 0; k < 4; ++k) {
+    question.vertex[k] = x[vertex[k]];
+    question.start[k] = in.start[static_cast<std::size_t>(vertex[k])];
+  }
+  question.weights = contact.weights;
+  question.direction = {contact.direction.x, contact.direction.y, contact.direction.z};
+  const auto body_of = [&](Index v) { return static_cast<std::size_t>(body[static_cast<std::size_t>(v)]); };
+  const compare::MeetingMaterial& material =
+      in.rest->meetings[body_of(contact.point) * in.scene->bodies.size() + body_of(corners[0])];
+  const compare::Settings& settings = in.scene->settings;
+  question.contact_radius = static_cast<float>(settings.contact_radius);
+  question.stiffness = material.stiffness;
+  question.friction = material.friction;
+  question.slip_limit = static_cast<float>(settings.friction_velocity * settings.time_step);
+  return question;
+}
+
 }  // namespace
 
 void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
@@ -51,6 +74,11 @@ void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils
     add_terms(question_of(in, stencils.body, stencil_of(*in.topology, in.vertex_facet[contact]), own, positions), sum);
   for (const auto& [contact, own] : stencils.edge_edge[v])
     add_terms(question_of(in, stencils.body, stencil_of(*in.topology, in.edge_edge[contact]), own, positions), sum);
+  for (const auto& [contact, own] : stencils.volumes[v]) {
+    constexpr double inputs = compare::sweep_input_tolerance;
+    sum.terms.push_back(term_of(volume_force(question_of(in, stencils.body, in.volumes[contact], positions)),
+                                compare::volume_force_tolerance + inputs, compare::volume_block_tolerance + inputs));
+  }
 }
 
 }  // namespace ogc::reference

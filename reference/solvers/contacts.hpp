@@ -10,13 +10,15 @@
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
 #include "compare/stages/rest_state.hpp"
+#include "compare/stages/volume_depth.hpp"
 
 namespace ogc::reference {
 
-/// Both kinds of contacts of one detection.
+/// All kinds of contacts of one detection.
 struct ContactSets {
   std::vector<compare::VertexFacetContact> vertex_facet;
   std::vector<compare::EdgeEdgeContact> edge_edge;
+  std::vector<compare::VolumeContact> volumes{};  ///< with volumes: as StepEvent has them
 };
 
 /// Vertices of a face, in the order of the mesh; those that it lacks are −1.

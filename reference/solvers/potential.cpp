@@ -156,6 +156,7 @@ void Potential::begin_step(const State& start, const State& target) {
   target_ = target;
   contacts_.clear();
   frictions_.clear();
+  volumes_.clear();
   for (MembraneTerm& term : membranes_)
     term.start = strain(deformation<double>(gathered<3>(term.vertex, start), term.gradient));
   for (HingeTerm& term : hinges_) term.start = angle_at(gathered<4>(term.vertex, start));
@@ -171,6 +172,8 @@ void Potential::set_contacts(const ContactSets& sets, const State& previous) {
   for (const compare::VertexFacetContact& contact : sets.vertex_facet)
     add_contact(stencil_of(topology_, contact), previous);
   for (const compare::EdgeEdgeContact& contact : sets.edge_edge) add_contact(stencil_of(topology_, contact), previous);
+  volumes_.clear();
+  for (const compare::VolumeContact& contact : sets.volumes) add_contact(contact);
 }
 
 void Potential::add_contact(const ContactStencil& stencil, const State& previous) {
@@ -183,6 +186,24 @@ void Potential::add_contact(const ContactStencil& stencil, const State& previous
   if (stencil.sides != ContactSides::edge_edge) return;
   const std::array<float, 2> rest_squared = mollified_rest_squared(topology_, rest_, stencil);
   contacts_.back().mollifier = energy_share(rest_squared, gathered<4>(stencil.vertex, previous));
+}
+
+void Potential::add_contact(const compare::VolumeContact& contact) {
+  const auto body_of = [&](Index v) { return static_cast<std::size_t>(body_[static_cast<std::size_t>(v)]); };
+  const compare::Triangle& corners = topology_.triangles[static_cast<std::size_t>(contact.triangle)];
+  const compare::MeetingMaterial& material =
+      rest_.meetings[body_of(contact.point) * scene_.bodies.size() + body_of(corners[0])];
+  const compare::Vec3f& n = contact.direction;
+  VolumeTerm term;
+  term.vertex = {contact.point, corners[0], corners[1], corners[2]};
+  for (std::size_t k = 0; k < 3; ++k) term.weight[k + 1] = -double{contact.weights[k]};
+  term.normal = {double{n.x}, double{n.y}, double{n.z}};
+  term.start = separation(term.weight, gathered<4>(term.vertex, start_));
+  term.contact_radius = scene_.settings.contact_radius;
+  term.stiffness = double{material.stiffness};
+  term.friction = double{material.friction};
+  term.slip_limit = scene_.settings.friction_velocity * step_;
+  volumes_.push_back(term);
 }
 
 std::optional<FrictionTerm> Potential::friction_at(const ContactTerm& term,
@@ -257,6 +278,7 @@ PotentialTerms Potential::terms(const State& x) const {
   result.inertia.resize(x.size());
   tbb::parallel_for(std::size_t{0}, result.stencil.size(),
                     [&](std::size_t i) { result.stencil[i] = stencil_energy(i, x); });
+  for (const VolumeTerm& term : volumes_) result.stencil.push_back(term.energy(gathered<4>(term.vertex, x)));
   for (std::size_t v = 0; v < x.size(); ++v) {
     if (mobility_[v] != Mobility::free) continue;
     const Triple<double> away = x[v] - target_[v];
@@ -363,6 +385,7 @@ std::int64_t Potential::inverted_tetrahedra(const State& x) const {
 double Potential::contact_energy(const State& x) const {
   double sum = 0;
   for (const ContactTerm& term : contacts_) sum += contact_term_energy(term, x);
+  for (const VolumeTerm& term : volumes_) sum += term.energy(gathered<4>(term.vertex, x));
   return sum;
 }
 

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "compare/problem/scene.hpp"
+#include "compare/stages/volume_depth.hpp"
 #include "reference/energies/stencil_terms.hpp"
 #include "reference/energies/stencils/stencil_derivatives.hpp"
+#include "reference/energies/volume_term.hpp"
 #include "reference/solvers/contacts.hpp"
 
 namespace ogc::reference {
@@ -26,7 +28,7 @@ std::vector<Mobility> mobility_of(const compare::Scene& scene);
 /// Energies at one state, by term, so that two states are compared term by term: their difference is small beside their
 /// sum.
 struct PotentialTerms {
-  std::vector<double> stencil;  ///< [J]
+  std::vector<double> stencil;  ///< of all stencils, then of the contacts with volumes [J]
   std::vector<double> inertia;  ///< by vertex; 0 where not free [J]
 };
 
@@ -49,6 +51,7 @@ class Potential {
   /// xᵗ and y of the step; strains and angles at xᵗ. Contacts and friction of the step before are gone.
   void begin_step(const State& start, const State& target);
   /// Contacts found at `previous`, where e_k is evaluated. Those without a free vertex act on nothing and are left out.
+  /// Newton's derivatives have none of those with volumes.
   void set_contacts(const ContactSets& sets, const State& previous);
   /// λ, n and w of the present contacts that act at x (method.md §4.4), until the next call.
   void lag_friction(const State& x);
@@ -86,6 +89,7 @@ class Potential {
   const std::vector<SpringTerm>& springs() const { return springs_; }
   const std::vector<TetrahedronTerm>& tetrahedra() const { return tetrahedra_; }
   const std::vector<ContactTerm>& contacts() const { return contacts_; }
+  const std::vector<VolumeTerm>& volumes() const { return volumes_; }
   /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none);
   /// empty where there is none.
   std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
@@ -97,6 +101,7 @@ class Potential {
 
  private:
   void add_contact(const ContactStencil& stencil, const State& previous);
+  void add_contact(const compare::VolumeContact& contact);
   double stencil_energy(std::size_t stencil, const State& x) const;
   void measure(std::size_t stencil, PotentialDerivatives& result) const;
   void sum_gradient(const State& x, PotentialDerivatives& result) const;
@@ -115,6 +120,7 @@ class Potential {
   std::vector<TetrahedronTerm> tetrahedra_;
   std::vector<ContactTerm> contacts_;
   std::vector<FrictionTerm> frictions_;
+  std::vector<VolumeTerm> volumes_;
   State start_, target_;
 };
 

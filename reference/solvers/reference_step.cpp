@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "reference/definitions/scene_volumes.hpp"
 #include "reference/energies/rest_state.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
@@ -36,6 +37,8 @@ class ReferenceStep {
         settings_(in.scene->settings),
         guesser_(guesser ? std::move(guesser) : PairGuesser(pair_guess)),
         exclusions_(compare::exclusions(*in.scene)),
+        volumes_(*in.scene, *in.topology),
+        is_volume_(compare::volume_flags(*in.scene)),
         start_(compare::to_single(in.scene->mesh.positions)),
         x_(start_) {}
 
@@ -43,6 +46,8 @@ class ReferenceStep {
     out_.rest = rest_state({in_.scene, in_.topology}).exact;
     out_.colour = colours_of(*in_.scene, out_.rest, exclusions_.groups);
     set_targets();
+    for (std::size_t v = 0; v < x_.size(); ++v)
+      if (is_volume_[v]) x_[v] = out_.target[v];
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
     StepOrder order(settings_, compare::bounded_count(*in_.topology, exclusions_.groups));
     for (auto kind = order.next(); kind; kind = order.next()) {
@@ -111,6 +116,7 @@ class ReferenceStep {
     bound_ = event.bound;
     planes_ = event.planes;
     contacts_ = {event.vertex_facet.contacts, event.edge_edge.contacts};
+    event.volumes.contacts = volume_contacts_ = volumes_.contacts(x_);
   }
 
   /// In the guess loop, where x is X_prev.
@@ -155,9 +161,19 @@ class ReferenceStep {
   void sweep(StepEvent& event) {
     is_swept_ = true;
     const std::vector<Vec3f> old = x_;
-    const compare::SweepIn question{
-        in_.scene, in_.topology,           &out_.rest,          out_.colour, old, start_, out_.target, previous_,
-        bound_,    contacts_.vertex_facet, contacts_.edge_edge, &planes_};
+    const compare::SweepIn question{in_.scene,
+                                    in_.topology,
+                                    &out_.rest,
+                                    out_.colour,
+                                    old,
+                                    start_,
+                                    out_.target,
+                                    previous_,
+                                    bound_,
+                                    contacts_.vertex_facet,
+                                    contacts_.edge_edge,
+                                    &planes_,
+                                    volume_contacts_};
     compare::SweepOut answer = reference_sweep(question, SweepStencils(question));
     x_ = std::move(answer.position);
     event.cut = answer.cut;
@@ -169,6 +185,9 @@ class ReferenceStep {
   bool is_by_pairs_ = false;  ///< the last guess was
   bool is_swept_ = false;     ///< the guess loop is over
   compare::Exclusions exclusions_;
+  SceneVolumes volumes_;
+  std::vector<bool> is_volume_;  ///< by vertex
+  std::vector<compare::VolumeContact> volume_contacts_;
   std::vector<Vec3f> start_, x_, previous_;
   std::vector<float> bound_;
   compare::VertexPlanes planes_;

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "compare/problem/volumes.hpp"
 #include "reference/geometry/margin.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/vertex_update.hpp"
@@ -56,11 +57,12 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
   const std::size_t count = in.old.size();
   const SweepStencils stencils(in);
   const std::vector<Index> groups = rigid_groups(*in.scene);
+  const std::vector<bool> is_volume = compare::volume_flags(*in.scene);
   std::vector<VertexUpdate> updates(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     if (in.colour[i] >= 0)
       updates[i] = free_vertex(in, answer, stencils, static_cast<Index>(i), is_scaled(in));
-    else if (groups[i] > 0)
+    else if (groups[i] > 0 && !is_volume[i])
       updates[i] = prescribed_vertex(in, i);
     else
       updates[i].position = {in.old[i].x, in.old[i].y, in.old[i].z};
@@ -100,9 +102,10 @@ compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencil
     out.cut += update.cut == Cut::yes;
   };
   const std::vector<Index> groups = rigid_groups(*in.scene);
+  const std::vector<bool> is_volume = compare::volume_flags(*in.scene);
   std::vector<std::vector<Index>> classes;
   for (std::size_t v = 0; v < in.old.size(); ++v) {
-    if (in.colour[v] < 0 && groups[v] > 0) store(v, prescribed_vertex(in, v));
+    if (in.colour[v] < 0 && groups[v] > 0 && !is_volume[v]) store(v, prescribed_vertex(in, v));
     if (in.colour[v] < 0) continue;
     const auto colour = static_cast<std::size_t>(in.colour[v]);
     classes.resize(std::max(classes.size(), colour + 1));

@@ -85,6 +85,16 @@ void add_contact(const Potential& potential, const ContactTerm& term, const Upda
   if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, factor, x, sum);
 }
 
+/// Of the point: what moves nothing else has no other part.
+void add_volume(const VolumeTerm& term, const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
+  const std::array<Triple<ByOwn<double>>, 4> x = with_own<ByOwn<double>>(corners, 0);
+  const ByOwn<double> overlap = term.overlap(separation(term.weight, x));
+  if (!(overlap.value > 0)) return;
+  add_force(term.stiffness * overlap.value, overlap.slope, sum);
+  add_outer(term.stiffness, overlap.slope, overlap.slope, sum.block);
+  if (term.friction > 0) add_friction(term.friction_at(corners), 1, x, sum);
+}
+
 }  // namespace
 
 Triple<double> solved(const VertexSystem& system, const Triple<double>& a) {
@@ -110,9 +120,13 @@ VertexSystems::VertexSystems(const Potential& potential) : potential_(potential)
   list(potential.hinges(), hinges_);
   list(potential.springs(), springs_);
   list(potential.tetrahedra(), tetrahedra_);
+  read_contacts();
 }
 
-void VertexSystems::read_contacts() { list(potential_.contacts(), contacts_); }
+void VertexSystems::read_contacts() {
+  list(potential_.contacts(), contacts_);
+  list(potential_.volumes(), volumes_);
+}
 
 VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   const auto v = static_cast<std::size_t>(vertex);
@@ -145,6 +159,10 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
       updated[k] = u == vertex || (u >= 0 && x.colour[static_cast<std::size_t>(u)] == x.colour[v]);
     }
     add_contact(potential_, term, updated, incidence.place, plain_corners(term.vertex, vertex, x), sum);
+  }
+  for (const Incidence& incidence : volumes_[v]) {
+    const VolumeTerm& term = potential_.volumes()[incidence.stencil];
+    add_volume(term, plain_corners(term.vertex, vertex, x), sum);
   }
   return sum;
 }

@@ -56,7 +56,7 @@ class VertexSystems {
   void list(const Terms& terms, Incidences& incidences) const;
 
   const Potential& potential_;
-  Incidences membranes_, hinges_, springs_, tetrahedra_, contacts_;
+  Incidences membranes_, hinges_, springs_, tetrahedra_, contacts_, volumes_;
 };
 
 }  // namespace ogc::reference

@@ -134,7 +134,7 @@ compare::TetrahedronCase tetrahedron_question(const compare::SweepIn& in, const 
 
 SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*in.scene)) {
   const std::size_t count = in.old.size();
-  for (ElementsOfVertex* rows : {&triangles, &hinges, &springs, &tetrahedra, &vertex_facet, &edge_edge})
+  for (ElementsOfVertex* rows : {&triangles, &hinges, &springs, &tetrahedra, &vertex_facet, &edge_edge, &volumes})
     rows->resize(count);
   for (std::size_t i = 0; i < in.rest->triangles.size(); ++i) add_element(triangles, i, in.rest->triangles[i].corner);
   for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
@@ -151,6 +151,7 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
     add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
   for (std::size_t i = 0; i < in.edge_edge.size(); ++i)
     add_element(edge_edge, i, stencil_of(*in.topology, in.edge_edge[i]).vertex);
+  for (std::size_t i = 0; i < in.volumes.size(); ++i) add_element(volumes, i, std::array{in.volumes[i].point});
 }
 
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance) {

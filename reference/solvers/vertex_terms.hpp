@@ -32,7 +32,7 @@ using ElementsOfVertex = std::vector<std::vector<std::pair<std::size_t, std::siz
 
 /// Which elements meet at which vertex.
 struct SweepStencils {
-  ElementsOfVertex triangles, hinges, springs, tetrahedra, vertex_facet, edge_edge;
+  ElementsOfVertex triangles, hinges, springs, tetrahedra, vertex_facet, edge_edge, volumes;
   std::vector<compare::Index> body;  ///< by vertex
   explicit SweepStencils(const compare::SweepIn& in);
 };
@@ -58,7 +58,7 @@ class SweepPositions {
 VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
                             compare::Index vertex);
 
-/// The part of it that contacts add: normal force, and friction where μ > 0.
+/// The part of it that contacts add: normal force, and friction where μ > 0; those with volumes as one.
 void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
                        compare::Index vertex, VertexTerms& sum);
 

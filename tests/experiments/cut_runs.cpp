@@ -29,7 +29,7 @@ std::map<std::string, std::string> frames_of(const fs::path& run) {
 std::string rows_of(const fs::path& run) {
   compare::StepTable table = compare::read_steps(run);
   for (compare::StepMetrics& row : table.rows) row.wall_ms = 0, row.stage_ms.clear();
-  return compare::step_lines(table.rows, table.stage_names.size(), table.has_solids, table.has_ledger);
+  return compare::step_lines(table.rows, table.stage_names.size(), table.groups);
 }
 
 /// Of iterations.csv, all but the third column, a time.

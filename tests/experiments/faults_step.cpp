@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/problem/volumes.hpp"
+#include "reference/definitions/scene_volumes.hpp"
 #include "reference/geometry/pair_planes.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/step.hpp"
@@ -146,6 +148,58 @@ void bound_what_is_inside(const StepIn& in, StepOut& out) {
       if (!in.topology->on_surface(static_cast<Index>(v))) event.bound[v] = ball;
 }
 
+/// Contacts with volumes are found where these are at the start of the step.
+void ask_volumes_of_before(const StepIn& in, StepOut& out) {
+  const reference::SceneVolumes volumes(*in.scene, *in.topology);
+  const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
+  const std::vector<bool> is_volume = volume_flags(*in.scene);
+  for (StepEvent& event : out.events) {
+    if (!is_detection(event)) continue;
+    std::vector<Vec3f> positions = event.position;
+    for (std::size_t v = 0; v < positions.size(); ++v)
+      if (is_volume[v]) positions[v] = start[v];
+    event.volumes.contacts = volumes.contacts(positions);
+  }
+}
+
+/// Contacts with volumes are those of where inertia would lead, in place of X_prev.
+void ask_volumes_at_targets(const StepIn& in, StepOut& out) {
+  const reference::SceneVolumes volumes(*in.scene, *in.topology);
+  for (StepEvent& event : out.events)
+    if (is_detection(event)) event.volumes.contacts = volumes.contacts(out.target);
+}
+
+/// Each detection but the first keeps its contacts with volumes.
+void keep_contacts_with_volumes(const StepIn&, StepOut& out) {
+  for (StepEvent& event : out.events)
+    if (is_detection(event)) event.volumes = out.events.front().volumes;
+}
+
+/// Volumes go where the others go: at their targets after the first round.
+void let_volumes_lag(const StepIn& in, StepOut& out) {
+  const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
+  const std::vector<bool> is_volume = volume_flags(*in.scene);
+  for (std::size_t v = 0; v < is_volume.size(); ++v)
+    if (is_volume[v]) out.events.front().position[v] = start[v];
+}
+
+/// The right step, with what only volumes show.
+Fault about_volumes(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
+  return shown_by("volume", spoiled(name, spoil));
+}
+
+/// Volumes are surfaces to contact and bounds.
+Fault bounded_volumes() {
+  return shown_by("volume",
+                  {"step: a volume that truncates", Stage::step, [](Contestant& contestant, const Authority&) {
+                     contestant.step = [right = contestant.step](const StepIn& in) {
+                       Topology topology = *in.topology;
+                       topology.off_surface.clear();
+                       return right({in.scene, &topology});
+                     };
+                   }});
+}
+
 void velocity_from_last_detection(const StepIn& in, StepOut& out) {
   const auto last = std::find_if(out.events.rbegin(), out.events.rend(), is_detection);
   const double h = in.scene->settings.time_step;
@@ -199,6 +253,11 @@ std::vector<Fault> step_faults() {
               [](const StepIn&, StepOut& out) {
                 for (Index& colour : out.colour) colour = std::min(colour, 1);
               }),
+      about_volumes("volumes of the step before", ask_volumes_of_before),
+      about_volumes("contacts with volumes found at y", ask_volumes_at_targets),
+      about_volumes("contacts with volumes of the first detection kept", keep_contacts_with_volumes),
+      about_volumes("volumes that lag", let_volumes_lag),
+      bounded_volumes(),
   };
   for (Fault& fault : pair_guess_faults()) faults.push_back(std::move(fault));
   return faults;

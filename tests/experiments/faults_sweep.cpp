@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "compare/problem/volumes.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/sweep.hpp"
 #include "tests/compare/judge/faults.hpp"
@@ -22,6 +23,7 @@ struct SweepCopy {
   std::vector<Index> colour;
   std::vector<Vec3f> start, target;
   std::vector<float> bound;
+  std::vector<VolumeContact> volumes;
 
   explicit SweepCopy(const SweepIn& from)
       : in(from),
@@ -29,12 +31,14 @@ struct SweepCopy {
         colour(from.colour.begin(), from.colour.end()),
         start(from.start.begin(), from.start.end()),
         target(from.target.begin(), from.target.end()),
-        bound(from.bound.begin(), from.bound.end()) {
+        bound(from.bound.begin(), from.bound.end()),
+        volumes(from.volumes.begin(), from.volumes.end()) {
     in.scene = &scene;
     in.colour = colour;
     in.start = start;
     in.target = target;
     in.bound = bound;
+    in.volumes = volumes;
   }
   SweepCopy(const SweepCopy&) = delete;
   SweepCopy& operator=(const SweepCopy&) = delete;
@@ -122,6 +126,29 @@ void forget_last_triangle(reference::SweepStencils& stencils) {
   if (row != stencils.triangles.rend()) row->pop_back();
 }
 
+/// A fault of contacts with volumes, which the cases of their generator show.
+Fault about_volumes(const std::string& name, const std::function<void(SweepCopy&)>& change) {
+  Fault fault = asked_wrongly(name, change);
+  fault.generator = "volume";
+  return fault;
+}
+
+/// Vertices of volumes are where they were at the start of the step.
+void forget_motion_of_volumes(SweepCopy& copy) {
+  const std::vector<bool> is_volume = volume_flags(copy.scene);
+  for (std::size_t v = 0; v < is_volume.size(); ++v)
+    if (is_volume[v]) copy.start[v] = copy.in.old[v];
+}
+
+/// Who touches a volume may move by half of what is left of r.
+void truncate_by_volumes(SweepCopy& copy) {
+  const auto r = static_cast<float>(copy.scene.settings.contact_radius);
+  for (const VolumeContact& contact : copy.volumes) {
+    float& bound = copy.bound[static_cast<std::size_t>(contact.point)];
+    bound = std::min(bound, 0.45f * std::abs(r - contact.depth));
+  }
+}
+
 }  // namespace
 
 void add_right_sweep(Contestant& exact, const Authority&) {
@@ -158,6 +185,23 @@ std::vector<Fault> sweep_faults() {
          };
        }},
       truncated_late(),
+      about_volumes("contacts with volumes left out", [](SweepCopy& copy) { copy.in.volumes = {}; }),
+      about_volumes(
+          "one contact of a vertex with volumes alone",
+          [](SweepCopy& copy) {
+            const auto same = [](const VolumeContact& a, const VolumeContact& b) { return a.point == b.point; };
+            copy.volumes.erase(std::unique(copy.volumes.begin(), copy.volumes.end(), same), copy.volumes.end());
+            copy.in.volumes = copy.volumes;
+          }),
+      about_volumes("pushed in where it is inside",
+                    [](SweepCopy& copy) {
+                      for (VolumeContact& contact : copy.volumes) {
+                        Vec3f& n = contact.direction;
+                        if (contact.inside != 0) n = {-n.x, -n.y, -n.z};
+                      }
+                    }),
+      about_volumes("volumes do not carry along", forget_motion_of_volumes),
+      about_volumes("a volume that truncates", truncate_by_volumes),
   };
 }
 

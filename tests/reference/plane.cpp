@@ -251,7 +251,7 @@ TEST_CASE("plane: nothing bounds a vertex inside a solid, and no pair has one", 
   two.positions.push_back({0.3f, 0.3f, 0.0625f});
   two.is_fixed.push_back(0);
   two.topology.vertex_count = 7;
-  two.topology.inside_solid = {0, 0, 0, 0, 0, 0, 1};
+  two.topology.off_surface = {0, 0, 0, 0, 0, 0, 1};
   compare::PlaneOut out = reference::pair_planes(two.in());
   CHECK(out.bound[6] == std::numeric_limits<float>::max());
   CHECK(out.planes.of(6).empty());

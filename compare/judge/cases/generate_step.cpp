@@ -18,9 +18,29 @@ namespace {
 
 using namespace placement;
 
-/// A symmetry of the cube that mirrors would leave solids inside out at rest: their corners are then named the other
-/// way round.
+/// Six times the volume that a body's triangles enclose.
+double six_volumes(const Scene& scene, const Body& body) {
+  const auto from_first = [&](Index v) {
+    return sum(scene.mesh.positions[static_cast<std::size_t>(v)],
+               scaled(scene.mesh.positions[static_cast<std::size_t>(body.first_vertex)], -1));
+  };
+  double all = 0;
+  for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+    const auto& corners = scene.mesh.triangles[static_cast<std::size_t>(t)];
+    const Vec3 a = from_first(corners[0]), b = from_first(corners[1]), c = from_first(corners[2]);
+    all += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+  }
+  return all;
+}
+
+/// A symmetry of the cube that mirrors would leave volumes inside out, and solids at rest: their corners are then named
+/// the other way round.
 void turn_mirrored(Scene& scene) {
+  for (const Body& body : scene.bodies) {
+    if (!body.is_volume() || six_volumes(scene, body) > 0) continue;
+    const auto first = scene.mesh.triangles.begin() + body.first_triangle;
+    for (auto t = first; t != first + body.triangle_count; ++t) std::swap((*t)[1], (*t)[2]);
+  }
   const auto at = [&](Index v) { return scene.rest_positions[static_cast<std::size_t>(v)]; };
   for (const Body& body : scene.bodies) {
     if (!body.is_solid()) continue;
@@ -119,6 +139,26 @@ struct StepBuilder {
       double& z = scene.mesh.positions[v].z;
       z = lowest + highest + 2 * shift.z - z;
     }
+  }
+
+  /// The boundary of such a block as a volume, fixed or moved as a whole; now and then each vertex goes its own way.
+  void volume(const Vec3& origin) {
+    const Mesh block = jittered_block(random, spacing, random.between(0.5, 1.5));
+    Mesh mesh{block.positions, boundary_triangles(block.tetrahedra), {}};
+    for (Vec3& x : mesh.positions) x = sum(x, scaled(sum(origin, {2, 2, 2}), spacing));
+    const auto first = static_cast<Index>(scene.mesh.positions.size());
+    const bool is_fixed = random.one_in(4);
+    add(mesh, {}, is_fixed);
+    scene.bodies.back().contact = BodyContact::volume;
+    if (is_fixed) return;
+    PrescribedMotion motion;
+    motion.name = "driven" + std::to_string(first);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) motion.vertices.push_back(first + static_cast<Index>(v));
+    motion.velocity = scaled(in_box(random, -1, 1), speed(random.magnitude(-2, 0)));
+    if (random.one_in(2)) motion.angular_velocity = random.sign() * random.magnitude(-2, 0) / scene.settings.time_step;
+    motion.axis = sum(in_box(random, -1, 1), {0, 0, 2});
+    motion.centre = mesh.positions.front();
+    scene.motions.push_back(motion);
   }
 
   void add(const Mesh& mesh, const Vec3& velocity, bool fixed) {
@@ -372,6 +412,22 @@ CaseData solid(Random& random) {
   return builder.finish();
 }
 
+/// Sheets before one or two volumes, over them, in them, or half of each; perhaps one above the other.
+CaseData volume(Random& random) {
+  StepBuilder builder(random);
+  const double speed = builder.speed(random.magnitude(-2, 0.3)), height = random.between(-0.5, 1.8);
+  const Vec3 askew{random.between(-1, 1), random.between(-1, 1), height};
+  builder.sheet(side(random), side(random), askew, {0.3 * speed, 0, -random.sign() * speed});
+  if (random.one_in(3))
+    builder.sheet(side(random), side(random), sum(askew, {0.2, 0.1, random.between(0.2, 0.8)}), {0, 0, -speed});
+  builder.jitter(random.between(0.01, 0.09));
+  builder.volume({});
+  if (random.one_in(3)) builder.volume({random.between(0.3, 1.5), random.between(-0.5, 0.5), 0.1});
+  Settings& settings = builder.scene.settings;
+  if (random.one_in(2)) settings.redetect_every = 1 + random.below(2);
+  return builder.finish();
+}
+
 /// Sheets above one another land on a fixed one, some within a step's reach of it and some beyond, closer to each other
 /// than to it; or all fall freely.
 CaseData stack(Random& random) {
@@ -438,7 +494,7 @@ CaseData dat(Random& random) {
   });
 }
 
-constexpr std::array<Generator, 17> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 18> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -453,6 +509,7 @@ constexpr std::array<Generator, 17> table{{{"fall", 12, true, fall},
                                            {"planes", 10, false, planes, 0, Stage::plane},
                                            {"ladder.planes", 22, false, planes_at_rest, 0, Stage::plane},
                                            {"dat", 12, false, dat, 0, Stage::plane},
+                                           {"volume", 16, false, volume, 0, Stage::volume_depth},
                                            {"pairs", 24, false, pairs, 0, std::nullopt, true},
                                            {"ladder.stack", 24, false, stack_by_pairs, 0, std::nullopt, true}}};
 

@@ -13,6 +13,7 @@
 #include "compare/judge/cases/mesh_builder.hpp"
 #include "compare/judge/cases/placement.hpp"
 #include "compare/judge/cases/solid_block.hpp"
+#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 
@@ -412,6 +413,43 @@ CaseData solid(Random& random) {
   return test;
 }
 
+/// A fixed or driven volume about a vertex of sheets, which reaches into them or lies before them.
+CaseData volume(Random& random) {
+  SweepCase test = case_of<SweepCase>(sheets(random));
+  Scene scene = *test.scene;
+  const double size = scene.settings.contact_radius * random.magnitude(0, 1);
+  const Mesh block = jittered_block(random, size, 1);
+  const auto near = static_cast<std::size_t>(random.below(static_cast<int>(test.previous.size()) - 1));
+  const Vec3f& about = test.previous[near];
+  const Vec3 shift = placement::sum({about.x, about.y, about.z}, placement::scaled(in_box(random, -2, 0.5), size));
+  Mesh mesh{block.positions, boundary_triangles(block.tetrahedra), {}};
+  for (Vec3& x : mesh.positions) x = placement::sum(x, shift);
+  Body body;
+  body.name = "volume";
+  body.fixed = random.one_in(3);
+  body.contact = BodyContact::volume;
+  body.material.contact_stiffness = scene.bodies.front().material.contact_stiffness * random.magnitude(-1, 1);
+  body.material.friction = random.one_in(3) ? 0 : random.between(0.05, 1);
+  const std::size_t first = scene.mesh.positions.size();
+  append_body(scene, body, mesh);
+  const double moved = scene.settings.contact_radius * random.magnitude(-3, 0);
+  const Vec3 back = placement::scaled(in_box(random, -1, 1), body.fixed ? 0 : moved);
+  PrescribedMotion motion;
+  motion.name = "driven";
+  round_to_single(scene);
+  for (std::size_t v = first; v < scene.mesh.positions.size(); ++v) {
+    const Vec3f x = placement::single(scene.mesh.positions[v]);
+    motion.vertices.push_back(static_cast<Index>(v));
+    for (auto* positions : {&test.previous, &test.old, &test.target}) positions->push_back(x);
+    test.start.push_back(body.fixed ? x : placement::single(placement::sum(scene.mesh.positions[v], back)));
+    test.largest_bound.push_back(std::numeric_limits<float>::max());
+  }
+  if (!body.fixed) scene.motions.push_back(motion);
+  test.colour = random_colours(random, scene, build_topology(scene));
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
 /// Other models than the default ones, with the colours that their springs ask for.
 template <CaseData (*make)(Random&)>
 CaseData with_models(Random& random) {
@@ -423,7 +461,7 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 22> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 23> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
@@ -441,6 +479,7 @@ constexpr std::array<Generator, 22> table{{{"sheets", 16, true, sheets},
                                            {"ladder.collapse", 5, false, collapse},
                                            {"ladder.bound", 6, false, at_bound},
                                            {"solid", 4, false, solid, 0, Stage::tetrahedron},
+                                           {"volume", 8, false, volume, 0, Stage::volume_depth},
                                            {"models", 8, false, with_models<sheets>},
                                            {"models.prescribed", 4, false, with_models<prescribed>},
                                            {"ladder.models_rest", 6, false, with_models<at_rest>},

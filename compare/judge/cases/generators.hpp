@@ -21,7 +21,8 @@ struct Generator {
   CaseData (*make)(Random&);
   /// runs of fewer cases than this leave the row out, as one of its meshes would be too large a share
   std::uint64_t least = 0;
-  /// A stage that the contestant must have, too: `tetrahedron` for cases about solids, `plane` for half-spaces
+  /// A stage that the contestant must have, too: `tetrahedron` for cases about solids, `plane` for half-spaces,
+  /// `volume_depth` for volumes
   std::optional<Stage> also_needs = std::nullopt;
   bool by_pairs = false;  ///< scenes with guess=pairs, which only a contestant that knows it is asked about
   bool divides = false;   ///< gaps that are divided by approach, likewise

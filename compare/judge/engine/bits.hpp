@@ -91,6 +91,7 @@ class Bits {
     add(event.edge_edge);
     add(event.bound);
     add(event.planes.items);
+    add(event.volumes.contacts);
   }
   void add(const StepOut& out) {
     add(out.colour);

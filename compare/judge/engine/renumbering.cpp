@@ -30,9 +30,9 @@ Renumbering::Renumbering(Random& random, const Topology& from)
   for (std::size_t e = 0; e < from.edges.size(); ++e)
     if (from.edge_triangles[e].empty()) loose.push_back(renamed(from.edges[e]));
   auto topology = std::make_shared<Topology>(build_topology(from.vertex_count, triangles, loose));
-  topology->inside_solid.resize(from.inside_solid.size());
-  for (std::size_t v = 0; v < from.inside_solid.size(); ++v)
-    topology->inside_solid[static_cast<std::size_t>(vertex(static_cast<Index>(v)))] = from.inside_solid[v];
+  topology->off_surface.resize(from.off_surface.size());
+  for (std::size_t v = 0; v < from.off_surface.size(); ++v)
+    topology->off_surface[static_cast<std::size_t>(vertex(static_cast<Index>(v)))] = from.off_surface[v];
   topology_ = topology;
   for (const Edge& e : from.edges) edge_.push_back(find_edge(*topology_, renamed(e)[0], renamed(e)[1]));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compare/judge/engine/exact_sum.hpp"
+#include "compare/judge/engine/volume_question.hpp"
 
 namespace ogc::compare {
 
@@ -24,9 +25,12 @@ SweepQuestion::SweepQuestion(const SweepCase& test, const Authority& authority)
     bound_[v] = std::min(bound_[v], test.largest_bound[v]);
     old_.push_back(within_bound(test.old[v], test.previous[v], bound_[v]));
   }
+  const VolumeQuestion volumes(*test.scene, topology_);
+  if (volumes.has_any()) volumes_ = volumes.exact(volumes.at(test.previous), authority);
   in_ = {test.scene.get(),   &topology_,  &rest_,        test.colour, old_,
          test.start,         test.target, test.previous, bound_,      vertex_facet_.contacts,
          edge_edge_.contacts};
+  in_.volumes = volumes_;
 }
 
 Vec3f within_bound(const Vec3f& wish, const Vec3f& previous, float bound) {

@@ -10,7 +10,7 @@ namespace ogc::compare {
 /// Owns what a SweepIn looks at; must stay where it is.
 class SweepQuestion {
  public:
-  /// Asks the authority for rest state, contact sets and bounds.
+  /// Asks the authority for rest state, contact sets, those with volumes, and bounds.
   SweepQuestion(const SweepCase& test, const Authority& authority);
   SweepQuestion(const SweepQuestion&) = delete;
   SweepQuestion& operator=(const SweepQuestion&) = delete;
@@ -25,6 +25,7 @@ class SweepQuestion {
   DetectEdgeEdgeOut edge_edge_;
   std::vector<float> bound_;
   std::vector<Vec3f> old_;
+  std::vector<VolumeContact> volumes_;
 };
 
 /// `wish` where it obeys the bound; otherwise the point of the segment to it at the bound, its rounded coordinates

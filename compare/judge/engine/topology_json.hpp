@@ -16,7 +16,7 @@ inline Json topology_to_json(const Topology& topology) {
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
     if (topology.edge_triangles[e].empty()) loose.push_back(topology.edges[e]);
   Json json{{"vertex_count", topology.vertex_count}, {"triangles", topology.triangles}, {"loose_edges", loose}};
-  if (!topology.inside_solid.empty()) json["inside_solid"] = topology.inside_solid;
+  if (!topology.off_surface.empty()) json["inside_solid"] = topology.off_surface;
   return json;
 }
 
@@ -25,9 +25,9 @@ inline std::shared_ptr<const Topology> to_topology(const Json& json) {
   const auto triangles = json.at("triangles").get<std::vector<Triangle>>();
   const auto loose = json.at("loose_edges").get<std::vector<Edge>>();
   auto topology = std::make_shared<Topology>(build_topology(json.at("vertex_count").get<Index>(), triangles, loose));
-  if (json.contains("inside_solid")) topology->inside_solid = json.at("inside_solid").get<std::vector<std::uint8_t>>();
-  if (!topology->inside_solid.empty() &&
-      topology->inside_solid.size() != static_cast<std::size_t>(topology->vertex_count))
+  if (json.contains("inside_solid")) topology->off_surface = json.at("inside_solid").get<std::vector<std::uint8_t>>();
+  if (!topology->off_surface.empty() &&
+      topology->off_surface.size() != static_cast<std::size_t>(topology->vertex_count))
     throw InputError("inside_solid needs one entry a vertex");
   return topology;
 }

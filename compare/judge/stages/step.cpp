@@ -84,7 +84,7 @@ struct Step : TakenWhole, Numbered {
   }
   static bool can_judge(const Contestant& c, const Authority& a) {
     return c.step && a.step && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound &&
-           a.initial_guess && a.truncate && a.sweep;
+           a.initial_guess && a.truncate && a.sweep && a.volume_depth;
   }
   /// The truth follows the answer, and each event of the answer is a question of its own.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {

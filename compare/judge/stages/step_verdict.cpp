@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/judge/engine/units.hpp"
+#include "compare/judge/engine/volume_question.hpp"
 #include "compare/judge/stages/mesh_case.hpp"
 #include "compare/judge/stages/verdict.hpp"
 
@@ -12,13 +13,13 @@ namespace ogc::compare {
 
 namespace {
 
-const char* name_of(StepEventKind kind) {
+const char* event_name(StepEventKind kind) {
   constexpr const char* names[] = {"detection", "guess", "sweep"};
   return names[std::min(2, static_cast<int>(kind))];
 }
 
 std::string where_of(const StepOut& out, std::size_t event) {
-  return "event " + std::to_string(event) + ", " + name_of(out.events[event].kind);
+  return "event " + std::to_string(event) + ", " + event_name(out.events[event].kind);
 }
 
 class StepVerdict {
@@ -33,9 +34,15 @@ class StepVerdict {
         tally_(tally),
         groups_(rigid_groups(*in.scene)),
         partners_(exclusions(*in.scene).partners),
+        volumes_(*in.scene, *in.topology),
         start_(to_single(in.scene->mesh.positions)),
         at_(start_),
-        wrong_before_(tally.mismatched) {}
+        wrong_before_(tally.mismatched) {
+    // driven volumes are at their targets from the beginning
+    const std::vector<bool> is_volume = volume_flags(*in.scene);
+    for (std::size_t v = 0; v < at_.size(); ++v)
+      if (is_volume[v] && groups_[v] > 0) at_[v] = truth.prescribed_target[v];
+  }
 
   void judge() {
     judge_parts();
@@ -129,7 +136,7 @@ class StepVerdict {
       if (event.kind != truth_.events[i]) {
         const std::string after = i > 0 ? std::to_string(out_.events[i - 1].cut) + " vertices having been cut"
                                         : "at the start";
-        tally_.mismatch(where(i) + ": a " + compare::name_of(truth_.events[i]) + " is due, " + after);
+        tally_.mismatch(where(i) + ": a " + event_name(truth_.events[i]) + " is due, " + after);
         return;
       }
       switch (event.kind) {
@@ -169,12 +176,34 @@ class StepVerdict {
       const DetectEdgeEdgeTruth truth = authority_.detect_edge_edge(question);
       judge_detect_edge_edge(mesh, truth, has_planes() ? with_distances(event.edge_edge, truth) : event.edge_edge, own);
     });
+    judge_volumes(i);
     if (!right()) return;
     ++detections_;
     if (has_planes()) return judge_planes(i, question);
     const BoundIn bounds{in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
                          event.vertex_facet.d_min_triangle, static_cast<float>(in_.scene->settings.bound_relaxation)};
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
+  }
+
+  /// Of those who may be pushed, at X_prev.
+  void judge_volumes(std::size_t i) {
+    const StepEvent& event = out_.events[i];
+    if (!volumes_.has_any()) {
+      if (!event.volumes.contacts.empty())
+        tally_.mismatch(where(i) + " has contacts with volumes, of which there are none");
+      return;
+    }
+    const TestCase asked{test_.name, volumes_.at(event.position)};
+    std::string problem;
+    const std::optional<VolumeDepthOut> own = volumes_.answer_of(event.volumes, problem);
+    if (!own) return tally_.mismatch(where(i) + ": " + problem);
+    const auto& question = case_of<VolumeDepthCase>(asked.data);
+    part(where(i), Stage::volume_depth, [&](Tally& tally) {
+      judge_volume_depth(asked,
+                         authority_.volume_depth(
+                             {question.topology.get(), question.positions, question.contact_radius, question.points}),
+                         *own, tally);
+    });
   }
 
   Bounds policy() const { return in_.scene->settings.bounds; }
@@ -311,7 +340,8 @@ class StepVerdict {
                            detection_->bound,
                            detection_->vertex_facet.contacts,
                            detection_->edge_edge.contacts,
-                           has_planes() ? &detection_->planes : nullptr};
+                           has_planes() ? &detection_->planes : nullptr,
+                           detection_->volumes.contacts};
     const SweepOut answer{event.position, event.cut};
     part(where(i), Stage::sweep, [&](Tally& own) {
       if (can_judge_sweep(test_, question, answer, own))
@@ -339,6 +369,7 @@ class StepVerdict {
   Tally& tally_;
   std::vector<Index> groups_;
   CompressedRows partners_;
+  VolumeQuestion volumes_;
   std::vector<Vec3f> start_;
   std::vector<Vec3f> at_;                 ///< x before the event
   const StepEvent* detection_ = nullptr;  ///< the last

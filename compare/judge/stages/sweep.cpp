@@ -15,6 +15,7 @@
 #include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/parameter_ranges.hpp"
 #include "compare/judge/stages/stage_of.hpp"
+#include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
 
@@ -31,11 +32,13 @@ bool judge_half_spaces(const SweepIn& in, const SweepOut& out, std::size_t v, Ta
   return true;
 }
 
-/// Whether each free or prescribed vertex lies in its region; fixed ones stay whatever theirs is. The first that does
+/// Whether each free or prescribed vertex lies in its region; fixed ones stay whatever theirs is, as do those of
+/// volumes. The first that does
 /// not is a mismatch.
 bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Index>& groups, Tally& tally) {
+  const std::vector<bool> is_volume = volume_flags(*in.scene);
   for (std::size_t v = 0; v < in.old.size(); ++v) {
-    if (in.colour[v] < 0 && groups[v] <= 0) continue;
+    if ((in.colour[v] < 0 && groups[v] <= 0) || is_volume[v]) continue;
     if (!judge_half_spaces(in, out, v, tally)) return false;
     if (obeys_bound(out.position[v], in.previous[v], in.bound[v])) continue;
     const Vec3f &x = out.position[v], &p = in.previous[v];
@@ -55,7 +58,7 @@ std::uint64_t decisions(const SweepIn& in) {
   for (const VertexFacetContact& c : in.vertex_facet) count += 1 + corners[static_cast<std::size_t>(c.face.kind)];
   for (const EdgeEdgeContact& c : in.edge_edge)
     count += corners[static_cast<std::size_t>(c.first.kind)] + corners[static_cast<std::size_t>(c.second.kind)];
-  return count;
+  return count + in.volumes.size();
 }
 
 double error_in_units(const SweepTruth& truth, const SweepOut& out, std::size_t v) {
@@ -140,7 +143,8 @@ auto meetings(Change change) {
 std::vector<WrongForm> sweep_forms() {
   std::vector<WrongForm> forms{
       sweep_asked("contacts_missing", "no contact acts",
-                  [](Read& read) { read.in.vertex_facet = {}, read.in.edge_edge = {}; }),
+                  [](Read& read) { read.in.vertex_facet = {}, read.in.edge_edge = {}, read.in.volumes = {}; }),
+      sweep_asked("volumes_missing", "contacts with volumes do not act", [](Read& read) { read.in.volumes = {}; }),
       sweep_asked("vertex_facet_missing", "contacts of vertices with facets do not act",
                   [](Read& read) { read.in.vertex_facet = {}; }),
       sweep_asked("edge_edge_missing", "contacts of edges do not act", [](Read& read) { read.in.edge_edge = {}; }),
@@ -248,7 +252,8 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
   }
 
   static bool can_judge(const Contestant& c, const Authority& a) {
-    return c.sweep && a.sweep && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound;
+    return c.sweep && a.sweep && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound &&
+           a.volume_depth;
   }
   /// The truth follows the answer, so the contestant comes first.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {

@@ -45,6 +45,9 @@ class RunSource : public AuditSource {
     state.result = judge_.audit(stored, limit_);
     state.distances = judge_.smallest_distances(stored);
     state.text = judge_.describe(state.result);
+    if (!judge_.has_volumes()) return;
+    state.volumes = judge_.penetration(stored);
+    state.in_volumes = judge_.describe(*state.volumes);
   }
   std::string left_out() const override { return left_out_of_audits(reader_.scene()); }
 

@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compare/files/meshes/polygon_mesh.hpp"
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/smallest_distances.hpp"
+#include "compare/oracle/volume_audit.hpp"
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/mesh.hpp"
 
@@ -16,13 +18,15 @@ namespace ogc::experiments {
 
 /// One state, and what was found of it once it is judged.
 struct AuditedState {
-  std::string name;                                   ///< "step 12", a file, or "frame 3"
-  std::shared_ptr<const compare::Topology> topology;  ///< of its mesh
-  std::vector<compare::Vec3> positions;               ///< [m]
-  compare::AuditResult result;                        ///< its intersections
-  compare::SmallestDistances distances;               ///< how near it is to touching
-  compare::ElementNames names;                        ///< as the mesh's file counts
-  std::string text;                                   ///< the listed intersections in words, one line each
+  std::string name;                                     ///< "step 12", a file, or "frame 3"
+  std::shared_ptr<const compare::Topology> topology;    ///< of its mesh
+  std::vector<compare::Vec3> positions;                 ///< [m]
+  compare::AuditResult result;                          ///< its intersections
+  compare::SmallestDistances distances;                 ///< how near it is to touching
+  compare::ElementNames names;                          ///< as the mesh's file counts
+  std::string text;                                     ///< the listed intersections in words, one line each
+  std::optional<compare::VolumePenetration> volumes{};  ///< where the scene has volumes
+  std::string in_volumes{};                             ///< the same in words
 };
 
 /// States to audit, of a run or of files of other programs.

@@ -41,9 +41,10 @@ std::string left_out_of_audits(const compare::Scene& scene) {
 }
 
 StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& sources)
-    : topology_(compare::build_topology(scene.mesh)),
+    : topology_(compare::build_topology(scene)),
       exclusions_(compare::exclusions(scene)),
       names_(scene, sources),
+      volumes_(scene),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
       bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)),
       bounds_(scene.settings.bounds),
@@ -57,10 +58,22 @@ compare::SmallestDistances StateJudge::smallest_distances(const std::vector<comp
   return compare::smallest_distances(topology_, compare::to_double(positions), exclusions_);
 }
 
+compare::VolumePenetration StateJudge::penetration(const std::vector<compare::Vec3f>& positions) const {
+  return volumes_.audit(compare::to_double(positions));
+}
+
+std::string StateJudge::describe(const compare::VolumePenetration& penetration) const {
+  std::string text = counted(penetration.vertices_inside, "vertex position") + " inside volumes";
+  if (penetration.deepest_vertex >= 0)
+    text += ", the deepest " + names_.vertex(penetration.deepest_vertex) + " by " + number(penetration.deepest) + " m";
+  return text + "; " + counted(penetration.edges_meeting, "edge") + " through a surface of volume or garment";
+}
+
 Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
   Verdict verdict;
   verdict.step = snapshot.step;
   verdict.intersections = audit(snapshot.positions);
+  verdict.volumes = penetration(snapshot.positions);
   const auto certify = [&] {
     verdict.motion = compare::motion_certificate(snapshot.positions, snapshot.previous, snapshot.bounds);
   };

@@ -17,6 +17,7 @@
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/certificate.hpp"
 #include "compare/oracle/smallest_distances.hpp"
+#include "compare/oracle/volume_audit.hpp"
 #include "compare/problem/element_names.hpp"
 
 namespace ogc::experiments {
@@ -41,6 +42,7 @@ struct Verdict {
   double worst_bound = 0, exact_bound = 0;  ///< [m], of that vertex
   compare::PlaneGuarantee planes;           ///< with planes, in place of the exact bounds
   std::size_t broken_planes = 0;            ///< half-spaces that the state does not keep
+  compare::VolumePenetration volumes;       ///< what is inside of volumes, which is no part of the guarantee
   /// Whether the state keeps the guarantee.
   bool kept() const {
     return intersections.count == 0 && motion.kept() && unsafe_bounds == 0 && planes.kept() && broken_planes == 0;
@@ -56,6 +58,12 @@ class StateJudge {
                              std::size_t limit = compare::AuditOptions{}.limit) const;
   /// How near it is to touching, without the pairs that the audit leaves out.
   compare::SmallestDistances smallest_distances(const std::vector<compare::Vec3f>& positions) const;
+  /// What is inside of volumes; of a scene without them nothing is.
+  compare::VolumePenetration penetration(const std::vector<compare::Vec3f>& positions) const;
+  /// Whether the scene has any.
+  bool has_volumes() const { return volumes_.has_volumes(); }
+  /// In words: how many vertices are inside, which is the deepest, and how many edges meet.
+  std::string describe(const compare::VolumePenetration& penetration) const;
   /// A state with the certificate of the last detection before it.
   Verdict judge(const compare::Snapshot& snapshot) const;
   /// Names what is wrong, one line a primitive; empty where nothing is.
@@ -71,6 +79,7 @@ class StateJudge {
   compare::Topology topology_;
   compare::Exclusions exclusions_;
   compare::ElementNames names_;
+  compare::VolumeAuditor volumes_;
   float contact_radius_, bound_relaxation_;
   compare::Bounds bounds_;
   std::vector<std::uint8_t> is_fixed_;  ///< by vertex

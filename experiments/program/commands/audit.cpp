@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/validate_mesh.hpp"
 #include "experiments/program/audits/audit_source.hpp"
 #include "experiments/program/audits/offenders.hpp"
 #include "experiments/program/commands.hpp"
@@ -26,7 +27,8 @@ using compare::SmallestDistances;
 
 struct Options {
   AuditRequest request;
-  std::string show;  ///< folder of the pictures; empty: none
+  std::string show;               ///< folder of the pictures; empty: none
+  std::optional<double> deepest;  ///< [m] deeper inside a volume a state fails; empty: none does
 };
 
 /// How many states get pictures: the first ones tell what the others would.
@@ -40,6 +42,8 @@ struct State {
   bool has_triangles = true;
   std::size_t loose_edges = 0;  ///< edges that belong to no triangle
   SmallestDistances distances;
+  std::optional<compare::VolumePenetration> volumes;
+  std::string in_volumes;
 };
 
 Json to_json(const SmallestDistances& distances, const compare::Topology& topology,
@@ -73,7 +77,13 @@ State state_of(const AuditedState& audited) {
               .text = audited.text,
               .count = audited.result.count,
               .has_triangles = !topology.triangles.empty(),
-              .distances = audited.distances};
+              .distances = audited.distances,
+              .volumes = audited.volumes,
+              .in_volumes = audited.in_volumes};
+  if (audited.volumes)
+    state.json["volumes"] = {{"vertices_inside", audited.volumes->vertices_inside},
+                             {"deepest", audited.volumes->deepest},
+                             {"edges_meeting", audited.volumes->edges_meeting}};
   for (std::size_t e = 0; e < topology.edges.size(); ++e) state.loose_edges += topology.edge_triangles[e].empty();
   state.json["smallest_distances"] = to_json(audited.distances, topology, audited.names);
   for (const compare::Intersection& pair : audited.result.intersections) {
@@ -202,8 +212,24 @@ std::string unseen(const std::vector<State>& states) {
   return "of " + edges + ", whether they met a triangle is seen, but not whether they passed through each other";
 }
 
+/// Where volumes let in most: the state with the most vertices inside, and that with the deepest; empty without any.
+std::string describe_volumes(const std::vector<State>& states) {
+  std::string text;
+  const State *fullest = nullptr, *deepest = nullptr;
+  for (const State& state : states) {
+    if (!state.volumes) continue;
+    if (fullest == nullptr || state.volumes->vertices_inside > fullest->volumes->vertices_inside) fullest = &state;
+    if (deepest == nullptr || state.volumes->deepest > deepest->volumes->deepest) deepest = &state;
+  }
+  if (fullest == nullptr) return text;
+  text = "most inside, " + fullest->name + ": " + fullest->in_volumes + "\n";
+  if (deepest != fullest) text += "deepest, " + deepest->name + ": " + deepest->in_volumes + "\n";
+  return text;
+}
+
 struct Totals {
   std::size_t intersections = 0, intersecting = 0;
+  double deepest = 0;         ///< inside a volume, of all states [m]
   std::string first;          ///< name of the first state that intersects
   bool says_nothing = false;  ///< no state has a triangle
 };
@@ -212,6 +238,7 @@ Totals totals_of(const std::vector<State>& states) {
   Totals totals;
   for (const State& state : states) {
     totals.intersections += state.count;
+    if (state.volumes) totals.deepest = std::max(totals.deepest, state.volumes->deepest);
     if (state.count > 0 && totals.intersecting++ == 0) totals.first = state.name;
   }
   totals.says_nothing = std::ranges::none_of(states, &State::has_triangles);
@@ -238,6 +265,7 @@ void print(const Audits& audits, const Totals& totals, const std::string& left_o
   if (const std::string note = unseen(audits.states); !note.empty()) text += note + "\n";
   if (!left_out.empty()) text += "left out: " + left_out + "\n";
   for (const std::string& line : audits.shown) text += line + "\n";
+  text += describe_volumes(audits.states);
   print_result(text + (audits.states.empty() ? "" : describe_distances(audits.states)));
 }
 
@@ -268,6 +296,11 @@ int run(const Options& options, const CommandContext& context) {
   }
   if (!audits.stopped.empty()) log_line("ogc: " + audits.stopped);
   if (totals.intersections > 0) return exit_check_failed;
+  if (options.deepest && totals.deepest > *options.deepest) {
+    log_line("ogc: a vertex is " + number(totals.deepest) + " m inside a volume, where --deepest allows " +
+             number(*options.deepest) + " m");
+    return exit_check_failed;
+  }
   if (!audits.stopped.empty()) return exit_bad_input;
   return interrupted() ? exit_interrupted : static_cast<int>(exit_success);
 }
@@ -290,6 +323,10 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
   command->add_option(
       "--show", options->show,
       "Write a picture and a .vtp of what intersects to this folder, for each of the first 8 such states");
+  command
+      ->add_option("--deepest", options->deepest,
+                   "A state with a vertex deeper than so much inside a volume fails (default: none does)")
+      ->check(real_number(0, compare::most_length, "m"));
   add_mesh_options(*command, options->request.meshes);
   command
       ->add_option("--limit", options->request.limit,
@@ -301,8 +338,10 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a "
       "triangle without it; touching\n"
       "counts. No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded "
-      "pairs, are left out. Exit status\n"
-      "1: there is one.\n"
+      "pairs, are left out. Of volumes, which may be entered, it says how many vertices are inside (by winding "
+      "number), "
+      "the deepest, and how many\n"
+      "edges meet. Exit status 1: there is an intersection, or a vertex beyond --deepest.\n"
       "The smallest distances of a vertex to a triangle without it, and of two edges without a common vertex, are "
       "found exactly too, and\n"
       "rounded down; of pairs equally near the one with the lowest numbers is named.\n"

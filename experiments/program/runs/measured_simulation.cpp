@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "compare/problem/error.hpp"
+#include "compare/problem/volumes.hpp"
 #include "reference/contestant.hpp"
 
 namespace ogc::experiments {
@@ -46,6 +48,8 @@ class MeasuredSimulation : public compare::Simulation {
         contestant_(std::move(contestant)),
         has_rows_(what.iterations) {
     if (what.residual || what.iterations) meter_.emplace(scene);
+    if (what.ledger && compare::has_volumes(scene))
+      throw compare::InputError("--ledger knows no volumes; leave it out, or the bodies surfaces");
     if (what.ledger) ledger_.emplace(scene);
   }
 
@@ -112,7 +116,7 @@ class MeasuredSimulation : public compare::Simulation {
     for (auto event = trace.events.begin(); event != trace.events.end(); ++event) {
       if (event->kind == StepEventKind::detection) {
         now += times.detection;
-        contacts_ = {event->vertex_facet.contacts, event->edge_edge.contacts};
+        contacts_ = {event->vertex_facet.contacts, event->edge_edge.contacts, event->volumes.contacts};
         previous_ = event->position;
       }
       if (event + 1 == begin) add_row(*event, now, step);

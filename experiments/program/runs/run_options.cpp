@@ -11,11 +11,13 @@
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate_mesh.hpp"
+#include "compare/problem/volumes.hpp"
 #include "experiments/program/option_checks.hpp"
 #include "experiments/program/runs/measured_simulation.hpp"
 #include "experiments/program/runs/mesh_scene.hpp"
 #include "experiments/program/runs/set_material.hpp"
 #include "experiments/program/runs/solvers.hpp"
+#include "experiments/scenes/driven_contact.hpp"
 #include "experiments/scenes/registry.hpp"
 
 namespace ogc::experiments {
@@ -28,7 +30,7 @@ std::string value_text(const compare::Settings& settings, const compare::Setting
 
 bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); }
 
-constexpr std::string_view data_key = "data=";
+constexpr std::string_view data_key = "data=", contact_key = "contact=";
 /// A day.
 constexpr double most_checkpoint_seconds = 86400;
 
@@ -74,7 +76,7 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
 
 /// Throws where --set knows no such key.
 void expect_setting(const std::string& key) {
-  std::vector<std::string_view> names{"membrane", "bending"};
+  std::vector<std::string_view> names{"membrane", "bending", "contact"};
   for (const MaterialSetting& constant : material_settings()) names.push_back(constant.name);
   for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);
   if (std::ranges::find(names, key) != names.end()) return;
@@ -90,12 +92,23 @@ void set(compare::Scene& scene, const std::string& key, const std::string& value
     compare::set_setting(scene.settings, key, value);
 }
 
+/// Before all settings, one of which goes with it.
+void apply_contact(compare::Scene& scene, const std::string& value) {
+  const auto names = compare::body_contact_names();
+  const auto found = std::ranges::find(names, value);
+  if (found == names.end()) throw compare::InputError("contact: " + compare::unknown_name("contact", value, names));
+  set_driven_contact(scene, static_cast<compare::BodyContact>(found - names.begin()));
+}
+
 void apply_settings(compare::Scene& scene, const RunOptions& options) {
+  for (const std::string& assignment : options.assignments)
+    if (assignment.starts_with(contact_key)) apply_contact(scene, assignment.substr(contact_key.size()));
   for (const std::string& assignment : options.assignments) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
       throw compare::InputError("--set " + assignment + ": give key=value, for example --set iterations=20");
-    if (!assignment.starts_with(data_key)) set(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
+    if (!assignment.starts_with(data_key) && !assignment.starts_with(contact_key))
+      set(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   if (options.steps > 0) compare::set_setting(scene.settings, "steps", std::to_string(options.steps));
 }
@@ -132,6 +145,10 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
       .add_option("--audit", options->audit, "Which states are judged: each step, stored frames, the last one, none")
       ->check(CLI::IsMember({"every", "frame", "end", "off"}))
       ->capture_default_str();
+  command
+      .add_option("--deepest", options->deepest,
+                  "A state with a vertex deeper than so much inside a volume fails (default: none does)")
+      ->check(real_number(0, compare::most_length, "m"));
   command.add_option("--from-state", options->from_state,
                      "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
   command
@@ -203,6 +220,8 @@ std::string settings_help() {
       "how cloth resists bending: the model of every body that does");
   for (const MaterialSetting& constant : material_settings())
     add(constant.name, constant.unit, "the scene's", constant.range, constant.meaning);
+  add("contact", "1", "the scene's", compare::joined(compare::body_contact_names()),
+      "bodies that a motion drives: inside the guarantee, or volumes that push out, with redetect_fraction 0 or 0.01");
   add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
   std::istringstream lines(table(rows, 4));
   const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file ";
@@ -239,6 +258,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.residual = options.residual;
   request.ledger = options.ledger;
   request.audit = audit_mode(options.audit);
+  request.deepest = options.deepest;
   request.checkpoint_seconds = options.checkpoint_seconds;
   if (!options.from_state.empty()) request.from_state = options.from_state;
   request.profile = options.profile;

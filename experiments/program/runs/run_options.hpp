@@ -21,6 +21,7 @@ struct RunOptions {
   Jitter jitter;                                           ///< of --jitter and --seed
   compare::MeshOptions mesh;                               ///< of a mesh file in place of a scene
   std::optional<double> ground;                            ///< height of the ground below it [m]
+  std::optional<double> deepest;                           ///< of --deepest [m]
   int threads = 0;                                         ///< 0: all
   double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
 };

@@ -119,6 +119,7 @@ RunSession::RunSession(RunRequest request, compare::Contestant contestant)
       judge_(request_.scene, request_.sources),
       warnings_(request_.scene) {
   frame_steps_ = frame_steps(settings_);
+  summary_.has_volumes = judge_.has_volumes();
   start_state();
   if (!request_.resume) check_start();
 }
@@ -149,8 +150,16 @@ void RunSession::start_state() {
   step_ = offered_step_ = start_.step;
 }
 
-void RunSession::check_start() const {
+void RunSession::check_start() {
   const compare::AuditResult result = judge_.audit(start_.positions);
+  if (judge_.has_volumes()) {
+    const compare::VolumePenetration penetration = judge_.penetration(start_.positions);
+    summary_.inside_at_start = penetration.vertices_inside;
+    count(penetration, start_.step);
+    if (penetration.vertices_inside > 0)
+      log_line("ogc: " + request_.scene.name + " begins with " + judge_.describe(penetration) +
+               "; they are pushed out");
+  }
   if (result.count == 0) return;
   const std::string jittered = request_.jitter.largest > 0 ? ", moved by --jitter," : "";
   throw compare::InputError("the scene '" + request_.scene.name + "'" + jittered + " starts with " +
@@ -368,7 +377,9 @@ void RunSession::collect(const std::vector<Verdict>& verdicts) {
     if (summary_.failed_states > 0) continue;
     ++(is_planned(snapshot.step) ? summary_.audited_states : unplanned_audits_);
     if (!summary_.guarantee_kept) summary_.guarantee_kept = true;
-    if (verdict.kept()) {
+    count(verdict.volumes, verdict.step);
+    const bool is_too_deep = request_.deepest && verdict.volumes.deepest > *request_.deepest;
+    if (verdict.kept() && !is_too_deep) {
       accept(std::move(snapshot));
     } else {
       reject(verdict, snapshot);
@@ -376,8 +387,16 @@ void RunSession::collect(const std::vector<Verdict>& verdicts) {
   }
 }
 
+void RunSession::count(const compare::VolumePenetration& penetration, std::int64_t step) {
+  summary_.most_inside = std::max(summary_.most_inside, penetration.vertices_inside);
+  summary_.most_edges_meeting = std::max(summary_.most_edges_meeting, penetration.edges_meeting);
+  if (penetration.deepest <= summary_.deepest) return;
+  summary_.deepest = penetration.deepest;
+  summary_.deepest_step = step;
+}
+
 void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
-  summary_.guarantee_kept = false;
+  if (!verdict.kept()) summary_.guarantee_kept = false;
   ++summary_.failed_states;
   summary_.intersections += verdict.intersections.count;
   summary_.certificate_violations += verdict.motion.violations;
@@ -392,6 +411,9 @@ void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
                                 : "\nintersections " + show(state, snapshot, verdict.intersections);
   summary_.failure = "the audit of step " + std::to_string(verdict.step) + " failed (" + file.string() +
                      "); the last good state is kept:" + shown + "\n" + judge_.describe(verdict);
+  if (request_.deepest && verdict.volumes.deepest > *request_.deepest)
+    summary_.failure += judge_.describe(verdict.volumes) + ", where --deepest allows " + number(*request_.deepest) +
+                        " m\n";
 }
 
 void RunSession::store_frame(const Snapshot& snapshot) {
@@ -434,6 +456,12 @@ void RunSession::finish() {
                                        : *summary_.guarantee_kept ? "yes"
                                                                   : "no");
   writer_->set_extra("audited_states", std::to_string(summary_.audited_states));
+  if (summary_.has_volumes) {
+    writer_->set_extra("vertices_inside_at_start", std::to_string(summary_.inside_at_start));
+    writer_->set_extra("most_vertices_inside", std::to_string(summary_.most_inside));
+    writer_->set_extra("deepest_m", number(summary_.deepest, 6));
+    writer_->set_extra("most_edges_meeting_volumes", std::to_string(summary_.most_edges_meeting));
+  }
   writer_->close();
   take_times();
   writer_->finish(summary_.status);

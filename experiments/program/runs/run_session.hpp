@@ -47,8 +47,9 @@ struct RunRequest {
   Jitter jitter;                                           ///< of the start
   std::optional<compare::Checkpoint> resume;               ///< of `folder`, whose run goes on (resume.hpp)
   double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
-  bool profile = false;                                    ///< records times by stage
-  bool iterations = false, condition = false;              ///< see compare::SimulationOptions
+  std::optional<double> deepest;               ///< [m] deeper inside a volume a state fails; empty: none does
+  bool profile = false;                        ///< records times by stage
+  bool iterations = false, condition = false;  ///< see compare::SimulationOptions
   /// the contestant was wrapped so (experiments/program/runs/measured_simulation.hpp); for run.json
   bool residual = false, ledger = false;
   std::filesystem::path folder;
@@ -75,6 +76,10 @@ struct RunSummary {
   std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
   double largest_share_cut = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
+  bool has_volumes = false;  ///< the following of audited states of this command
+  std::size_t most_inside = 0, most_edges_meeting = 0, inside_at_start = 0;  ///< vertices, edges, vertices
+  double deepest = 0;                                                        ///< inside a volume [m]
+  std::int64_t deepest_step = 0;                                             ///< of the state
   std::optional<bool> guarantee_kept;  ///< empty where nothing was audited and nothing is known to be wrong
   std::string final_hash;              ///< state_hash of the last good state
   RunSeconds seconds;                  ///< of this command, which may have gone on with an earlier one's run
@@ -100,7 +105,8 @@ class RunSession {
 
  private:
   void start_state();
-  void check_start() const;
+  void check_start();
+  void count(const compare::VolumePenetration& penetration, std::int64_t step);
   std::string show(const std::string& name, const compare::Snapshot& state, const compare::AuditResult& result) const;
   void open_folder();
   void begin_folder();

@@ -67,6 +67,12 @@ Json to_json(const RunSummary& summary) {
                    {"intersections", summary.intersections},
                    {"beyond_bound", summary.certificate_violations},
                    {"unsafe_bounds", summary.unsafe_bounds}};
+  if (summary.has_volumes)
+    json["volumes"] = {{"inside_at_start", summary.inside_at_start},
+                       {"most_inside", summary.most_inside},
+                       {"deepest_m", summary.deepest},
+                       {"deepest_step", summary.deepest_step},
+                       {"most_edges_meeting", summary.most_edges_meeting}};
   if (!summary.left_out_of_audits.empty()) json["audit"]["left_out"] = summary.left_out_of_audits;
   if (!summary.failure.empty()) json["failure"] = summary.failure;
   json["warnings"] = summary.warnings;
@@ -97,6 +103,13 @@ std::string describe(const RunSummary& summary) {
       {"guarantee kept", guarantee(summary)},
       {"final state", summary.final_hash + " (FNV-1a of the positions' bits)"},
   };
+  if (summary.has_volumes)
+    rows.insert(rows.end() - 1, {"inside volumes", summary.audited_states == 0
+                                                       ? "not checked (audit off)"
+                                                       : "at most " + counted(summary.most_inside, "vertex position") +
+                                                             ", the deepest " + number(summary.deepest) + " m (state " +
+                                                             integer(summary.deepest_step) + "); at most " +
+                                                             counted(summary.most_edges_meeting, "edge") + " through"});
   if (!summary.left_out_of_audits.empty()) rows.insert(rows.end() - 1, {"not audited", summary.left_out_of_audits});
   std::string warnings;
   for (const std::string& warning : summary.warnings) warnings += (warnings.empty() ? "warnings: " : "; ") + warning;

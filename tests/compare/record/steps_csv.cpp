@@ -72,30 +72,41 @@ TEST_CASE("rows come back as the same numbers, whatever they are", "[unit]") {
 TEST_CASE("a ledger's columns come back, each in a field of its own, behind all others but stages", "[unit]") {
   const Scratch folder;
   const std::vector<std::string> stages{"sweep"};
-  const std::string header = step_header(stages, true, true);
-  CHECK(header.starts_with(step_header({}, true).substr(0, step_header({}, true).size() - 1) + ",energy_start [J],"));
+  const StepGroups all{.solids = true, .volumes = true, .ledger = true}, common{.solids = true, .volumes = true};
+  const std::string header = step_header(stages, all);
+  CHECK(
+      header.starts_with(step_header({}, common).substr(0, step_header({}, common).size() - 1) + ",energy_start [J],"));
   CHECK(header.ends_with(",vertices_held [1],stage_sweep [ms]\n"));
   std::string line = "1";  // 1, 2, 3, … behind one another
   const auto count = std::ranges::count(header, ',') + 1;
   for (std::ptrdiff_t k = 2; k <= count; ++k) line += "," + std::to_string(k);
   const StepTable table = read_text(folder, header + line + "\n");
   REQUIRE(table.rows.size() == 1);
-  CHECK(table.has_ledger);
-  CHECK(table.has_solids);
+  CHECK(table.groups == all);
   REQUIRE(table.rows[0].ledger);
-  CHECK(table.rows[0].ledger->energy_start == 25);
-  CHECK(table.rows[0].ledger->vertices_held == 49);
-  CHECK(table.rows[0].stage_ms == std::vector<double>{50});
-  CHECK(step_lines(table.rows, 1, true, true) == line + "\n");
-  CHECK(!read_text(folder, step_header(stages, true)).has_ledger);
-  CHECK_THROWS_WITH(read_text(folder, step_header({}, false, true).substr(0, header.find(",momentum_sweep_z")) + "\n"),
-                    ContainsSubstring("is expected"));
+  CHECK(table.rows[0].inverted_tetrahedra == 24);
+  CHECK(table.rows[0].volume_contacts == 25);
+  CHECK(table.rows[0].vertices_inside == 26);
+  CHECK(table.rows[0].deepest == 27);
+  CHECK(table.rows[0].ledger->energy_start == 28);
+  CHECK(table.rows[0].ledger->vertices_held == 52);
+  CHECK(table.rows[0].stage_ms == std::vector<double>{53});
+  CHECK(step_lines(table.rows, 1, all) == line + "\n");
+  CHECK(read_text(folder, step_header(stages, common)).groups == common);
+  CHECK(read_text(folder, step_header(stages, {.volumes = true})).groups == StepGroups{.volumes = true});
+  const auto refuses_without = [&](const std::string& title, const StepGroups& groups) {
+    const std::string whole = step_header({}, groups);
+    CHECK_THROWS_WITH(read_text(folder, whole.substr(0, whole.find("," + title)) + "\n"),
+                      ContainsSubstring("is expected"));
+  };
+  refuses_without("vertices_inside", {.volumes = true});
+  refuses_without("momentum_sweep_z", {.ledger = true});
 }
 
 TEST_CASE("a row without a ledger has not-a-number in each of its columns", "[unit]") {
   const Scratch folder;
   const StepTable table = read_text(
-      folder, step_header({}, false, true) + step_lines(std::array{StepMetrics{}}, 0, false, true));
+      folder, step_header({}, {.ledger = true}) + step_lines(std::array{StepMetrics{}}, 0, {.ledger = true}));
   REQUIRE(table.rows.size() == 1);
   CHECK(std::isnan(table.rows[0].ledger->energy_start));
   CHECK(std::isnan(table.rows[0].ledger->vertices_held));

@@ -381,7 +381,7 @@ int ogc_plane(const ogc_plane_in* in, ogc_plane_out* out) {
   mesh.positions = to_double(positions);
   add_faces(in->topology, mesh);
   Topology topology = build_topology(mesh);
-  topology.inside_solid.assign(in->inside_solid, in->inside_solid + n);
+  topology.off_surface.assign(in->inside_solid, in->inside_solid + n);
   const auto pairs = pairs_of_rows(in->excluded_partners, in->topology.vertex_count);
   const CompressedRows partners = partner_rows(n, pairs);
   const PlaneOut answer = ours().plane({&topology,

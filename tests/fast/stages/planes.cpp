@@ -193,7 +193,7 @@ TEST_CASE("planes: nothing bounds a vertex inside a solid, and it bounds nothing
   compare::Topology topology = compare::build_topology(4, std::vector<compare::Triangle>{{0, 1, 2}});
   const std::vector<std::uint8_t> none(4, 0);
   CHECK(detect(topology, positions, none, 0.1F, 0.1F).out.planes.of(3).size() == 1);
-  topology.inside_solid = {0, 0, 0, 1};
+  topology.off_surface = {0, 0, 0, 1};
   const Held held = detect(topology, positions, none, 0.1F, 0.1F);
   CHECK(held.out.planes.items.empty());
   CHECK(held.out.bound[3] == largest_float);

@@ -1,6 +1,9 @@
-// Scenes with volumes, by solvers that have none.
+// Scenes with volumes: who refuses them, and what a run says of them.
 #include <string>
 
+#include <nlohmann/json.hpp>
+
+#include "compare/files/bytes.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/problem/solid_scene.hpp"
@@ -9,7 +12,7 @@
 using namespace ogc;
 using namespace ogc::tests;
 
-TEST_CASE("a solver that has no volumes refuses them by name, before anything is written", "[unit]") {
+TEST_CASE("a solver that has no volumes of tetrahedra refuses them by name, before anything is written", "[unit]") {
   const TemporaryFolder folder;
   compare::Scene scene = solid_scene();
   scene.bodies[0].contact = compare::BodyContact::volume;
@@ -19,8 +22,50 @@ TEST_CASE("a solver that has no volumes refuses them by name, before anything is
     const ProgramResult result = run_ogc("run " + file + " --solver " + solver + " --out " + out.string());
     INFO(result.err);
     CHECK(result.status == 2);
-    CHECK(contains(result.err, {"body 'block' is a volume, which", solver == "reference_vbd" ? "vbd" : solver,
+    CHECK(contains(result.err, {"body 'block' is a volume", solver == "reference_vbd" ? "vbd" : solver,
                                 "does not simulate", "leave the body a surface"}));
     CHECK(!std::filesystem::exists(out));
   }
+}
+
+TEST_CASE("newton and ipc refuse a driven volume by name", "[unit]") {
+  const TemporaryFolder folder;
+  for (const std::string solver : {"newton", "ipc"}) {
+    const ProgramResult result = run_ogc("run dress --scale smoke --set contact=volume --solver " + solver + " --out " +
+                                         (folder / solver).string());
+    INFO(result.err);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, {"body 'body' is a volume", solver, "leave the body a surface"}));
+  }
+}
+
+TEST_CASE("a dress on a volume: no lag, no intersection among its panels, and the summary says what is inside",
+          "[unit]") {
+  const TemporaryFolder folder;
+  const std::string run = "run dress --scale smoke --set contact=volume --steps 20 --audit every --json --out ";
+  const ProgramResult result = run_ogc(run + (folder / "run").string());
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  CHECK(json.at("guarantee_kept") == true);
+  CHECK(json.at("largest_lag_m") == 0);
+  CHECK(json.at("audit").at("intersections") == 0);
+  CHECK(json.at("volumes").at("inside_at_start") == 0);
+  CHECK(json.at("volumes").at("most_inside") == 0);
+  const std::string header = compare::read_bytes(folder / "run" / "steps.csv");
+  CHECK(contains(header, {"volume_contacts [1],vertices_inside [1],deepest [m]"}));
+  const ProgramResult audit = run_ogc("audit " + (folder / "run").string() + " --deepest 0");
+  CHECK(audit.status == 0);
+  CHECK(contains(audit.out, {"0 vertex positions inside volumes"}));
+}
+
+TEST_CASE("contact= belongs to scenes with a driven body, and knows two words", "[unit]") {
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& arguments) {
+    const ProgramResult result = run_ogc("run " + arguments + " --out " + (folder / "run").string());
+    CHECK(result.status == 2);
+    return result.err;
+  };
+  CHECK(contains(said("twist --scale smoke --set contact=volume"), {"contact", "is moved whole by a motion"}));
+  CHECK(contains(said("dress --scale smoke --set contact=volum"), {"contact", "volum", "volume"}));
 }

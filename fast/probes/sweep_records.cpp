@@ -1,7 +1,8 @@
-#include "fast/probes/probe_sweep.hpp"
+#include "fast/probes/sweep_records.hpp"
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace ogc::fast {
 namespace {
@@ -51,6 +52,27 @@ ContactRecords contact_records(const compare::SweepIn& in) {
   }
   records.offsets = counts.offsets();
   return records;
+}
+
+std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,
+                                                      const Colouring& colouring) {
+  const auto body = [&](int v) { return static_cast<std::size_t>(rest.body[static_cast<std::size_t>(v)]); };
+  std::vector<std::vector<VolumeIncidence>> of_vertex(in.old.size()), rows;
+  for (const compare::VolumeContact& contact : in.volumes) {
+    const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
+    const ContactMaterial material = rest.contact[body(contact.point) * in.scene->bodies.size() + body(corners[0])];
+    VolumeIncidence incidence;
+    for (std::size_t k = 0; k < 3; ++k) {
+      incidence.corner[k] = corners[k];
+      incidence.contact.weights[k] = contact.weights[k];
+    }
+    incidence.contact.normal = {contact.direction.x, contact.direction.y, contact.direction.z};
+    incidence.contact.stiffness = material.stiffness;
+    incidence.contact.friction = material.friction;
+    of_vertex[static_cast<std::size_t>(contact.point)].push_back(incidence);
+  }
+  for (const int v : colouring.order) rows.push_back(std::move(of_vertex[static_cast<std::size_t>(v)]));
+  return rows;
 }
 
 Colouring colouring_of(std::span<const compare::Index> colour) {

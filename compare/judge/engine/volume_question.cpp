@@ -1,0 +1,93 @@
+#include "compare/judge/engine/volume_question.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace ogc::compare {
+namespace {
+
+std::size_t place(Index i) { return static_cast<std::size_t>(i); }
+
+/// Place of a number in an ascending list; −1 where it is not there.
+Index find(const std::vector<Index>& ascending, Index number) {
+  const auto found = std::ranges::lower_bound(ascending, number);
+  return found != ascending.end() && *found == number ? static_cast<Index>(found - ascending.begin()) : -1;
+}
+
+VolumeContact rounded(const VolumeAnswer& answer, Index vertex) {
+  const auto single = [](double x) { return static_cast<float>(x); };
+  VolumeContact contact = answer.contact;
+  contact.point = vertex;
+  for (std::size_t k = 0; k < 3; ++k) contact.weights[k] = single(answer.weights[k]);
+  contact.direction = {single(answer.direction.x), single(answer.direction.y), single(answer.direction.z)};
+  contact.depth = single(answer.depth);
+  return contact;
+}
+
+}  // namespace
+
+VolumeQuestion::VolumeQuestion(const Scene& scene, const Topology& topology)
+    : topology_(topology),
+      surface_(volume_surface(scene)),
+      own_(std::make_shared<const Topology>(surface_.topology)),
+      contact_radius_(static_cast<float>(scene.settings.contact_radius)) {
+  const std::vector<Index> groups = rigid_groups(scene);
+  const std::vector<bool> is_volume = volume_flags(scene);
+  for (std::size_t v = 0; v < groups.size(); ++v)
+    if (groups[v] == -1 && !is_volume[v]) asking_.push_back(static_cast<Index>(v));
+}
+
+VolumeDepthCase VolumeQuestion::at(std::span<const Vec3f> positions) const {
+  VolumeDepthCase asked{own_, {positions.begin(), positions.end()}, contact_radius_, {}};
+  for (const Index v : asking_) asked.points.push_back(positions[place(v)]);
+  return asked;
+}
+
+std::vector<VolumeContact> VolumeQuestion::exact(const VolumeDepthCase& asked, const Authority& authority) const {
+  const VolumeDepthTruth truth = authority.volume_depth(
+      {asked.topology.get(), asked.positions, asked.contact_radius, asked.points});
+  std::vector<VolumeContact> contacts;
+  const auto take = [&](const VolumeAnswer& answer, std::size_t i) {
+    VolumeContact contact = rounded(answer, asking_[i]);
+    contact.triangle = surface_.triangles[place(contact.triangle)];
+    contact.face = scene_face(surface_, topology_, contact.face);
+    contacts.push_back(contact);
+  };
+  for (std::size_t i = 0; i < truth.parts.size(); ++i) {
+    for (const VolumePartTruth& part : truth.parts[i]) {
+      if (part.inside) take(part.held.front(), i);
+      for (std::size_t k = 0; k < part.touching.size() && !part.inside; ++k)
+        if (part.is_exact[k] != 0) take(part.touching[k], i);
+    }
+  }
+  std::ranges::sort(contacts, {},
+                    [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
+  return contacts;
+}
+
+std::optional<VolumeDepthOut> VolumeQuestion::answer_of(const VolumeDepthOut& in_scene, std::string& problem) const {
+  VolumeDepthOut own;
+  for (VolumeContact contact : in_scene.contacts) {
+    const auto refuse = [&](const std::string& what) {
+      problem = "a contact of vertex " + std::to_string(contact.point) + " with a volume is of " + what;
+      return std::nullopt;
+    };
+    const Index point = find(asking_, contact.point), triangle = find(surface_.triangles, contact.triangle);
+    if (point < 0) return refuse("a vertex that asks none");
+    if (triangle < 0) return refuse("a triangle of none");
+    contact.point = point;
+    contact.triangle = triangle;
+    if (contact.face.kind == FaceKind::triangle) contact.face.index = find(surface_.triangles, contact.face.index);
+    if (contact.face.kind == FaceKind::edge) {
+      if (contact.face.index < 0 || place(contact.face.index) >= topology_.edges.size())
+        return refuse("an edge that does not exist");
+      const Edge& ends = topology_.edges[place(contact.face.index)];
+      contact.face.index = find_edge(surface_.topology, ends[0], ends[1]);
+    }
+    if (contact.face.index < 0) return refuse("a face of none");
+    own.contacts.push_back(contact);
+  }
+  return own;
+}
+
+}  // namespace ogc::compare

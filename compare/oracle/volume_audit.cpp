@@ -1,0 +1,223 @@
+// The winding number by the crossings of a ray from (x, y + ε, z + ε²) along +x, ε vanishing: it meets no edge, and
+// where x is not on the surface the number there is that at x. A triangle is crossed where the ray's foot lies inside
+// of its projection along x, on the side that the triangle's plane says.
+#include "compare/oracle/volume_audit.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "compare/oracle/exact_intersection.hpp"
+#include "compare/oracle/pairs.hpp"
+
+namespace ogc::compare {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Corners = std::array<Vec3, 3>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Sign of the area of (a, b, x + (ε, ε²)) seen along the x axis.
+int side_seen(const Vec3& a, const Vec3& b, const Vec3& x) {
+  const int exact = CGAL::orientation(Kernel::Point_2(a.y, a.z), Kernel::Point_2(b.y, b.z), Kernel::Point_2(x.y, x.z));
+  if (exact != 0) return exact;
+  if (a.z != b.z) return a.z > b.z ? 1 : -1;
+  return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
+}
+
+/// How the ray from x crosses the triangle: 1 outward, −1 inward, 0 not at all.
+int crossing(const Corners& t, const Vec3& x) {
+  const int seen = side_seen(t[0], t[1], x);
+  if (seen == 0 || side_seen(t[1], t[2], x) != seen || side_seen(t[2], t[0], x) != seen) return 0;
+  const auto point = [](const Vec3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
+  // the normal's x component has the sign `seen`: the plane lies ahead where x is on the side against it
+  const int above = CGAL::orientation(point(t[0]), point(t[1]), point(t[2]), point(x));
+  return above == -seen ? seen : 0;
+}
+
+bool lies_on(const Corners& t, const Vec3& x) { return segment_meets_triangle({x, x}, t); }
+
+Vec3 minus(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+double to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
+  const Vec3 e = minus(b, a), w = minus(x, a);
+  const double length = dot(e, e), s = length > 0 ? std::clamp(dot(w, e) / length, 0.0, 1.0) : 0;
+  return std::hypot(w.x - s * e.x, w.y - s * e.y, w.z - s * e.z);
+}
+
+/// In rounded numbers. Where the foot on the plane is in doubt the outline counts, which is as near there.
+double to_triangle(const Vec3& x, const Corners& t) {
+  const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+  const double square = dot(n, n);
+  bool is_inside = square > 0;
+  for (std::size_t k = 0; k < 3 && is_inside; ++k)
+    is_inside = dot(cross(minus(t[(k + 1) % 3], t[k]), minus(x, t[k])), n) > 0;
+  if (is_inside) return std::abs(dot(n, minus(x, t[0]))) / std::sqrt(square);
+  return std::min({to_segment(x, t[0], t[1]), to_segment(x, t[1], t[2]), to_segment(x, t[2], t[0])});
+}
+
+/// Edges of one triangle, sorted into closed rims, each against the sense of its triangle.
+std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
+  std::map<Index, Index> root;
+  const auto find = [&](Index v) {
+    while (root.try_emplace(v, v).first->second != v) v = root[v];
+    return v;
+  };
+  for (const auto& [a, b] : rims) root[std::max(find(a), find(b))] = std::min(find(a), find(b));
+  std::map<Index, std::vector<Edge>> by_root;
+  for (const auto& [a, b] : rims) by_root[find(a)].push_back({b, a});
+  std::vector<std::vector<Edge>> closed;
+  for (auto& [first, edges] : by_root) closed.push_back(std::move(edges));
+  return closed;
+}
+
+/// The triangles of a part and of the fans that close it, where the positions put them.
+class PlacedPart {
+ public:
+  PlacedPart(std::span<const Triangle> triangles, std::span<const std::vector<Edge>> rims,
+             std::span<const Vec3> positions)
+      : own_(triangles.size()), all_(placed(triangles, rims, positions)), tree_(boxes(all_)) {}
+
+  bool holds(const Vec3& x) const {
+    Box ray = box_of({x});
+    ray.high[0] = infinity;
+    int winding = 0;
+    bool is_on = false;
+    tree_.for_each_meeting(ray, [&](Index i) {
+      const Corners& t = all_[at(i)];
+      winding += crossing(t, x);
+      is_on = is_on || (at(i) < own_ && lies_on(t, x));
+    });
+    return winding != 0 && !is_on;
+  }
+
+  double distance(const Vec3& x) const {
+    double least = infinity;
+    for (std::size_t i = 0; i < own_; ++i) least = std::min(least, to_triangle(x, all_[i]));
+    return least;
+  }
+
+ private:
+  static std::vector<Corners> placed(std::span<const Triangle> triangles, std::span<const std::vector<Edge>> rims,
+                                     std::span<const Vec3> positions) {
+    std::vector<Corners> all;
+    for (const auto& [a, b, c] : triangles) all.push_back({positions[at(a)], positions[at(b)], positions[at(c)]});
+    for (const std::vector<Edge>& rim : rims) {
+      Vec3 sum;
+      for (const Edge& edge : rim) {
+        const Vec3& x = positions[at(edge[0])];
+        sum = {sum.x + x.x, sum.y + x.y, sum.z + x.z};
+      }
+      const auto count = static_cast<double>(rim.size());
+      const Vec3 mean{sum.x / count, sum.y / count, sum.z / count};
+      for (const auto& [a, b] : rim) all.push_back({positions[at(a)], positions[at(b)], mean});
+    }
+    return all;
+  }
+  static std::vector<Box> boxes(const std::vector<Corners>& all) {
+    std::vector<Box> result;
+    for (const auto& [a, b, c] : all) result.push_back(box_of({a, b, c}));
+    return result;
+  }
+
+  std::size_t own_;
+  std::vector<Corners> all_;
+  BoxTree tree_;
+};
+
+/// How many of the edges meet one of the triangles.
+std::size_t count_meeting(const Topology& topology, std::span<const Index> edges, std::span<const Index> triangles,
+                          std::span<const Vec3> positions) {
+  std::vector<Box> boxes;
+  const auto corners = [&](Index t) {
+    const auto& [a, b, c] = topology.triangles[at(t)];
+    return Corners{positions[at(a)], positions[at(b)], positions[at(c)]};
+  };
+  for (const Index t : triangles) {
+    const Corners c = corners(t);
+    boxes.push_back(box_of({c[0], c[1], c[2]}));
+  }
+  const BoxTree tree(boxes);
+  std::vector<char> meets(edges.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 64),
+                    [&](const tbb::blocked_range<std::size_t>& r) {
+                      for (std::size_t i = r.begin(); i < r.end(); ++i) {
+                        const auto& [a, b] = topology.edges[at(edges[i])];
+                        const std::array<Vec3, 2> segment{positions[at(a)], positions[at(b)]};
+                        tree.for_each_meeting(box_of({segment[0], segment[1]}), [&](Index k) {
+                          if (!meets[i]) meets[i] = segment_meets_triangle(segment, corners(triangles[at(k)]));
+                        });
+                      }
+                    });
+  return static_cast<std::size_t>(std::count(meets.begin(), meets.end(), 1));
+}
+
+}  // namespace
+
+VolumeAuditor::VolumeAuditor(const Scene& scene) : topology_(build_topology(scene)) {
+  for (const VolumePart& part : volume_parts(scene)) {
+    std::vector<Triangle> triangles;
+    for (const Index t : part.triangles) triangles.push_back(scene.mesh.triangles[at(t)]);
+    parts_.push_back({std::move(triangles), closed_rims(part.rims)});
+  }
+  if (parts_.empty()) return;
+  const std::vector<bool> is_volume = volume_flags(scene);
+  const std::vector<Index> groups = rigid_groups(scene);
+  for (Index v = 0; v < topology_.vertex_count; ++v)
+    if (!is_volume[at(v)] && groups[at(v)] != 0 && !topology_.vertex_edges[at(v)].empty()) asking_.push_back(v);
+  for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
+    const auto& [a, b] = topology_.edges[e];
+    if (is_volume[at(a)])
+      volume_edges_.push_back(static_cast<Index>(e));
+    else if (groups[at(a)] != 0 || groups[at(b)] != 0)
+      surface_edges_.push_back(static_cast<Index>(e));
+  }
+  for (std::size_t t = 0; t < topology_.triangles.size(); ++t) {
+    const Triangle& corners = topology_.triangles[t];
+    const bool is_fixed = std::ranges::all_of(corners, [&](Index v) { return groups[at(v)] == 0; });
+    if (is_volume[at(corners[0])])
+      volume_triangles_.push_back(static_cast<Index>(t));
+    else if (!is_fixed)
+      surface_triangles_.push_back(static_cast<Index>(t));
+  }
+}
+
+VolumePenetration VolumeAuditor::audit(std::span<const Vec3> positions) const {
+  VolumePenetration found;
+  if (!has_volumes()) return found;
+  check_state("volumes", topology_, positions, {});
+  std::vector<PlacedPart> parts;
+  for (const Part& part : parts_) parts.emplace_back(part.triangles, part.rims, positions);
+  std::vector<double> depth(asking_.size(), -1);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, depth.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& r) {
+                      for (std::size_t i = r.begin(); i < r.end(); ++i) {
+                        const Vec3& x = positions[at(asking_[i])];
+                        for (const PlacedPart& part : parts)
+                          if (part.holds(x)) depth[i] = std::max(depth[i], part.distance(x));
+                      }
+                    });
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (depth[i] < 0) continue;
+    ++found.vertices_inside;
+    if (found.deepest_vertex >= 0 && depth[i] <= found.deepest) continue;
+    found.deepest_vertex = asking_[i];
+    found.deepest = depth[i];
+  }
+  found.edges_meeting = count_meeting(topology_, surface_edges_, volume_triangles_, positions) +
+                        count_meeting(topology_, volume_edges_, surface_triangles_, positions);
+  return found;
+}
+
+}  // namespace ogc::compare

@@ -1,0 +1,22 @@
+// What a step sums up where there are volumes.
+#pragma once
+
+#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/volumes/stream.hpp"
+
+namespace ogc::fast {
+
+/// Energies, those of contacts with volumes included.
+struct VolumeSums {
+  EnergySums energies;
+  VolumeTerm volume;
+  int slots;  ///< free vertices
+
+  /// Those of one chunk.
+  OGC_HD void add(int chunk, int chunks, double* sums) const {
+    energies.add(chunk, chunks, sums);
+    add_terms(volume, slots, chunk, chunks, sums);
+  }
+};
+
+}  // namespace ogc::fast

@@ -1,0 +1,32 @@
+// What the question of a sweep says, as the resident sweep reads it: made on the host.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compare/stages/sweep.hpp"
+#include "fast/contact_view.hpp"
+#include "fast/kernels/volumes/stream.hpp"
+#include "fast/stages/colouring.hpp"
+#include "fast/stages/rest_state.hpp"
+
+namespace ogc::fast {
+
+/// The contacts of a question as a detection would leave them.
+struct ContactRecords {
+  std::vector<VertexFacetRecord> vertex_facet;  ///< by record
+  std::vector<EdgeEdgeRecord> edge_edge;        ///< by record
+  std::vector<int> offsets;                     ///< of the incidences by vertex, vertex_count + 1
+};
+
+/// Those of a question.
+ContactRecords contact_records(const compare::SweepIn& in);
+
+/// The contacts with volumes of a question by slot, with the materials of `rest`.
+std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,
+                                                      const Colouring& colouring);
+
+/// The order of a sweep whose colours are given; −1: not free.
+Colouring colouring_of(std::span<const compare::Index> colour);
+
+}  // namespace ogc::fast

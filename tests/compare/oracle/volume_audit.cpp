@@ -1,0 +1,90 @@
+// What the oracle says of volumes, against cases decided by hand.
+#include "compare/oracle/volume_audit.hpp"
+
+#include "compare/problem/error.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc::compare;
+
+namespace {
+
+/// The surface of a cube of 1 m from `corner` on, outward; vertex (i, j, k) is number 4i + 2j + k.
+Mesh cube(const Vec3& corner) {
+  Mesh mesh;
+  for (int v = 0; v < 8; ++v) mesh.positions.push_back({corner.x + v / 4, corner.y + v / 2 % 2, corner.z + v % 2});
+  for (const auto& [a, b, c, d] :
+       {Tetrahedron{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}})
+    mesh.triangles.push_back({a, b, c}), mesh.triangles.push_back({a, c, d});
+  return mesh;
+}
+
+/// Without its last two triangles, those at z = 1.
+Mesh open_box(const Vec3& corner) {
+  Mesh mesh = cube(corner);
+  mesh.triangles.resize(mesh.triangles.size() - 2);
+  return mesh;
+}
+
+/// A cloth of one triangle before volumes of these surfaces.
+Scene scene_of(const std::array<Vec3, 3>& cloth, const std::vector<Mesh>& volumes) {
+  Scene scene;
+  scene.name = "volumes";
+  append_body(scene, {.name = "cloth", .material = {}}, {{cloth.begin(), cloth.end()}, {{0, 1, 2}}, {}});
+  for (const Mesh& mesh : volumes)
+    append_body(scene, {.name = "volume", .fixed = true, .material = {}, .contact = BodyContact::volume}, mesh);
+  return scene;
+}
+
+VolumePenetration audited(const Scene& scene) { return VolumeAuditor(scene).audit(scene.mesh.positions); }
+
+}  // namespace
+
+TEST_CASE("vertices inside a volume are counted, and the deepest is named", "[unit]") {
+  const Scene scene = scene_of({{{0.5, 0.5, 0.25}, {0.125, 0.5, 0.5}, {0.5, 0.5, 2}}}, {cube({})});
+  const VolumePenetration found = audited(scene);
+  CHECK(found.vertices_inside == 2);
+  CHECK(found.deepest_vertex == 0);
+  CHECK(found.deepest == 0.25);
+  CHECK(found.edges_meeting == 3);  // those to the vertex outside, and the diagonal of the cube's face at z = 1
+}
+
+TEST_CASE("a vertex on the surface is outside, whichever face, edge or corner it is on", "[unit]") {
+  for (const Vec3& x : {Vec3{0.5, 0.5, 0}, {0.5, 0.5, 1}, {0, 0.25, 0.25}, {1, 0.25, 0.25}, {0, 0, 0.5}, {1, 1, 1}}) {
+    const Scene scene = scene_of({{x, {5, 5, 5}, {5, 5, 6}}}, {cube({})});
+    CHECK(audited(scene).vertices_inside == 0);
+  }
+}
+
+TEST_CASE("a ray through edges and corners counts as one beside them", "[unit]") {
+  // towards +x it meets the far face's diagonal, or passes over corners of a second cube
+  for (const Vec3& x : {Vec3{0.5, 0.5, 0.5}, {0.25, 0.25, 0.75}, {0.5, 0.75, 0.25}}) {
+    CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({})})).vertices_inside == 1);
+    CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({3, 0.5, 0.5}), cube({})})).vertices_inside == 1);
+    CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({3, x.y, x.z})})).vertices_inside == 0);
+  }
+}
+
+TEST_CASE("each part answers by itself, and a rim is closed by a fan", "[unit]") {
+  const Scene overlapping = scene_of({{{0.75, 0.5, 0.5}, {5, 5, 5}, {5, 5, 6}}}, {cube({}), cube({0.5, 0, 0})});
+  CHECK(audited(overlapping).vertices_inside == 1);
+  CHECK(audited(overlapping).deepest == 0.25);  // of the part that it is deeper in: 0.25 from x = 1 and from x = 0.5
+  const Scene open = scene_of({{{0.5, 0.5, 0.75}, {0.5, 0.5, 1.25}, {5, 5, 6}}}, {open_box({})});
+  CHECK(audited(open).vertices_inside == 1);
+  CHECK(audited(open).deepest == 0.5);  // to the walls: the lid is none of its triangles
+}
+
+TEST_CASE("edges of a volume that pass a cloth between its vertices are counted", "[unit]") {
+  const Scene scene = scene_of({{{-9, -9, 0.5}, {9, -9, 0.5}, {0, 18, 0.5}}}, {cube({})});
+  const VolumePenetration found = audited(scene);
+  CHECK(found.vertices_inside == 0);
+  // of the cube's edges along z four, and four diagonals of its upright faces
+  CHECK(found.edges_meeting == 8);
+}
+
+TEST_CASE("a scene without volumes lets nothing in, and positions must be the scene's", "[unit]") {
+  const Scene scene = scene_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {});
+  CHECK_FALSE(VolumeAuditor(scene).has_volumes());
+  CHECK(audited(scene).vertices_inside == 0);
+  const VolumeAuditor auditor(scene_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {cube({})}));
+  CHECK_THROWS_AS(auditor.audit(scene.mesh.positions), InputError);
+}

@@ -1,0 +1,175 @@
+// Driven volumes in the resident simulation (§3.9): they are at their targets, push out, and carry along.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "compare/oracle/audit.hpp"
+#include "compare/oracle/volume_audit.hpp"
+#include "fast/cpu/simulation.hpp"
+#include "tests/catch.hpp"
+#include "tests/fast/scenes.hpp"
+
+using namespace ogc;
+using namespace ogc::fast;
+using namespace ogc::fast::test;
+using compare::Index;
+using compare::Scene;
+using compare::Vec3;
+
+namespace {
+
+bool same_bits(const std::vector<compare::Vec3f>& a, const std::vector<compare::Vec3f>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(compare::Vec3f)) == 0;
+}
+
+/// Adds a box from `low` to `high` [m] as a fixed volume of twelve triangles.
+compare::Body& add_box(Scene& scene, const Vec3& low, const Vec3& high, double friction = 0.2) {
+  compare::Mesh mesh;
+  for (int v = 0; v < 8; ++v)
+    mesh.positions.push_back(
+        {v / 4 == 0 ? low.x : high.x, v / 2 % 2 == 0 ? low.y : high.y, v % 2 == 0 ? low.z : high.z});
+  for (const auto& [a, b, c, d] :
+       {compare::Tetrahedron{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}})
+    mesh.triangles.push_back({a, b, c}), mesh.triangles.push_back({a, c, d});
+  compare::Material material;
+  material.friction = friction;
+  append_body(scene, {.name = "box", .fixed = true, .material = material, .contact = compare::BodyContact::volume},
+              mesh);
+  return scene.bodies.back();
+}
+
+/// The last body moves along with this velocity [m/s] and turns about the y axis.
+void drive(Scene& scene, const Vec3& velocity, double angular_velocity = 0) {
+  compare::Body& body = scene.bodies.back();
+  body.fixed = false;
+  compare::PrescribedMotion motion;
+  motion.name = "driven";
+  for (Index v = 0; v < body.vertex_count; ++v) motion.vertices.push_back(body.first_vertex + v);
+  motion.velocity = velocity;
+  motion.axis = {0, 1, 0};
+  motion.angular_velocity = angular_velocity;
+  scene.motions.push_back(motion);
+}
+
+/// A sheet over a box that is its ground; r = 5 mm.
+Scene sheet_over_box(double height, double friction = 0.5) {
+  Scene scene = empty_scene();
+  compare::Material material;
+  material.friction = friction;
+  add_sheet(scene, 8, 0.1, height, false, material);
+  add_box(scene, {-0.3, -0.1, -0.3}, {0.3, 0, 0.3}, friction);
+  scene.settings.iterations = 20;
+  scene.settings.redetect_fraction = 1;
+  compare::round_to_single(scene);
+  return scene;
+}
+
+compare::VolumePenetration penetration(const Scene& scene, const compare::Snapshot& state) {
+  return compare::VolumeAuditor(scene).audit(compare::to_double(state.positions));
+}
+
+std::pair<float, float> heights(const compare::Snapshot& state, std::size_t count) {
+  const auto [low, high] = std::minmax_element(state.positions.begin(),
+                                               state.positions.begin() + static_cast<std::ptrdiff_t>(count),
+                                               [](const auto& a, const auto& b) { return a.y < b.y; });
+  return {low->y, high->y};
+}
+
+}  // namespace
+
+TEST_CASE("a sheet that falls on a volume comes to rest r above it, less what its weight presses", "[unit]") {
+  const Scene scene = sheet_over_box(0.02);
+  const auto simulation = start_cpu(scene, {});
+  for (const compare::StepMetrics& row : simulation->advance(150)) CHECK(row.status == compare::step_clean);
+  const compare::Snapshot state = simulation->snapshot();
+  const auto [low, high] = heights(state, 64);
+  // 0.2 kg/m² on (0.1/7)² m² a vertex, twice that where eight triangles meet, press 100 N/m by 8 µm at most
+  CHECK(low > 0.005f - 1e-5f);
+  CHECK(high < 0.005f + 1e-5f);
+  CHECK(penetration(scene, state).vertices_inside == 0);
+}
+
+TEST_CASE("who begins inside a volume comes out on the nearest side, and stays out", "[unit]") {
+  Scene scene = sheet_over_box(-0.004);
+  scene.settings.iterations = 1;  // one detection a step
+  const auto simulation = start_cpu(scene, {});
+  CHECK(penetration(scene, simulation->snapshot()).vertices_inside == 64);
+  CHECK(penetration(scene, simulation->snapshot()).deepest == Approx(0.004).epsilon(1e-5));
+  const std::vector<compare::StepMetrics> rows = simulation->advance(100);
+  CHECK(rows.front().vertices_inside == 64);
+  CHECK(rows.front().deepest == Approx(0.004).epsilon(1e-5));
+  CHECK(rows.back().vertices_inside == 0);
+  CHECK(penetration(scene, simulation->snapshot()).vertices_inside == 0);
+  CHECK(heights(simulation->snapshot(), 64).first > 0);
+}
+
+TEST_CASE("a driven volume is at its targets, and carries along what lies on it", "[unit]") {
+  Scene scene = sheet_over_box(0.0049);
+  drive(scene, {0.2, 0, 0});
+  const auto simulation = start_cpu(scene, {});
+  for (const compare::StepMetrics& row : simulation->advance(60)) {
+    CHECK(row.largest_lag == 0);
+    CHECK(row.volume_contacts >= 64);
+  }
+  const compare::Snapshot state = simulation->snapshot();
+  for (std::size_t v = 0; v < 64; ++v) CHECK(state.velocities[v].x == Approx(0.2).margin(0.01));
+  const auto targets = prescribed_targets(scene, scene.motions[0], 60 * scene.settings.time_step);
+  for (std::size_t k = 0; k < targets.size(); ++k) CHECK(state.positions[64 + k] == targets[k]);
+}
+
+TEST_CASE("without friction a driven volume slides away below what lies on it", "[unit]") {
+  // as above one that stands still, but for what roundings of the triangles' points do
+  const auto velocities = [](bool is_driven) {
+    Scene scene = sheet_over_box(0.0049, 0);
+    if (is_driven) drive(scene, {0.2, 0, 0});
+    const auto simulation = start_cpu(scene, {});
+    simulation->advance(10);
+    return simulation->snapshot().velocities;
+  };
+  const std::vector<compare::Vec3f> above_still = velocities(false), above_driven = velocities(true);
+  for (std::size_t v = 0; v < 64; ++v) CHECK(above_driven[v].x == Approx(above_still[v].x).margin(1e-3));
+}
+
+TEST_CASE("two sheets on a volume that rises fast never pass through each other", "[property]") {
+  Scene scene = empty_scene();
+  add_sheet(scene, 8, 0.1, 0.006, false);
+  add_sheet(scene, 7, 0.09, 0.012, false);
+  add_box(scene, {-0.03, -0.1, -0.03}, {0.03, 0, 0.03});
+  drive(scene, {0.1, 2, 0}, 5);
+  scene.settings.iterations = 10;
+  const auto simulation = start_cpu(scene, {});
+  const compare::Topology topology = build_topology(scene);
+  for (int k = 0; k < 20; ++k) {
+    const compare::StepMetrics row = simulation->advance(1).at(0);
+    REQUIRE(row.status == compare::step_clean);
+    CHECK(row.largest_lag == 0);
+    const compare::Snapshot state = simulation->snapshot();
+    CHECK(compare::audit(topology, compare::to_double(state.positions), exclusions(scene)).count == 0);
+  }
+}
+
+TEST_CASE("rows of contacts with volumes grow, and a run with volumes has the same bits again and across a restore",
+          "[property]") {
+  Scene scene = sheet_over_box(-0.003);
+  // boxes in boxes: a vertex is inside of seven at once
+  for (int k = 0; k < 6; ++k) {
+    const double by = 0.001 * k;
+    add_box(scene, {-0.2 - by, -0.1 - by, -0.2}, {0.2 + by, 0.0005 * k, 0.2 + by});
+  }
+  drive(scene, {0.05, 0.01, 0});
+  compare::round_to_single(scene);
+  const auto whole = start_cpu(scene, {});
+  const std::vector<compare::StepMetrics> rows = whole->advance(12);
+  CHECK(rows[0].repeats > 0);
+  CHECK(rows[0].volume_contacts > 64 * 4);
+  const auto first = start_cpu(scene, {}), second = start_cpu(scene, {});
+  first->advance(5);
+  const compare::Snapshot state = first->snapshot();
+  second->restore(state);
+  CHECK(second->advance(7).front().repeats == 0);
+  CHECK(same_bits(second->snapshot().positions, whole->snapshot().positions));
+  CHECK(second->snapshot().capacities == whole->snapshot().capacities);
+  compare::Snapshot wrong = state;
+  wrong.capacities.back() = 0;
+  CHECK_THROWS_AS(second->restore(wrong), std::invalid_argument);
+}
