@@ -10,16 +10,23 @@
 #include <optional>
 
 #include <tbb/parallel_for.h>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "reference/energies/rods/rod_terms.hpp"
 
 namespace ogc::reference {
 namespace {
 
-using Many = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_quad::backend_type,
-                                           boost::multiprecision::et_off>;
+/// Binary128, of 113 bits: the compiler's own, whose exponents need no care.
+__extension__ using Many = __float128;
+
 using std::sqrt;
+/// Newton's method on the root in double, which doubles its bits twice.
+Many sqrt(const Many& x) {
+  if (!(x > 0)) return 0;
+  Many root = std::sqrt(static_cast<double>(x));
+  for (int step = 0; step < 2; ++step) root = (root + x / root) / 2;
+  return root;
+}
 
 template <class T>
 using Four = FourOf<T>;
@@ -188,11 +195,11 @@ Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double en
 Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many& unit) {
   const Problem<double> rough = problem.as<double>();
   std::vector<Four<double>> starts;
-  for (std::size_t k = 0; k < 4; ++k) starts.push_back(basis<double>(k));
   Four<double> near;
   for (std::size_t k = 0; k < 4; ++k) near[k] = static_cast<double>(old[k]);
   starts.push_back(near);
   starts.push_back({0.3, -0.5, 0.7, 0.2});
+  starts.push_back({0.6, 0.4, 0.1, -0.7});
   if (const double pull = size_of(rough.vector); pull > 0) starts.push_back(scaled(1 / pull, rough.vector));
   std::vector<Four<double>> ends;
   for (const Four<double>& start : starts)
@@ -202,7 +209,7 @@ Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many
       if (std::ranges::none_of(ends, is_near)) ends.push_back(end);
     }
   std::optional<Four<Many>> best;
-  Many lowest;
+  Many lowest = 0;
   // Where nearly a whole circle of quaternions is as good, ends stand all around it: the lowest lead to the minimiser.
   std::ranges::sort(ends, {}, [&](const Four<double>& q) { return rough.energy(q); });
   ends.resize(std::min<std::size_t>(ends.size(), 4));

@@ -90,8 +90,19 @@ double energy(const OrientationAnswer& answer, const Four& q) {
 
 double size(const Four& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); }
 
-/// The energy of a rod's bend and stretch as a function of q, from rotation matrices alone: k_s l/2 ‖D/l − R e₃‖² and
-/// 4 w/4 (1 − cos θ/2) of the angle θ of the rotation that is left over, which a trace tells.
+/// The angle θ of the rotation that is left over between the segment and a neighbour, from matrices alone: a trace
+/// tells it.
+double angle_to(const OrientationCase& c, const Quaternion& q, bool is_ahead) {
+  const RodNeighbour& f = is_ahead ? c.ahead : c.behind;
+  const auto a = matrix_of(is_ahead ? q : f.now), b = matrix_of(is_ahead ? f.now : q), p = matrix_of(f.rest);
+  double trace = 0;  // of (aᵀ b) pᵀ
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) trace += a[k][i] * b[k][j] * p[i][j];
+  return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0));
+}
+
+/// k_s l/2 ‖D/l − R e₃‖² and w (1 − cos θ/2) of both neighbours.
 double physical_energy(const OrientationCase& c, const Quaternion& q) {
   const auto r = matrix_of(q);
   const Point d = minus(point(c.vertex[1]), point(c.vertex[0]));
@@ -102,14 +113,8 @@ double physical_energy(const OrientationCase& c, const Quaternion& q) {
   }
   double all = 0.5 * c.stretch * c.rest_length * strain;
   for (const bool is_ahead : {false, true}) {
-    const RodNeighbour& f = is_ahead ? c.ahead : c.behind;
-    const auto a = matrix_of(is_ahead ? q : f.now), b = matrix_of(is_ahead ? f.now : q), p = matrix_of(f.rest);
-    double trace = 0;  // of (aᵀ b) pᵀ
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t k = 0; k < 3; ++k) trace += a[k][i] * b[k][j] * p[i][j];
-    const double angle = std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0));
-    all += f.weight * (1 - std::cos(angle / 2));
+    const double weight = (is_ahead ? c.ahead : c.behind).weight;
+    all += weight * (1 - std::cos(angle_to(c, q, is_ahead) / 2));
   }
   return all;
 }
@@ -193,6 +198,8 @@ TEST_CASE("from a near old q it minimises the energy of stretch, shear, bend and
     if (std::abs(again[0] - q[0]) + std::abs(again[1] - q[1]) + std::abs(again[2] - q[2]) + std::abs(again[3] - q[3]) >
         1e-5)
       continue;
+    // At π the energy has a ridge, and another turn than the one that is held may lie lower behind it.
+    if (std::max(angle_to(c, c.orientation, false), angle_to(c, c.orientation, true)) > 2.9) continue;
     ++compared;
     const double least = physical_energy(c, c.orientation);
     for (int other = 0; other < 20; ++other) {

@@ -101,7 +101,7 @@ TEST_CASE("an orientation that has what it asks for stays, and minimises among m
     };
     const double least = energy(q), unit_of_energy = 0.4 * length(apart) + 0.7;
     for (int k = 0; k < 20; ++k) REQUIRE(energy(some_orientation(random)) >= least - 100 * u * unit_of_energy);
-    const Quat again = rod_orientation(0.4f, length(apart) * director(t), axis, 0.7f * t, old);
+    const Quat again = rod_orientation(0.4f, static_cast<float>(length(apart)) * director(t), axis, 0.7f * t, old);
     REQUIRE(size(again - t) <= 400 * u);
   }
 }
