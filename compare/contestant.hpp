@@ -22,9 +22,11 @@
 #include "compare/stages/friction_force.hpp"
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
+#include "compare/stages/orientation.hpp"
 #include "compare/stages/pair_guess.hpp"
 #include "compare/stages/plane.hpp"
 #include "compare/stages/rest_state.hpp"
+#include "compare/stages/rod.hpp"
 #include "compare/stages/spring.hpp"
 #include "compare/stages/step.hpp"
 #include "compare/stages/sweep.hpp"
@@ -127,6 +129,8 @@ struct Snapshot {
   /// of a solver whose state is in double: what positions and velocities are rounded from; else none
   std::vector<Vec3> exact_positions{}, exact_velocities{};
   VertexPlanes planes{};  ///< of the last detection, where bounds are planes
+  /// of the segments of rods, in the order of rod_segments (compare/problem/rods.hpp)
+  std::vector<Quaternion> orientations{};
 };
 
 /// What a simulation records beside its states.
@@ -145,8 +149,8 @@ class Simulation {
   /// bound_violated.
   virtual std::vector<StepMetrics> advance(std::int64_t steps) = 0;
   virtual Snapshot snapshot() = 0;
-  /// Continues from positions, velocities and step number, with room for `capacities` where there are any; what else a
-  /// snapshot holds is recomputed.
+  /// Continues from positions, velocities, orientations and step number, with room for `capacities` where there are
+  /// any; what else a snapshot holds is recomputed.
   virtual void restore(const Snapshot& snapshot) = 0;
   virtual std::vector<std::string> stage_names() const { return {}; }
   /// One line on where it runs: "NVIDIA H200, CUDA 13.0" or "2 threads".
@@ -185,6 +189,8 @@ struct Contestant {
   std::function<ForceOut(const BendingIn&)> bending;
   std::function<ForceOut(const SpringIn&)> spring;
   std::function<ForceOut(const TetrahedronIn&)> tetrahedron;
+  std::function<ForceOut(const RodIn&)> rod;
+  std::function<OrientationOut(const OrientationIn&)> orientation;
   std::function<ForceOut(const ContactForceIn&)> contact_force;
   std::function<ForceOut(const FrictionForceIn&)> friction_force;
   std::function<ForceOut(const VolumeForceIn&)> volume_force;
@@ -217,6 +223,8 @@ constexpr void visit_stages(Visit visit) {
   visit("bending", &Contestant::bending);
   visit("spring", &Contestant::spring);
   visit("tetrahedron", &Contestant::tetrahedron);
+  visit("rod", &Contestant::rod);
+  visit("orientation", &Contestant::orientation);
   visit("truncate", &Contestant::truncate);
   visit("rest_state", &Contestant::rest_state);
   visit("sweep", &Contestant::sweep);
@@ -239,6 +247,8 @@ struct Authority {
   std::function<ForceTruth(const BendingIn&)> bending;
   std::function<ForceTruth(const SpringIn&)> spring;
   std::function<ForceTruth(const TetrahedronIn&)> tetrahedron;
+  std::function<ForceTruth(const RodIn&)> rod;
+  std::function<OrientationTruth(const OrientationIn&)> orientation;
   std::function<ForceTruth(const ContactForceIn&)> contact_force;
   std::function<ForceTruth(const FrictionForceIn&)> friction_force;
   std::function<ForceTruth(const VolumeForceIn&)> volume_force;

@@ -7,7 +7,9 @@
 #include "reference/energies/contact_force.hpp"
 #include "reference/energies/friction_force.hpp"
 #include "reference/energies/membrane.hpp"
+#include "reference/energies/rods/orientation.hpp"
 #include "reference/energies/rest_state.hpp"
+#include "reference/energies/rods/rod.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/energies/tetrahedron.hpp"
 #include "reference/energies/volume_force.hpp"
@@ -44,6 +46,8 @@ compare::Authority authority() {
   authority.bending = [](const compare::BendingIn& in) { return bending(in); };
   authority.spring = [](const compare::SpringIn& in) { return spring(in); };
   authority.tetrahedron = [](const compare::TetrahedronIn& in) { return tetrahedron(in); };
+  authority.rod = [](const compare::RodIn& in) { return rod(in); };
+  authority.orientation = [](const compare::OrientationIn& in) { return orientation(in); };
   authority.contact_force = [](const compare::ContactForceIn& in) { return contact_force(in); };
   authority.friction_force = [](const compare::FrictionForceIn& in) { return friction_force(in); };
   authority.volume_force = [](const compare::VolumeForceIn& in) { return volume_force(in); };

@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 #include "reference/solvers/newton/solver.hpp"
 #include "reference/solvers/vbd_solver.hpp"
@@ -84,12 +85,14 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
         "setting 'bounds' can't be 'dat' with Newton's method, whose line search scales all vertices at once; give "
         "bounds=planes or --solver vbd");
   refuse_volumes(scene, "newton", "leave the body a surface");
+  refuse_rods(scene, "newton");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
 }
 
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour) {
   refuse_solid_volumes(scene, "reference_vbd");
+  refuse_rods(scene, "reference_vbd");
   return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
 }
 

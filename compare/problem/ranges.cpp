@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/problem/rods.hpp"
 #include "compare/problem/text.hpp"
 
 namespace ogc::compare {
@@ -26,15 +27,30 @@ std::string range_text(const SettingInfo& info) {
   return range(info.minimum, info.maximum, kind_of(info) == SettingKind::real);
 }
 
-std::string range_text(const MaterialInfo& info) { return range(info.minimum, info.maximum, true); }
+namespace {
 
-bool in_range(const MaterialInfo& info, double value) {
+/// Rows of the tables of constants, which have the same columns.
+template <class Info>
+bool holds(const Info& info, double value) {
   return value >= info.minimum && value <= info.maximum && !vanishes_in_single(value);
 }
 
-std::string describe_range(const MaterialInfo& info) {
+template <class Info>
+std::string described(const Info& info) {
   const std::string unit = info.unit == "1" ? "" : " " + std::string(info.unit);
-  return "a number from " + range_text(info) + unit + " (" + std::string(info.meaning) + ")";
+  return "a number from " + range(info.minimum, info.maximum, true) + unit + " (" + std::string(info.meaning) + ")";
 }
+
+}  // namespace
+
+std::string range_text(const MaterialInfo& info) { return range(info.minimum, info.maximum, true); }
+
+bool in_range(const MaterialInfo& info, double value) { return holds(info, value); }
+
+std::string describe_range(const MaterialInfo& info) { return described(info); }
+
+bool in_range(const RodInfo& info, double value) { return holds(info, value); }
+
+std::string describe_range(const RodInfo& info) { return described(info); }
 
 }  // namespace ogc::compare

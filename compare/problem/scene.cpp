@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
@@ -96,6 +97,9 @@ void round_to_single(Scene& scene) {
   }
   for (Body& body : scene.bodies) {
     for (const MaterialInfo& info : material_table()) body.material.*info.field = rounded(body.material.*info.field);
+    if (!body.material.rod) continue;
+    for (const RodInfo& info : rod_table())
+      (*body.material.rod).*info.field = rounded((*body.material.rod).*info.field);
   }
   for (Spring& spring : scene.springs) {
     for (double* number : {&spring.stiffness, &spring.rest_length, &spring.damping, &spring.ratio})

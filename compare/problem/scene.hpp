@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,8 +22,18 @@ enum class BendingModel { none, discrete_hinge, isometric_quadratic };       ///
 /// others may enter and are pushed out of (§3.9).
 enum class BodyContact { surface, volume };
 
+/// Constants of a rod: of the loose edges of a body, its *segments* (compare/rods.md).
+struct RodMaterial {
+  double density = 1e-3;   ///< ρ, mass per rest length [kg/m]
+  double stretch = 0.1;    ///< k_s = EA, of stretch and shear [N]
+  double bend = 2e-7;      ///< k_b = EI = GJ, of bend and twist [N m²]
+  double damping = 0;      ///< k_d of both energies about the strain at the start of a step [s]
+  double diameter = 3e-3;  ///< what is drawn; no force knows it [m]
+  friend bool operator==(const RodMaterial&, const RodMaterial&) = default;
+};
+
 /// Constants of one body: of its surface (method.md §4.5 to §4.10), and of its volume where it has tetrahedra
-/// (method.md §8).
+/// (method.md §8), and of its loose edges where it is a rod.
 struct Material {
   double density = 0.2;                                         ///< mass per rest area [kg/m²]
   MembraneModel membrane = MembraneModel::st_venant_kirchhoff;  ///< energy of triangles
@@ -37,6 +48,7 @@ struct Material {
   double solid_density = 1000;                ///< ρ, mass per rest volume [kg/m³]
   double solid_mu = 1e4, solid_lambda = 1e4;  ///< Lamé constants of the volume [Pa]
   double solid_damping = 0;                   ///< k_d of ψ_d = (k_d/h) ϕ(G − Gᵗ) of the volume [s]
+  std::optional<RodMaterial> rod{};           ///< of its loose edges; none: they have neither mass nor energies
   friend bool operator==(const Material&, const Material&) = default;
 };
 
@@ -106,6 +118,9 @@ struct Scene {
   std::vector<std::array<Index, 2>> excluded_pairs;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s²]
   Settings settings;
+  /// Start orientations of all segments, in the order of rod_segments (compare/problem/rods.hpp); empty: those that its
+  /// rest shape has, each turned by the smallest rotation to where its segment starts
+  std::vector<Quaternion> orientations{};
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 

@@ -9,6 +9,7 @@
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/problem_kind.hpp"
 #include "compare/problem/ranges.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/tetrahedra.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate_mesh.hpp"
@@ -305,6 +306,7 @@ std::vector<Problem> validate(const Scene& scene, std::size_t limit, const Eleme
     check_ownership(problems, scene, names, limit);
     check_boundaries(problems, scene);
     check_volume_bodies(problems, scene, names, limit);
+    if (has_lengths) check_rods(problems, scene, names, limit);
   }
   check_motions(problems, scene, names, covered, limit);
   check_springs(problems, scene, names, limit);

@@ -22,7 +22,8 @@ struct Problem {
 std::vector<Problem> validate(const Mesh& mesh, std::size_t limit = 10, const ElementNames& names = {});
 
 /// The mesh, its rest positions, tetrahedra that are flat or inverted there, bodies that do not cover it, motions of
-/// unknown, fixed or doubly prescribed vertices, settings out of range, negative stiffness, density or friction.
+/// unknown, fixed or doubly prescribed vertices, settings out of range, negative stiffness, density or friction, rods
+/// that can't be simulated (compare/problem/rods.hpp).
 /// Elements are named by body, as its file counts them.
 std::vector<Problem> validate(const Scene& scene, std::size_t limit = 10);
 /// The same with names that know the files of bodies' meshes.

@@ -19,6 +19,12 @@ struct Vec3f {
   friend bool operator==(const Vec3f&, const Vec3f&) = default;
 };
 
+/// A quaternion as a stage sees it: what stands before i, j, k, then the real part.
+using Quaternion = std::array<float, 4>;
+/// How far ‖q‖² of a unit quaternion may be off 1: one whose length was found in single precision is within 2⁻²² of
+/// unit length (orientation_length_tolerance in compare/stages/orientation.hpp).
+inline constexpr double unit_quaternion_slack = 0x1p-21;
+
 using Index = std::int32_t;
 /// Vertex indices of an edge, smaller first.
 using Edge = std::array<Index, 2>;

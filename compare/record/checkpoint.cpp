@@ -6,6 +6,7 @@
 #include "compare/files/bytes.hpp"
 #include "compare/files/durable_file.hpp"
 #include "compare/files/hdf5.hpp"
+#include "compare/files/scenes/orientations.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 
@@ -26,7 +27,7 @@ std::string state_digest(const Checkpoint& checkpoint) {
   std::string all;
   for (const std::string_view part :
        {bytes_of(state.positions), bytes_of(state.velocities), bytes_of(state.bounds), bytes_of(state.capacities),
-        bytes_of(state.exact_positions), bytes_of(state.exact_velocities)})
+        bytes_of(state.exact_positions), bytes_of(state.exact_velocities), bytes_of(state.orientations)})
     all += part;
   return digest(all + std::to_string(state.step) + "," + std::to_string(checkpoint.audited_states));
 }
@@ -60,11 +61,9 @@ void check_version(const Hdf5File& file, const std::string& path) {
     throw InputError(path + ": is of checkpoint format " + std::to_string(version) + ", newer than format " +
                      std::to_string(checkpoint_format_version) +
                      ", the newest that this program reads: use a newer ogc");
-  if (file.has("orientations"))
-    throw InputError(path + ": holds orientations of rods, which this program does not simulate yet: use a newer ogc");
 }
 
-Stored content(const Hdf5File& file) {
+Stored content(const Hdf5File& file, const std::string& path) {
   Stored stored;
   Snapshot& state = stored.checkpoint.state;
   state.step = file.attribute<std::int64_t>("step");
@@ -74,6 +73,7 @@ Stored content(const Hdf5File& file) {
   state.capacities = file.read<std::int64_t>("capacities");
   state.exact_positions = read_vectors(file, "exact_positions");
   state.exact_velocities = read_vectors(file, "exact_velocities");
+  state.orientations = read_orientations(file, path);
   stored.checkpoint.audited_states = file.attribute<std::int64_t>("audited_states");
   stored.digest = file.read_text("digest");
   stored.scene_digest = file.read_text("scene");
@@ -94,6 +94,7 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint, cons
   file.write("capacities", std::span(state.capacities));
   write_vectors(file, "exact_positions", state.exact_positions);
   write_vectors(file, "exact_velocities", state.exact_velocities);
+  if (!state.orientations.empty()) file.write("orientations", as_floats(state.orientations), 4);
   file.write_text("scene", scene_digest);
   file.write_text("digest", state_digest(checkpoint));
   write_durably(path_in(folder), file.image());
@@ -112,12 +113,13 @@ Checkpoint read_checkpoint(const fs::path& folder, const std::string& scene_dige
   try {
     const Hdf5File file = Hdf5File::open(path);
     check_version(file, path);
-    stored = content(file);
+    stored = content(file, path);
   } catch (const InputError& error) {
     throw InputError(std::string(error.what()) + "; this is the run's checkpoint, without which it can't be resumed" +
                      remedy);
   }
   if (stored.digest != state_digest(stored.checkpoint)) throw InputError(path + ": the checkpoint is damaged" + remedy);
+  require_units(stored.checkpoint.state.orientations, path);
   if (stored.scene_digest != scene_digest)
     throw InputError(
         (folder / "scene").string() +

@@ -10,13 +10,13 @@
 
 namespace ogc::compare {
 
-/// A newer file is refused by name. Format 3 reserves `orientations` [segments × 4] of rods: a program without rods
-/// can't go on from such a state, and says so.
+/// A newer file is refused by name. Format 3 holds `orientations` [segments × 4] where there are rods.
 inline constexpr std::int64_t checkpoint_format_version = 3;
 
 /// The state to go on from; in runs that audit states, an audited one.
 struct Checkpoint {
-  /// step, positions, velocities, bounds, capacities; from version 2 on the exact ones, where a solver has them
+  /// step, positions, velocities, bounds, capacities; from version 2 on the exact ones, where a solver has them; from
+  /// version 3 on orientations
   Snapshot state;
   std::int64_t audited_states = 0;  ///< judged so far
 };
@@ -25,8 +25,8 @@ struct Checkpoint {
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint,
                       const std::string& scene_digest);
 
-/// Reads it. Throws InputError that says what to do: missing, damaged, of a newer format, or of a scene with another
-/// digest.
+/// Reads it. Throws InputError that says what to do: missing, damaged, of a newer format, with an orientation that is
+/// no unit quaternion, or of a scene with another digest.
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const std::string& scene_digest);
 
 /// The digest of the files of a run's scene, by name and content. Throws InputError.

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "compare/files/hdf5.hpp"
+#include "compare/files/scenes/orientations.hpp"
 #include "compare/problem/error.hpp"
 
 namespace ogc::compare {
@@ -21,6 +22,7 @@ std::int64_t checksum(const Frame& frame) {
   };
   add(frame.positions), add(frame.velocities), add(frame.bounds);
   add(std::array{frame.step}), add(std::array{frame.time});
+  if (!frame.orientations.empty()) add(as_floats(frame.orientations));  // zlib takes no bytes at null for a new sum
   return sum;
 }
 
@@ -42,13 +44,17 @@ Frame content(const Hdf5File& file, const fs::path& path) {
     throw InputError(path.string() +
                      ": positions, velocities and bounds are not vertices × 3, vertices × 3 and vertices: "
                      "not a frame of a run, or damaged; use another one");
-  Frame frame{file.attribute<std::int64_t>("step"), file.attribute<double>("time"),
-              as_vectors(file.read<float>("positions")), as_vectors(file.read<float>("velocities")),
-              file.read<float>("bounds")};
+  Frame frame{file.attribute<std::int64_t>("step"),
+              file.attribute<double>("time"),
+              as_vectors(file.read<float>("positions")),
+              as_vectors(file.read<float>("velocities")),
+              file.read<float>("bounds"),
+              read_orientations(file, path.string())};
   if (version > 1 && file.attribute<std::int64_t>("crc32") != checksum(frame))
     throw InputError(path.string() +
                      ": the frame is damaged, its content is not what its checksum says: restore the file, or remove "
                      "it and compute it again from the frame before it with --from-state");
+  require_units(frame.orientations, path.string());
   return frame;
 }
 
@@ -77,7 +83,8 @@ PackedFrame pack(const Frame& frame) {
           checksum(frame),
           pack(as_floats(frame.positions), 3),
           pack(as_floats(frame.velocities), 3),
-          pack(std::span(frame.bounds))};
+          pack(std::span(frame.bounds)),
+          frame.orientations.empty() ? PackedArray{} : pack(as_floats(frame.orientations), 4)};
 }
 
 std::string frame_bytes(const PackedFrame& frame) {
@@ -89,6 +96,7 @@ std::string frame_bytes(const PackedFrame& frame) {
   file.write_packed("positions", frame.positions);
   file.write_packed("velocities", frame.velocities);
   file.write_packed("bounds", frame.bounds);
+  if (frame.orientations.rows > 0) file.write_packed("orientations", frame.orientations);
   return file.image();
 }
 
@@ -102,7 +110,8 @@ PackedFrame read_packed_frame(const fs::path& path) {
           checksum(frame),
           file.read_packed("positions"),
           file.read_packed("velocities"),
-          file.read_packed("bounds")};
+          file.read_packed("bounds"),
+          frame.orientations.empty() ? PackedArray{} : file.read_packed("orientations")};
 }
 
 }  // namespace ogc::compare

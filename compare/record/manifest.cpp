@@ -9,6 +9,7 @@
 #include "compare/files/json_reader.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/rods.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -59,6 +60,9 @@ Json material_json(const Material& material) {
   Json json = {{"membrane", name_of(material.membrane)}, {"bending", name_of(material.bending)}};
   for (const MaterialInfo& info : material_table())
     json[std::string(info.name)] = quantity(material.*info.field, info.unit);
+  if (!material.rod) return json;
+  for (const RodInfo& info : rod_table())
+    json["rod"][std::string(info.name)] = quantity((*material.rod).*info.field, info.unit);
   return json;
 }
 

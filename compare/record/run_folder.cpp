@@ -183,7 +183,8 @@ void RunWriter::add_frame(Frame frame) {
     PackedFrame packed;
   };
   const auto work = std::make_shared<Work>(Work{std::move(frame), {}});
-  const std::size_t bytes = 2 * count * (2 * sizeof(Vec3f) + sizeof(float));  // as it is, and packed
+  const std::size_t bytes = 2 * (count * (2 * sizeof(Vec3f) + sizeof(float)) +
+                                 work->frame.orientations.size() * sizeof(Quaternion));  // as it is, and packed
   queue_.add(
       bytes, [work] { work->packed = pack(std::exchange(work->frame, {})); },
       [this, work] { write_frame(work->packed); });

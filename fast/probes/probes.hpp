@@ -19,6 +19,7 @@
 #include "fast/probes/probe_guess.hpp"
 #include "fast/probes/probe_memory.hpp"
 #include "fast/probes/probe_planes.hpp"
+#include "fast/probes/probe_rods.hpp"
 #include "fast/probes/probe_step.hpp"
 #include "fast/probes/probe_sweep.hpp"
 #include "fast/probes/probe_volumes.hpp"
@@ -224,6 +225,8 @@ compare::Contestant probe_contestant(
   contestant.bending = [backend](const compare::BendingIn& in) { return probe_bending(*backend, in); };
   contestant.spring = [backend](const compare::SpringIn& in) { return probe_spring(*backend, in); };
   contestant.tetrahedron = [backend](const compare::TetrahedronIn& in) { return probe_tetrahedron(*backend, in); };
+  contestant.rod = [backend](const compare::RodIn& in) { return probe_rod(*backend, in); };
+  contestant.orientation = [backend](const compare::OrientationIn& in) { return probe_orientation(*backend, in); };
   contestant.contact_force = [backend](const compare::ContactForceIn& in) { return probe_contact_force(*backend, in); };
   contestant.friction_force = [backend](const compare::FrictionForceIn& in) {
     return probe_friction_force(*backend, in);

@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 #include "reference/ipc/solver.hpp"
 #include "reference/solvers/detection.hpp"
@@ -103,6 +104,7 @@ std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, cons
   if (scene.settings.guess == compare::Guess::pairs)
     throw compare::InputError("setting 'guess' can't be 'pairs' with IPC; give guess=rounds or --solver vbd");
   refuse_volumes(scene, "ipc", "whose barrier lets nothing enter a body: leave the body a surface");
+  refuse_rods(scene, "ipc");
   return std::make_unique<IpcSimulation>(scene, options);
 }
 

@@ -14,7 +14,7 @@ struct FaultFile {
 };
 
 /// In the order of the faults' numbers. Of initial_guess the right answer uses that of truncate.
-constexpr std::array<FaultFile, 11> files{{{pair_faults, add_right_pairs},
+constexpr std::array<FaultFile, 12> files{{{pair_faults, add_right_pairs},
                                            {set_faults, add_right_sets},
                                            {plane_faults, add_right_planes},
                                            {scalar_faults, add_right_scalars},
@@ -24,7 +24,8 @@ constexpr std::array<FaultFile, 11> files{{{pair_faults, add_right_pairs},
                                            {rest_faults, add_right_rest},
                                            {step_faults, add_right_step},
                                            {sweep_faults, add_right_sweep},
-                                           {volume_faults, add_right_volumes}}};
+                                           {volume_faults, add_right_volumes},
+                                           {rod_faults, add_right_rods}}};
 
 }  // namespace
 

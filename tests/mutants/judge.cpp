@@ -85,6 +85,8 @@ Authority remembering(const Authority& a, std::size_t parts) {
   r.bending = remembered(a.bending, parts);
   r.spring = remembered(a.spring, parts);
   r.tetrahedron = remembered(a.tetrahedron, parts);
+  r.rod = remembered(a.rod, parts);
+  r.orientation = remembered(a.orientation, parts);
   r.contact_force = remembered(a.contact_force, parts);
   r.friction_force = remembered(a.friction_force, parts);
   r.volume_depth = remembered(a.volume_depth, parts);

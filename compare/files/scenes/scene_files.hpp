@@ -12,8 +12,8 @@
 namespace ogc::compare {
 
 /// A newer file is refused by name. From format 2 on bodies may have tetrahedra, materials `solid_…`, and a body may be
-/// a volume by its `contact`. A body's `orientations` and the scene's `body_pairs` (empty) are reserved: a reader
-/// refuses what it does not simulate by name.
+/// a volume by its `contact`, and its loose edges a rod by its material's `rod`, with `orientations` in a file of its
+/// own. The scene's `body_pairs` (empty) is reserved: a reader refuses what it does not simulate by name.
 inline constexpr int scene_format_version = 2;
 
 /// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that

@@ -10,12 +10,14 @@
 #include "compare/files/json_reader.hpp"
 #include "compare/files/meshes/mesh_files.hpp"
 #include "compare/files/scenes/keyframes.hpp"
+#include "compare/files/scenes/orientations.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/ranges.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/volumes.hpp"
 
@@ -87,8 +89,23 @@ void read_elasticity(JsonObject& object, Material& material) {
   set_elasticity(material, {*modulus, *ratio});
 }
 
+RodMaterial read_rod(const JsonNode& node) {
+  RodMaterial rod;
+  JsonObject object(node);
+  for (const RodInfo& info : rod_table()) {
+    object.optional(std::string(info.name), [&](const JsonNode& value) {
+      double& number = rod.*info.field;
+      value.read(number);
+      if (!in_range(info, number)) value.fail("is " + shortest(number), "give " + describe_range(info));
+    });
+  }
+  object.finish();
+  return rod;
+}
+
 void read_material(const JsonNode& node, Material& material) {
   JsonObject object(node);
+  object.optional("rod", [&](const JsonNode& value) { material.rod = read_rod(value); });
   read_elasticity(object, material);
   for (const MaterialInfo& info : material_table()) {
     object.optional(std::string(info.name), [&](const JsonNode& value) {
@@ -256,7 +273,7 @@ class SceneReader {
     object.optional_value("fixed", body.fixed);
     object.optional("contact",
                     [&](const JsonNode& value) { read_model(value, body_contact_names(), body.contact, "contact"); });
-    object.optional("orientations", [](const JsonNode& value) { refuse_reserved(value, "orientations of rods"); });
+    object.optional("orientations", [&](const JsonNode& value) { read_orientations_file(value); });
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
     object.required("mesh", [&](const JsonNode& value) {
       if (!object.has("name") && value.value().is_string()) body.name = name_of_file(value.value().get<std::string>());
@@ -312,6 +329,18 @@ class SceneReader {
     object.optional_value("ratio", spring.ratio);
     object.finish();
     scene_.springs.push_back(spring);
+  }
+
+  void read_orientations_file(const JsonNode& node) {
+    std::string text;
+    node.read(text);
+    if (!node.value().is_string()) return;
+    try {
+      const std::vector<Quaternion> read = read_orientations(folder_ / text);
+      scene_.orientations.insert(scene_.orientations.end(), read.begin(), read.end());
+    } catch (const InputError& error) {
+      node.fail(error.what(), "");
+    }
   }
 
   Keyframes read_keyframes_file(const JsonNode& node) {

@@ -3,6 +3,7 @@
 #include "compare/files/json_reader.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
@@ -28,9 +29,6 @@ Json object(const Json& properties, const std::vector<std::string>& required) {
   if (!required.empty()) json["required"] = required;
   return json;
 }
-
-/// The schema of a reserved key: no value is valid.
-Json reserved(const std::string& what) { return {{"not", Json::object()}, {"description", "reserved " + what}}; }
 
 std::string with_unit(std::string_view meaning, std::string_view unit) {
   return std::string(meaning) + " [" + std::string(unit) + "]";
@@ -63,6 +61,18 @@ Json settings_schema() {
   return object(properties, {});
 }
 
+Json rod_schema() {
+  const RodMaterial defaults;
+  Json properties = Json::object();
+  for (const RodInfo& info : rod_table()) {
+    Json& row = properties[std::string(info.name)] = value("number", with_unit(info.meaning, info.unit));
+    row["minimum"] = info.minimum;
+    row["maximum"] = info.maximum;
+    row["default"] = defaults.*info.field;
+  }
+  return object(properties, {});
+}
+
 Json material_schema() {
   const Material defaults;
   Json properties = Json::object();
@@ -82,6 +92,8 @@ Json material_schema() {
   between("solid_poisson", "tetrahedra: Poisson's ratio [1]", 0, most_poisson);
   properties["membrane"] = model_schema(membrane_model_names(), name_of(defaults.membrane));
   properties["bending"] = model_schema(bending_model_names(), name_of(defaults.bending));
+  properties["rod"] = rod_schema();
+  properties["rod"]["description"] = "of the body's loose edges, its segments; without it they have no mass";
   return object(properties, {});
 }
 
@@ -100,7 +112,9 @@ Json body_schema() {
        value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
       {"material", material_schema()},
       {"contact", contact},
-      {"orientations", reserved("for orientations of rods")},
+      {"orientations", value("string",
+                             "of a rod: HDF5 file, relative to this file, with the start orientations [segments][4] of "
+                             "its edges as unit quaternions x, y, z, w; default: those of its rest shape, turned")},
   };
   return object(properties, {"mesh"});
 }

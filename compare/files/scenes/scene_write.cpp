@@ -8,9 +8,11 @@
 #include "compare/files/json_reader.hpp"
 #include "compare/files/meshes/mesh_files.hpp"
 #include "compare/files/scenes/keyframes.hpp"
+#include "compare/files/scenes/orientations.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/volumes.hpp"
 
@@ -45,6 +47,8 @@ Json material_json(const Material& material) {
   for (const MaterialInfo& info : material_table()) json[std::string(info.name)] = as_typed(material.*info.field);
   json["membrane"] = name_of(material.membrane);
   json["bending"] = name_of(material.bending);
+  if (!material.rod) return json;
+  for (const RodInfo& info : rod_table()) json["rod"][std::string(info.name)] = as_typed((*material.rod).*info.field);
   return json;
 }
 
@@ -65,6 +69,18 @@ Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& va
     mesh.tetrahedra.push_back({a - first, b - first, c - first, d - first});
   }
   return mesh;
+}
+
+/// Those of the body's segments that the scene gives.
+std::vector<Quaternion> orientations_of(const Scene& scene, const Body& body) {
+  std::vector<Quaternion> own;
+  if (scene.orientations.empty()) return own;
+  const std::vector<Index> segments = rod_segments(scene);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const Index v = scene.mesh.loose_edges[static_cast<std::size_t>(segments[s])][0];
+    if (v >= body.first_vertex && v < body.first_vertex + body.vertex_count) own.push_back(scene.orientations[s]);
+  }
+  return own;
 }
 
 Json body_json(const std::filesystem::path& folder, const Scene& scene, const Body& body) {
@@ -91,6 +107,10 @@ Json body_json(const std::filesystem::path& folder, const Scene& scene, const Bo
     json["velocities"] = write(stem + "_velocities" + extension, scene.velocities);
   }
   json["material"] = material_json(body.material);
+  if (const std::vector<Quaternion> own = orientations_of(scene, body); !own.empty()) {
+    json["orientations"] = stem + "_orientations.h5";
+    write_orientations(folder / json["orientations"].get<std::string>(), own);
+  }
   return json;
 }
 

@@ -14,6 +14,8 @@
 #include "compare/stages/friction_force.hpp"
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
+#include "compare/stages/orientation.hpp"
+#include "compare/stages/rod.hpp"
 #include "compare/stages/spring.hpp"
 #include "compare/stages/tetrahedron.hpp"
 #include "compare/stages/truncate.hpp"

@@ -29,6 +29,8 @@ enum class Stage : std::uint8_t {
   bending,
   spring,
   tetrahedron,
+  rod,
+  orientation,
   sweep,
   truncate,
   step
@@ -41,7 +43,7 @@ namespace stages {
 /// Each defined in compare/judge/stages, in the file of its name.
 extern const StageTraits rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound,
     plane, volume_depth, initial_guess, activation, contact_force, friction_force, volume_force, membrane, bending,
-    spring, tetrahedron, sweep, truncate, step;
+    spring, tetrahedron, rod, orientation, sweep, truncate, step;
 }  // namespace stages
 
 /// The list of all stages, the only one that the judge has: an enumerator that is missing here does not compile
@@ -66,6 +68,8 @@ constexpr const StageTraits* find_traits(Stage stage) {
     case Stage::bending: return &stages::bending;
     case Stage::spring: return &stages::spring;
     case Stage::tetrahedron: return &stages::tetrahedron;
+    case Stage::rod: return &stages::rod;
+    case Stage::orientation: return &stages::orientation;
     case Stage::sweep: return &stages::sweep;
     case Stage::truncate: return &stages::truncate;
     case Stage::step: return &stages::step;

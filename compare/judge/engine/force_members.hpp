@@ -77,6 +77,42 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
+/// The members of a segment of a rod.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, RodCase>
+void visit_members(Case& c, Visit visit) {
+  visit("vertex", "m", c.vertex);
+  visit("start", "m", c.start);
+  visit("orientation", "1", c.orientation);
+  visit("orientation_start", "1", c.orientation_start);
+  visit("rest_length", "m", c.rest_length);
+  visit("stretch", "N", c.stretch);
+  visit("damping", "1", c.damping);
+  visit("own", "", c.own);
+  visit("damping_form", "", c.damping_form);
+}
+
+/// The members of a segment between its neighbours.
+template <class Case, class Visit>
+requires std::same_as<std::remove_const_t<Case>, OrientationCase>
+void visit_members(Case& c, Visit visit) {
+  visit("vertex", "m", c.vertex);
+  visit("start", "m", c.start);
+  visit("orientation", "1", c.orientation);
+  visit("orientation_start", "1", c.orientation_start);
+  visit("rest_length", "m", c.rest_length);
+  visit("stretch", "N", c.stretch);
+  visit("damping", "1", c.damping);
+  visit("behind", "N m", c.behind.weight);
+  visit("behind_now", "1", c.behind.now);
+  visit("behind_start", "1", c.behind.start);
+  visit("behind_rest", "1", c.behind.rest);
+  visit("ahead", "N m", c.ahead.weight);
+  visit("ahead_now", "1", c.ahead.now);
+  visit("ahead_start", "1", c.ahead.start);
+  visit("ahead_rest", "1", c.ahead.rest);
+}
+
 /// The members of a contact.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, ContactForceCase>

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/settings.hpp"
 #include "compare/problem/validate.hpp"
 #include "compare/problem/volumes.hpp"
@@ -41,6 +42,8 @@ Model to_model(const Json& json, std::span<const std::string_view> names) {
 Json body_to_json(const Body& body) {
   Json material{{"membrane", name_of(body.material.membrane)}, {"bending", name_of(body.material.bending)}};
   for (const MaterialInfo& info : material_table()) material[std::string(info.name)] = body.material.*info.field;
+  if (body.material.rod)
+    for (const RodInfo& info : rod_table()) material["rod"][std::string(info.name)] = (*body.material.rod).*info.field;
   return {{"name", body.name},
           {"vertices", {body.first_vertex, body.vertex_count}},
           {"triangles", {body.first_triangle, body.triangle_count}},
@@ -69,6 +72,10 @@ Body to_body(const Json& json) {
   // A case that is older than a constant has its default.
   for (const MaterialInfo& info : material_table())
     body.material.*info.field = material.value(std::string(info.name), body.material.*info.field);
+  if (!material.contains("rod")) return body;
+  body.material.rod.emplace();
+  for (const RodInfo& info : rod_table())
+    (*body.material.rod).*info.field = material.at("rod").at(std::string(info.name)).get<double>();
   return body;
 }
 
@@ -140,6 +147,7 @@ Json scene_to_json(const Scene& scene) {
   for (const Spring& spring : scene.springs) json["springs"].push_back(spring_to_json(spring));
   if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = scene.excluded_pairs;
   if (!scene.mesh.tetrahedra.empty()) json["tetrahedra"] = scene.mesh.tetrahedra;
+  for (const Quaternion& q : scene.orientations) json["orientations"].push_back(numbers_to_json({q.begin(), q.end()}));
   for (const SettingInfo& info : setting_table())
     json["settings"][std::string(info.name)] = setting_text(scene.settings, info);
   return json;
@@ -158,6 +166,12 @@ Scene to_scene(const Json& json) {
   for (const Json& spring : json.at("springs")) scene.springs.push_back(to_spring(spring));
   if (json.contains("excluded_pairs"))
     scene.excluded_pairs = json.at("excluded_pairs").get<std::vector<std::array<Index, 2>>>();
+  if (json.contains("orientations"))
+    for (const Json& q : json.at("orientations")) {
+      const std::vector<float> numbers = to_numbers(q);
+      if (numbers.size() != 4) throw InputError("orientations need four numbers each");
+      scene.orientations.push_back({numbers[0], numbers[1], numbers[2], numbers[3]});
+    }
   scene.gravity = to_vector(json.at("gravity"));
   for (const auto& [name, value] : json.at("settings").items())
     set_setting(scene.settings, name, value.get<std::string>());

@@ -127,6 +127,7 @@ RunSession::RunSession(RunRequest request, compare::Contestant contestant)
 void RunSession::start_state() {
   start_.positions = compare::to_single(request_.scene.mesh.positions);
   start_.velocities = compare::to_single(request_.scene.velocities);
+  start_.orientations = request_.scene.orientations;
   if (request_.from_state) {
     const std::string file = request_.from_state->string();
     compare::Frame frame = compare::read_frame(*request_.from_state);
@@ -141,6 +142,7 @@ void RunSession::start_state() {
     start_.step = frame.step;
     start_.positions = std::move(frame.positions);
     start_.velocities = std::move(frame.velocities);
+    start_.orientations = std::move(frame.orientations);
   }
   if (request_.resume)
     start_ = request_.resume->state;
@@ -419,7 +421,7 @@ void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
 void RunSession::store_frame(const Snapshot& snapshot) {
   if (snapshot.step == last_frame_) return;
   writer_->add_frame({snapshot.step, static_cast<double>(snapshot.step) * settings_.time_step, snapshot.positions,
-                      snapshot.velocities, snapshot.bounds});
+                      snapshot.velocities, snapshot.bounds, snapshot.orientations});
   last_frame_ = snapshot.step;
 }
 

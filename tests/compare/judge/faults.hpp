@@ -56,5 +56,7 @@ std::vector<Fault> sweep_faults();
 void add_right_sweep(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> volume_faults();
 void add_right_volumes(compare::Contestant& exact, const compare::Authority& authority);
+std::vector<Fault> rod_faults();
+void add_right_rods(compare::Contestant& exact, const compare::Authority& authority);
 
 }  // namespace ogc::tests

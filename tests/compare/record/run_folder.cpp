@@ -8,6 +8,8 @@
 
 #include "compare/files/hdf5.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/record/checkpoint.hpp"
+#include "compare/record/frame_file.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/record/small_run.hpp"
@@ -191,6 +193,56 @@ TEST_CASE("a frame in which any byte of its state, step or time is changed is re
       std::ofstream(file, std::ios::binary) << damaged;
       CHECK_THROWS_WITH(read_frame(file), ContainsSubstring("frame_000007.h5") && ContainsSubstring("damaged"));
     }
+}
+
+TEST_CASE("orientations of rods come back from frames, are part of their checksum, and are unit quaternions",
+          "[property]") {
+  const Scratch folder;
+  Frame frame = recorded_frame(7);
+  frame.orientations = {{0, 0, 0, 1}, {0.6f, 0, 0.8f, 0}};
+  start(folder / "run").add_frame(frame);
+  const std::filesystem::path file = folder / "run/frames/frame_000007.h5";
+  CHECK(read_frame(file) == frame);
+  CHECK(frame_bytes(read_packed_frame(file)) == text_of(file));
+  const std::string whole = text_of(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(frame.orientations.data()), 2 * sizeof(Quaternion));
+  const std::size_t begin = whole.find(bytes);
+  REQUIRE(begin != std::string::npos);
+  for (std::size_t i = begin; i < begin + bytes.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    std::ofstream(file, std::ios::binary) << damaged;
+    CHECK_THROWS_WITH(read_frame(file), ContainsSubstring("damaged"));
+  }
+  frame.orientations[1][1] = 0.1f;
+  write_durably(file, frame_bytes(pack(frame)));
+  CHECK_THROWS_WITH(read_frame(file), ContainsSubstring("frame_000007.h5: orientation 1 is no unit quaternion"));
+}
+
+TEST_CASE("a checkpoint holds orientations of rods, unit quaternions alone, and nothing of them without rods",
+          "[unit]") {
+  const Scratch folder;
+  const Frame frame = recorded_frame(7);
+  Checkpoint checkpoint;
+  checkpoint.state.step = 7;
+  checkpoint.state.positions = frame.positions;
+  checkpoint.state.velocities = frame.velocities;
+  checkpoint.state.bounds = frame.bounds;
+  checkpoint.state.capacities = {1};
+  write_checkpoint(folder.folder(), checkpoint, "scene");
+  CHECK(text_of(folder / "checkpoint.h5").find("orientations") == std::string::npos);
+  checkpoint.state.orientations = {{0, 0, 0, 1}, {0.6f, 0, 0.8f, 0}};
+  write_checkpoint(folder.folder(), checkpoint, "scene");
+  CHECK(read_checkpoint(folder.folder(), "scene").state.orientations == checkpoint.state.orientations);
+  checkpoint.state.orientations[0][3] = 0.5f;
+  write_checkpoint(folder.folder(), checkpoint, "scene");
+  CHECK_THROWS_WITH(read_checkpoint(folder.folder(), "scene"),
+                    ContainsSubstring("checkpoint.h5: orientation 0 is no unit quaternion"));
+}
+
+TEST_CASE("a frame without rods has no trace of them", "[unit]") {
+  const std::string bytes = frame_bytes(pack(recorded_frame(7)));
+  CHECK(bytes.find("orientations") == std::string::npos);
 }
 
 TEST_CASE("frames of a newer format are refused by name, those of the oldest, without a checksum, are read", "[unit]") {

@@ -40,6 +40,7 @@ inline compare::Scene recorded_scene() {
                    .material = {}}};
   for (std::size_t v = 0; v < 4; ++v) scene.velocities[v] = {};
   scene.bodies[1].material.density = 0.3;
+  scene.bodies[2].material.rod = {.density = 2e-3, .stretch = 0.2, .bend = 1e-7, .damping = 1e-4, .diameter = 2e-3};
   scene.motions = {{.name = "handle",
                     .vertices = {4},
                     .centre = {0, 1, 0},

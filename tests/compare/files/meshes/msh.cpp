@@ -163,7 +163,7 @@ TEST_CASE("E and nu stand in place of the constants of Lame, and what format 2 r
              Contains("stands beside 'solid_mu'"));
   CHECK_THAT(with("\"surface\"", "\"solid\""),
              Contains("/bodies/0/contact: unknown contact 'solid'; there are: surface, volume"));
-  CHECK_THAT(with("\"fixed\"", R"("orientations": "q.h5", "fixed")"), Contains("orientations of rods"));
+  CHECK_THAT(with("\"fixed\"", R"("orientations": "q.h5", "fixed")"), Contains("/bodies/0/orientations: "));
   CHECK_THAT(with("\"motions\"", R"("body_pairs": [{}], "motions")"),
              Contains("/body_pairs/0: asks for materials of pairs of bodies"));
 }

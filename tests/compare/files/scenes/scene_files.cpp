@@ -9,16 +9,19 @@
 #include "compare/files/bytes.hpp"
 #include "compare/files/meshes/mesh_files.hpp"
 #include "compare/files/scenes/keyframes.hpp"
+#include "compare/files/scenes/orientations.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/files/scratch.hpp"
 #include "tests/compare/problem/small_scene.hpp"
 #include "tests/compare/problem/solid_scene.hpp"
+#include "tests/compare/record/small_run.hpp"
 
 using namespace ogc::compare;
 using Catch::Matchers::Contains;
 using nlohmann::json;
+using ogc::tests::recorded_scene;
 using ogc::tests::Scratch;
 using ogc::tests::small_scene;
 using ogc::tests::solid_scene;
@@ -135,6 +138,35 @@ TEST_CASE("a volume comes back as one, and a body that says nothing about its co
   CHECK(read_scene(edited.file()).bodies[0].contact == BodyContact::surface);
   edited.content["bodies"][0]["contact"] = true;
   CHECK_THAT(edited.error(), Contains("/bodies/0/contact"));
+}
+
+TEST_CASE("rods come back from their files bit for bit, and bad ones are named with their path", "[unit]") {
+  Scene scene = recorded_scene();
+  scene.orientations = {{0, 0, 0, 1}, {0.6f, 0, 0.8f, 0}};
+  Edited edited(scene);
+  CHECK(read_scene(edited.file()) == scene);
+  json& yarn = edited.content["bodies"][2];
+  const json good = edited.content;
+  yarn["material"]["rod"]["stretch"] = 0;
+  CHECK_THAT(edited.error(), Contains("/bodies/2/material/rod/stretch: is 0; give a number from"));
+  edited.content = good;
+  yarn["material"]["rod"]["stiffness"] = 1;
+  CHECK_THAT(edited.error(), Contains("/bodies/2/material/rod") && Contains("stiffness"));
+  edited.content = good;
+  yarn["material"].erase("rod");
+  CHECK_THAT(edited.error(), Contains("of body 'yarn'") && Contains("it has no mass"));
+  edited.content = good;
+  yarn["orientations"] = "gone.h5";
+  CHECK_THAT(edited.error(), Contains("/bodies/2/orientations: ") && Contains("gone.h5"));
+  edited.content = good;
+  const std::filesystem::path file = edited.file().parent_path() / yarn["orientations"].get<std::string>();
+  write_orientations(file, std::vector<Quaternion>{{0, 0, 0, 1}});
+  CHECK_THAT(edited.error(), Contains("1 entries for 2 segments"));
+  write_orientations(file, std::vector<Quaternion>{{0, 0, 0, 1}, {0, 0, 0, 2}});
+  CHECK_THAT(edited.error(), Contains("orientation 1 is no unit quaternion"));
+  yarn.erase("orientations");
+  CHECK(edited.error() == "");
+  CHECK(read_scene(edited.file()).orientations.empty());
 }
 
 TEST_CASE("keyframes come back from their file bit for bit", "[unit]") {

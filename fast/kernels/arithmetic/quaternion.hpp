@@ -1,0 +1,47 @@
+// Quaternions in single precision, with the layout of compare::Quaternion. Products are added from the left, as in
+// vector.hpp.
+#pragma once
+
+#include <cmath>
+
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
+
+namespace ogc::fast {
+
+/// u + w: sixteen bytes, one read on a device.
+struct alignas(16) Quat {
+  float x = 0, y = 0, z = 0, w = 1;  ///< of i, j, k, and the real part
+};
+
+OGC_HD inline Quat operator+(const Quat& a, const Quat& b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
+OGC_HD inline Quat operator-(const Quat& a, const Quat& b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
+OGC_HD inline Quat operator*(float s, const Quat& a) { return {s * a.x, s * a.y, s * a.z, s * a.w}; }
+/// a b, the product of quaternions.
+OGC_HD inline Quat operator*(const Quat& a, const Quat& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
+          a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+OGC_HD inline Quat conjugate(const Quat& a) { return {-a.x, -a.y, -a.z, a.w}; }
+OGC_HD inline float dot(const Quat& a, const Quat& b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
+OGC_HD inline Quat pure(const Vec& v) { return {v.x, v.y, v.z, 0.0f}; }
+
+/// R(q) v = v + 2 w (u × v) + 2 u × (u × v).
+OGC_HD inline Vec turned(const Quat& q, const Vec& v) {
+  const Vec u{q.x, q.y, q.z}, twice = 2.0f * cross(u, v);
+  return v + q.w * twice + cross(u, twice);
+}
+/// R(q)ᵀ v.
+OGC_HD inline Vec turned_back(const Quat& q, const Vec& v) { return turned(conjugate(q), v); }
+
+/// R(q) e₃: where a segment of this orientation points.
+OGC_HD inline Vec director(const Quat& q) { return turned(q, {0.0f, 0.0f, 1.0f}); }
+
+/// q/‖q‖ of a q that is not 0. The second factor takes the rounding of root and quotient away, which a device need not
+/// round correctly: ‖q‖ is 1 within 4 u.
+OGC_HD inline Quat unit(const Quat& q) {
+  const Quat near = (1.0f / sqrtf(dot(q, q))) * q;
+  return (1.5f - 0.5f * dot(near, near)) * near;
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "compare/stages/orientation.hpp"
+
+namespace ogc::reference {
+
+/// The answers to one case, the exact one first; several where a sign is grey.
+std::vector<compare::OrientationAnswer> orientation(const compare::OrientationCase& question);
+
+/// The stage `orientation`: minimisers by Newton's method on the unit sphere from many starts, the last steps in 113
+/// bits. No eigenvalue, root or closed form enters.
+compare::OrientationTruth orientation(const compare::OrientationIn& in);
+
+}  // namespace ogc::reference
