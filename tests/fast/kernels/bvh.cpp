@@ -79,6 +79,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   facets[0].corner[0] = 0, facets[0].corner[1] = 1, facets[0].corner[2] = 2;
   SurfaceView surface{};
   surface.vertex_count = 4, surface.edge_count = 2, surface.triangle_count = 1;
+  surface.searched_vertices = 4, surface.searched_edges = 2, surface.searched_facets = 1;
   surface.edges = edges.data(), surface.facets = facets.data();
   Quad root;
   Box whole;
@@ -97,6 +98,15 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   CHECK(keys == std::vector<std::uint64_t>{key_of(0, 0, 0, 0), key_of(0, last, 0, 0), key_of(0, 0, last, 0),
                                            key_of(0, last, last, last), key_of(1, half, 0, 0),
                                            key_of(1, half, half, half), key_of(2, half, half, 0)});
+  // Where not all are searched, those that are stand in the order of their list.
+  const std::vector<int> searched{3, 1, 1, 0};
+  SurfaceView some = surface;
+  some.searched = searched.data(), some.searched_vertices = 2, some.searched_edges = 1;
+  std::vector<std::uint64_t> of_some(4);
+  std::vector<int> numbers(4);
+  for (int i = 0; i < 4; ++i) HilbertKeys{some, positions.data(), tree, tree, of_some.data(), numbers.data()}(i);
+  CHECK(numbers == searched);
+  CHECK(of_some == std::vector<std::uint64_t>{keys[3], keys[1], keys[5], keys[6]});
   // A mesh without extent lies in the first cell.
   Quad point;
   Box one;

@@ -1,5 +1,6 @@
 #include "fast/stages/step.hpp"
 
+#include "fast/cpu/packed_gaps.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::fast;
