@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "compare/problem/rods.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
@@ -16,7 +17,11 @@ TEST_CASE("the table reaches every constant of a material", "[unit]") {
   }
   constexpr std::size_t models = sizeof(MembraneModel) + sizeof(BendingModel), padding = 2 * sizeof(double) - models;
   CHECK(fields.size() == names.size());
-  CHECK(fields.size() * sizeof(double) == sizeof(Material) - models - padding);
+  CHECK(fields.size() * sizeof(double) == sizeof(Material) - models - padding - sizeof material.rod);
+  std::set<const double*> of_rod;
+  RodMaterial rod;
+  for (const RodInfo& info : rod_table()) of_rod.insert(&(rod.*info.field));
+  CHECK(of_rod.size() * sizeof(double) == sizeof rod);
 }
 
 TEST_CASE("default constants lie within ranges that single precision holds exactly", "[unit]") {
@@ -25,6 +30,12 @@ TEST_CASE("default constants lie within ranges that single precision holds exact
     INFO(info.name);
     CHECK(defaults.*info.field >= info.minimum);
     CHECK(defaults.*info.field <= info.maximum);
+    CHECK(static_cast<double>(static_cast<float>(info.minimum)) == info.minimum);
+    CHECK(static_cast<double>(static_cast<float>(info.maximum)) == info.maximum);
+  }
+  for (const RodInfo& info : rod_table()) {
+    INFO(info.name);
+    CHECK(in_range(info, RodMaterial{}.*info.field));
     CHECK(static_cast<double>(static_cast<float>(info.minimum)) == info.minimum);
     CHECK(static_cast<double>(static_cast<float>(info.maximum)) == info.maximum);
   }

@@ -537,8 +537,26 @@ struct OrientationStage : BatchStage<OrientationStage, &Contestant::orientation,
   }
   static void mutate(Random& random, Case& c) { mutate_together(random, c.vertex, c.start); }
   static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.vertex, c.start}); }
-  static std::string missing_in(const States&) { return "no solver has rods yet"; }
-  static Case of_state(const States&, std::uint64_t, Random& random) { return case_of<Case>(bent(random)); }
+  static std::string missing_in(const States& states) {
+    return states.topology().edges.empty() ? "its mesh has no edge" : "";
+  }
+  /// An edge between the frames of the one that is near it and of one that nearly goes on.
+  static Case of_state(const States& states, std::uint64_t index, Random& random) {
+    const ClosestPointsCase pair = states.edge_edge(states.frame(index), random);
+    const EdgeOfState own(random, pair.first), other(random, pair.second);
+    OrientationCase question{.vertex = own.vertex,
+                             .start = own.start,
+                             .orientation = single(own.frame),
+                             .orientation_start = single(own.frame_start),
+                             .rest_length = static_cast<float>(own.length),
+                             .behind = {},
+                             .ahead = {}};
+    set_material(random, question);
+    const double weight = some_weight(random, question);
+    question.ahead = asks(random, true, other.frame, some_rest(random), weight);
+    question.behind = asks(random, false, beside(random, own.frame), some_rest(random), weight);
+    return question;
+  }
 
   static Json write(const Case& c) { return write_stencil(c); }
   static Case read(const Json& data) { return read_stencil<Case>(data); }

@@ -102,10 +102,11 @@ CaseData turned_rigidly(Random& random) {
 /// D → 0, Dᵗ → 0.
 CaseData short_one(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::some_orientation(random);
-  const double length = rod_cases::some_length(random);
+  const double length = random.magnitude(-2, 0);  // of which a rung is still a length
   const Vec3 before = random.one_in(2) ? strained(start, length, {})
-                                       : scaled(in_box(random, -1, 1), length * random.rung());
-  return placed(random, length, scaled(in_box(random, -1, 1), length * random.rung()), before, q, start, false);
+                                       : scaled(rod_cases::some_direction(random), length * random.rung());
+  return placed(random, length, scaled(rod_cases::some_direction(random), length * random.rung()), before, q, start,
+                false);
 }
 
 /// R(q) e₃ → −D/‖D‖, and half turns about the axes, where w is 0.
@@ -186,8 +187,19 @@ struct RodStage : ForceStage<RodStage, RodCase, &Contestant::rod, &Authority::ro
   }
   static void mutate(Random& random, Case& c) { mutate_together(random, c.vertex, c.start); }
   static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.vertex, c.start}); }
-  static std::string missing_in(const States&) { return "no solver has rods yet"; }
-  static Case of_state(const States&, std::uint64_t, Random& random) { return case_of<Case>(uniform(random)); }
+  static std::string missing_in(const States& states) {
+    return states.topology().edges.empty() ? "its mesh has no edge" : "";
+  }
+  static Case of_state(const States& states, std::uint64_t index, Random& random) {
+    const rod_cases::EdgeOfState edge(random, states.edge_edge(states.frame(index), random).first);
+    RodCase question{.vertex = edge.vertex,
+                     .start = edge.start,
+                     .orientation = rod_cases::single(edge.frame),
+                     .orientation_start = rod_cases::single(edge.frame_start),
+                     .rest_length = static_cast<float>(edge.length)};
+    set_material(random, question);
+    return question;
+  }
   static Case checked(Case c) {
     if (c.own != 0 && c.own != 1) throw InputError("own: " + std::to_string(c.own) + " is not an end of the segment");
     return c;

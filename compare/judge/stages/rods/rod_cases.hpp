@@ -1,6 +1,7 @@
 // Quaternions and segments from which the stages rod and orientation make their cases, in double.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -67,6 +68,34 @@ inline Four some_orientation(Random& random) {
 inline Four beside(Random& random, const Four& q) {
   return product(q, rotation(some_direction(random), random.rung()));
 }
+
+/// A frame whose director is that of d, with any twist; any where d is 0.
+inline Four frame_along(Random& random, const Vec3& d) {
+  const double length = std::hypot(d.x, d.y, d.z);
+  const Four twist = rotation({0, 0, 1}, random.between(-3, 3));
+  const Vec3 half = length > 0 ? placement::sum(placement::scaled(d, 1 / length), {0, 0, 1}) : Vec3{};
+  if (std::hypot(half.x, half.y, half.z) < 0x1p-20) return some_orientation(random);
+  return product(unit({half.x, half.y, half.z, 0}), twist);  // half a turn about the middle of e₃ and d
+}
+
+/// An edge of a frame of a run as a segment: about as long as at rest, after it was a little elsewhere.
+struct EdgeOfState {
+  std::array<Vec3f, 2> vertex, start;
+  double length = 0;  ///< l [m]
+  Four frame{}, frame_start{};
+
+  EdgeOfState(Random& random, const std::array<Vec3f, 2>& edge) : vertex(edge), start(edge) {
+    const Vec3 d{double{edge[1].x} - edge[0].x, double{edge[1].y} - edge[0].y, double{edge[1].z} - edge[0].z};
+    const double now = std::hypot(d.x, d.y, d.z);
+    length = std::clamp(now * random.between(0.8, 1.2), 0x1p-20, 0x1p20);
+    for (Vec3f& x : start) {
+      const Vec3 moved = placement::scaled(placement::in_box(random, -1, 1), 0.1 * length);
+      x = placement::single(placement::sum({x.x, x.y, x.z}, moved));
+    }
+    frame = beside(random, frame_along(random, d));
+    frame_start = product(frame, rotation(some_direction(random), random.between(-0.2, 0.2)));
+  }
+};
 
 /// One of the 24 quaternions of the cube's rotations that single precision holds: ±1, ±i, ±j, ±k, (±1 ± i ± j ± k)/2.
 inline Four on_lattice(Random& random) {

@@ -145,26 +145,26 @@ TEST_CASE("rods come back from their files bit for bit, and bad ones are named w
   scene.orientations = {{0, 0, 0, 1}, {0.6f, 0, 0.8f, 0}};
   Edited edited(scene);
   CHECK(read_scene(edited.file()) == scene);
-  json& yarn = edited.content["bodies"][2];
+  const auto yarn = [&]() -> json& { return edited.content["bodies"][2]; };
   const json good = edited.content;
-  yarn["material"]["rod"]["stretch"] = 0;
+  yarn()["material"]["rod"]["stretch"] = 0;
   CHECK_THAT(edited.error(), Contains("/bodies/2/material/rod/stretch: is 0; give a number from"));
   edited.content = good;
-  yarn["material"]["rod"]["stiffness"] = 1;
+  yarn()["material"]["rod"]["stiffness"] = 1;
   CHECK_THAT(edited.error(), Contains("/bodies/2/material/rod") && Contains("stiffness"));
   edited.content = good;
-  yarn["material"].erase("rod");
+  yarn()["material"].erase("rod");
   CHECK_THAT(edited.error(), Contains("of body 'yarn'") && Contains("it has no mass"));
   edited.content = good;
-  yarn["orientations"] = "gone.h5";
+  yarn()["orientations"] = "gone.h5";
   CHECK_THAT(edited.error(), Contains("/bodies/2/orientations: ") && Contains("gone.h5"));
   edited.content = good;
-  const std::filesystem::path file = edited.file().parent_path() / yarn["orientations"].get<std::string>();
+  const std::filesystem::path file = edited.file().parent_path() / yarn()["orientations"].get<std::string>();
   write_orientations(file, std::vector<Quaternion>{{0, 0, 0, 1}});
   CHECK_THAT(edited.error(), Contains("1 entries for 2 segments"));
   write_orientations(file, std::vector<Quaternion>{{0, 0, 0, 1}, {0, 0, 0, 2}});
   CHECK_THAT(edited.error(), Contains("orientation 1 is no unit quaternion"));
-  yarn.erase("orientations");
+  yarn().erase("orientations");
   CHECK(edited.error() == "");
   CHECK(read_scene(edited.file()).orientations.empty());
 }
@@ -269,8 +269,10 @@ TEST_CASE("loose edges belong to the body of their vertices", "[unit]") {
   Scene scene;
   scene.name = "yarns";
   const Mesh yarn{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {}, {{0, 1}, {1, 2}}};
-  append_body(scene, {.name = "one", .material = {}}, yarn);
-  append_body(scene, {.name = "two", .material = {}}, yarn);
+  Material material;
+  material.rod.emplace();
+  append_body(scene, {.name = "one", .material = material}, yarn);
+  append_body(scene, {.name = "two", .material = material}, yarn);
   round_to_single(scene);
   CHECK(read_scene(write_scene(scratch.folder(), scene)) == scene);
 }
