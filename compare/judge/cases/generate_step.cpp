@@ -143,8 +143,7 @@ struct StepBuilder {
 
   /// The boundary of such a block as a volume, fixed or moved as a whole; now and then each vertex goes its own way.
   void volume(const Vec3& origin) {
-    const Mesh block = jittered_block(random, spacing, random.between(0.5, 1.5));
-    Mesh mesh{block.positions, boundary_triangles(block.tetrahedra), {}};
+    Mesh mesh = jittered_surface(random, spacing, random.between(0.5, 1.5));
     for (Vec3& x : mesh.positions) x = sum(x, scaled(sum(origin, {2, 2, 2}), spacing));
     const auto first = static_cast<Index>(scene.mesh.positions.size());
     const bool is_fixed = random.one_in(4);
@@ -428,6 +427,23 @@ CaseData volume(Random& random) {
   return builder.finish();
 }
 
+/// A sheet at rest with a vertex straight above a volume's highest one, a rung beside the contact radius.
+CaseData volume_at_radius(Random& random) {
+  StepBuilder builder(random);
+  builder.volume({});
+  builder.scene.motions.clear();
+  builder.scene.bodies.back().fixed = true;
+  const std::vector<Vec3>& x = builder.scene.mesh.positions;
+  const auto highest = static_cast<std::size_t>(
+      std::max_element(x.begin(), x.end(), [](const Vec3& a, const Vec3& b) { return a.z < b.z; }) - x.begin());
+  const Vec3 above = sum(scaled(x[highest], 1 / builder.spacing), {-2, -2, random.between(0.1, 0.6) - 2});
+  const std::size_t first = x.size();
+  builder.sheet(side(random), side(random), above, {});
+  const auto height = [&](std::size_t v) { return double{static_cast<float>(builder.scene.mesh.positions[v].z)}; };
+  builder.scene.settings.contact_radius = (height(first) - height(highest)) * (1 + 0.5 * random.rung());
+  return builder.finish();
+}
+
 /// Sheets above one another land on a fixed one, some within a step's reach of it and some beyond, closer to each other
 /// than to it; or all fall freely.
 CaseData stack(Random& random) {
@@ -494,7 +510,7 @@ CaseData dat(Random& random) {
   });
 }
 
-constexpr std::array<Generator, 18> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 19> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -509,7 +525,8 @@ constexpr std::array<Generator, 18> table{{{"fall", 12, true, fall},
                                            {"planes", 10, false, planes, 0, Stage::plane},
                                            {"ladder.planes", 22, false, planes_at_rest, 0, Stage::plane},
                                            {"dat", 12, false, dat, 0, Stage::plane},
-                                           {"volume", 16, false, volume, 0, Stage::volume_depth},
+                                           {"volume", 8, false, volume, 0, Stage::volume_depth},
+                                           {"ladder.volume", 8, false, volume_at_radius, 0, Stage::volume_depth},
                                            {"pairs", 24, false, pairs, 0, std::nullopt, true},
                                            {"ladder.stack", 24, false, stack_by_pairs, 0, std::nullopt, true}}};
 

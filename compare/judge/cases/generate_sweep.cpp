@@ -13,7 +13,6 @@
 #include "compare/judge/cases/mesh_builder.hpp"
 #include "compare/judge/cases/placement.hpp"
 #include "compare/judge/cases/solid_block.hpp"
-#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 
@@ -413,17 +412,15 @@ CaseData solid(Random& random) {
   return test;
 }
 
-/// A fixed or driven volume about a vertex of sheets, which reaches into them or lies before them.
-CaseData volume(Random& random) {
-  SweepCase test = case_of<SweepCase>(sheets(random));
+/// A vertex of sheets beside which a volume is put.
+Vec3 some_vertex(Random& random, const SweepCase& test) {
+  const Vec3f& x = test.previous[static_cast<std::size_t>(random.below(static_cast<int>(test.previous.size()) - 1))];
+  return {x.x, x.y, x.z};
+}
+
+/// The sheets with a fixed or driven volume, given where it is.
+CaseData with_volume(Random& random, SweepCase test, const Mesh& mesh) {
   Scene scene = *test.scene;
-  const double size = scene.settings.contact_radius * random.magnitude(0, 1);
-  const Mesh block = jittered_block(random, size, 1);
-  const auto near = static_cast<std::size_t>(random.below(static_cast<int>(test.previous.size()) - 1));
-  const Vec3f& about = test.previous[near];
-  const Vec3 shift = placement::sum({about.x, about.y, about.z}, placement::scaled(in_box(random, -2, 0.5), size));
-  Mesh mesh{block.positions, boundary_triangles(block.tetrahedra), {}};
-  for (Vec3& x : mesh.positions) x = placement::sum(x, shift);
   Body body;
   body.name = "volume";
   body.fixed = random.one_in(3);
@@ -450,6 +447,30 @@ CaseData volume(Random& random) {
   return test;
 }
 
+/// A volume about a vertex of sheets, which reaches into them or lies before them.
+CaseData volume(Random& random) {
+  SweepCase test = case_of<SweepCase>(sheets(random));
+  const double size = test.scene->settings.contact_radius * random.magnitude(0, 1);
+  Mesh mesh = jittered_surface(random, size, 1);
+  const Vec3 shift = placement::sum(some_vertex(random, test), placement::scaled(in_box(random, -2, 0.5), size));
+  for (Vec3& x : mesh.positions) x = placement::sum(x, shift);
+  return with_volume(random, std::move(test), mesh);
+}
+
+/// The upper corner of a volume at a rung beside r from a vertex of sheets.
+CaseData volume_at_radius(Random& random) {
+  SweepCase test = case_of<SweepCase>(sheets(random));
+  const double r = test.scene->settings.contact_radius, away = r * (1 + 0.5 * random.rung()) / std::sqrt(3);
+  Mesh mesh = jittered_surface(random, r * random.magnitude(0, 1), 1);
+  const auto height = [](const Vec3& x) { return x.x + x.y + x.z; };
+  const Vec3 corner = *std::max_element(mesh.positions.begin(), mesh.positions.end(),
+                                        [&](const Vec3& a, const Vec3& b) { return height(a) < height(b); });
+  const Vec3 shift = placement::sum(placement::sum(some_vertex(random, test), placement::scaled(corner, -1)),
+                                    {-away, -away, -away});
+  for (Vec3& x : mesh.positions) x = placement::sum(x, shift);
+  return with_volume(random, std::move(test), mesh);
+}
+
 /// Other models than the default ones, with the colours that their springs ask for.
 template <CaseData (*make)(Random&)>
 CaseData with_models(Random& random) {
@@ -461,7 +482,7 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 23> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 24> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
@@ -479,7 +500,8 @@ constexpr std::array<Generator, 23> table{{{"sheets", 16, true, sheets},
                                            {"ladder.collapse", 5, false, collapse},
                                            {"ladder.bound", 6, false, at_bound},
                                            {"solid", 4, false, solid, 0, Stage::tetrahedron},
-                                           {"volume", 8, false, volume, 0, Stage::volume_depth},
+                                           {"volume", 4, false, volume, 0, Stage::volume_depth},
+                                           {"ladder.volume", 4, false, volume_at_radius, 0, Stage::volume_depth},
                                            {"models", 8, false, with_models<sheets>},
                                            {"models.prescribed", 4, false, with_models<prescribed>},
                                            {"ladder.models_rest", 6, false, with_models<at_rest>},

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "compare/judge/cases/placement.hpp"
+#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 
@@ -35,6 +36,22 @@ Mesh jittered(Random& random, const std::array<Index, 3>& cells, double size, do
 Mesh jittered_block(Random& random, double size, double height) {
   const std::array<Index, 3> cells{1 + random.below(2), 1 + random.below(2), 1 + random.below(2)};
   return jittered(random, cells, size, height);
+}
+
+Mesh jittered_surface(Random& random, double size, double height) {
+  const Mesh block = jittered_block(random, size, height);
+  Mesh surface{{}, boundary_triangles(block.tetrahedra), {}};
+  std::vector<Index> number(block.positions.size(), -1);
+  for (Triangle& triangle : surface.triangles)
+    for (Index& v : triangle) {
+      Index& own = number[static_cast<std::size_t>(v)];
+      if (own < 0) {
+        own = static_cast<Index>(surface.positions.size());
+        surface.positions.push_back(block.positions[static_cast<std::size_t>(v)]);
+      }
+      v = own;
+    }
+  return surface;
 }
 
 Mesh jittered_cube(Random& random, double size, double height) { return jittered(random, {2, 2, 2}, size, height); }

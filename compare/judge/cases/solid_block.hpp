@@ -9,7 +9,9 @@ namespace ogc::compare {
 /// Up to 2 × 2 × 2 cells of side `size` [m], `height` times as high, each of six tetrahedra about the same diagonal; of
 /// 2 × 2 × 2, and of those alone, one vertex lies inside. Vertices are moved by up to a tenth of a cell.
 Mesh jittered_block(Random& random, double size, double height);
-/// The same of 2 × 2 × 2 cells.
+/// The boundary of such a block: triangles alone, outward, and no vertex inside.
+Mesh jittered_surface(Random& random, double size, double height);
+/// The block of 2 × 2 × 2 cells.
 Mesh jittered_cube(Random& random, double size, double height);
 
 }  // namespace ogc::compare
