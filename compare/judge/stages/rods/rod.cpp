@@ -133,6 +133,7 @@ constexpr std::array<Generator, 9> table{{{"uniform", 30, true, uniform},
 std::vector<WrongForm> rod_forms() {
   constexpr auto stage = &Authority::rod;
   std::vector<WrongForm> forms = common_forms(stage);
+  std::erase_if(forms, [](const WrongForm& form) { return form.name == "hessian_diagonal_alone"; });  // it is k I
   add_damping(forms, stage);
   const auto add = [&](const char* name, const char* meaning, auto change) {
     forms.push_back(case_asked(name, meaning, stage, change));
