@@ -172,14 +172,10 @@ TEST_CASE("ridges, valleys and corners: the side is that of the dihedral, not of
   REQUIRE(corner.size() == 1);
   CHECK(corner[0].face.kind == FaceKind::vertex);
   CHECK(!corner[0].inside);
-  // a cavity: the same corner from inside is reentrant
+  // facing inward, the corner has its inner side beyond the box, where nobody is inside
   Surface inner = cube();
   for (compare::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
-  const std::vector<PartContact> cavity = Body(inner).ask({2.25f, 2.25f, 2.25f}, 0.5f);
-  REQUIRE(cavity.size() == 1);
-  CHECK(cavity[0].inside);
-  CHECK(cavity[0].face.kind == FaceKind::vertex);
-  CHECK(cavity[0].depth == Approx(0.5 + std::sqrt(3 * 0.0625)).epsilon(1e-15));
+  CHECK(Body(inner).ask({2.25f, 2.25f, 2.25f}, 0.5f).empty());
 }
 
 TEST_CASE("a rim has no inner side, and what lies behind a surface with rims is inside", "[unit]") {
@@ -196,14 +192,12 @@ TEST_CASE("a rim has no inner side, and what lies behind a surface with rims is 
   // level with the rim the foot lies on it
   const std::vector<PartContact> level = body.ask({1, 0.25f, 2}, 0.5f);
   CHECK(std::ranges::none_of(level, &PartContact::inside));
-  // facing inward, the end of a valley at the rim: along the valley points are inside, and level with its end not
+  // facing inward, beyond the box: neither along the valley nor level with its end, where the rim is near
   Surface inward = open_cube();
   for (compare::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
   const std::vector<PartContact> along = Body(inward).ask({2.25f, 2.25f, 1.5f}, 0.5f),
                                  end = Body(inward).ask({2.25f, 2.25f, 2}, 0.5f);
-  REQUIRE(along.size() == 1);
-  CHECK(along[0].inside);
-  CHECK(along[0].face.kind == FaceKind::edge);
+  CHECK(along.empty());
   REQUIRE(!end.empty());
   CHECK(std::ranges::none_of(end, &PartContact::inside));
 }
