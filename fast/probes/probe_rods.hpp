@@ -6,6 +6,7 @@
 #include "compare/stages/orientation.hpp"
 #include "compare/stages/rod.hpp"
 #include "fast/kernels/models/damping.hpp"
+#include "fast/kernels/models/orientation.hpp"
 #include "fast/kernels/models/rod.hpp"
 #include "fast/probes/probe_forces.hpp"
 

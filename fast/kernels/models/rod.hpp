@@ -1,9 +1,5 @@
-// A segment of a rod: k_s l/2 ‖D/l − R(q) e₃‖² of stretch and shear, seen from one of its ends, and the exact update of
-// its quaternion between its neighbours (compare/rods.md). The root of the update is sought as ν = μ − σ: μ would lose
-// what the neighbours say beside a stiff stretch.
+// A segment of a rod: k_s l/2 ‖D/l − R(q) e₃‖² of stretch and shear, seen from one of its ends (compare/rods.md).
 #pragma once
-
-#include <cmath>
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
 #include "fast/kernels/arithmetic/quaternion.hpp"
@@ -30,94 +26,6 @@ OGC_HD inline void add_rod(const SegmentRest& segment, float damping, int end, c
   const Vec strain = over_length * apart - turned(q, direction);
   sum.add_force(end == 0 ? segment.stretch : -segment.stretch, strain);
   sum.add_identity(segment.stretch * over_length);
-}
-
-/// A neighbour across one end.
-struct NeighbourRest {
-  float weight = 0;  ///< w = 4 k_b/l̄ [N m]; 0: there is none
-  Quat rest;         ///< p° = q̄° q°_f of one ahead, q̄°_f q° of one behind
-};
-
-/// What a neighbour that holds `q` asks for, given the relative rotation p: q p̄ ahead, q p behind.
-OGC_HD inline Quat asked_orientation(bool is_ahead, const Quat& q, const Quat& relative) {
-  return q * (is_ahead ? conjugate(relative) : relative);
-}
-
-/// w s t with the sign that brings t nearer to the old q.
-OGC_HD inline Quat pull_towards(float weight, const Quat& asked, const Quat& old) {
-  return (dot(asked, old) < 0 ? -weight : weight) * asked;
-}
-
-/// Adds w (s t + k sᵗ tᵗ) to b. `now`, `start` of the neighbour; `own_start` of the segment.
-OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, float damping, const Quat& now,
-                                 const Quat& start, const Quat& own_start, const Quat& old, Quat& b) {
-  if (!(neighbour.weight > 0)) return;
-  b = b + pull_towards(neighbour.weight, asked_orientation(is_ahead, now, neighbour.rest), old);
-  if (!(damping > 0)) return;
-  const Quat relative = is_ahead ? conjugate(own_start) * start : conjugate(start) * own_start;
-  b = b + pull_towards(damping * neighbour.weight, asked_orientation(is_ahead, now, relative), old);
-}
-
-/// The larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1, β₊ > 0: Newton's method on one over the left side's root rises to
-/// it from below. Mostly one step; where β₋ is about 2 σ and β₊ vanishes, up to twenty.
-OGC_HD inline float secular_root(float upper, float lower, float sigma) {
-  constexpr int most_steps = 32;
-  constexpr float enough = 0x3p-23f;  // the left side is known to no better
-  const float twice = 2.0f * sigma;
-  float nu = upper > lower - twice ? upper : lower - twice;
-  for (int step = 0; step < most_steps; ++step) {
-    const float from_upper = upper / nu, from_lower = lower / (nu + twice);
-    const float squared = from_upper * from_upper + from_lower * from_lower, beyond = sqrtf(squared) - 1.0f;
-    if (!(beyond > enough)) break;
-    nu += squared * beyond / (from_upper * from_upper / nu + from_lower * from_lower / (nu + twice));
-  }
-  return nu;
-}
-
-/// M/σ: q ↦ −D q c of unit vectors, its own inverse.
-struct ReflectedFrame {
-  Quat apart, direction;  ///< D/‖D‖, c/‖c‖
-
-  OGC_HD Quat operator()(const Quat& q) const { return -1.0f * (apart * q * direction); }
-  /// The part of q in the eigenspace of 1, of directors along D. Projected twice: once leaves a rounding of all of q
-  /// outside, which a small part would not bear.
-  OGC_HD Quat upper(const Quat& q) const {
-    const Quat once = 0.5f * (q + (*this)(q));
-    return 0.5f * (once + (*this)(once));
-  }
-};
-
-/// A part in the upper eigenspace that is no larger than this share of the whole is rounding: two products of
-/// quaternions and half a sum err by 17 u (compare/stages/orientation.hpp), and twice that leaves room.
-inline constexpr float lost_part = 0x1p-19f;
-
-/// The unit vector of the upper eigenspace nearest to the old q; where the old q has no part in it, to 1, or i.
-OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
-  constexpr float lost = lost_part * lost_part;
-  Quat part = frame.upper(old);
-  if (!(dot(part, part) > lost)) part = frame.upper({0.0f, 0.0f, 0.0f, 1.0f});
-  if (!(dot(part, part) > lost)) part = frame.upper({1.0f, 0.0f, 0.0f, 0.0f});
-  return unit(part);
-}
-
-/// The minimiser of −½ qᵀMq − b·q on the unit sphere, M q = −2 k_s D q c; of several the nearest to the old q. `apart`:
-/// D [m], `direction`: c, as rod_rest_direction.
-OGC_HD inline Quat rod_orientation(float stretch, const Vec& apart, const Vec& direction, const Quat& b,
-                                   const Quat& old) {
-  const float length = sqrtf(dot(apart, apart)), size = sqrtf(dot(direction, direction));
-  const float sigma = 2.0f * stretch * length * size, pull = sqrtf(dot(b, b));
-  if (!(sigma > 0)) return pull > 0 ? unit((1.0f / pull) * b) : old;
-  const ReflectedFrame frame{pure((1.0f / length) * apart), pure((1.0f / size) * direction)};
-  if (!(pull > 0)) return nearest_upper(frame, old);
-  const Quat upper = frame.upper(b), lower = b - upper;
-  const float beta_upper = sqrtf(dot(upper, upper)), beta_lower = sqrtf(dot(lower, lower));
-  if (!(beta_upper > lost_part * pull)) {  // the neighbours ask for a reversed director
-    if (beta_lower > 2.0f * sigma) return unit((1.0f / beta_lower) * lower);
-    const float share = beta_lower / (2.0f * sigma), rest = 1.0f - share * share;
-    return unit((0.5f / sigma) * lower + sqrtf(rest > 0 ? rest : 0.0f) * nearest_upper(frame, old));
-  }
-  const float nu = secular_root(beta_upper, beta_lower, sigma);
-  return unit((1.0f / nu) * upper + (1.0f / (nu + 2.0f * sigma)) * lower);
 }
 
 }  // namespace ogc::fast

@@ -415,7 +415,7 @@ class Figures(unittest.TestCase):
     def test_a_script_makes_the_picture_that_the_workflow_waits_for(self):
         for recipe in recipes.load().values():
             if "script" in recipe.body and not {"run", "of", "study"} & set(recipe.body):
-                text = (SOURCE / f"paper_figures/figures/{recipe.body['script']}.py").read_text()
+                text = (SOURCE / f"paper_figures/figures/{recipe.body['script'].replace('.', '/')}.py").read_text()
                 self.assertIn(f'"{recipe.name}.png"', text, recipe.name)
 
 

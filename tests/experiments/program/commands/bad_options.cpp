@@ -124,7 +124,7 @@ TEST_CASE("a setting that a scene can't have is refused by name with its range a
   const ProgramResult unknown = run_ogc("run twist --scale smoke --set h=0.01");
   CHECK(unknown.status == 2);
   const std::string first =
-      "unknown setting 'h'; there are: membrane, bending, contact_stiffness, friction, "
+      "unknown setting 'h'; there are: membrane, bending, contact, contact_stiffness, friction, "
       "solid_density, solid_mu, solid_lambda, solid_damping, solid_young, solid_poisson, "
       "time_step";
   CHECK(contains(unknown.err, {first, "ipc_iterations", "seed"}));

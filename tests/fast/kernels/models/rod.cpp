@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "fast/kernels/models/orientation.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/numeric.hpp"
 
@@ -116,6 +117,10 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   // Reversed: nothing of the old one points along D, and 1 has no part in it either; i has.
   const Quat reversed = rod_orientation(1, {0, 0, -1}, axis, none, {0, 0, 0, 1});
   CHECK(length(director(reversed) - Vec{0, 0, -1}) <= 16 * u);
+  // With damping c may be reversed along x, too: then i has no part in it either, and j has.
+  const Quat across = rod_orientation(1, {2, 0, 0}, {-1, 0, 0}, none, {0, 0, 0, 1});
+  CHECK(size(across - Quat{0, 1, 0, 0}) <= 4 * u);
+  CHECK(length(turned(across, {-1, 0, 0}) - Vec{1, 0, 0}) <= 16 * u);
   // Neighbours alone.
   const Quat alone = rod_orientation(1, {0, 0, 0}, axis, {0, 3, 4, 0}, old);
   CHECK(size(alone - Quat{0, 0.6f, 0.8f, 0}) <= 4 * u);
