@@ -1,5 +1,5 @@
-// The exact update of a segment's quaternion between its neighbours (compare/rods.md). Its root is sought as ν = μ − σ: μ
-// would lose what the neighbours say beside a stiff stretch.
+// The exact update of a segment's quaternion between its neighbours (compare/rods.md). Its root is sought as ν = μ − σ:
+// μ would lose what the neighbours say beside a stiff stretch.
 #pragma once
 
 #include <cmath>
