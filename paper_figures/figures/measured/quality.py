@@ -109,7 +109,7 @@ def picture(steps, scale):
 
 
 def main():
-    options = options_of_figure(__doc__.splitlines()[0], commands.LEDGER_STEPS)
+    options = options_of_figure(__doc__.splitlines()[0], ("smoke", "small", "paper"))
     root = table1_of(options.folder, options.scale, options.backend)
     try:
         for job in commands.to_quality(options.scale, options.backend):

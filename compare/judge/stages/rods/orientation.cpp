@@ -511,23 +511,13 @@ struct OrientationStage : BatchStage<OrientationStage, &Contestant::orientation,
                                       MetricInfo{"residual", "u (σ + Σ w)", orientation_residual_tolerance},
                                       MetricInfo{"energy", "u (σ + Σ w)", orientation_energy_tolerance},
                                       MetricInfo{"length", "u", orientation_length_tolerance}};
-  static constexpr std::array parameters{ParameterInfo{"k_s", "stiffness of stretch [N]", 0x1p-30f, ranges::vast},
-                                         ParameterInfo{"l", "rest length [m]", ranges::least, ranges::most},
-                                         ranges::damping};
-  static float* parameter(Case& c, std::string_view name) {
-    return name == "k_s" ? &c.stretch : name == "l" ? &c.rest_length : &c.damping;
-  }
+  static constexpr std::array parameters = segment_parameters;
+  static float* parameter(Case& c, std::string_view name) { return segment_parameter(c, name); }
 
   static std::span<const Generator> generators() { return table; }
 
   static void check(const Case& c, FirstProblem& problem) {
-    problem.number("a rest length", c.rest_length, least_length, most_length);
-    check_ends(problem, c.vertex, c.rest_length);
-    check_ends(problem, c.start, c.rest_length);
-    check_unit(problem, c.orientation);
-    check_unit(problem, c.orientation_start);
-    problem.number("a stiffness", c.stretch, 0x1p-30f, vast);
-    problem.number("a damping", c.damping, 0, most_length);
+    check_segment(problem, c);
     for (const RodNeighbour* f : {&c.behind, &c.ahead}) {
       if (f->weight == 0) continue;
       problem.number("a weight", f->weight, 0x1p-40f, 0x1p60f);

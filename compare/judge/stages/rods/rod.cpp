@@ -167,23 +167,13 @@ struct RodStage : ForceStage<RodStage, RodCase, &Contestant::rod, &Authority::ro
                                   .determinism = Determinism::cpu_to_gpu};
   static constexpr std::array metrics{MetricInfo{"force", "u cond", rod_force_tolerance},
                                       MetricInfo{"block", "u cond", rod_block_tolerance}};
-  static constexpr std::array parameters{ParameterInfo{"k_s", "stiffness of stretch [N]", 0x1p-30f, ranges::vast},
-                                         ParameterInfo{"l", "rest length [m]", ranges::least, ranges::most},
-                                         ranges::damping};
-  static float* parameter(Case& c, std::string_view name) {
-    return name == "k_s" ? &c.stretch : name == "l" ? &c.rest_length : &c.damping;
-  }
+  static constexpr std::array parameters = rod_cases::segment_parameters;
+  static float* parameter(Case& c, std::string_view name) { return rod_cases::segment_parameter(c, name); }
 
   static std::span<const Generator> generators() { return table; }
 
   static void check(const Case& c, FirstProblem& problem) {
-    problem.number("a rest length", c.rest_length, least_length, most_length);
-    rod_cases::check_ends(problem, c.vertex, c.rest_length);
-    rod_cases::check_ends(problem, c.start, c.rest_length);
-    rod_cases::check_unit(problem, c.orientation);
-    rod_cases::check_unit(problem, c.orientation_start);
-    problem.number("a stiffness", c.stretch, 0x1p-30f, vast);
-    problem.number("a damping", c.damping, 0, most_length);
+    rod_cases::check_segment(problem, c);
     problem.require(c.own == 0 || c.own == 1, "no such end is asked about");
   }
   static void mutate(Random& random, Case& c) { mutate_together(random, c.vertex, c.start); }

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string_view>
 
 #include "compare/judge/cases/legal.hpp"
 #include "compare/judge/cases/placement.hpp"
+#include "compare/judge/stages/parameter_ranges.hpp"
 
 namespace ogc::compare::rod_cases {
 
@@ -127,6 +129,27 @@ inline void check_unit(FirstProblem& problem, const Quaternion& q) {
   double squared = 0;
   for (const float x : q) squared += double{x} * x;
   problem.require(std::abs(squared - 1) <= unit_quaternion_slack, "an orientation is no unit quaternion");
+}
+
+/// And of all that both stages know of a segment.
+template <class Case>
+void check_segment(FirstProblem& problem, const Case& c) {
+  problem.number("a rest length", c.rest_length, least_length, most_length);
+  check_ends(problem, c.vertex, c.rest_length);
+  check_ends(problem, c.start, c.rest_length);
+  check_unit(problem, c.orientation);
+  check_unit(problem, c.orientation_start);
+  problem.number("a stiffness", c.stretch, 0x1p-30f, vast);
+  problem.number("a damping", c.damping, 0, most_length);
+}
+
+/// What may be set of it.
+inline constexpr std::array segment_parameters{ParameterInfo{"k_s", "stiffness of stretch [N]", 0x1p-30f, ranges::vast},
+                                               ParameterInfo{"l", "rest length [m]", ranges::least, ranges::most},
+                                               ranges::damping};
+template <class Case>
+float* segment_parameter(Case& c, std::string_view name) {
+  return name == "k_s" ? &c.stretch : name == "l" ? &c.rest_length : &c.damping;
 }
 
 }  // namespace ogc::compare::rod_cases
