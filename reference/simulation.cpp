@@ -84,6 +84,10 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
     throw compare::InputError(
         "setting 'bounds' can't be 'dat' with Newton's method, whose line search scales all vertices at once; give "
         "bounds=planes or --solver vbd");
+  if (scene.settings.contact_weights == compare::ContactWeightsRule::iteration)
+    throw compare::InputError(
+        "setting 'contact_weights' can't be 'iteration' with Newton's method, whose energy is that of the closest "
+        "points; give contact_weights=update or --solver vbd");
   refuse_volumes(scene, "newton", "leave the body a surface");
   refuse_rods(scene, "newton");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);

@@ -21,8 +21,9 @@ constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "
 constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
 constexpr std::array<std::string_view, 4> bounds_names{"ball", "planes", "off", "dat"};
 constexpr std::array<std::string_view, 2> guess_names{"rounds", "pairs"};
+constexpr std::array<std::string_view, 2> weights_names{"update", "iteration"};
 
-constexpr std::array<SettingInfo, 18> problem_table{{
+constexpr std::array<SettingInfo, 19> problem_table{{
     {"time_step", "s", "simulated time that one step covers, h; smaller steps are more accurate and cost more in all",
      0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "number of steps of the run", 0, most_count, &Settings::steps},
@@ -64,6 +65,10 @@ constexpr std::array<SettingInfo, 18> problem_table{{
      &Settings::activation, activations},
     {"damping", "1", "what damping resists: the change of strains, or the motion of each vertex alone (vbd)", 0, 1,
      &Settings::damping, damping_forms},
+    {"contact_weights", "1",
+     "when the closest points of a contact are found: at each update of a vertex, or once an iteration, which reads "
+     "less (vbd)",
+     0, 1, &Settings::contact_weights, weights_names},
     {"seed", "1", "which of its random starts a scene takes; recorded with the run", 0, most_seed, &Settings::seed},
 }};
 

@@ -28,6 +28,9 @@ constexpr bool has_planes(Bounds bounds) { return bounds == Bounds::planes || bo
 /// How a step's first positions are found (method.md §5.2): by rounds of truncation, or at once, by a certificate of
 /// every pair that could meet.
 enum class Guess : std::int64_t { rounds, pairs };
+/// When the weights of a contact's closest points are computed (method.md §7.2): at each update of a vertex, or once
+/// for all updates of an iteration.
+enum class ContactWeightsRule : std::int64_t { update, iteration };
 
 /// Names of the activations and damping forms, in the order of the enumerations.
 std::span<const std::string_view> activation_names();
@@ -54,6 +57,7 @@ struct Settings {
   ContactActivation activation = ContactActivation::ogc;  ///< contact energy over distance
   /// `per_vertex`, the authors' form, brakes translation, too
   DampingForm damping = DampingForm::strain;
+  ContactWeightsRule contact_weights = ContactWeightsRule::update;  ///< when closest points are found
   std::int64_t seed = 0;  ///< of whatever the scene draws at random
   /// Declared by contestants, where not the default: numbers, of a choice the index of its name. By set_setting.
   std::map<std::string, double, std::less<>> declared;
@@ -75,7 +79,7 @@ struct SettingInfo {
   double minimum, maximum;               ///< inclusive
   /// where the value is kept
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
-               Bounds Settings::*, Guess Settings::*, DeclaredSetting>
+               Bounds Settings::*, Guess Settings::*, ContactWeightsRule Settings::*, DeclaredSetting>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };

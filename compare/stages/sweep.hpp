@@ -21,7 +21,8 @@ namespace ogc::compare {
 /// tetrahedra, contact and friction, and volumes as in the stages of these names. Prescribed vertices
 /// (`is_prescribed`) go to y, truncated; all others stay, and those of volumes: they are where the step has them.
 /// While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at its old one; own
-/// position: old. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and rounded
+/// position: old. With contact_weights=iteration the closest points of all contacts, and with them n's and d's weights,
+/// are those of the old positions; Σ w x is formed where positions are read, Σ w xᵗ once. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and rounded
 /// at most once.
 struct SweepIn {
   const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)

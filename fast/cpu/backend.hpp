@@ -74,6 +74,9 @@ F on_packs(const F& f) {
 inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
+inline UpdateVertex<GatherPackedFrozen> on_packs(const UpdateVertex<GatherFrozenSurfaces>& f) {
+  return {f.view, f.first_slot, f.asks_late};
+}
 /// Sums of every model, and those of solids, run in packs where these have the models.
 inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) {
   return {f.view, f.first_slot, f.asks_late};

@@ -1,6 +1,7 @@
 // The sum of a vertex in packs, compiled for several machines and chosen at run time, to the same bits.
 #pragma once
 
+#include "fast/kernels/contacts/frozen.hpp"
 #include "fast/kernels/volumes/stream.hpp"
 
 namespace ogc::fast {
@@ -33,9 +34,10 @@ struct GatherByLanes {
     return W == 4 ? gather_4 : (W == 8 ? gather_8 : (W == 16 ? gather_16 : gather_32));
   }
 };
-/// Of scenes with surfaces, and of those whose free vertices all belong to solids.
+/// Of scenes with surfaces, the second with weights of the iteration, and of those whose free vertices all belong to
+/// solids.
 struct PackKernels {
-  GatherByLanes surfaces, solids;  ///< as GatherDefault, as GatherSolids
+  GatherByLanes surfaces, frozen_surfaces, solids;  ///< as GatherDefault, as GatherFrozenSurfaces, as GatherSolids
 };
 
 /// Compiled without and with AVX2. Where has_avx2() is false the latter must not be called.
@@ -65,6 +67,21 @@ struct GatherPacked {
       return GatherDefault{}(view, slot, vertex, own, team);
     else
       return kernels.surfaces.template gather<W>()(view, slot, vertex, own, {});
+  }
+};
+
+/// As GatherFrozenSurfaces.
+struct GatherPackedFrozen {
+  static constexpr int parts = GatherFrozenSurfaces::parts;  ///< of the sum; devices alone read it
+  const PackKernels& kernels = pack_kernels();               ///< those of this machine
+
+  template <int W>
+  ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                           const SerialTeam<W>& team) const {
+    if constexpr (W < 4)
+      return GatherFrozenSurfaces{}(view, slot, vertex, own, team);
+    else
+      return kernels.frozen_surfaces.template gather<W>()(view, slot, vertex, own, {});
   }
 };
 

@@ -129,19 +129,19 @@ struct TeamLanes {
 };
 
 /// Adds the contacts of a slot, vertex–facet ones first.
-template <int W, class P>
+template <bool is_frozen, int W, class P>
 void add_contact_parts(const SweepView& view, int slot, TeamLanes<W, P>& lanes) {
   const ContactRow row = view.contact_rows[slot];
   const ContactIncidence* contacts = view.contacts + row.begin;
   const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
-    add_contacts(view, items, sum);
+    add_contacts<is_frozen>(view, items, sum);
   };
   lanes.add_part(contacts, row.vertex_facet, add);
   lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
 }
 
-/// A GatherInPacks of scenes with surfaces.
-template <int W>
+/// A GatherInPacks of scenes with surfaces; `is_frozen`: with weights of the iteration.
+template <int W, bool is_frozen>
 [[gnu::flatten]] ForceAndBlock gather(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                       const OtherParts& other) {
   using P = std::conditional_t<(W >= WidePack::width), WidePack, Pack>;
@@ -167,7 +167,7 @@ template <int W>
   lanes.add_part(other.springs);
   lanes.add_part(other.tetrahedra);
   lanes.add_part(other.volumes);
-  add_contact_parts<W, P>(view, slot, lanes);
+  add_contact_parts<is_frozen>(view, slot, lanes);
   return lanes.total();
 }
 
@@ -188,7 +188,7 @@ template <int W>
                      add_tetrahedra(view, items, material, here, sum);
                    });
   }
-  add_contact_parts<W, P>(view, slot, lanes);
+  add_contact_parts<false>(view, slot, lanes);
   return lanes.total();
 }
 

@@ -44,7 +44,10 @@ struct EndStepDetection {
   OGC_HD void operator()(int i) const {
     if (i == 0) {
       end(i);
-      if (*lists.overflow == 0) *lists.noted_count = *lists.contact_count = 0;
+      if (*lists.overflow == 0) {
+        *lists.listed_count = *lists.contact_count;
+        *lists.noted_count = *lists.contact_count = 0;
+      }
     }
     if (i < slots) rows(i);
   }

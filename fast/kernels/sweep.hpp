@@ -55,6 +55,13 @@ struct alignas(16) ContactIncidence {
   ContactKind kind = ContactKind::point_point;  ///< says which slots it has
   std::uint8_t own = 0;                         ///< 0 … 3
   std::uint8_t together = 0;  ///< bit k: the vertex of slot k, another one than the own, has its colour
+  int pair = 0;               ///< place in SweepView::frozen, where there is that
+};
+
+/// What is computed once an iteration of a pair, where contacts' weights are (method.md §7.2).
+struct alignas(16) FrozenContact {
+  float weight[4] = {};  ///< w by slot [1], at the positions before the iteration
+  Vec start;             ///< Σ w xᵗ [m]
 };
 
 /// The contacts of a vertex in the stream: the vertex–facet ones, then the edge–edge ones.
@@ -116,6 +123,8 @@ struct SweepView {
   const SolidMaterial* solids = nullptr;             ///< by body
   const Symmetric3* solid_start = nullptr;           ///< Gᵗ by tetrahedron
   VolumeStream volumes;                              ///< read where there are volumes
+  /// by pair; read by sums with WeightsOfIteration alone
+  const FrozenContact* frozen = nullptr;
 
   /// Whether it is another iteration's turn.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
@@ -198,14 +207,20 @@ struct ContactAt {
   OGC_HD bool acts() const { return shape.acts && weight != 0; }
 };
 
+/// The contact with these weights, and Σ w x.
+OGC_HD inline ContactAt contact_with(const ContactIncidence& incidence, const ContactWeights& weights,
+                                     const Vec& separation, float contact_radius) {
+  const float own = weights.of(incidence.own);
+  float together = fabsf(own);
+  for (int k = 0; k < 4; ++k) together += (incidence.together >> k & 1) != 0 ? fabsf(weights.slot[k]) : 0.0f;
+  return {weights, contact_shape(separation, contact_radius), own, fabsf(own) * together};
+}
+
 /// The contact where its vertices are now.
 template <PairKind pairs = PairKind::any>
 OGC_HD ContactAt contact_at(const ContactIncidence& incidence, const ContactReads& reads, float contact_radius) {
   const ContactWeights weights = contact_weights<pairs>(incidence.kind, reads.x);
-  const float own = weights.of(incidence.own);
-  float together = fabsf(own);
-  for (int k = 0; k < 4; ++k) together += (incidence.together >> k & 1) != 0 ? fabsf(weights.slot[k]) : 0.0f;
-  return {weights, contact_shape(weighted_sum(weights, reads.x), contact_radius), own, fabsf(own) * together};
+  return contact_with(incidence, weights, weighted_sum(weights, reads.x), contact_radius);
 }
 
 /// The friction of a contact that acts with the normal force λ.
@@ -232,9 +247,19 @@ OGC_HD ForceAndBlock contact_term(const SweepView& view, const Activation& activ
   return term;
 }
 
+/// Contacts whose weights are computed where each update reads positions.
+struct WeightsOfUpdate {
+  template <PairKind pairs, class Activation>
+  OGC_HD static ForceAndBlock term(const SweepView& view, const Activation& activation,
+                                   const ContactIncidence& incidence) {
+    return contact_term<pairs>(view, activation, incidence, read_contact(view, incidence));
+  }
+};
+
 /// Both kinds of contacts of a vertex, each as a part of its sum. A vertex may have fifty and its neighbours none, so
-/// teams share the work. `Activation`: a functor of models/activation.hpp.
-template <class Activation>
+/// teams share the work. `Activation`: a functor of models/activation.hpp. `Weights`: WeightsOfUpdate or
+/// WeightsOfIteration.
+template <class Activation, class Weights>
 struct ContactParts {
   const SweepView& view;
   ContactRow row;  ///< contacts of the vertex
@@ -252,7 +277,7 @@ struct ContactParts {
     return pooled_part(
         begin, count, [contacts = view.contacts](int i) { return contacts[i]; },
         [seen = &view, activation = activation](const ContactIncidence& contact) {
-          return contact_term<pairs>(*seen, activation, contact, read_contact(*seen, contact));
+          return Weights::template term<pairs>(*seen, activation, contact);
         });
   }
 };
@@ -270,13 +295,14 @@ OGC_HD void prefetch_rows(const SweepView& view, const SweepVertex& vertex, cons
 /// The sum over all stencils of one vertex, inertia left out, of scenes with default models alone (St.
 /// Venant–Kirchhoff, discrete hinges, activation `ogc`, damping of strains, no springs), in four parts: triangles,
 /// hinges, vertex–facet contacts, edge–edge contacts.
-struct GatherDefault {
+template <class Weights>
+struct GatherSurfaces {
   static constexpr int parts = 4;  ///< parts of the sum: warps of a block where teams are spread (fast/cuda/team.cuh)
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                   const Team& team) const {
-    const ContactParts<OgcActivation> contacts{view, view.contact_rows[slot], {}};
+    const ContactParts<OgcActivation, Weights> contacts{view, view.contact_rows[slot], {}};
     const SurfaceMaterial material = view.materials[vertex.body];
     prefetch_rows(view, vertex, contacts.row, team);
     return team.template sum<ForceAndBlock>(
@@ -293,6 +319,9 @@ struct GatherDefault {
         contacts.vertex_facet(), contacts.edge_edge());
   }
 };
+
+/// As the paper has it.
+using GatherDefault = GatherSurfaces<WeightsOfUpdate>;
 
 /// The leader writes a position of the vertex's region and counts where the proposal was changed. One that is not
 /// finite is not written: the vertex stays and the step fails. All threads that hold the team's total call it together.

@@ -182,11 +182,12 @@ OGC_HD inline Part<LoadSpring, AddSpring> spring_part(const SweepView& view, int
   return part(row.count, LoadSpring{view.springs + row.begin}, AddSpring{view, models, own});
 }
 
-/// The sum of GatherEveryModel with parts of others between springs and contacts.
-template <class Team, class... Others>
+/// The sum of GatherEveryModel with parts of others between springs and contacts. `Weights`: of contacts, as
+/// ContactParts has them.
+template <class Weights = WeightsOfUpdate, class Team, class... Others>
 OGC_HD ForceAndBlock every_model_sum(const SweepView& view, int slot, const SweepVertex& vertex, const OwnVertex& at,
                                      const Team& team, const Others&... others) {
-  const ContactParts<AnyActivation> contacts{view, view.contact_rows[slot], {view.activation}};
+  const ContactParts<AnyActivation, Weights> contacts{view, view.contact_rows[slot], {view.activation}};
   const SurfaceMaterial material = view.materials[vertex.body];
   const SurfaceModels models = view.models[vertex.body];
   prefetch_rows(view, vertex, contacts.row, team);

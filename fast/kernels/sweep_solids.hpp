@@ -98,7 +98,7 @@ struct GatherSolids {
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                   const Team& team) const {
-    const ContactParts<OgcActivation> contacts{view, view.contact_rows[slot], {}};
+    const ContactParts<OgcActivation, WeightsOfUpdate> contacts{view, view.contact_rows[slot], {}};
     const auto tetrahedra = tetrahedron_part(view, slot, AddTetrahedron{view, view.solids[vertex.body], own});
     team.prefetch(tetrahedra.load.first, tetrahedra.count * static_cast<int>(sizeof(TetrahedronIncidence)));
     team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));

@@ -25,6 +25,8 @@ class ProbeContacts {
       : backend_(backend), count_(records.offsets.back()) {
     const auto facets = static_cast<int>(records.vertex_facet.size()),
                edges = static_cast<int>(records.edge_edge.size());
+    const int counts[2] = {facets, facets + edges};
+    counts_.upload(counts, 2);
     overflow_.resize(1);
     overflow_.fill_zero();
     vertex_facet_.upload(records.vertex_facet.data(), records.vertex_facet.size());
@@ -36,14 +38,17 @@ class ProbeContacts {
     fill(facets, edges);
   }
 
-  /// Of all vertices.
-  int incidences() const { return count_; }
+  /// Room that they need, in contacts: one has two incidences at least, four at most.
+  int capacity() const { return count_; }
+  /// How many contacts there are; on the backend.
+  const int* count() const { return counts_.data() + 1; }
 
   /// As a detection's.
   ContactView view() const {
     ContactView view;
     view.vertex_facet = vertex_facet_.data();
     view.edge_edge = edge_edge_.data();
+    view.vertex_facet_count = counts_.data();
     view.incidence_offsets = offsets_.data();
     view.incidences = incidences_.data();
     return view;
@@ -69,7 +74,7 @@ class ProbeContacts {
 
   Backend& backend_;
   int count_;
-  Buffer<int> overflow_, offsets_, filled_;  ///< `overflow_`: one flag, not set
+  Buffer<int> counts_, overflow_, offsets_, filled_;  ///< `overflow_`: one flag, not set
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;
   Buffer<LooseIncidence> loose_;
@@ -140,13 +145,14 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   view.angle_start = start.angle();
   view.solid_start = start.solid();
   const ProbeContacts<Backend> contacts(backend, contact_records(in), static_cast<int>(in.old.size()));
-  sweep.reserve_contacts(contacts.incidences());
+  sweep.reserve_contacts(contacts.capacity());
   sweep.resolve_contacts(contacts.view(), previous);
   sweep.complete(view);
   if (volumes.is_used()) {
     volumes.put(volume_rows(in, rest, colouring));
     view.volumes = volumes.stream();
   }
+  if (sweep.freezes()) sweep.freeze(view, contacts.view(), contacts.count(), nullptr);
   sweep.iterate(view);
 
   backend.synchronize();

@@ -311,7 +311,7 @@ class ResidentSimulation : public compare::Simulation {
   }
 
   void reserve() {
-    sweep_.reserve_contacts(4 * detection_.capacity());
+    sweep_.reserve_contacts(detection_.capacity());
     pair_guess_.reserve(static_cast<int>(detection_.capacities()[1]));
   }
 

@@ -361,6 +361,10 @@ class Step {
     if (volumes_.is_used()) view.volumes = volumes_.stream();
     view.contact_radius = settings_.contact_radius;
     view.friction_limit = settings_.friction_limit;
+    if (sweep_.freezes()) {
+      sweep_.freeze(view, detection_.view(), detection_.lists().listed_count, detection_.overflow());
+      start = Start::after_previous;
+    }
     sweep_.iterate(view, start);
   }
 

@@ -9,6 +9,7 @@
 
 #include "compare/problem/volumes.hpp"
 #include "fast/kernels/contact_stream.hpp"
+#include "fast/kernels/contacts/frozen.hpp"
 #include "fast/kernels/sweep.hpp"
 #include "fast/kernels/sweep_models.hpp"
 #include "fast/kernels/sweep_solids.hpp"
@@ -216,14 +217,27 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
 }
 
 /// Which sum over the stencils of a vertex a scene needs, by what the sum has and others lack: GatherDefault,
-/// GatherEveryModel, GatherSolids, GatherEverything, GatherVolumes, GatherEverythingAndVolumes.
-enum class SweepSum { surfaces, every_model, solids, everything, volumes, everything_and_volumes };
+/// GatherEveryModel, GatherSolids, GatherEverything, GatherVolumes, GatherEverythingAndVolumes; with weights of an
+/// iteration GatherFrozenSurfaces, GatherFrozen.
+enum class SweepSum {
+  surfaces,
+  every_model,
+  solids,
+  everything,
+  volumes,
+  everything_and_volumes,
+  frozen_surfaces,
+  frozen
+};
 
-/// By the activation, springs, models, tetrahedra and volumes of the scene.
-inline SweepSum needed_sum(const RestState& rest, bool has_volumes) {
-  if (has_volumes) return rest.tetrahedra.empty() ? SweepSum::volumes : SweepSum::everything_and_volumes;
+/// By the activation, springs, models, tetrahedra and volumes of the scene, and by when weights are computed.
+inline SweepSum needed_sum(const RestState& rest, const compare::Scene& scene) {
+  const bool has_volumes = compare::has_volumes(scene);
   const bool every_model = rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
                            !std::all_of(rest.models.begin(), rest.models.end(), are_default);
+  if (scene.settings.contact_weights == compare::ContactWeightsRule::iteration)
+    return every_model || has_volumes || !rest.tetrahedra.empty() ? SweepSum::frozen : SweepSum::frozen_surfaces;
+  if (has_volumes) return rest.tetrahedra.empty() ? SweepSum::volumes : SweepSum::everything_and_volumes;
   if (rest.tetrahedra.empty()) return every_model ? SweepSum::every_model : SweepSum::surfaces;
   const bool alone = rest.triangles.empty() && rest.hinges.empty();
   return every_model || !alone ? SweepSum::everything : SweepSum::solids;
@@ -242,7 +256,7 @@ class Sweep {
         colours_(colouring.count),
         vertex_count_(static_cast<int>(rest.mass.size())),
         lanes_(scene.settings.lanes > 0 ? static_cast<int>(scene.settings.lanes) : default_lanes(rest.mass.size())),
-        sum_(needed_sum(rest, compare::has_volumes(scene))),
+        sum_(needed_sum(rest, scene)),
         activation_(rest.activation) {
     const SweepStreams streams = build_streams(rest, colouring, scene.settings.time_step);
     upload(vertices_, streams.vertices);
@@ -290,8 +304,14 @@ class Sweep {
     return tables;
   }
 
-  /// Room for the incidences of a detection. Host only, outside a step.
-  void reserve_contacts(int incidences) { contacts_.resize(static_cast<std::size_t>(incidences)); }
+  /// Whether weights of contacts are those of an iteration (`freeze`).
+  bool freezes() const { return sum_ == SweepSum::frozen_surfaces || sum_ == SweepSum::frozen; }
+
+  /// Room for so many contacts of a detection, and their incidences. Host only, outside a step.
+  void reserve_contacts(int contacts) {
+    contacts_.resize(4 * static_cast<std::size_t>(contacts));
+    if (freezes()) frozen_.resize(static_cast<std::size_t>(contacts));
+  }
 
   /// Free vertices: items of a launch over contact_rows.
   int slots() const { return static_cast<int>(vertices_.size()); }
@@ -305,7 +325,7 @@ class Sweep {
   }
   /// What writes the stream, as each incidence gets its place; `previous`: the positions of the detection.
   ResolveContact resolve_contact(const ContactView& view, const Vec* previous) {
-    return {view, tables(previous), colour_.data(), contacts_.data()};
+    return {view, tables(previous), colour_.data(), contacts_.data(), freezes()};
   }
 
   /// The stream of contacts that are there already.
@@ -328,10 +348,18 @@ class Sweep {
     view.springs = springs_.data();
     view.spring_rows = spring_rows_.data();
     view.activation = activation_;
+    view.frozen = frozen_.data();
     view.tetrahedron_rows = tetrahedron_rows_.data();
     view.tetrahedra = tetrahedra_.data();
     view.gradients = gradients_.data();
     view.solids = solids_.data();
+  }
+
+  /// Before an iteration whose weights are frozen. `count`: of the contacts, on the backend; `overflow`: see
+  /// FreezeContacts.
+  void freeze(const SweepView& view, const ContactView& contacts, const int* count, const int* overflow) {
+    backend_.for_each_counted(count, static_cast<int>(frozen_.size()),
+                              FreezeContacts{view, contacts, overflow, frozen_.data()});
   }
 
   /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each
@@ -355,6 +383,8 @@ class Sweep {
         case SweepSum::everything: with(GatherEverything{}); break;
         case SweepSum::volumes: with(GatherVolumes{}); break;
         case SweepSum::everything_and_volumes: with(GatherEverythingAndVolumes{}); break;
+        case SweepSum::frozen_surfaces: with(GatherFrozenSurfaces{}); break;
+        case SweepSum::frozen: with(GatherFrozen{}); break;
       }
     }
   }
@@ -393,6 +423,7 @@ class Sweep {
   Buffer<MembraneIncidence> membrane_;
   Buffer<HingeIncidence> hinges_;
   Buffer<ContactIncidence> contacts_;
+  Buffer<FrozenContact> frozen_;
   Buffer<ContactRow> contact_rows_;
   Buffer<int> colour_, body_, prescribed_;
   Buffer<SurfaceMaterial> materials_;

@@ -234,7 +234,9 @@ def draw_fall(axes, panel):
 
 
 def draw_rounds(axes, panel):
-    axes.step(*xy(layers(panel, "rounds")[0]).T, where="post", label="rounds that are needed")
+    axes.step(*xy(layers(panel, "rounds")[0]).T, where="post", label="rounds that are needed, with balls")
+    axes.step(*xy(layers(panel, "rounds with planes")[0]).T, where="post", color=style.COLOURS[1],
+              label="with planes between near pairs")
     limit = xy(layers(panel, "guess_rounds")[0])
     axes.plot(*limit.T, "--", color=style.COLOURS[3], label=f"default limit, guess_rounds = {limit[0][1]:g}")
     axes.axhline(1, color="grey", linewidth=0.8, linestyle=":", label="a line search with CCD: 1")

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "compare/stages/contact_force.hpp"
+#include "reference/energies/meeting.hpp"
 
 namespace ogc::reference {
 
 /// The exact answer, then those of the features, stages and ends of action that a decision in its grey zone could give
-/// instead.
-std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question);
+/// instead. `weights_at`: as `meetings` takes it.
+std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question,
+                                                const WeightsAt& weights_at = {});
 
 /// All cases, in parallel over them.
 compare::ForceTruth contact_force(const compare::ContactForceIn& in);

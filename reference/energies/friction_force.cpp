@@ -20,13 +20,25 @@ struct Friction {
   bool near_limit = false;  ///< ‖u‖ lies within near_factor of ε
 };
 
+/// Σ wᵢ (xᵢ − xᵢᵗ).
+Triple<Input> moved_apart(Meeting& meeting, const compare::FrictionForceCase& q) {
+  const auto count = static_cast<std::size_t>(vertex_count(q.contact.sides));
+  Inputs& inputs = meeting.inputs;
+  Triple<Input> moved;
+  if (meeting.frozen) {
+    moved = meeting.separation();
+    for (std::size_t k = 1; k < count; ++k) moved = moved - meeting.weight[k] * inputs.vector(q.start[k], q.start[0]);
+    return moved;
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    moved = moved + meeting.weight[k] * inputs.vector(q.contact.vertex[k], q.start[k]);
+  return moved;
+}
+
 Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   const auto own = static_cast<std::size_t>(q.contact.own);
   Inputs& inputs = meeting.inputs;
-  Triple<Input> moved;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(q.contact.sides)); ++k) {
-    moved = moved + meeting.weight[k] * inputs.vector(q.contact.vertex[k], q.start[k]);
-  }
+  const Triple<Input> moved = moved_apart(meeting, q);
   const Input limit = inputs.number(q.slip_limit), strength = inputs.number(q.friction) * normal_force(meeting);
   const Triple<Input> normal = Input(1.0) / meeting.distance * meeting.separation();
   const auto slip_of = [&](const Input& weight) {
@@ -80,8 +92,9 @@ Accepted answers_of(const compare::FrictionForceCase& question, const std::vecto
 
 }  // namespace
 
-std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) {
-  return answers_of(question, meetings(question.contact)).answers;
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question,
+                                                 const WeightsAt& weights_at) {
+  return answers_of(question, meetings(question.contact, weights_at)).answers;
 }
 
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in) {

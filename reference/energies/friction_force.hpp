@@ -2,11 +2,14 @@
 #pragma once
 
 #include "compare/stages/friction_force.hpp"
+#include "reference/energies/meeting.hpp"
 
 namespace ogc::reference {
 
-/// The exact answer, then those of the contact's other acceptable answers.
-std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question);
+/// The exact answer, then those of the contact's other acceptable answers. `weights_at`: as `meetings` takes it; Σ wᵢ
+/// xᵢ and Σ wᵢ xᵢᵗ are sums of their own then, and errors are relative to each.
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question,
+                                                 const WeightsAt& weights_at = {});
 
 /// All cases, in parallel over them.
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in);

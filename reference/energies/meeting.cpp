@@ -191,13 +191,19 @@ std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   return rule.exact ? std::vector{share, one} : std::vector{one, share};
 }
 
+/// Relative to the base of Meeting::vertex.
+Vertices relative(ContactSides sides, const std::array<Vec3f, 4>& at, Inputs& inputs) {
+  Vertices vertices;
+  const std::size_t base = sides == ContactSides::edge_edge ? 0 : 1;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(sides)); ++k)
+    if (k != base) vertices[k] = inputs.vector(at[k], at[base]);
+  return vertices;
+}
+
 /// Everything but the weights and e_k.
 Meeting begun(const ContactForceCase& q) {
   Meeting meeting;
-  const std::size_t base = q.sides == ContactSides::edge_edge ? 0 : 1;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(q.sides)); ++k) {
-    if (k != base) meeting.vertex[k] = meeting.inputs.vector(q.vertex[k], q.vertex[base]);
-  }
+  meeting.vertex = relative(q.sides, q.vertex, meeting.inputs);
   meeting.contact_radius = meeting.inputs.number(q.contact_radius);
   meeting.stiffness = meeting.inputs.number(q.stiffness);
   meeting.activation = q.activation;
@@ -277,20 +283,54 @@ double Meeting::slope_doubt() const {
   return -activation_energy(activation, d, contact_radius.value, stiffness.value).slope[0];
 }
 
-std::vector<Meeting> meetings(const ContactForceCase& question) {
+namespace {
+
+/// Sets weights that are known to a unit of themselves beside what their inputs do.
+void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
+  const bool has_parameters = sides != ContactSides::point_point;
+  const Input first = has_parameters ? meeting.inputs.number(0, 1) : zero,
+              second = has_parameters ? meeting.inputs.number(0, 1) : zero;
+  meeting.weight = weights(sides, at[0] + first, at[1] + second);
+}
+
+/// The same with weights of other positions, whose inputs enter by their condition alone.
+void weigh_frozen(Meeting& meeting, ContactSides sides, const Parameters& at, const Inputs& inputs) {
+  const auto number = [&](const Input& x) { return meeting.inputs.number(x.value, inputs.condition({&x, 1}) + 1); };
+  meeting.frozen = true;
+  meeting.weight = sides == ContactSides::point_point ? weights(sides, zero, zero)
+                                                      : weights(sides, number(at[0]), number(at[1]));
+}
+
+/// Each way of meeting with the constants of `common`.
+std::vector<Meeting> weighed(const ContactForceCase& question, Meeting common, const WeightsAt& weights_at) {
+  std::vector<Meeting> all;
+  if (!weights_at) {
+    common.needle = has_needle(question, common.vertex);
+    for (const Parameters& at : all_parameters(common.inputs, question, common.vertex))
+      weigh(all.emplace_back(common), question.sides, at);
+    return all;
+  }
+  ContactForceCase before = question;
+  before.vertex = *weights_at;
+  Inputs inputs;
+  const Vertices vertices = relative(question.sides, before.vertex, inputs);
+  common.needle = has_needle(before, vertices);
+  for (const Parameters& at : all_parameters(inputs, before, vertices))
+    weigh_frozen(all.emplace_back(common), question.sides, at, inputs);
+  return all;
+}
+
+}  // namespace
+
+std::vector<Meeting> meetings(const ContactForceCase& question, const WeightsAt& weights_at) {
   Meeting common = begun(question);
   const std::vector<Input> shares = energy_shares(question, common.inputs);
-  common.needle = has_needle(question, common.vertex);
-  const std::vector<Parameters> all = all_parameters(common.inputs, question, common.vertex);
-  const bool has_parameters = question.sides != ContactSides::point_point;
-  const Input first_error = has_parameters ? common.inputs.number(0, 1) : zero,
-              second_error = has_parameters ? common.inputs.number(0, 1) : zero;
+  const std::vector<Meeting> of_whole = weighed(question, common, weights_at);
   std::vector<Meeting> result;
   for (const Input& share : shares) {
-    for (const Parameters& at : all) {
-      Meeting& meeting = result.emplace_back(common);
-      meeting.stiffness = common.stiffness * share;
-      meeting.weight = weights(question.sides, at[0] + first_error, at[1] + second_error);
+    for (const Meeting& of_one : of_whole) {
+      Meeting& meeting = result.emplace_back(of_one);
+      meeting.stiffness = of_one.stiffness * share;
       measure(meeting);
     }
   }
@@ -337,8 +377,10 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings,
     }
     if (acts || ends) all.push_back(acting(meeting));
     none = none || !acts || ends;
-    const bool touches = meeting.doubt > 0 && meeting.may_touch(), of_needle = meeting.needle && (acts || ends);
-    const double distance = touches ? 0 : meeting.distance.value - meeting.distance_doubt;
+    // Elsewhere the points of a needle are any distance apart.
+    const bool touches = meeting.doubt > 0 && meeting.may_touch(), of_frozen = meeting.needle && meeting.frozen,
+               of_needle = meeting.needle && (acts || ends || meeting.frozen);
+    const double distance = touches || of_frozen ? 0 : meeting.distance.value - meeting.distance_doubt;
     if (touches || of_needle) nearest = any ? std::min(nearest, distance) : distance;
     any = any || touches || of_needle;
   }

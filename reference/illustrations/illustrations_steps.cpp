@@ -7,9 +7,11 @@
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/geometry/pair_planes.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/illustrations/illustration_parts.hpp"
 #include "reference/illustrations/slice.hpp"
+#include "reference/solvers/feasible_regions.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -139,8 +141,27 @@ struct Fall {
   std::vector<std::vector<float>> bounds;  ///< b_v at the beginning of each
 };
 
+/// Where vertices go whose near pairs have planes (method.md §5.6), in place of balls alone.
+std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vector<Vec3f>& x,
+                               const std::vector<Vec3f>& target, float query_radius) {
+  const std::vector<Index> no_groups;
+  const std::vector<std::uint8_t> all_free(x.size(), 0);
+  compare::PlaneOut held = pair_planes({&topology, no_groups, x, all_free, query_radius,
+                                        static_cast<float>(compare::Settings{}.bound_relaxation)});
+  Detected here;
+  here.previous = x, here.bound = std::move(held.bound), here.planes = std::move(held.planes);
+  const FeasibleRegions regions(here, compare::Bounds::planes);
+  const auto wide = [](const Vec3f& p) { return Triple<double>{p.x, p.y, p.z}; };
+  std::vector<Cut> cuts;
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const FeasibleRegions::Inside inside = regions.inside(v, wide(x[v]), wide(target[v]));
+    cuts.push_back({rounded({inside.x}).front(), inside.cut});
+  }
+  return cuts;
+}
+
 /// Rounds of detection and truncation until no vertex is cut. Everything falls alike, so nothing comes into contact.
-Fall fall(double speed) {
+Fall fall(double speed, compare::Bounds kind = compare::Bounds::ball) {
   Fall f;
   f.start = {{-0.025f, 0, 0}, {-0.005f, 0, 0}, {-0.015f, 0.015f, 0},
              {0.005f, 0, 0},  {0.025f, 0, 0},  {0.015f, 0.015f, 0}};
@@ -153,10 +174,12 @@ Fall fall(double speed) {
   for (bool cut = true; cut && static_cast<int>(f.rounds.size()) < most_rounds;) {
     f.bounds.push_back(bounds_of(topology, x, contact_radius, query_radius));
     cut = false;
+    std::vector<Cut> moved;
+    if (kind == compare::Bounds::planes) moved = cut_by_planes(topology, x, f.target, query_radius);
     for (std::size_t v = 0; v < x.size(); ++v) {
-      const Cut moved = cut_to_ball(x[v], f.target[v], f.bounds.back()[v]);
-      x[v] = moved.position;
-      cut = cut || moved.cut;
+      if (kind == compare::Bounds::ball) moved.push_back(cut_to_ball(x[v], f.target[v], f.bounds.back()[v]));
+      x[v] = moved[v].position;
+      cut = cut || moved[v].cut;
     }
     f.rounds.push_back(x);
   }
@@ -213,16 +236,18 @@ std::vector<DrawingPanel> falling_triangles() {
     way.layers.push_back(triangles_at(last ? "end" : "round", drawn.rounds[k], {next.begin(), next.end()}));
   }
   way.layers.push_back(triangles_at("target", drawn.target, {drawn_speed, time_step}));
-  DrawingLayer rounds{"rounds", {}, {}, {{}}, {}, true};
+  DrawingLayer rounds{"rounds", {}, {}, {{}}, {}, true}, with_planes{"rounds with planes", {}, {}, {{}}, {}, true};
   for (int k = 0; k <= 64; ++k) {
     const double speed = 0.125 * k;
-    rounds.lines[0].push_back(k);
-    rounds.points.push_back({speed, static_cast<double>(fall(speed).rounds.size()), 0});
+    for (const auto& [layer, kind] : {std::pair{&rounds, compare::Bounds::ball}, {&with_planes, compare::Bounds::planes}}) {
+      layer->lines[0].push_back(k);
+      layer->points.push_back({speed, static_cast<double>(fall(speed, kind).rounds.size()), 0});
+    }
   }
   const auto limit = static_cast<double>(compare::Settings{}.guess_rounds);
   const DrawingLayer most{"guess_rounds", {{0, limit, 0}, {rounds.points.back()[0], limit, 0}}, {}, {{0, 1}}, {}, true};
   return {std::move(way),
-          {"rounds", "rounds of detection and truncation until the target is reached", {std::move(rounds), most}}};
+          {"rounds", "rounds of detection and truncation until the target is reached", {std::move(rounds), std::move(with_planes), most}}};
 }
 
 }  // namespace ogc::reference

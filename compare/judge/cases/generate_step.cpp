@@ -487,6 +487,13 @@ CaseData models(Random& random) {
   return changed(data, [&](Scene& scene) { choose_models(random, scene); });
 }
 
+/// Weights of contacts that are those before each iteration.
+CaseData frozen(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 5> scenes{onto, collide, handle, solid, models};
+  return changed(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random),
+                 [](Scene& scene) { scene.settings.contact_weights = ContactWeightsRule::iteration; });
+}
+
 CaseData with_bounds(const CaseData& data, Bounds bounds) {
   return changed(data, [bounds](Scene& scene) { scene.settings.bounds = bounds; });
 }
@@ -510,7 +517,7 @@ CaseData dat(Random& random) {
   });
 }
 
-constexpr std::array<Generator, 19> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 20> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -522,6 +529,7 @@ constexpr std::array<Generator, 19> table{{{"fall", 12, true, fall},
                                            {"lattice", 10, false, lattice},
                                            {"solid", 8, false, solid, 0, Stage::tetrahedron},
                                            {"models", 5, false, models},
+                                           {"frozen", 5, false, frozen, 0, Stage::tetrahedron},
                                            {"planes", 10, false, planes, 0, Stage::plane},
                                            {"ladder.planes", 22, false, planes_at_rest, 0, Stage::plane},
                                            {"dat", 12, false, dat, 0, Stage::plane},

@@ -85,7 +85,7 @@ struct Fixture {
       detection->detect(x.data(), 0.02f, &control.query_radius, 0.45f);
     }
     REQUIRE(*detection->overflow() == 0);
-    sweep->reserve_contacts(4 * detection->capacity());
+    sweep->reserve_contacts(detection->capacity());
     sweep->resolve_contacts(detection->view(), x.data());
   }
 
@@ -265,7 +265,7 @@ TEST_CASE("the stream made within a detection is that of its contacts", "[proper
   f.sweep->iterate(f.view());
   const std::vector<Vec> expected = f.fresh;
   Sweep<CpuBackend> other(f.backend, f.rest, f.colouring, f.topology, f.scene);
-  other.reserve_contacts(4 * f.detection->capacity());
+  other.reserve_contacts(f.detection->capacity());
   MadeStream made;
   f.detection->detect(f.x.data(), 0.02F, &f.control.query_radius, 0.45F, made.launches(*f.detection, other, f.x));
   CHECK(made.control.detections == 1);
@@ -344,7 +344,7 @@ TEST_CASE("that holds without damping, and where triangles and edges have collap
   CHECK(other_bits(f) == 0);
   for (SurfaceMaterial& material : f.rest.materials) material.membrane_damping = material.bending_damping = 0;
   f.sweep = std::make_unique<Sweep<CpuBackend>>(f.backend, f.rest, f.colouring, f.topology, f.scene);
-  f.sweep->reserve_contacts(4 * f.detection->capacity());
+  f.sweep->reserve_contacts(f.detection->capacity());
   f.sweep->resolve_contacts(f.detection->view(), f.x.data());
   CHECK(other_bits(f) == 0);
 }
@@ -404,7 +404,7 @@ TEST_CASE(
   for (compare::Index v = 91; v < 100; ++v) scene.springs.push_back({3, v, 0.1 * static_cast<double>(v), 0, 1e-4});
   const RestState rest = build_rest_state(scene, f.topology);
   Sweep<CpuBackend> sweep(f.backend, rest, f.colouring, f.topology, scene);
-  sweep.reserve_contacts(4 * f.detection->capacity());
+  sweep.reserve_contacts(f.detection->capacity());
   sweep.resolve_contacts(f.detection->view(), f.x.data());
   SweepView view = f.view();
   sweep.complete(view);
@@ -413,6 +413,76 @@ TEST_CASE(
     CHECK((other_bits<4, GatherPackedEveryModel, GatherEveryModel>(f, view, *kernels)) == 0);
     CHECK((other_bits<8, GatherPackedEveryModel, GatherEveryModel>(f, view, *kernels)) == 0);
     CHECK((other_bits<32, GatherPackedEveryModel, GatherEveryModel>(f, view, *kernels)) == 0);
+  }
+}
+
+namespace {
+
+/// A sweep of the fixture whose contacts' weights are those of the iteration, and what it reads.
+struct FrozenSweep {
+  compare::Scene scene;
+  std::unique_ptr<Sweep<CpuBackend>> sweep;
+  SweepView view;
+  int count = 0;
+
+  explicit FrozenSweep(Fixture& f) : scene(f.scene) {
+    scene.settings.contact_weights = compare::ContactWeightsRule::iteration;
+    sweep = std::make_unique<Sweep<CpuBackend>>(f.backend, f.rest, f.colouring, f.topology, scene);
+    REQUIRE(sweep->freezes());
+    sweep->reserve_contacts(f.detection->capacity());
+    sweep->resolve_contacts(f.detection->view(), f.x.data());
+    view = f.view();
+    sweep->complete(view);
+    count = *f.detection->view().vertex_facet_count + *f.detection->view().edge_edge_count;
+    sweep->freeze(view, f.detection->view(), &count, nullptr);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("before anything has moved, weights of the iteration are those of an update", "[property]") {
+  Fixture f(false, 4, 0);
+  const FrozenSweep frozen(f);
+  const SweepView view = f.view();
+  for (std::size_t slot = 0; slot < f.colouring.order.size(); ++slot) {
+    const SweepVertex vertex = view.vertices[slot];
+    if (f.colouring.colour[static_cast<std::size_t>(vertex.vertex)] != 0) continue;  // reads old positions alone
+    const Vec own = f.x[static_cast<std::size_t>(vertex.vertex)];
+    const ForceAndBlock expected = GatherDefault{}(view, static_cast<int>(slot), vertex, own, SerialTeam<4>{});
+    const ForceAndBlock sum = GatherFrozenSurfaces{}(frozen.view, static_cast<int>(slot), vertex, own, SerialTeam<4>{});
+    CHECK(std::memcmp(&sum, &expected, sizeof sum) == 0);
+  }
+}
+
+TEST_CASE("contacts whose weights an iteration shares repel each other with no force left over", "[property]") {
+  // every vertex reads old positions here: the sum over all vertices is that over pairs, each of which cancels
+  Fixture f(false, 4, 0.3);
+  std::fill(f.colouring.colour.begin(), f.colouring.colour.end(), 0);
+  f.rest.triangles.clear(), f.rest.hinges.clear();
+  const FrozenSweep frozen(f);
+  D3 total;
+  double size = 0;
+  for (std::size_t slot = 0; slot < f.colouring.order.size(); ++slot) {
+    const SweepVertex vertex = frozen.view.vertices[slot];
+    const Vec own = f.x[static_cast<std::size_t>(vertex.vertex)];
+    const D3 force = wide(
+        GatherFrozenSurfaces{}(frozen.view, static_cast<int>(slot), vertex, own, SerialTeam<4>{}).force);
+    total = total + force;
+    size += length(narrow(force));
+  }
+  REQUIRE(size > 0);
+  // a term errs by some 50 units (compare/stages/contact_force.hpp), and a sum of k terms by k more
+  CHECK(length(narrow(total)) <= 200 * 0x1p-24 * size);
+}
+
+TEST_CASE("packs have the bits of the lanes in turn with weights of the iteration, for every width", "[property]") {
+  Fixture f(false, 4);
+  const FrozenSweep frozen(f);
+  for (const PackKernels* kernels : all_kernels()) {
+    CHECK((other_bits<1, GatherPackedFrozen, GatherFrozenSurfaces>(f, frozen.view, *kernels)) == 0);
+    CHECK((other_bits<4, GatherPackedFrozen, GatherFrozenSurfaces>(f, frozen.view, *kernels)) == 0);
+    CHECK((other_bits<8, GatherPackedFrozen, GatherFrozenSurfaces>(f, frozen.view, *kernels)) == 0);
+    CHECK((other_bits<32, GatherPackedFrozen, GatherFrozenSurfaces>(f, frozen.view, *kernels)) == 0);
   }
 }
 

@@ -17,12 +17,16 @@ from paper_figures.figures.measured import quality  # noqa: E402
 
 
 def made_up(folder, residuals, status="finished"):
-    """A step of 2 ms an iteration."""
+    """A step, and steps that are timed, of 2 ms an iteration; the first is slow."""
     folder.mkdir(parents=True)
     (folder / "run.json").write_text(json.dumps(
         {"status": status, "commit": "0123456789abcdef", "device": "device", "backend": "cpu",
          "scene": {"bodies": []}}))
-    (folder / "steps.csv").write_text(f"step [1],wall [ms]\n8,{2 * (len(residuals) - 1)}\n")
+    steps = "".join(f"{8 + k},{2 * (len(residuals) - 1) * factor}\n" for k, factor in enumerate((9, 1, 1)))
+    (folder / "steps.csv").write_text(f"step [1],wall [ms]\n{steps}")
+    kind, share = folder.name.rsplit("_", 1)
+    if not kind.endswith("timed"):
+        made_up(folder.parent / f"{kind}_timed_{share}", residuals, status)
     rows = "".join(f"8,{k},{2 * k},{residual}\n" for k, residual in enumerate(residuals))
     (folder / "iterations.csv").write_text(f"step [1],iteration [1],wall [ms],residual [1]\n{rows}")
 
@@ -35,12 +39,14 @@ class Quality(unittest.TestCase):
 
     def test_times_are_those_of_the_first_iteration_that_is_low_enough(self):
         made_up(self.folder / "twist/quality_25", [1, 0.5, 0.1, 0.2, 0.009])
+        made_up(self.folder / "twist/quality_iteration_25", [1, 0.05])
         made_up(self.folder / "twist_planes/quality_50", [1, 1.5, 0.5])
         made_up(self.folder / "twist_planes/quality_75", [1, 0.001], status="running")
         steps = quality.watched(self.folder)
         quality.write(self.folder / "quality.csv", steps)
         with (self.folder / "quality.csv").open(newline="") as file:
-            first, second = csv.DictReader(file)
+            first, frozen, second = csv.DictReader(file)
+        self.assertEqual([frozen[name] for name in ("closest points", "to a tenth [ms]")], ["iteration", "2"])
         self.assertEqual([first[name] for name in ("scene", "bounds", "state after step", "iterations", "step [ms]",
                                                    "least residual [1]", "to a tenth [ms]", "to a hundredth [ms]")],
                          ["twist", "ball", "7", "4", "8", "0.009", "4", "8"])

@@ -172,6 +172,9 @@ TEST_CASE("illustrations: Fig. 22b, rounds grow with speed, each within its boun
     CHECK(rounds.points[k][0] > rounds.points[k - 1][0]);
     CHECK(rounds.points[k][1] >= rounds.points[k - 1][1]);
   }
+  const DrawingLayer& with_planes = layer(panels[3], "rounds with planes");
+  REQUIRE(with_planes.points.size() == rounds.points.size());
+  for (std::size_t k = 0; k < rounds.points.size(); ++k) CHECK(with_planes.points[k][1] <= rounds.points[k][1]);
   CHECK(rounds.points.front()[1] == 1);
   CHECK(rounds.points.back()[1] > layer(panels[3], "guess_rounds").points[0][1]);
 }

@@ -131,7 +131,8 @@ TEST_CASE("an activation, a model or a form of damping that is set is the one th
   const TemporaryFolder folder;
   const std::vector<std::string> choices{
       "activation=ogc",   "activation=ogc_as_printed",   "activation=quadratic",        "activation=ipc_log",
-      "activation=cubic", "membrane=stable_neo_hookean", "bending=isometric_quadratic", "damping=per_vertex"};
+      "activation=cubic", "membrane=stable_neo_hookean", "bending=isometric_quadratic", "damping=per_vertex",
+      "contact_weights=iteration"};
   std::set<nlohmann::json> hashes;
   for (const std::string& choice : choices)
     hashes.insert(run("cloth_on_sphere --scale smoke --steps 14 --audit off --set " + choice + " --out " +
