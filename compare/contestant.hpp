@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -12,9 +13,11 @@
 
 #include "compare/problem/scene.hpp"
 #include "compare/stages/activation.hpp"
+#include "compare/stages/barrier.hpp"
 #include "compare/stages/bending.hpp"
 #include "compare/stages/block.hpp"
 #include "compare/stages/bound.hpp"
+#include "compare/stages/ccd.hpp"
 #include "compare/stages/closest_face.hpp"
 #include "compare/stages/closest_points.hpp"
 #include "compare/stages/detect_edge_edge.hpp"
@@ -46,6 +49,7 @@ enum StepStatus : std::uint32_t {
   /// the solver's iterations ended above its tolerance: the run stops, the last good state stays
   step_not_converged = 8,
   step_indefinite = 16,  ///< the solver's matrix is not positive definite, or no step lowers the energy: likewise
+  step_met = 32,         ///< faces met on the way, though bounds forbid it (compare/oracle/meetings.hpp)
 };
 
 /// One row of iterations.csv, by solvers that keep one. The state is the one that the iteration begins with, or (the
@@ -107,6 +111,8 @@ struct StepMetrics {
   /// from the surface [m]
   std::int64_t volume_contacts = 0, vertices_inside = 0;
   double deepest = 0;
+  /// pairs of faces that shared a point on the way (compare/meetings.md)
+  double meetings = std::numeric_limits<double>::quiet_NaN();
   std::int64_t repeats = 0;  ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
   std::optional<StepLedger> ledger{};  ///< where it was asked for
@@ -184,6 +190,8 @@ struct Contestant {
   std::function<PlaneOut(const PlaneIn&)> plane;
   std::function<VolumeDepthOut(const VolumeDepthIn&)> volume_depth;
   std::function<ActivationOut(const ActivationIn&)> activation;
+  std::function<BarrierOut(const BarrierIn&)> barrier;
+  std::function<CcdOut(const CcdIn&)> ccd;
   std::function<TruncateOut(const TruncateIn&)> truncate;
   std::function<ForceOut(const MembraneIn&)> membrane;
   std::function<ForceOut(const BendingIn&)> bending;
@@ -216,6 +224,7 @@ constexpr void visit_stages(Visit visit) {
   visit("volume_depth", &Contestant::volume_depth);
   visit("initial_guess", &Contestant::initial_guess);
   visit("activation", &Contestant::activation);
+  visit("barrier", &Contestant::barrier);
   visit("contact_force", &Contestant::contact_force);
   visit("friction_force", &Contestant::friction_force);
   visit("volume_force", &Contestant::volume_force);
@@ -225,6 +234,7 @@ constexpr void visit_stages(Visit visit) {
   visit("tetrahedron", &Contestant::tetrahedron);
   visit("rod", &Contestant::rod);
   visit("orientation", &Contestant::orientation);
+  visit("ccd", &Contestant::ccd);
   visit("truncate", &Contestant::truncate);
   visit("rest_state", &Contestant::rest_state);
   visit("sweep", &Contestant::sweep);
@@ -242,6 +252,8 @@ struct Authority {
   std::function<BoundTruth(const BoundIn&)> bound;
   std::function<VolumeDepthTruth(const VolumeDepthIn&)> volume_depth;
   std::function<ActivationTruth(const ActivationIn&)> activation;
+  std::function<BarrierTruth(const BarrierIn&)> barrier;
+  std::function<CcdTruth(const CcdIn&)> ccd;
   std::function<TruncateTruth(const TruncateIn&)> truncate;
   std::function<ForceTruth(const MembraneIn&)> membrane;
   std::function<ForceTruth(const BendingIn&)> bending;

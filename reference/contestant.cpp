@@ -7,8 +7,8 @@
 #include "reference/energies/contact_force.hpp"
 #include "reference/energies/friction_force.hpp"
 #include "reference/energies/membrane.hpp"
-#include "reference/energies/rods/orientation.hpp"
 #include "reference/energies/rest_state.hpp"
+#include "reference/energies/rods/orientation.hpp"
 #include "reference/energies/rods/rod.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/energies/tetrahedron.hpp"
@@ -22,6 +22,7 @@
 #include "reference/geometry/plane.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/ipc/simulation.hpp"
+#include "reference/ipc/stages.hpp"
 #include "reference/simulation.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/initial_guess.hpp"
@@ -41,6 +42,8 @@ compare::Authority authority() {
   authority.plane = plane;
   authority.volume_depth = volume_depth;
   authority.activation = activation;
+  authority.barrier = barrier_truth;
+  authority.ccd = ccd_truth;
   authority.truncate = truncate;
   authority.membrane = [](const compare::MembraneIn& in) { return membrane(in); };
   authority.bending = [](const compare::BendingIn& in) { return bending(in); };

@@ -29,7 +29,9 @@ class Auditor {
       : topology_(topology),
         positions_(positions),
         exclusions_(exclusions),
-        tree_(triangle_boxes(topology, positions)) {}
+        tree_(triangle_boxes(topology, positions)),
+        loose_(loose_edges(topology)),
+        loose_tree_(edge_boxes(topology, loose_, positions)) {}
 
   Findings run() const {
     tbb::enumerable_thread_specific<Findings> shares;
@@ -55,6 +57,24 @@ class Auditor {
     return boxes;
   }
 
+  static std::vector<Index> loose_edges(const Topology& topology) {
+    std::vector<Index> loose;
+    for (std::size_t e = 0; e < topology.edges.size(); ++e)
+      if (topology.edge_triangles[e].empty()) loose.push_back(static_cast<Index>(e));
+    return loose;
+  }
+
+  static std::vector<Box> edge_boxes(const Topology& topology, std::span<const Index> edges,
+                                     std::span<const Vec3> positions) {
+    std::vector<Box> boxes;
+    boxes.reserve(edges.size());
+    for (const Index e : edges) {
+      const auto& [a, b] = topology.edges[at(e)];
+      boxes.push_back(box_of({positions[at(a)], positions[at(b)]}));
+    }
+    return boxes;
+  }
+
   void visit(Index i, Findings& found) const {
     if (i < topology_.vertex_count) {
       if (!topology_.vertex_edges[at(i)].empty() && topology_.on_surface(i))
@@ -63,6 +83,7 @@ class Auditor {
       const Index edge = i - topology_.vertex_count;
       if (topology_.on_surface(topology_.edges[at(edge)]))
         test(topology_.edges[at(edge)], IntersectionKind::edge_triangle, edge, found);
+      if (topology_.edge_triangles[at(edge)].empty()) test_loose(edge, found);
     }
   }
 
@@ -77,10 +98,26 @@ class Auditor {
     });
   }
 
+  void test_loose(Index edge, Findings& found) const {
+    const auto segment = [&](const Edge& e) { return std::array{positions_[at(e[0])], positions_[at(e[1])]}; };
+    const Edge& own = topology_.edges[at(edge)];
+    const std::array<Vec3, 2> ends = segment(own);
+    loose_tree_.for_each_meeting(box_of({ends[0], ends[1]}), [&](Index i) {
+      const Index other = loose_[at(i)];
+      const Edge& partner = topology_.edges[at(other)];
+      if (other <= edge || left_out(own, partner, exclusions_)) return;
+      ++found.pairs_tested;
+      if (segments_meet(ends, segment(partner)))
+        found.intersections.push_back({IntersectionKind::edge_edge, edge, other});
+    });
+  }
+
   const Topology& topology_;
   std::span<const Vec3> positions_;
   ExclusionView exclusions_;
   BoxTree tree_;
+  std::vector<Index> loose_;  ///< edges of no triangle
+  BoxTree loose_tree_;        ///< over these
 };
 
 }  // namespace
@@ -98,6 +135,8 @@ AuditResult audit(const Topology& topology, std::span<const Vec3> positions, con
 }
 
 std::string describe(const Intersection& pair, const Topology& topology, const ElementNames& names) {
+  if (pair.kind == IntersectionKind::edge_edge)
+    return names.edge(topology.edges[at(pair.first)]) + " meets " + names.edge(topology.edges[at(pair.second)]);
   const std::string triangle = names.triangle(pair.second, topology.triangles[at(pair.second)]);
   if (pair.kind == IntersectionKind::vertex_triangle) return names.vertex(pair.first) + " lies on " + triangle;
   return names.edge(topology.edges[at(pair.first)]) + " meets " + triangle;

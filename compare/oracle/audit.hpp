@@ -11,13 +11,14 @@
 
 namespace ogc::compare {
 
-enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle };  ///< what meets
+enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle, edge_edge };  ///< what meets
 
-/// Edge `first` meets triangle `second` (touching counts) without sharing a vertex, or vertex `first` lies on triangle
-/// `second` that does not contain it.
+/// Edge `first` meets triangle `second` (touching counts) without sharing a vertex, vertex `first` lies on triangle
+/// `second` that does not contain it, or edges `first` < `second`, which are of no triangle, share a point and no
+/// vertex.
 struct Intersection {
   IntersectionKind kind = IntersectionKind::edge_triangle;  ///< which faces meet
-  Index first = -1, second = -1;                            ///< edge or vertex, triangle
+  Index first = -1, second = -1;                            ///< edge or vertex, triangle or edge
   friend auto operator<=>(const Intersection&, const Intersection&) = default;
 };
 
@@ -30,13 +31,14 @@ struct AuditOptions {
 struct AuditResult {
   std::vector<Intersection> intersections;  ///< ascending
   std::size_t count = 0;                    ///< of all intersections
-  std::size_t pairs_tested = 0;             ///< edge–triangle pairs whose boxes meet, without those left out
+  std::size_t pairs_tested = 0;  ///< of edges with triangles, and of loose edges, whose boxes meet, but those left out
 };
 
 /// Exact: no rounding decides, and the answer does not depend on the number of threads. `exclusions`: pairs that are
 /// left out beside those with a shared vertex. A collapsed triangle is the segment or point that it covers, an edge of
 /// length zero a point. Isolated vertices belong to no surface and are left out. A vertex on a triangle is listed
-/// beside its edges, which touch the triangle too. Throws InputError where a position is not finite or sizes do not
+/// beside its edges, which touch the triangle too. That curves touch nowhere says nothing of the way to this state
+/// (compare/oracle/meetings.hpp). Throws InputError where a position is not finite or sizes do not
 /// fit.
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});

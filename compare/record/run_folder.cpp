@@ -104,7 +104,10 @@ bool has_ledger(const Manifest& manifest) {
 }
 
 StepGroups groups_of(const Scene& scene, const Manifest& manifest) {
-  return {!scene.mesh.tetrahedra.empty(), has_volumes(scene), has_ledger(manifest)};
+  return {.solids = !scene.mesh.tetrahedra.empty(),
+          .volumes = has_volumes(scene),
+          .ledger = has_ledger(manifest),
+          .meetings = manifest.provenance.extra.contains("meetings")};
 }
 
 }  // namespace

@@ -49,9 +49,9 @@ void expect_new_run_folder(const std::filesystem::path& folder);
 class RunWriter {
  public:
   /// Makes the folder and all that a run has before its first step; status "running". `started` is set to now where it
-  /// is empty. Stage names give columns of steps.csv, none for a run without profile; so does the extra entry "ledger",
-  /// "yes". Throws InputError where the
-  /// folder holds a run already, or what a run would overwrite.
+  /// is empty. Stage names give columns of steps.csv, none for a run without profile; so do the extra
+  /// entries "ledger", "yes", and "meetings". Throws InputError where the folder holds a run already, or what a run
+  /// would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance,
             std::vector<std::string> stage_names);
   /// Goes on with the run of the folder after `step`, a checkpoint's: rows of later steps are cut off, as they are

@@ -37,7 +37,7 @@ constexpr std::array<StepColumn, 23> columns{{
     {"status", "bits", &StepMetrics::status},
 }};
 
-/// Behind those: of scenes with tetrahedra, of scenes with volumes.
+/// Behind those: of scenes with tetrahedra, of scenes with volumes, of runs that were asked.
 constexpr std::array<StepColumn, 1> solid_columns{{
     {"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra},
 }};
@@ -46,12 +46,16 @@ constexpr std::array<StepColumn, 3> volume_columns{{
     {"vertices_inside", "1", &StepMetrics::vertices_inside},
     {"deepest", "m", &StepMetrics::deepest},
 }};
+constexpr std::array<StepColumn, 1> meeting_columns{{
+    {"meetings", "1", &StepMetrics::meetings},
+}};
 
 /// Those before a ledger's.
 std::vector<StepColumn> common_columns(const StepGroups& groups) {
   std::vector<StepColumn> all(columns.begin(), columns.end());
   if (groups.solids) all.insert(all.end(), solid_columns.begin(), solid_columns.end());
   if (groups.volumes) all.insert(all.end(), volume_columns.begin(), volume_columns.end());
+  if (groups.meetings) all.insert(all.end(), meeting_columns.begin(), meeting_columns.end());
   return all;
 }
 
@@ -151,6 +155,8 @@ StepTable parse_header(const std::string& file, std::string_view line) {
   table.groups.volumes = begins(common, column_title(volume_columns.front()));
   for (std::size_t i = 0; table.groups.volumes && i < volume_columns.size(); ++i)
     if (!begins(common + i, column_title(volume_columns[i]))) refuse(common + i, column_title(volume_columns[i]));
+  common = common_columns(table.groups).size();
+  table.groups.meetings = begins(common, column_title(meeting_columns.front()));
   common = common_columns(table.groups).size();
   table.groups.ledger = begins(common, column_title(ledger_columns.front()));
   if (table.groups.ledger)

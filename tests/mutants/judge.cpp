@@ -80,6 +80,8 @@ Authority remembering(const Authority& a, std::size_t parts) {
   r.detect_edge_edge = remembered(a.detect_edge_edge, parts);
   r.bound = remembered(a.bound, parts);
   r.activation = remembered(a.activation, parts);
+  r.barrier = remembered(a.barrier, parts);
+  r.ccd = remembered(a.ccd, parts);
   r.truncate = remembered(a.truncate, parts);
   r.membrane = remembered(a.membrane, parts);
   r.bending = remembered(a.bending, parts);

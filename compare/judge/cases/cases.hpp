@@ -9,8 +9,10 @@
 
 #include "compare/judge/cases/stage.hpp"
 #include "compare/problem/scene.hpp"
+#include "compare/stages/barrier.hpp"
 #include "compare/stages/bending.hpp"
 #include "compare/stages/block.hpp"
+#include "compare/stages/ccd.hpp"
 #include "compare/stages/friction_force.hpp"
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"

@@ -22,6 +22,7 @@ enum class Stage : std::uint8_t {
   volume_depth,
   initial_guess,
   activation,
+  barrier,
   contact_force,
   friction_force,
   volume_force,
@@ -32,6 +33,7 @@ enum class Stage : std::uint8_t {
   rod,
   orientation,
   sweep,
+  ccd,
   truncate,
   step
 };
@@ -42,8 +44,8 @@ struct StageTraits;
 namespace stages {
 /// Each defined in compare/judge/stages, in the file of its name.
 extern const StageTraits rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound,
-    plane, volume_depth, initial_guess, activation, contact_force, friction_force, volume_force, membrane, bending,
-    spring, tetrahedron, rod, orientation, sweep, truncate, step;
+    plane, volume_depth, initial_guess, activation, barrier, contact_force, friction_force, volume_force, membrane,
+    bending, spring, tetrahedron, rod, orientation, sweep, ccd, truncate, step;
 }  // namespace stages
 
 /// The list of all stages, the only one that the judge has: an enumerator that is missing here does not compile
@@ -61,6 +63,7 @@ constexpr const StageTraits* find_traits(Stage stage) {
     case Stage::volume_depth: return &stages::volume_depth;
     case Stage::initial_guess: return &stages::initial_guess;
     case Stage::activation: return &stages::activation;
+    case Stage::barrier: return &stages::barrier;
     case Stage::contact_force: return &stages::contact_force;
     case Stage::friction_force: return &stages::friction_force;
     case Stage::volume_force: return &stages::volume_force;
@@ -71,6 +74,7 @@ constexpr const StageTraits* find_traits(Stage stage) {
     case Stage::rod: return &stages::rod;
     case Stage::orientation: return &stages::orientation;
     case Stage::sweep: return &stages::sweep;
+    case Stage::ccd: return &stages::ccd;
     case Stage::truncate: return &stages::truncate;
     case Stage::step: return &stages::step;
   }

@@ -52,6 +52,10 @@ Offenders offenders_of(const compare::AuditResult& result, const compare::Topolo
   Offenders found;
   if (!result.intersections.empty()) found.first = result.intersections.front();
   for (const compare::Intersection& pair : result.intersections) {
+    if (pair.kind == compare::IntersectionKind::edge_edge) {
+      found.edges.insert(found.edges.end(), {pair.first, pair.second});
+      continue;
+    }
     const bool is_edge = pair.kind == compare::IntersectionKind::edge_triangle;
     (is_edge ? found.edges : found.vertices).push_back(pair.first);
     found.triangles.push_back(pair.second);
@@ -63,7 +67,7 @@ Offenders offenders_of(const compare::AuditResult& result, const compare::Topolo
 }
 
 std::string region_of(const Offenders& offenders, const compare::Topology& topology,
-                     const std::vector<compare::Vec3>& positions) {
+                      const std::vector<compare::Vec3>& positions) {
   const std::vector<Index> corners = corners_of(offenders, topology);
   if (corners.empty()) return "nowhere";
   compare::Vec3 low = positions[at(corners.front())], high = low;
@@ -87,8 +91,8 @@ std::string offenders_vtp(const compare::AuditResult& result, const compare::Top
   }
   std::map<Index, Index> of_edge, of_triangle;
   for (const compare::Intersection& pair : result.intersections) {
-    if (pair.kind == compare::IntersectionKind::edge_triangle) ++of_edge[pair.first];
-    ++of_triangle[pair.second];
+    if (pair.kind != compare::IntersectionKind::vertex_triangle) ++of_edge[pair.first];
+    ++(pair.kind == compare::IntersectionKind::edge_edge ? of_edge : of_triangle)[pair.second];
   }
   for (const Index e : offenders.edges) {
     const compare::Edge& edge = topology.edges[at(e)];
@@ -112,9 +116,11 @@ std::string show_offenders(const std::filesystem::path& folder, const std::strin
   const std::filesystem::path stem = folder / file_name(name);
   const std::string vtp = stem.string() + ".vtp", png = stem.string() + ".png";
   compare::write_bytes(vtp, offenders_vtp(result, topology, positions));
+  const std::string where = " " + region_of(offenders, topology, positions) + ": ";
+  if (offenders.triangles.empty())  // curves alone: pictures are of triangles
+    return name + ": " + counted(offenders.edges.size(), "edge") + where + vtp;
   if (has_png()) compare::write_bytes(png, png_bytes(picture_of(offenders, topology, positions)));
-  return name + ": " + counted(offenders.triangles.size(), "triangle") + " " +
-         region_of(offenders, topology, positions) + ": " +
+  return name + ": " + counted(offenders.triangles.size(), "triangle") + where +
          (has_png() ? png : "no picture (this program was built without libpng; install libpng-dev)") + ", " + vtp;
 }
 

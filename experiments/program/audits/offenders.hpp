@@ -12,7 +12,7 @@ namespace ogc::experiments {
 /// What takes part in the listed intersections, ascending, by number in the topology.
 struct Offenders {
   std::vector<compare::Index> vertices;   ///< that lie on a triangle
-  std::vector<compare::Index> edges;      ///< that meet a triangle
+  std::vector<compare::Index> edges;      ///< that meet a triangle or, of no triangle, each other
   std::vector<compare::Index> triangles;  ///< that are met, or that contain such an edge or vertex
   compare::Intersection first;            ///< in the order of the audit
 };
@@ -31,9 +31,9 @@ std::string region_of(const Offenders& offenders, const compare::Topology& topol
 std::string offenders_vtp(const compare::AuditResult& result, const compare::Topology& topology,
                           const std::vector<compare::Vec3>& positions);
 
-/// Writes NAME.vtp and NAME.png (picture.hpp) to the folder, which is made where it is missing;
-/// returns one line that names them and says where the intersections are. Without libpng the picture is left out, and
-/// the line says so. Throws compare::ResourceError.
+/// Writes NAME.vtp and, where a triangle is met, NAME.png (picture.hpp) to the folder, which is made where it is
+/// missing; returns one line that names them and says where the intersections are. Without libpng the picture is left
+/// out, and the line says so. Throws compare::ResourceError.
 std::string show_offenders(const std::filesystem::path& folder, const std::string& name,
                            const compare::AuditResult& result, const compare::Topology& topology,
                            const std::vector<compare::Vec3>& positions);

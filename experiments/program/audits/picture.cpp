@@ -181,6 +181,10 @@ class Painter {
   /// Around the first intersection: its edge or its triangle, whichever is smaller.
   Region first() const {
     Bounds edge_bounds, triangle_bounds;
+    if (offenders_.first.kind == compare::IntersectionKind::edge_edge) {
+      for (const Index v : edge(offenders_.first.first)) edge_bounds.add(at(v));
+      return edge_bounds.region(1);
+    }
     for (const Index v : triangle(offenders_.first.second)) triangle_bounds.add(at(v));
     if (offenders_.first.kind == compare::IntersectionKind::vertex_triangle) return triangle_bounds.region(1);
     for (const Index v : edge(offenders_.first.first)) edge_bounds.add(at(v));

@@ -125,6 +125,7 @@ void check_same_question(const compare::RunReader& run, const RunRequest& reques
   same("backend", theirs.backend, request.backend);
   same("--scale", text_in(theirs, "scale"), request.scale);
   same("--audit", text_in(theirs, "audit"), name_of(request.audit));
+  same("--audit-meetings", text_in(theirs, "meetings"), request.meetings ? text_of(*request.meetings) : "");
   same("--iterations", text_in(theirs, "iteration_rows"), yes(request.iterations));
   same("--residual", text_in(theirs, "residuals"), yes(request.residual));
   same("--ledger", yes(text_in(theirs, "ledger") == "yes"), yes(request.ledger));
@@ -176,7 +177,8 @@ bool make(const PlannedRun& planned, const std::string& progress, CommandContext
   log_line(progress);
   ResumedRun run = is_begun(folder) ? resumed_run(folder) : ResumedRun{planned.options, std::move(request)};
   run.request.checkpoint_seconds = planned.options.checkpoint_seconds;
-  const RunSummary summary = RunSession(std::move(run.request), contestant_of(run.options)).run();
+  compare::Contestant contestant = contestant_of(run.options, run.request.meetings);
+  const RunSummary summary = RunSession(std::move(run.request), std::move(contestant)).run();
   if (!summary.failure.empty()) log_line("ogc: " + summary.failure);
   return !summary.was_interrupted;
 }

@@ -70,6 +70,15 @@ Json to_json(const SmallestDistances& distances, const compare::Topology& topolo
   return json;
 }
 
+const char* name_of(compare::IntersectionKind kind) {
+  switch (kind) {
+    case compare::IntersectionKind::edge_triangle: return "edge_triangle";
+    case compare::IntersectionKind::vertex_triangle: return "vertex_triangle";
+    case compare::IntersectionKind::edge_edge: return "edge_edge";
+  }
+  return "";
+}
+
 State state_of(const AuditedState& audited) {
   const compare::Topology& topology = *audited.topology;
   State state{.name = audited.name,
@@ -87,17 +96,21 @@ State state_of(const AuditedState& audited) {
   for (std::size_t e = 0; e < topology.edges.size(); ++e) state.loose_edges += topology.edge_triangles[e].empty();
   state.json["smallest_distances"] = to_json(audited.distances, topology, audited.names);
   for (const compare::Intersection& pair : audited.result.intersections) {
-    const bool is_edge = pair.kind == compare::IntersectionKind::edge_triangle;
-    const auto first = static_cast<std::size_t>(pair.first);
-    Json entry{{"kind", is_edge ? "edge_triangle" : "vertex_triangle"}};
-    if (is_edge) {
+    const auto first = static_cast<std::size_t>(pair.first), second = static_cast<std::size_t>(pair.second);
+    Json entry{{"kind", name_of(pair.kind)}};
+    if (pair.kind == compare::IntersectionKind::vertex_triangle) {
+      entry["vertex"] = pair.first;
+    } else {
       entry["edge"] = pair.first;
       entry["edge_vertices"] = topology.edges[first];
-    } else {
-      entry["vertex"] = pair.first;
     }
-    entry["triangle"] = pair.second;
-    entry["triangle_vertices"] = topology.triangles[static_cast<std::size_t>(pair.second)];
+    if (pair.kind == compare::IntersectionKind::edge_edge) {
+      entry["other_edge"] = pair.second;
+      entry["other_edge_vertices"] = topology.edges[second];
+    } else {
+      entry["triangle"] = pair.second;
+      entry["triangle_vertices"] = topology.triangles[second];
+    }
     entry["text"] = describe(pair, topology, audited.names);
     state.json["intersections"].push_back(entry);
   }
@@ -206,10 +219,11 @@ std::string unseen(const std::vector<State>& states) {
   const std::string edges = counted(has->loose_edges, "edge") + " without a triangle";
   if (!has->has_triangles)
     return edges +
-           " and nothing else: a state of curves can't be free of intersections or not; they may have passed through "
-           "each other on the way to it. "
-           "Only the motion tells: audit the run while it goes on (ogc run --audit every)";
-  return "of " + edges + ", whether they met a triangle is seen, but not whether they passed through each other";
+           " and nothing else: that no two of them touch in a state proves nothing about the way to it; they may have "
+           "passed through each other. Only the motion tells: ask it while the run goes on (ogc run --audit-meetings)";
+  return "of " + edges +
+         ", whether they touch is seen, but not whether they passed through each other on the way (ogc run "
+         "--audit-meetings)";
 }
 
 /// Where volumes let in most: the state with the most vertices inside, and that with the deepest; empty without any.
@@ -248,7 +262,9 @@ Totals totals_of(const std::vector<State>& states) {
 std::string headline(const Audits& audits, const Totals& totals) {
   const std::string states = counted(audits.states.size(), "state");
   std::string text = totals.says_nothing
-                         ? states + " read"
+                         ? states + " audited exactly, " +
+                               (totals.intersections > 0 ? counted(totals.intersections, "intersection")
+                                                         : "no two curves touch")
                          : states + " audited exactly, " + counted(totals.intersections, "intersection");
   if (totals.intersecting > 0 && audits.planned > 1)
     text += " in " + counted(totals.intersecting, "state") + ", the first: " + totals.first;
@@ -276,7 +292,7 @@ void print_json(const Options& options, const Audits& audits, const Totals& tota
   json["intersections"] = totals.intersections;
   json["intersecting_states"] = totals.intersecting;
   json["first_intersecting"] = totals.first.empty() ? Json(nullptr) : Json(totals.first);
-  json["clean"] = totals.says_nothing ? Json(nullptr) : Json(totals.intersections == 0);
+  json["clean"] = totals.says_nothing && totals.intersections == 0 ? Json(nullptr) : Json(totals.intersections == 0);
   json["complete"] = !interrupted() && audits.stopped.empty();
   if (!audits.stopped.empty()) json["stopped"] = audits.stopped;
   if (const std::string note = unseen(audits.states); !note.empty()) json["unseen"] = note;
@@ -336,7 +352,7 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(
       "An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a "
-      "triangle without it; touching\n"
+      "triangle without it, and a point that two edges of no triangle share; touching\n"
       "counts. No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded "
       "pairs, are left out. Of volumes, which may be entered, it says how many vertices are inside (by winding "
       "number), "

@@ -50,7 +50,8 @@ int run(const RunOptions& options, const std::string& resume, const CLI::App& co
                                   : resumed(options, resume, command);
   catch_interrupts();
   const std::string text = introduction(run.request);
-  RunSession session(std::move(run.request), contestant_of(run.options));
+  compare::Contestant contestant = contestant_of(run.options, run.request.meetings);
+  RunSession session(std::move(run.request), std::move(contestant));
   log_line(text);
   const RunSummary summary = session.run();
   if (context.json) {

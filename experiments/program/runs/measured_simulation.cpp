@@ -1,10 +1,14 @@
 #include "experiments/program/runs/measured_simulation.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <limits>
 #include <optional>
 
+#include "compare/oracle/meetings.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "compare/problem/volumes.hpp"
 #include "reference/contestant.hpp"
 
@@ -42,11 +46,13 @@ class MeasuredSimulation : public compare::Simulation {
   MeasuredSimulation(const compare::Scene& scene, std::unique_ptr<Simulation> inner, compare::Contestant contestant,
                      const Measured& what)
       : scene_(scene),
+        names_(scene),
         topology_(build_topology(scene)),
         exclusions_(exclusions(scene)),
         inner_(std::move(inner)),
         contestant_(std::move(contestant)),
-        has_rows_(what.iterations) {
+        has_rows_(what.iterations),
+        meetings_(what.meetings) {
     if (what.residual || what.iterations) meter_.emplace(scene);
     if (what.ledger && compare::has_volumes(scene))
       throw compare::InputError("--ledger knows no volumes; leave it out, or the bodies surfaces");
@@ -64,7 +70,12 @@ class MeasuredSimulation : public compare::Simulation {
         meter_->begin_step(before.positions, before.velocities, after.step);
         rows.back().residual = meter_->at(after.positions).share;
       }
-      if (has_rows_ || ledger_) add_from_trace(before, after, rows.back());
+      const bool asks_meetings = meetings_ && meetings_->holds(after.step);
+      if (has_rows_ || ledger_ || (asks_meetings && contestant_.step))
+        add_from_trace(before, after, rows.back());
+      else if (asks_meetings)
+        add_meetings(before.positions, after.positions, rows.back());
+      if (rows.back().status & compare::step_met) break;
     }
     return rows;
   }
@@ -90,6 +101,7 @@ class MeasuredSimulation : public compare::Simulation {
     }
     scene.mesh.positions = compare::to_double(before.positions);
     scene.velocities = compare::to_double(before.velocities);
+    scene.orientations = before.orientations;
     return scene;
   }
 
@@ -100,6 +112,31 @@ class MeasuredSimulation : public compare::Simulation {
       throw std::logic_error("the trace of step " + std::to_string(step.step) + " ends in another state than the step");
     if (ledger_) step.ledger = ledger_->of(before.positions, before.velocities, trace, contacts_at(after.positions));
     if (has_rows_) add_iterations(trace, step);
+    if (meetings_ && meetings_->holds(step.step)) add_meetings(trace, step);
+  }
+
+  /// Along the states at which the trace detected. Between two of them bounds hold, so that a meeting breaks them.
+  void add_meetings(const compare::StepOut& trace, StepMetrics& step) {
+    const std::vector<compare::Vec3f>* last = nullptr;
+    for (const StepEvent& event : trace.events) {
+      if (event.kind != StepEventKind::detection) continue;
+      if (last != nullptr) add_meetings(*last, event.position, step);
+      last = &event.position;
+    }
+    if (last != nullptr) add_meetings(*last, trace.position, step);
+    if (step.meetings > 0 && scene_.settings.bounds != compare::Bounds::off) step.status |= compare::step_met;
+  }
+
+  void add_meetings(const std::vector<compare::Vec3f>& from, const std::vector<compare::Vec3f>& to, StepMetrics& step) {
+    constexpr std::size_t most_named = 3;
+    const compare::MeetingsResult found = compare::meetings(topology_, compare::to_double(from), compare::to_double(to),
+                                                            exclusions_, most_named);
+    if (std::isnan(step.meetings)) step.meetings = 0;
+    step.meetings += static_cast<double>(found.count);
+    for (const compare::Meeting& meeting : found.meetings)
+      step.notes.push_back("step " + std::to_string(step.step) + ": " + describe(meeting, topology_, names_));
+    if (found.count > found.meetings.size())
+      step.notes.push_back("and " + std::to_string(found.count - found.meetings.size()) + " more on that way");
   }
 
   /// As the contestant's own detections find them.
@@ -148,11 +185,13 @@ class MeasuredSimulation : public compare::Simulation {
   }
 
   compare::Scene scene_;
+  compare::ElementNames names_;
   compare::Topology topology_;
   compare::Exclusions exclusions_;
   std::unique_ptr<Simulation> inner_;
   compare::Contestant contestant_;
   bool has_rows_;
+  std::optional<StepRange> meetings_;
   std::optional<reference::ResidualMeter> meter_;
   std::optional<reference::LedgerWriter> ledger_;
   reference::ContactSets contacts_;       ///< of the trace's last detection
@@ -160,6 +199,20 @@ class MeasuredSimulation : public compare::Simulation {
 };
 
 }  // namespace
+
+StepRange step_range(const std::string& text) {
+  StepRange range;
+  const char *begin = text.data(), *end = begin + text.size();
+  const auto [colon, first_error] = std::from_chars(begin, end, range.first);
+  if (first_error == std::errc{} && colon != end && *colon == ':') {
+    const auto [rest, last_error] = std::from_chars(colon + 1, end, range.last);
+    if (last_error == std::errc{} && rest == end && range.first >= 1 && range.first <= range.last) return range;
+  }
+  throw compare::InputError("'" + compare::shown(text) +
+                            "' is no range of steps: give the first and the last one, from 1, as in 40:139");
+}
+
+std::string text_of(const StepRange& range) { return std::to_string(range.first) + ":" + std::to_string(range.last); }
 
 compare::Contestant measured(compare::Contestant contestant, const Measured& what) {
   compare::Contestant result = contestant;

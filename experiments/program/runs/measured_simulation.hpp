@@ -2,17 +2,32 @@
 // beside the run and outside its times.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 #include "compare/contestant.hpp"
 
 namespace ogc::experiments {
 
+/// Steps first to last, from 1.
+struct StepRange {
+  std::int64_t first = 1, last = 0;  ///< none where last is before first
+  bool holds(std::int64_t step) const { return first <= step && step <= last; }
+  friend bool operator==(const StepRange&, const StepRange&) = default;
+};
+/// "40:139". Throws compare::InputError for another text.
+StepRange step_range(const std::string& text);
+std::string text_of(const StepRange& range);
+
 /// What is measured beside a run.
 struct Measured {
-  bool residual = false;    ///< StepMetrics::residual
-  bool iterations = false;  ///< StepMetrics::iteration_rows, and the residual
-  bool ledger = false;      ///< StepMetrics::ledger
+  bool residual = false;                ///< StepMetrics::residual
+  bool iterations = false;              ///< StepMetrics::iteration_rows, and the residual
+  bool ledger = false;                  ///< StepMetrics::ledger
+  std::optional<StepRange> meetings{};  ///< StepMetrics::meetings of these steps
   /// Whether there is anything.
-  bool any() const { return residual || iterations || ledger; }
+  bool any() const { return residual || iterations || ledger || meetings; }
 };
 
 /// The contestant, with what is asked for filled. The residual: forces in double, contacts detected at the end of the
@@ -21,6 +36,9 @@ struct Measured {
 /// step's time but its detections and iterations, then each of these with an equal share of what all of them took;
 /// without SimulationOptions::profile iterations share the whole. A trace that ends in another state than the step
 /// throws std::logic_error.
+/// Meetings are counted from each X_prev of the trace to the next, and from the last to the end of the step; of a
+/// contestant without traces from the begin of a step to its end. Where the scene's bounds forbid them, and the trace
+/// shows them, the row says step_met, and names pairs in its notes.
 compare::Contestant measured(compare::Contestant contestant, const Measured& what);
 
 }  // namespace ogc::experiments

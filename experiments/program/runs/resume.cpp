@@ -103,6 +103,8 @@ ResumedRun resumed_run(const std::filesystem::path& folder) {
   request.condition = resumed.options.condition;
   request.residual = resumed.options.residual;
   request.ledger = resumed.options.ledger;
+  if (const std::string steps = text_in(provenance, "meetings"); !steps.empty())
+    resumed.options.audit_meetings = text_of(request.meetings.emplace(step_range(steps)));
   request.folder = folder;
   request.resume = compare::read_checkpoint(folder, compare::scene_digest(folder));
   check_rows(folder, request.resume->state.step);

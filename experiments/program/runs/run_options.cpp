@@ -145,6 +145,11 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
       .add_option("--audit", options->audit, "Which states are judged: each step, stored frames, the last one, none")
       ->check(CLI::IsMember({"every", "frame", "end", "off"}))
       ->capture_default_str();
+  command.add_option(
+      "--audit-meetings", options->audit_meetings,
+      "FROM:TO: of these steps count the pairs of faces that meet on the way, exactly, from detection to "
+      "detection (compare/meetings.md); or off (default: of curves with --audit every, all steps, but at "
+      "paper scale none)");
   command
       .add_option("--deepest", options->deepest,
                   "A state with a vertex deeper than so much inside a volume fails (default: none does)")
@@ -230,6 +235,20 @@ std::string settings_help() {
   return text;
 }
 
+/// Two states of curves say nothing about the way between them, so that an audit of every step asks the way, too; at
+/// paper scale, where traces are slow, only where it is told to.
+std::optional<StepRange> meetings_of(const RunOptions& options, const RunRequest& request) {
+  if (options.audit_meetings == "off") return std::nullopt;
+  try {
+    if (!options.audit_meetings.empty()) return step_range(options.audit_meetings);
+  } catch (const compare::InputError& error) {
+    throw compare::InputError(std::string("--audit-meetings: ") + error.what() + ", or off");
+  }
+  const bool asks = request.audit == AuditMode::every && request.scale != "paper" &&
+                    !request.scene.mesh.loose_edges.empty();
+  return asks ? std::optional(StepRange{1, request.scene.settings.steps}) : std::nullopt;
+}
+
 RunRequest request_of(const RunOptions& options, const CommandContext& context) {
   const SolverOptions solver = options_of(parse_solver(options.solver));
   if (!std::ranges::count(backend_names, options.backend))
@@ -258,6 +277,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.residual = options.residual;
   request.ledger = options.ledger;
   request.audit = audit_mode(options.audit);
+  request.meetings = meetings_of(options, request);
   request.deepest = options.deepest;
   request.checkpoint_seconds = options.checkpoint_seconds;
   if (!options.from_state.empty()) request.from_state = options.from_state;
@@ -269,11 +289,12 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   return request;
 }
 
-compare::Contestant contestant_of(const RunOptions& options) {
+compare::Contestant contestant_of(const RunOptions& options, const std::optional<StepRange>& meetings) {
   const Solver solver = parse_solver(options.solver);
   const Measured what{.residual = options.residual,
                       .iterations = options.iterations && options_of(solver).has_traced_rows,
-                      .ledger = options.ledger};
+                      .ledger = options.ledger,
+                      .meetings = meetings};
   const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda");
   return what.any() ? measured(contestant, what) : contestant;
 }

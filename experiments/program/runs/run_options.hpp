@@ -13,7 +13,7 @@ namespace ogc::experiments {
 /// The options as typed.
 struct RunOptions {
   /// as of the options with these names
-  std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", from_state, out, show;
+  std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", audit_meetings, from_state, out, show;
   std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
   std::int64_t steps = 0;                ///< 0: the scene's
   /// likewise
@@ -39,7 +39,7 @@ std::string data_folder(const std::vector<std::string>& assignments);
 
 /// Throws compare::InputError that says what to give instead.
 RunRequest request_of(const RunOptions& options, const CommandContext& context);
-/// Who computes it.
-compare::Contestant contestant_of(const RunOptions& options);
+/// Who computes it; `meetings`: of the request.
+compare::Contestant contestant_of(const RunOptions& options, const std::optional<StepRange>& meetings);
 
 }  // namespace ogc::experiments

@@ -80,12 +80,19 @@ compare::Provenance provenance(const RunRequest& request, const std::string& dev
   origin.extra["condition_numbers"] = request.condition ? "yes" : "no";
   origin.extra["residuals"] = request.residual ? "yes" : "no";
   if (request.ledger) origin.extra["ledger"] = "yes";
+  if (request.meetings) origin.extra["meetings"] = text_of(*request.meetings);
   if (request.from_state) origin.extra["from_state"] = request.from_state->string();
   if (request.jitter.largest > 0) {
     origin.extra["jitter"] = compare::shortest(request.jitter.largest);
     origin.extra["jitter_seed"] = std::to_string(request.jitter.seed);
   }
   return origin;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
 }
 
 std::string step_failure(const StepMetrics& row) {
@@ -96,6 +103,9 @@ std::string step_failure(const StepMetrics& row) {
   if (row.status & compare::step_bound_violated)
     return "a vertex moved further than its bound" + where +
            ": the guarantee is broken; the last good state is kept. Please report it";
+  if (row.status & compare::step_met)
+    return counted(static_cast<std::size_t>(row.meetings), "pair") + " of faces met on the way" + where +
+           ": the guarantee is broken; the last good state is kept. Please report it:\n" + joined(row.notes);
   if (row.status & compare::step_indefinite)
     return "Newton's matrix is not positive definite" + where +
            "; the last good state is kept. Set projection to clamp or absolute, or a smaller time_step";
@@ -192,6 +202,7 @@ void RunSession::open_folder() {
   summary_.device = simulation_->device();
   summary_.folder = request_.folder.string();
   summary_.left_out_of_audits = left_out_of_audits(request_.scene);
+  summary_.asks_meetings = request_.meetings.has_value();
   summary_.is_unbounded = settings_.bounds == compare::Bounds::off;
   summary_.first_step = summary_.last_step = step_;
   summary_.smallest_distance = std::numeric_limits<double>::infinity();
@@ -340,7 +351,10 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
     summary_.largest_momentum_lost = std::max(summary_.largest_momentum_lost, row.momentum_lost_guess);
     summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
     summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
-    if (row.status & compare::step_bound_violated) summary_.guarantee_kept = false;
+    if (row.status & (compare::step_bound_violated | compare::step_met)) summary_.guarantee_kept = false;
+    if (!(row.meetings > 0)) continue;
+    if (summary_.first_meeting < 0) summary_.first_meeting = row.step;
+    summary_.meetings += static_cast<std::int64_t>(row.meetings);
   }
 }
 

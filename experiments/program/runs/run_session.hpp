@@ -16,6 +16,7 @@
 #include "experiments/program/audits/auditor.hpp"
 #include "experiments/program/output.hpp"
 #include "experiments/program/runs/jitter.hpp"
+#include "experiments/program/runs/measured_simulation.hpp"
 #include "experiments/program/runs/pace.hpp"
 #include "experiments/program/runs/warnings.hpp"
 
@@ -52,6 +53,7 @@ struct RunRequest {
   bool iterations = false, condition = false;  ///< see compare::SimulationOptions
   /// the contestant was wrapped so (experiments/program/runs/measured_simulation.hpp); for run.json
   bool residual = false, ledger = false;
+  std::optional<StepRange> meetings;  ///< likewise: steps whose meetings are counted
   std::filesystem::path folder;
   std::filesystem::path show;  ///< folder for pictures of what an audit refuses; empty: none
   std::string command_line;
@@ -80,9 +82,11 @@ struct RunSummary {
   std::size_t most_inside = 0, most_edges_meeting = 0, inside_at_start = 0;  ///< vertices, edges, vertices
   double deepest = 0;                                                        ///< inside a volume [m]
   std::int64_t deepest_step = 0;                                             ///< of the state
-  std::optional<bool> guarantee_kept;  ///< empty where nothing was audited and nothing is known to be wrong
-  std::string final_hash;              ///< state_hash of the last good state
-  RunSeconds seconds;                  ///< of this command, which may have gone on with an earlier one's run
+  bool asks_meetings = false;                     ///< the following of the steps that were asked
+  std::int64_t meetings = 0, first_meeting = -1;  ///< pairs that met on the way; the step of the first
+  std::optional<bool> guarantee_kept;             ///< empty where nothing was audited and nothing is known to be wrong
+  std::string final_hash;                         ///< state_hash of the last good state
+  RunSeconds seconds;                             ///< of this command, which may have gone on with an earlier one's run
 };
 
 /// For programs.

@@ -67,6 +67,10 @@ Json to_json(const RunSummary& summary) {
                    {"intersections", summary.intersections},
                    {"beyond_bound", summary.certificate_violations},
                    {"unsafe_bounds", summary.unsafe_bounds}};
+  if (summary.asks_meetings) {
+    json["audit"]["meetings"] = summary.meetings;
+    json["audit"]["first_meeting"] = summary.first_meeting < 0 ? Json(nullptr) : Json(summary.first_meeting);
+  }
   if (summary.has_volumes)
     json["volumes"] = {{"inside_at_start", summary.inside_at_start},
                        {"most_inside", summary.most_inside},
@@ -110,6 +114,11 @@ std::string describe(const RunSummary& summary) {
                                                              ", the deepest " + number(summary.deepest) + " m (state " +
                                                              integer(summary.deepest_step) + "); at most " +
                                                              counted(summary.most_edges_meeting, "edge") + " through"});
+  if (summary.asks_meetings)
+    rows.insert(rows.end() - 1, {"meetings on the way",
+                                 summary.meetings == 0 ? "none"
+                                                       : counted(static_cast<std::size_t>(summary.meetings), "pair") +
+                                                             ", the first in step " + integer(summary.first_meeting)});
   if (!summary.left_out_of_audits.empty()) rows.insert(rows.end() - 1, {"not audited", summary.left_out_of_audits});
   std::string warnings;
   for (const std::string& warning : summary.warnings) warnings += (warnings.empty() ? "warnings: " : "; ") + warning;

@@ -58,5 +58,7 @@ std::vector<Fault> volume_faults();
 void add_right_volumes(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> rod_faults();
 void add_right_rods(compare::Contestant& exact, const compare::Authority& authority);
+std::vector<Fault> ipc_faults();
+void add_right_ipc(compare::Contestant& exact, const compare::Authority& authority);
 
 }  // namespace ogc::tests

@@ -140,6 +140,29 @@ TEST_CASE("primitives that share a vertex are no finding, whatever their positio
         std::vector{Intersection{Kind::vertex_triangle, 2, 1}, Intersection{Kind::vertex_triangle, 3, 0}});
 }
 
+TEST_CASE("curves that touch or cross in a point are listed, by the edges of no triangle alone", "[unit]") {
+  // A triangle 0 1 2, a chain 3 4 5 that crosses an edge 6 7, and an edge 8 9 whose end lies on it.
+  const std::vector<Vec3> positions{{5, 5, 5}, {6, 5, 5},  {5, 6, 5}, {-1, 0, 0},  {1, 0, 0},
+                                    {2, 1, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0.5, 0}, {0, 0.5, 3}};
+  const Topology topology = build_topology(10, std::vector<Triangle>{{0, 1, 2}},
+                                           std::vector<Edge>{{3, 4}, {4, 5}, {6, 7}, {8, 9}});
+  const auto edge = [&](Index a, Index b) { return find_edge(topology, a, b); };
+  const AuditResult result = audit(topology, positions);
+  CHECK(result.intersections == std::vector{Intersection{Kind::edge_edge, edge(3, 4), edge(6, 7)},
+                                            Intersection{Kind::edge_edge, edge(6, 7), edge(8, 9)}});
+  CHECK(describe(result.intersections[0], topology) == "edge (vertices 3, 4) meets edge (vertices 6, 7)");
+  CHECK(audit(topology, positions, std::vector<Index>{-1, -1, -1, 0, 0, 0, 0, 0, 0, 0}).count == 0);
+  std::vector<Vec3> apart = positions;
+  apart[6].z = apart[7].z = 0x1p-60;
+  apart[8].y = 2;
+  CHECK(audit(topology, apart).count == 0);
+  // Two edges of triangles in one plane are found by their triangles, once each.
+  const std::vector<Vec3> flat{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, -1, 0}, {1, 5, 0}, {9, 9, 0}};
+  const AuditResult plane = audit(build_topology(6, std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}), flat);
+  CHECK(std::none_of(plane.intersections.begin(), plane.intersections.end(),
+                     [](const Intersection& i) { return i.kind == Kind::edge_edge; }));
+}
+
 TEST_CASE("a pair inside one rigid group is left out, a pair of two groups is not", "[unit]") {
   const TwoTriangles mesh({1, 1, -1});
   CHECK(mesh.audit(std::vector<Index>(6, 2)).count == 0);

@@ -103,6 +103,23 @@ TEST_CASE("a ledger's columns come back, each in a field of its own, behind all 
   refuses_without("momentum_sweep_z", {.ledger = true});
 }
 
+TEST_CASE(
+    "meetings come back in a column of their own behind volumes and before a ledger, not-a-number where not asked",
+    "[unit]") {
+  const Scratch folder;
+  const StepGroups groups{.volumes = true, .ledger = true, .meetings = true};
+  const std::string header = step_header({}, groups);
+  CHECK(header.find(",deepest [m],meetings [1],energy_start [J],") != std::string::npos);
+  StepMetrics asked;
+  asked.meetings = 3;
+  const std::array rows{asked, StepMetrics{}};
+  const StepTable table = read_text(folder, header + step_lines(rows, 0, groups));
+  CHECK(table.groups == groups);
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.rows[0].meetings == 3);
+  CHECK(std::isnan(table.rows[1].meetings));
+}
+
 TEST_CASE("a row without a ledger has not-a-number in each of its columns", "[unit]") {
   const Scratch folder;
   const StepTable table = read_text(

@@ -40,7 +40,7 @@ TEST_CASE("every stage has a contract, a reference, a CPU and a CUDA implementat
     INFO(name);
     CHECK(std::filesystem::exists(tree / "compare/stages" / (name + ".hpp")));
     CHECK(std::filesystem::exists(tree / std::string(info.reference)));
-    CHECK((has_stem({"fast/kernels", "fast/kernels/models", "fast/stages"}, name) ||
+    CHECK((has_stem({"fast/kernels", "fast/kernels/models", "fast/kernels/ipc", "fast/stages"}, name) ||
            has_stem({"fast/kernels/models"}, name + "_models")));
     CHECK(can_judge(stage, host, authority));
     if (fast::backend_info(fast::Backend::cuda).usable)

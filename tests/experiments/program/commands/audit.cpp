@@ -158,6 +158,17 @@ TEST_CASE("an audit of curves says that states say nothing about them, not that 
   CHECK(contains(words.out, {"2 edges without a triangle", "passed through each other"}));
   CHECK(words.out.find("0 intersections") == std::string::npos);
   CHECK(nlohmann::json::parse(result.out).at("clean").is_null());
+  const std::string crossed =
+      folder.write("crossed.obj", "v -1 0 0\nv 1 0 0\nv 0 -1 0\nv 0 1 0\nl 1 2\nl 3 4\n").string();
+  const ProgramResult touching = run_ogc("audit " + crossed), found = run_ogc("audit --json " + crossed);
+  CHECK(touching.status == 1);
+  CHECK(contains(touching.out, {"1 intersection", "meets edge"}));
+  const nlohmann::json pair = nlohmann::json::parse(found.out).at("states").at(0).at("intersections").at(0);
+  CHECK(pair.at("kind") == "edge_edge");
+  CHECK(pair.at("other_edge") == 1);
+  CHECK(nlohmann::json::parse(found.out).at("clean") == false);
+  CHECK(run_ogc("audit " + crossed + " --show " + (folder / "show").string()).status == 1);
+  CHECK(std::filesystem::exists(folder / "show/crossed.vtp"));
   const std::string mixed =
       folder.write("mixed.obj", std::string(parallel_triangles_obj) + "v 5 0 0\nv 6 0 0\nl 7 8\n").string();
   CHECK(contains(run_ogc("audit " + mixed).out, {"0 intersections", "of 1 edge without a triangle"}));

@@ -111,6 +111,12 @@ TEST_CASE("the ends of the ranges of contacts are taken by every engine, and a p
     }
 }
 
+TEST_CASE("a range of steps that is none is refused by its option and text", "[unit]") {
+  for (const char* value : {"5", "0:4", "7:3", "1:", ":3", "1:2:3", "one:two", "-1:4", "1:99999999999999999999", "on"})
+    check_refused("run twist --scale smoke --audit-meetings " + std::string(value),
+                  {"--audit-meetings", value, "as in 40:139", "or off"});
+}
+
 TEST_CASE("a setting that a scene can't have is refused by name with its range and what it means", "[unit]") {
   for (const char* value : {"nan", "inf", "0", "1e20", "1e-46"})
     check_refused("run twist --scale smoke --set contact_radius=" + std::string(value),
