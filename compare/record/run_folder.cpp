@@ -13,6 +13,7 @@
 #include "compare/files/bytes.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 #include "compare/record/iterations_csv.hpp"
 #include "compare/record/steps_csv.hpp"
@@ -104,7 +105,7 @@ bool has_ledger(const Manifest& manifest) {
 }
 
 StepGroups groups_of(const Scene& scene, const Manifest& manifest) {
-  return {!scene.mesh.tetrahedra.empty(), has_volumes(scene), has_ledger(manifest)};
+  return {!scene.mesh.tetrahedra.empty(), has_volumes(scene), has_ledger(manifest), has_rods(scene)};
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ struct FaultFile {
 };
 
 /// In the order of the faults' numbers. Of initial_guess the right answer uses that of truncate.
-constexpr std::array<FaultFile, 12> files{{{pair_faults, add_right_pairs},
+constexpr std::array<FaultFile, 13> files{{{pair_faults, add_right_pairs},
                                            {set_faults, add_right_sets},
                                            {plane_faults, add_right_planes},
                                            {scalar_faults, add_right_scalars},
@@ -25,7 +25,8 @@ constexpr std::array<FaultFile, 12> files{{{pair_faults, add_right_pairs},
                                            {step_faults, add_right_step},
                                            {sweep_faults, add_right_sweep},
                                            {volume_faults, add_right_volumes},
-                                           {rod_faults, add_right_rods}}};
+                                           {rod_faults, add_right_rods},
+                                           {rod_step_faults, [](Contestant&, const Authority&) {}}}};
 
 }  // namespace
 

@@ -58,5 +58,6 @@ std::vector<Fault> volume_faults();
 void add_right_volumes(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> rod_faults();
 void add_right_rods(compare::Contestant& exact, const compare::Authority& authority);
+std::vector<Fault> rod_step_faults();
 
 }  // namespace ogc::tests
