@@ -113,6 +113,9 @@ struct StepMetrics {
   double deepest = 0;
   /// pairs of faces that shared a point on the way (compare/meetings.md)
   double meetings = std::numeric_limits<double>::quiet_NaN();
+  /// of scenes with rods, at the end: smallest distance of contacts that act (not-a-number: none does) [m], mean and
+  /// largest ‖D‖/l − 1 of the segments [1]
+  double smallest_contact_distance = 0, mean_stretch = 0, largest_stretch = 0;
   std::int64_t repeats = 0;  ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
   std::optional<StepLedger> ledger{};  ///< where it was asked for
@@ -181,6 +184,9 @@ struct Contestant {
   bool has_steps_by_pairs = true;
   /// Whether its sweeps and steps know volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
   bool has_volumes = true;
+  /// Whether its rest states, guesses, sweeps and steps know rods. A plug-in's do not: compare/plugin.h has no
+  /// segments there.
+  bool has_rods = true;
   /// By stage: compare/stages/STAGE.hpp says what is asked.
   std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
   std::function<ClosestPointsOut(const ClosestPointsIn&)> closest_points;

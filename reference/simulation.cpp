@@ -26,11 +26,13 @@ class ReferenceSimulation : public compare::Simulation {
     state_.velocities = compare::to_single(scene_.velocities);
     state_.previous = state_.positions;
     state_.bounds.assign(state_.positions.size(), 0);
+    state_.orientations = solver_.orientations();
   }
 
   std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
     std::vector<compare::StepMetrics> rows;
     for (std::int64_t k = 0; k < steps; ++k) {
+      solver_.set_orientations(state_.orientations);
       StepResult step = solver_.step(state_.positions, state_.velocities, state_.step + 1);
       const bool good = step.metrics.status == compare::step_clean;
       rows.push_back(std::move(step.metrics));
@@ -42,6 +44,7 @@ class ReferenceSimulation : public compare::Simulation {
                 std::move(step.detected.bound),
                 step.query_radius};
       state_.planes = std::move(step.detected.planes);
+      state_.orientations = std::move(step.orientation);
     }
     return rows;
   }
@@ -53,6 +56,8 @@ class ReferenceSimulation : public compare::Simulation {
     state_.previous = state_.positions;
     state_.bounds.assign(state_.positions.size(), 0);
     state_.planes = {};
+    solver_.set_orientations(snapshot.orientations);
+    state_.orientations = solver_.orientations();
   }
 
   std::vector<std::string> stage_names() const override {
@@ -89,14 +94,14 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
         "setting 'contact_weights' can't be 'iteration' with Newton's method, whose energy is that of the closest "
         "points; give contact_weights=update or --solver vbd");
   refuse_volumes(scene, "newton", "leave the body a surface");
-  refuse_rods(scene, "newton");
+  if (has_rods(scene) && newton_settings(scene.settings).truncation == Truncation::pair)
+    throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
 }
 
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour) {
   refuse_solid_volumes(scene, "reference_vbd");
-  refuse_rods(scene, "reference_vbd");
   return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
 }
 

@@ -112,6 +112,32 @@ std::vector<Index> rod_segments(const Scene& scene) {
   return segments;
 }
 
+bool has_rods(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [](const Body& body) { return body.material.rod.has_value(); });
+}
+
+std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> segments) {
+  const std::vector<Index> groups = rigid_groups(scene);
+  std::vector<Index> held;
+  for (const Index e : segments) {
+    const Edge& ends = scene.mesh.loose_edges[at(e)];
+    const Index first = groups[at(ends[0])];
+    held.push_back(first == groups[at(ends[1])] ? first : -1);
+  }
+  return held;
+}
+
+bool says_turn(const PrescribedMotion& motion) { return motion.keyframes.empty() || motion.angular_velocity != 0; }
+
+Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to) {
+  const auto elapsed = [&](double t) { return std::clamp(t, motion.start, motion.end) - motion.start; };
+  // Rounded before what follows: times that are counted from another start give the same turn.
+  const auto half = static_cast<float>(motion.angular_velocity * (elapsed(to) - elapsed(from)) / 2);
+  const double size = std::hypot(motion.axis.x, motion.axis.y, motion.axis.z), sine = std::sin(double{half});
+  return {static_cast<float>(sine * motion.axis.x / size), static_cast<float>(sine * motion.axis.y / size),
+          static_cast<float>(sine * motion.axis.z / size), static_cast<float>(std::cos(double{half}))};
+}
+
 std::ptrdiff_t find_no_unit(std::span<const Quaternion> orientations) {
   const auto wrong = std::ranges::find_if_not(orientations, [](const Quaternion& q) {
     double squared = 0;

@@ -32,6 +32,18 @@ std::string describe_range(const RodInfo& info);
 /// list of orientations. Indices are valid, and bodies cover the scene.
 std::vector<Index> rod_segments(const Scene& scene);
 
+/// Whether a body of the scene is a rod.
+bool has_rods(const Scene& scene);
+
+/// What holds each segment: −1: nothing; 0: it is fixed; k ≥ 1: both of its ends are in the k-th prescribed motion.
+std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> segments);
+
+/// Whether a motion says how what it moves turns: any that is rigid does, and one by keyframes that has an angular
+/// velocity.
+bool says_turn(const PrescribedMotion& motion);
+/// How such a motion turns from one time to another [s], computed in double and rounded once.
+Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to);
+
 /// What is wrong with the scene's rods: constants out of range, a rod without segments, free vertices on loose edges of
 /// a body that is no rod, segments that reverse onto their neighbour at rest, orientations that are no unit quaternions
 /// or not one for each segment. Indices are valid, and bodies cover the scene.

@@ -22,8 +22,10 @@ constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
 constexpr std::array<std::string_view, 4> bounds_names{"ball", "planes", "off", "dat"};
 constexpr std::array<std::string_view, 2> guess_names{"rounds", "pairs"};
 constexpr std::array<std::string_view, 2> weights_names{"update", "iteration"};
+constexpr std::array<std::string_view, 2> orientation_updates{"exact", "as_published"};
+constexpr std::array<std::string_view, 2> start_frames_names{"turned", "kept"};
 
-constexpr std::array<SettingInfo, 19> problem_table{{
+constexpr std::array<SettingInfo, 21> problem_table{{
     {"time_step", "s", "simulated time that one step covers, h; smaller steps are more accurate and cost more in all",
      0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "number of steps of the run", 0, most_count, &Settings::steps},
@@ -70,6 +72,11 @@ constexpr std::array<SettingInfo, 19> problem_table{{
      "less (vbd)",
      0, 1, &Settings::contact_weights, weights_names},
     {"seed", "1", "which of its random starts a scene takes; recorded with the run", 0, most_seed, &Settings::seed},
+    {"orientation", "1",
+     "how a sweep sets the frame of a rod's segment: to the least energy, or as Stable Cosserat Rods has it (vbd)", 0,
+     1, &Settings::orientation, orientation_updates},
+    {"start_frames", "1", "what frames of rods' segments a step begins with: turned with them, or kept (vbd)", 0, 1,
+     &Settings::start_frames, start_frames_names},
 }};
 
 /// The problem's settings, and those that contestants have declared.

@@ -32,6 +32,11 @@ enum class Guess : std::int64_t { rounds, pairs };
 /// for all updates of an iteration.
 enum class ContactWeightsRule : std::int64_t { update, iteration };
 
+/// How a sweep sets the quaternion of a segment (compare/rods.md): to the minimiser, or as Hsu et al. 2025 have it.
+enum class OrientationUpdate : std::int64_t { exact, as_published };
+/// What a step begins with: frames turned along with their segments, or as the step before left them.
+enum class StartFrames : std::int64_t { turned, kept };
+
 /// Names of the activations and damping forms, in the order of the enumerations.
 std::span<const std::string_view> activation_names();
 std::span<const std::string_view> damping_form_names();
@@ -59,6 +64,8 @@ struct Settings {
   DampingForm damping = DampingForm::strain;
   ContactWeightsRule contact_weights = ContactWeightsRule::update;  ///< when closest points are found
   std::int64_t seed = 0;  ///< of whatever the scene draws at random
+  OrientationUpdate orientation = OrientationUpdate::exact;  ///< of the segments of rods
+  StartFrames start_frames = StartFrames::turned;            ///< likewise
   /// Declared by contestants, where not the default: numbers, of a choice the index of its name. By set_setting.
   std::map<std::string, double, std::less<>> declared;
   friend bool operator==(const Settings&, const Settings&) = default;
@@ -79,7 +86,8 @@ struct SettingInfo {
   double minimum, maximum;               ///< inclusive
   /// where the value is kept
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
-               Bounds Settings::*, Guess Settings::*, ContactWeightsRule Settings::*, DeclaredSetting>
+               Bounds Settings::*, Guess Settings::*, ContactWeightsRule Settings::*, OrientationUpdate Settings::*,
+               StartFrames Settings::*, DeclaredSetting>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };

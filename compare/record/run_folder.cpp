@@ -13,6 +13,7 @@
 #include "compare/files/bytes.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 #include "compare/record/iterations_csv.hpp"
 #include "compare/record/steps_csv.hpp"
@@ -106,8 +107,9 @@ bool has_ledger(const Manifest& manifest) {
 StepGroups groups_of(const Scene& scene, const Manifest& manifest) {
   return {.solids = !scene.mesh.tetrahedra.empty(),
           .volumes = has_volumes(scene),
-          .ledger = has_ledger(manifest),
-          .meetings = manifest.provenance.extra.contains("meetings")};
+          .rods = has_rods(scene),
+          .meetings = manifest.provenance.extra.contains("meetings"),
+          .ledger = has_ledger(manifest)};
 }
 
 }  // namespace

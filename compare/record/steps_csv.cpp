@@ -37,7 +37,7 @@ constexpr std::array<StepColumn, 23> columns{{
     {"status", "bits", &StepMetrics::status},
 }};
 
-/// Behind those: of scenes with tetrahedra, of scenes with volumes, of runs that were asked.
+/// Behind those: of scenes with tetrahedra, of scenes with volumes, of scenes with rods, of runs that were asked.
 constexpr std::array<StepColumn, 1> solid_columns{{
     {"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra},
 }};
@@ -45,6 +45,11 @@ constexpr std::array<StepColumn, 3> volume_columns{{
     {"volume_contacts", "1", &StepMetrics::volume_contacts},
     {"vertices_inside", "1", &StepMetrics::vertices_inside},
     {"deepest", "m", &StepMetrics::deepest},
+}};
+constexpr std::array<StepColumn, 3> rod_columns{{
+    {"smallest_contact_distance", "m", &StepMetrics::smallest_contact_distance},
+    {"mean_stretch", "1", &StepMetrics::mean_stretch},
+    {"largest_stretch", "1", &StepMetrics::largest_stretch},
 }};
 constexpr std::array<StepColumn, 1> meeting_columns{{
     {"meetings", "1", &StepMetrics::meetings},
@@ -55,6 +60,7 @@ std::vector<StepColumn> common_columns(const StepGroups& groups) {
   std::vector<StepColumn> all(columns.begin(), columns.end());
   if (groups.solids) all.insert(all.end(), solid_columns.begin(), solid_columns.end());
   if (groups.volumes) all.insert(all.end(), volume_columns.begin(), volume_columns.end());
+  if (groups.rods) all.insert(all.end(), rod_columns.begin(), rod_columns.end());
   if (groups.meetings) all.insert(all.end(), meeting_columns.begin(), meeting_columns.end());
   return all;
 }
@@ -151,10 +157,14 @@ StepTable parse_header(const std::string& file, std::string_view line) {
   const auto begins = [&](std::size_t i, const std::string& title) { return i < titles.size() && titles[i] == title; };
   std::size_t common = columns.size();
   table.groups.solids = begins(common, column_title(solid_columns.front()));
-  common = common_columns(table.groups).size();
-  table.groups.volumes = begins(common, column_title(volume_columns.front()));
-  for (std::size_t i = 0; table.groups.volumes && i < volume_columns.size(); ++i)
-    if (!begins(common + i, column_title(volume_columns[i]))) refuse(common + i, column_title(volume_columns[i]));
+  const auto find_group = [&](bool& is_there, std::span<const StepColumn> group) {
+    common = common_columns(table.groups).size();
+    is_there = begins(common, column_title(group.front()));
+    for (std::size_t i = 0; is_there && i < group.size(); ++i)
+      if (!begins(common + i, column_title(group[i]))) refuse(common + i, column_title(group[i]));
+  };
+  find_group(table.groups.volumes, volume_columns);
+  find_group(table.groups.rods, rod_columns);
   common = common_columns(table.groups).size();
   table.groups.meetings = begins(common, column_title(meeting_columns.front()));
   common = common_columns(table.groups).size();

@@ -29,6 +29,7 @@ struct StepEvent {
   /// The stage volume_depth, asked by the free vertices of surfaces at X_prev of all volumes: `point` is the vertex,
   /// `triangle` and `face` are numbers of the scene.
   VolumeDepthOut volumes{};
+  std::vector<Quaternion> orientation{};  ///< of a sweep: q of the segments of rods after it
 };
 
 /// A step from X⁰, V⁰ of a rounded scene to its first targets of prescribed vertices.
@@ -45,6 +46,9 @@ struct StepOut {
   std::vector<Vec3f> target;              ///< y [m]
   std::vector<StepEvent> events;          ///< in order
   std::vector<Vec3f> position, velocity;  ///< xᵗ⁺¹ [m], vᵗ⁺¹ = (xᵗ⁺¹ − xᵗ)/h [m/s]
+  std::vector<Index> segment_colour{};    ///< of the sweeps
+  /// By segment: at the start, turned after the guess loop, at the end
+  std::vector<Quaternion> orientation_start{}, turned{}, orientation{};
 };
 
 /// What follows from the answer's own positions and counts.

@@ -1,5 +1,5 @@
 // Stage sweep: one iteration of Algorithm 4, all energies inside, colour by colour, each new position truncated before
-// it is written (method.md §5.2, §7).
+// it is written (method.md §5.2, §7), after the orientations of the segments of rods (compare/rods.md).
 //
 // Answers are judged vertex by vertex: the truth about a vertex is the update from what the answer itself holds at
 // vertices of lower colour and from the old positions elsewhere. Whoever gets each update right so gets the sweep
@@ -11,6 +11,7 @@
 
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/orientation.hpp"
 #include "compare/stages/plane.hpp"
 #include "compare/stages/rest_state.hpp"
 #include "compare/stages/volume_depth.hpp"
@@ -18,11 +19,15 @@
 namespace ogc::compare {
 
 /// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, springs (the scene's),
-/// tetrahedra, contact and friction, and volumes as in the stages of these names. Prescribed vertices
+/// tetrahedra, rods, contact and friction, and volumes as in the stages of these names. Prescribed vertices
 /// (`is_prescribed`) go to y, truncated; all others stay, and those of volumes: they are where the step has them.
 /// While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at its old one; own
 /// position: old. With contact_weights=iteration the closest points of all contacts, and with them n's and d's weights,
-/// are those of the old positions; Σ w x is formed where positions are read, Σ w xᵗ once. Prescribed vertices come first. m/h², k_d/h and ε_v h are formed from the given numbers and rounded
+/// are those of the old positions; Σ w x is formed where positions are read, Σ w xᵗ once. Prescribed vertices come
+/// first, then segments that nothing holds, each as in the stage `orientation`, of whose ends prescribed ones are read
+/// at their new positions and free ones at their old, and of whose neighbours those of lower colour at their new
+/// quaternions; vertices read new quaternions alone. With damping by vertex frames are not damped. m/h², k_d/h and ε_v
+/// h are formed from the given numbers and rounded
 /// at most once.
 struct SweepIn {
   const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
@@ -40,12 +45,16 @@ struct SweepIn {
   /// Of free vertices: `point` is the vertex, `triangle` and `face` are numbers of the scene; canonical order. What was
   /// frozen acts, and `inside`, `face` and `depth` are not read.
   std::span<const VolumeContact> volumes{};
+  /// By segment, in the order of RestStateOut::segments. From 0; −1: held. No two neighbours share one
+  std::span<const Index> segment_colour{};
+  std::span<const Quaternion> orientation{}, orientation_start{};  ///< q, qᵗ
 };
 
 /// The answer.
 struct SweepOut {
   std::vector<Vec3f> position;  ///< [m]; each lies in its region exactly
   Index cut = 0;                ///< vertices, prescribed ones included, whose proposal lay outside of its region
+  std::vector<Quaternion> orientation{};  ///< by segment; of held ones the old
 };
 
 /// By vertex: the exact update from the answer's own lower colours, and how far a right answer may be from it [m], in
@@ -61,6 +70,8 @@ struct SweepTruth {
   std::vector<double> accepted;     ///< largest error [m]
   std::vector<std::uint8_t> grey;   ///< 1 where a decision may go either way
   Index cut = 0, cut_doubtful = 0;  ///< certain cuts, and proposals within their error of the bound
+  std::vector<Index> free_segments{};  ///< whose truth follows, ascending
+  OrientationTruth orientation{};      ///< by free segment, that follows from the answer's own neighbours
 };
 
 /// What the sweep adds to the tolerances of its stages, in their units u · scale: ∇N₀ of a triangle, w(x0) of a hinge

@@ -232,6 +232,7 @@ Contestant plugin_contestant(Plugin plugin) {
   c.divides_by_approach = false;
   c.has_steps_by_pairs = false;
   c.has_volumes = false;
+  c.has_rods = false;
   c.closest_face = [plugin](const ClosestFaceIn& in) { return ask_closest_face(*plugin, in); };
   c.closest_points = [plugin](const ClosestPointsIn& in) { return ask_closest_points(*plugin, in); };
   c.block = [plugin](const BlockIn& in) { return ask_block(*plugin, in); };

@@ -17,6 +17,7 @@
 #include "experiments/scenes/robot_shirt.hpp"
 #include "experiments/scenes/three_cloths_on_sphere.hpp"
 #include "experiments/scenes/twist.hpp"
+#include "experiments/scenes/yarn.hpp"
 
 namespace ogc::experiments {
 namespace {
@@ -184,7 +185,26 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-constexpr std::array<SceneInfo, 13> table{{
+/// Loops at the same spacing, pulled at the same rate of strain.
+compare::Scene yarn_stretch_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return yarn_stretch({.rows = 4, .loops = 4, .rest_steps = 50, .steps = 100, .pull = 0.25});
+    case Scale::small: return yarn_stretch({.rows = 10, .loops = 8, .pull = 0.0625});
+    case Scale::paper: break;
+  }
+  return yarn_stretch();
+}
+
+compare::Scene yarn_twist_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return yarn_twist({.rows = 4, .loops = 4, .steps = 100});
+    case Scale::small: return yarn_twist({.rows = 10, .loops = 8, .steps = 7500, .turns = 1});
+    case Scale::paper: break;
+  }
+  return yarn_twist();
+}
+
+constexpr std::array<SceneInfo, 15> table{{
     {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence",
      activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
@@ -205,6 +225,8 @@ constexpr std::array<SceneInfo, 13> table{{
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
     {"two_hundred_layers", "Divide and Truncate", "two hundred square cloths fall off-centre onto a fixed cylinder",
      two_hundred_layers_at},
+    {"yarn_stretch", "Fig. 15", "a plain knit of one yarn, pulled apart at two of its edges", yarn_stretch_at},
+    {"yarn_twist", "Fig. 16", "a plain knit of one yarn, twisted between two of its edges", yarn_twist_at},
 }};
 
 constexpr std::array<std::string_view, 3> scale_names{"smoke", "small", "paper"};

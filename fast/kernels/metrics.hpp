@@ -45,6 +45,9 @@ struct StepRow {
   /// at the last detection: contacts with volumes, vertices inside, the deepest [m]
   int volume_contacts = 0, vertices_inside = 0;
   float deepest = 0;
+  /// with rods: smallest distance of contacts that act [m], mean and largest ‖D‖/l − 1 of segments
+  float smallest_contact = 0, largest_stretch = 0;
+  double mean_stretch = 0;
 };
 
 /// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
@@ -223,6 +226,26 @@ OGC_HD inline double momentum_lost(const double* sums) {
   return moved > 0 ? sqrt(lost / moved) : 0.0;
 }
 
+/// Sums over segments that a row needs.
+enum RodColumn : int {
+  rod_energy = 0,   ///< stretch, shear, bend and twist [J]
+  rod_stretch = 1,  ///< Σ ‖D‖/l − 1 [1]
+  rod_columns = 2
+};
+
+/// Extremes of a step, as bits of floats: nothing of the order in which they are raised is left in them.
+struct RodExtremes {
+  int stretch = 0;                 ///< of ‖D‖/l [1]
+  float contact = 3.40282347e38f;  ///< smallest distance of contacts that act [m]
+};
+
+/// What a step with rods has measured (fast/kernels/rods/metrics.hpp); all null without.
+struct MeasuredRods {
+  const double* sums = nullptr;           ///< by RodColumn
+  const RodExtremes* extremes = nullptr;  ///< one
+  int segments = 0;                       ///< how many
+};
+
 /// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is
 /// repeated).
 struct FinishStep {
@@ -231,6 +254,7 @@ struct FinishStep {
   const double* sums_guess;  ///< by SumColumn, after the guess loop
   const double* sums_end;    ///< by SumColumn, at the end
   StepRow* rows;             ///< by step of the frame, on the backend
+  MeasuredRods rods{};       ///< where there are any
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
@@ -256,6 +280,12 @@ struct FinishStep {
     row.volume_contacts = c.volume_contacts;
     row.vertices_inside = c.vertices_inside;
     row.deepest = float_from_bits(c.deepest);
+    if (rods.segments > 0) {
+      row.elastic += rods.sums[rod_energy];
+      row.mean_stretch = rods.sums[rod_stretch] / rods.segments;
+      row.largest_stretch = float_from_bits(rods.extremes->stretch) - 1.0f;
+      row.smallest_contact = rods.extremes->contact;
+    }
     rows[c.steps_done] = row;
     if (c.active != 0) ++c.steps_done;
   }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "fast/kernels/arithmetic/quaternion.hpp"
 #include "fast/kernels/arithmetic/solve3.hpp"
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
@@ -77,12 +78,28 @@ struct TetrahedronRow;
 struct TetrahedronGradients;
 struct SolidMaterial;
 struct VolumeIncidence;
+struct RodRow;
+struct RodIncidence;
+struct SegmentSlot;
 
 /// The contacts of all slots with volumes: rows of fixed length (fast/kernels/volumes/).
 struct VolumeStream {
   const VolumeIncidence* contacts = nullptr;  ///< row of a slot: from slot · capacity
   const int* counts = nullptr;                ///< by slot: how many of its row there are
   int capacity = 0;                           ///< of a row
+};
+
+/// What the sweep reads and writes of rods (fast/kernels/rods/); null where there is none.
+struct RodStream {
+  const RodRow* rows = nullptr;              ///< by slot of the vertices
+  const RodIncidence* incidences = nullptr;  ///< row by row
+  const SegmentSlot* slots = nullptr;        ///< by slot of the segments
+  const float* damping = nullptr;            ///< by body: k_d/h [1]; null where none damps
+  const Vec* direction = nullptr;            ///< by segment: c, as rod_rest_direction; null where none damps strains
+  const Quat* orientation_start = nullptr;   ///< by segment: qᵗ
+  Quat* orientation = nullptr;               ///< by segment: q
+  bool is_damped_by_vertex = false;          ///< DampingForm::per_vertex
+  bool as_published = false;                 ///< μ = σ + ‖b‖ in place of the root
 };
 
 /// The vertex of an encoded index. No branch: a processor cannot predict which buffer is read.
@@ -125,6 +142,7 @@ struct SweepView {
   VolumeStream volumes;                              ///< read where there are volumes
   /// by pair; read by sums with WeightsOfIteration alone
   const FrozenContact* frozen = nullptr;
+  RodStream rods;                                    ///< read where there are rods
 
   /// Whether it is another iteration's turn.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }

@@ -8,7 +8,9 @@
 
 #include "compare/stages/initial_guess.hpp"
 #include "fast/kernels/initial_guess.hpp"
+#include "fast/kernels/rods/turn.hpp"
 #include "fast/probes/probe_memory.hpp"
+#include "fast/stages/rods_at_rest.hpp"
 
 namespace ogc::fast {
 
@@ -40,6 +42,34 @@ template <class T>
 std::vector<T> column(const compare::InitialGuessIn& in, T compare::InitialGuessCase::*member) {
   std::vector<T> all;
   for (const compare::InitialGuessCase& c : in.cases) all.push_back(c.*member);
+  return all;
+}
+
+/// Each segment alone.
+struct ProbeTurn {
+  const Vec *before, *now;  ///< by case [m]
+  const Quat* orientation;  ///< by case
+  Quat* out;                ///< by case, written
+
+  OGC_HD void operator()(int i) const { out[i] = turned_along(before[i], now[i], orientation[i]); }
+};
+
+/// Those of the question.
+template <class Backend>
+std::vector<compare::Quaternion> probe_turns(Backend& backend, const std::vector<compare::TurnCase>& turns) {
+  ProbeMemory<Backend> memory(backend);
+  std::vector<compare::Vec3f> before, now;
+  std::vector<Quat> orientation, found;
+  for (const compare::TurnCase& c : turns) {
+    before.push_back(c.before), now.push_back(c.now);
+    orientation.push_back(quat(c.orientation));
+  }
+  backend.for_each(static_cast<int>(turns.size()),
+                   ProbeTurn{memory.template in<Vec>(before), memory.template in<Vec>(now),
+                             memory.template in<Quat>(orientation), memory.template out<Quat>(found, turns.size())});
+  memory.fetch();
+  std::vector<compare::Quaternion> all;
+  for (const Quat& q : found) all.push_back(quaternion(q));
   return all;
 }
 
@@ -81,6 +111,7 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
                               .control = control.data(),
                               .cut = memory.template out<std::uint8_t>(out.cut, n)});
   memory.fetch();
+  out.orientation = probe_turns(backend, in.turns);
   return out;
 }
 

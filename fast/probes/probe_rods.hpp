@@ -9,11 +9,9 @@
 #include "fast/kernels/models/orientation.hpp"
 #include "fast/kernels/models/rod.hpp"
 #include "fast/probes/probe_forces.hpp"
+#include "fast/stages/rods_at_rest.hpp"
 
 namespace ogc::fast {
-
-/// As the backend reads it.
-inline Quat quat(const compare::Quaternion& q) { return {q[0], q[1], q[2], q[3]}; }
 
 /// Each segment alone, seen from one of its ends.
 struct ProbeRod {

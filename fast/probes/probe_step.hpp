@@ -15,14 +15,15 @@ template <class Backend>
 compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
   StepState<Backend>& state = simulation.state();
   StepTrace<Backend> trace(simulation.backend(), simulation.step(), state, simulation.detection(), simulation.volumes(),
-                           simulation.sweep().vertices(), simulation.topology());
+                           simulation.rods(), simulation.sweep().vertices(), simulation.topology());
+  compare::StepOut out;
+  out.orientation_start = simulation.rods().start();
   simulation.observe(&trace);
   simulation.advance(1);
   simulation.observe(nullptr);
   const auto positions = [&](const auto& buffer) {
     return download_positions(simulation.backend(), buffer.data(), buffer.size());
   };
-  compare::StepOut out;
   out.colour = simulation.colouring().colour;
   out.rest = rest_state_out({&simulation.scene(), &simulation.topology()});
   out.query_radius = simulation.query_radius();
@@ -30,6 +31,9 @@ compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
   out.target = positions(state.target);
   out.position = positions(state.start);
   out.velocity = positions(state.velocity);
+  out.segment_colour.assign(simulation.segment_colouring().colour.begin(), simulation.segment_colouring().colour.end());
+  out.turned = trace.take_turned();
+  out.orientation = simulation.rods().start();
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "compare/stages/sweep.hpp"
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/lists.hpp"
+#include "fast/kernels/rods/turn.hpp"
 #include "fast/probes/probe_memory.hpp"
 #include "fast/probes/sweep_records.hpp"
 #include "fast/stages/step.hpp"
@@ -111,6 +112,49 @@ class ProbeStart {
   typename Backend::template Buffer<SolidStrain> solid_;
 };
 
+/// Quaternions of a question, and c as the start of a step leaves it.
+template <class Backend>
+class ProbeRods {
+ public:
+  ProbeRods(Backend& backend, const compare::SweepIn& in, const RestState& rest) : count_(in.orientation.size()) {
+    if (count_ == 0) return;
+    std::vector<Quat> now, before;
+    for (const compare::Quaternion& q : in.orientation) now.push_back(quat(q));
+    for (const compare::Quaternion& q : in.orientation_start) before.push_back(quat(q));
+    orientation_.upload(now.data(), now.size());
+    start_.upload(before.data(), before.size());
+    if (rod_damping(rest).empty() || in.scene->settings.damping != compare::DampingForm::strain) return;
+    typename Backend::template Buffer<SegmentRest> segments;
+    segments.upload(rest.rods.segments.data(), count_);
+    typename Backend::template Buffer<Vec> positions;
+    positions.upload(reinterpret_cast<const Vec*>(in.start.data()), in.start.size());
+    direction_.resize(count_);
+    backend.for_each(static_cast<int>(count_),
+                     SetDirection{segments.data(), positions.data(), start_.data(), direction_.data()});
+    backend.synchronize();
+  }
+
+  /// What a sweep reads beside its streams.
+  void complete(RodStream& rods) {
+    rods.orientation = orientation_.data();
+    rods.orientation_start = start_.data();
+    rods.direction = direction_.data();
+  }
+  /// As they are now.
+  std::vector<compare::Quaternion> orientations() const {
+    std::vector<Quat> now(count_);
+    if (count_ > 0) orientation_.download(now.data(), count_);
+    std::vector<compare::Quaternion> all;
+    for (const Quat& q : now) all.push_back(quaternion(q));
+    return all;
+  }
+
+ private:
+  std::size_t count_;
+  typename Backend::template Buffer<Quat> orientation_, start_;
+  typename Backend::template Buffer<Vec> direction_;
+};
+
 /// One iteration of the resident sweep.
 template <class Backend>
 compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
@@ -120,7 +164,8 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   const RestState rest = rest_state_of({in.scene, in.topology}, *in.rest);
   const StepSettings settings = step_settings(*in.scene, in.old.size(), false);
   const Colouring colouring = colouring_of(in.colour);
-  Sweep<Backend> sweep(backend, rest, colouring, *in.topology, *in.scene);
+  ProbeRods<Backend> rods(backend, in, rest);
+  Sweep<Backend> sweep(backend, rest, colouring, *in.topology, *in.scene, colouring_of(in.segment_colour));
   Volumes<Backend> volumes({}, volume_parts(*in.scene, *in.topology), sweep.slots());
   StepControl control;
   control.active = 1;
@@ -148,6 +193,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   sweep.reserve_contacts(contacts.capacity());
   sweep.resolve_contacts(contacts.view(), previous);
   sweep.complete(view);
+  rods.complete(view.rods);
   if (volumes.is_used()) {
     volumes.put(volume_rows(in, rest, colouring));
     view.volumes = volumes.stream();
@@ -161,6 +207,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   position.download(reinterpret_cast<Vec*>(out.position.data()), out.position.size());
   control_buffer.download(&control, 1);
   out.cut = control.cut;
+  out.orientation = rods.orientations();
   return out;
 }
 

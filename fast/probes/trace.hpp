@@ -20,12 +20,14 @@ class StepTrace : public StepObserver {
  public:
   /// `vertices`: of the slots, on the backend.
   StepTrace(Backend& backend, Step<Backend>& step, StepState<Backend>& state, Detection<Backend>& detection,
-            const Volumes<Backend>& volumes, const SweepVertex* vertices, const compare::Topology& topology)
+            const Volumes<Backend>& volumes, const Rods<Backend>& rods, const SweepVertex* vertices,
+            const compare::Topology& topology)
       : backend_(backend),
         step_(step),
         state_(state),
         detection_(detection),
         volumes_(volumes),
+        rods_(rods),
         vertices_(vertices),
         topology_(topology) {}
 
@@ -51,6 +53,13 @@ class StepTrace : public StepObserver {
     if (last != events_.rend()) set_contacts(*last);
   }
 
+  void after_guess() override {
+    backend_.synchronize();
+    turned_ = rods_.now();
+  }
+
+  /// Frames after the guess loop.
+  std::vector<compare::Quaternion> take_turned() { return std::move(turned_); }
   /// The events of the last step.
   std::vector<compare::StepEvent> take() { return std::move(events_); }
 
@@ -71,6 +80,7 @@ class StepTrace : public StepObserver {
     if (kind != compare::StepEventKind::detection) {
       event.position = download_positions(backend_, position, n);
       event.cut = control.cut_last;
+      if (kind == compare::StepEventKind::sweep) event.orientation = rods_.now();
       return event;
     }
     const Vec* previous = state_.previous.data();
@@ -101,10 +111,12 @@ class StepTrace : public StepObserver {
   StepState<Backend>& state_;
   Detection<Backend>& detection_;
   const Volumes<Backend>& volumes_;
+  const Rods<Backend>& rods_;
   const SweepVertex* vertices_;
   const compare::Topology& topology_;
   std::array<int, 3> seen_{};  ///< by kind: events counted at the last look
   std::vector<compare::StepEvent> events_;
+  std::vector<compare::Quaternion> turned_;
 };
 
 }  // namespace ogc::fast

@@ -12,6 +12,22 @@
 
 namespace ogc::fast {
 
+namespace {
+
+// Each row ascending, without repetition.
+compare::CompressedRows sorted_rows(std::vector<std::vector<int>> neighbours) {
+  compare::CompressedRows rows;
+  for (auto& row : neighbours) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    rows.items.insert(rows.items.end(), row.begin(), row.end());
+    rows.offsets.push_back(static_cast<compare::Index>(rows.items.size()));
+  }
+  return rows;
+}
+
+}  // namespace
+
 compare::CompressedRows conflict_graph(const RestState& rest) {
   std::vector<std::vector<int>> neighbours(rest.mobility.size());
   const auto connect = [&](const int* vertices, int n) {
@@ -27,14 +43,8 @@ compare::CompressedRows conflict_graph(const RestState& rest) {
   for (const HingeRest& hinge : rest.hinges) connect(hinge.vertex, 4);
   for (const SpringRest& spring : rest.springs) connect(spring.end, end_count(spring));
   for (const TetrahedronRest& tetrahedron : rest.tetrahedra) connect(tetrahedron.corner, 4);
-  compare::CompressedRows rows;
-  for (auto& row : neighbours) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    rows.items.insert(rows.items.end(), row.begin(), row.end());
-    rows.offsets.push_back(static_cast<compare::Index>(rows.items.size()));
-  }
-  return rows;
+  for (const SegmentRest& segment : rest.rods.segments) connect(segment.end, 2);
+  return sorted_rows(std::move(neighbours));
 }
 
 namespace {
@@ -238,23 +248,21 @@ int colouring_passes(std::size_t neighbours) {
   return static_cast<int>(std::clamp(visits / (1.0 + static_cast<double>(neighbours)), 4.0, 100.0));
 }
 
-Colouring colour_vertices(const RestState& rest) {
-  const compare::CompressedRows graph = conflict_graph(rest);
-  std::vector<int> vertices;
-  for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
-    if (rest.mobility[v] == Mobility::free) vertices.push_back(static_cast<int>(v));
-  }
+namespace {
+
+// Colours `members`, whose rows of the graph are those of members alone.
+Colouring coloured(const compare::CompressedRows& graph, const std::vector<int>& members) {
   const int passes = colouring_passes(graph.items.size());
   Colouring result;
-  std::vector<int> colour(rest.mobility.size(), uncoloured);
-  for (const std::vector<int>& order : {vertices, saturation_order(graph, vertices, colour)}) {
+  std::vector<int> colour(graph.rows(), uncoloured);
+  for (const std::vector<int>& order : {members, saturation_order(graph, members, colour)}) {
     const int count = improve(graph, order, passes, colour);
     if (!result.colour.empty() && count >= result.count) continue;
     result.colour = colour;
     result.count = count;
   }
-  balance_and_turn(graph, vertices, result.count, result.colour);
-  result.order = vertices;
+  balance_and_turn(graph, members, result.count, result.colour);
+  result.order = members;
   std::stable_sort(result.order.begin(), result.order.end(), [&](int a, int b) {
     return result.colour[static_cast<std::size_t>(a)] < result.colour[static_cast<std::size_t>(b)];
   });
@@ -264,6 +272,29 @@ Colouring colour_vertices(const RestState& rest) {
         static_cast<int>(std::find_if(result.order.begin(), result.order.end(), above) - result.order.begin()));
   }
   return result;
+}
+
+}  // namespace
+
+Colouring colour_vertices(const RestState& rest) {
+  std::vector<int> vertices;
+  for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
+    if (rest.mobility[v] == Mobility::free) vertices.push_back(static_cast<int>(v));
+  }
+  return coloured(conflict_graph(rest), vertices);
+}
+
+Colouring colour_segments(const RodsAtRest& rods) {
+  std::vector<std::vector<int>> neighbours(rods.segments.size());
+  std::vector<int> segments;
+  const auto is_free = [&](int e) { return rods.motion[static_cast<std::size_t>(e)] == segment_free; };
+  for (int e = 0; e < static_cast<int>(rods.segments.size()); ++e) {
+    if (!is_free(e)) continue;
+    segments.push_back(e);
+    for (const int f : rods.neighbours[static_cast<std::size_t>(e)].number)
+      if (f != e && is_free(f)) neighbours[static_cast<std::size_t>(e)].push_back(f);
+  }
+  return coloured(sorted_rows(std::move(neighbours)), segments);
 }
 
 }  // namespace ogc::fast

@@ -1,8 +1,8 @@
-// Colours of the free vertices: no two vertices of one membrane or bending stencil, of a spring or of a tetrahedron
-// share one, so that within a colour only contacts are Jacobi (method.md §7.3). Computed once on the host,
-// deterministic. A colour costs a launch and a dependency chain whatever its size, so the number of colours counts
-// first: DSATUR-like greedy, then greedy again class by class (which never adds a colour and often removes some), then
-// balance.
+// Colours of the free vertices: no two vertices of one membrane or bending stencil, of a spring, a tetrahedron or a
+// segment share one, nor do two segments of a rod that are neighbours, so that within a colour only contacts are Jacobi
+// (method.md §7.3). Computed once on the host, deterministic. A colour costs a launch and a dependency chain whatever
+// its size, so the number of colours counts first: DSATUR-like greedy, then greedy again class by class (which never
+// adds a colour and often removes some), then balance.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace ogc::fast {
 
-/// The free vertices, colour by colour.
+/// The free vertices, or segments, colour by colour.
 struct Colouring {
   int count = 0;              ///< number of colours
   std::vector<int> colour;    ///< of each vertex; -1 where it is not free
@@ -20,8 +20,8 @@ struct Colouring {
   std::vector<int> begin{0};  ///< colour c is order[begin[c] .. begin[c + 1])
 };
 
-/// Free vertices that share a membrane or bending stencil, a spring or a tetrahedron with v, ascending; rows of other
-/// vertices are empty.
+/// Free vertices that share a membrane or bending stencil, a spring, a tetrahedron or a segment with v, ascending; rows
+/// of other vertices are empty.
 compare::CompressedRows conflict_graph(const RestState& rest);
 
 /// Passes in which the number of colours is brought down, where vertices have so many neighbours in all: as many as
@@ -30,5 +30,8 @@ int colouring_passes(std::size_t neighbours);
 
 /// Colours the vertices with Mobility::free.
 Colouring colour_vertices(const RestState& rest);
+
+/// Colours the segments that nothing holds; two on an open chain, three on an odd ring. Of none: no colour.
+Colouring colour_segments(const RodsAtRest& rods);
 
 }  // namespace ogc::fast

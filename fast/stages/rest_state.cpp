@@ -7,7 +7,6 @@
 
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
-#include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 #include "fast/kernels/models/bending_models.hpp"
 #include "fast/kernels/rest_state.hpp"
@@ -109,12 +108,13 @@ void add_masses(const compare::Scene& scene, RestState& rest) {
     else
       add_triangles(scene, b, mass, rest);
   }
+  rest.rods = rods_at_rest(scene, mass);
   for (std::size_t v = 0; v < mass.size(); ++v) {
     rest.mass.push_back(static_cast<float>(mass[v]));
     if (rest.mobility[v] == Mobility::free && !(rest.mass[v] > 0)) {
       throw compare::InputError(compare::ElementNames(scene).vertex(static_cast<compare::Index>(v)) +
-                                " moves but has no mass: give it a triangle or a tetrahedron and a density above zero, "
-                                "or hold it by a motion or a fixed body");
+                                " moves but has no mass: give it a triangle, a tetrahedron or a rod's edge and a "
+                                "density above zero, or hold it by a motion or a fixed body");
     }
   }
 }
@@ -164,7 +164,6 @@ void add_contact_materials(const compare::Scene& scene, RestState& rest) {
 
 RestState build_rest_state(const compare::Scene& scene, const compare::Topology& topology) {
   refuse_solid_volumes(scene, "vbd");
-  refuse_rods(scene, "vbd");
   RestState rest = without_shape(scene);
   add_masses(scene, rest);
   add_hinges(scene, topology, rest);
@@ -175,7 +174,7 @@ RestState build_rest_state(const compare::Scene& scene, const compare::Topology&
 
 compare::RestStateOut rest_state_out(const compare::RestStateIn& in) {
   const RestState rest = build_rest_state(*in.scene, *in.topology);
-  compare::RestStateOut out{rest.mass, {}, {}, rest.edge_length_squared, {}};
+  compare::RestStateOut out{rest.mass, {}, {}, rest.edge_length_squared, {}, {}, {}};
   for (const TriangleRest& t : rest.triangles) {
     out.triangles.push_back({{t.corner[0], t.corner[1], t.corner[2]},
                              t.body,
@@ -196,6 +195,7 @@ compare::RestStateOut rest_state_out(const compare::RestStateIn& in) {
     for (std::size_t k = 0; k < 3; ++k) std::copy_n(t.gradient[k], 3, shape.gradient[k].begin());
     out.tetrahedra.push_back(shape);
   }
+  out.segments = rest_segments(rest.rods);
   return out;
 }
 
@@ -223,6 +223,7 @@ RestState rest_state_of(const compare::RestStateIn& in, const compare::RestState
     for (std::size_t k = 0; k < 3; ++k) std::copy_n(t.gradient[k].begin(), 3, shape.gradient[k]);
     rest.tetrahedra.push_back(shape);
   }
+  rest.rods = rods_of(*in.scene, out.segments);
   return rest;
 }
 

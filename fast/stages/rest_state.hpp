@@ -12,6 +12,7 @@
 #include "fast/kernels/models/membrane.hpp"
 #include "fast/kernels/models/spring.hpp"
 #include "fast/kernels/models/tetrahedron.hpp"
+#include "fast/stages/rods_at_rest.hpp"
 
 namespace ogc::fast {
 
@@ -20,7 +21,8 @@ enum class Mobility : std::uint8_t { free, prescribed, fixed };
 
 /// What the sweep has to know of the rest shape.
 struct RestState {
-  /// m_v [kg]: a third of each incident triangle's, a quarter of each incident tetrahedron's; 0 on fixed bodies
+  /// m_v [kg]: a third of each incident triangle's, a quarter of each incident tetrahedron's, half of each incident
+  /// segment's; 0 on fixed bodies
   std::vector<float> mass;
   std::vector<Mobility> mobility;
   std::vector<int> body;  ///< of each vertex
@@ -29,6 +31,7 @@ struct RestState {
   std::vector<HingeWeights> weights;  ///< by hinge; empty where no model reads them
   std::vector<SpringRest> springs;
   std::vector<TetrahedronRest> tetrahedra;
+  RodsAtRest rods;
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<SurfaceMaterial> materials;  ///< by body
   std::vector<SurfaceModels> models;       ///< by body
@@ -37,8 +40,7 @@ struct RestState {
   std::vector<ContactMaterial> contact;  ///< of bodies a and b, at a · bodies + b
 };
 
-/// Throws InputError for bodies that move and have edges without triangles: there is no energy for them here; and for
-/// volumes, which are not simulated yet.
+/// Throws InputError for vertices that move and have no mass, and for free volumes, which are not simulated yet.
 RestState build_rest_state(const compare::Scene& scene, const compare::Topology& topology);
 
 /// The simulation's rest state as the judge asks for it.

@@ -33,11 +33,13 @@ class ResidentSimulation : public compare::Simulation {
         exclusions_(compare::exclusions(scene_)),
         detection_(backend_, topology_, exclusions_, list_capacity, 0, scene_.settings.bounds, fixed_vertices()),
         pair_guess_(scene_.settings, fixed_vertices()),
-        sweep_(backend_, rest_, colouring_, topology_, scene_),
+        segment_colouring_(colour_segments(rest_.rods)),
+        sweep_(backend_, rest_, colouring_, topology_, scene_, segment_colouring_),
         volumes_(detection_.surface(), volume_parts(scene_, topology_), sweep_.slots()),
+        rods_(backend_, scene_, rest_, longest_frame),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
-        step_(backend_, state_, detection_, pair_guess_, sweep_, volumes_, clock_,
+        step_(backend_, state_, detection_, pair_guess_, sweep_, volumes_, rods_, clock_,
               step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
     fill_state();
@@ -74,12 +76,14 @@ class ResidentSimulation : public compare::Simulation {
     result.capacities = detection_.capacities();
     if (volumes_.is_used()) result.capacities.push_back(volumes_.capacity());
     result.planes = detection_.download_planes();
+    result.orientations = rods_.start();
     return result;
   }
 
   void restore(const compare::Snapshot& snapshot) override {
     upload_motion(snapshot.positions, snapshot.velocities);
     step_number_ = snapshot.step;
+    rods_.put(orientations_of(snapshot));
     if (snapshot.capacities.empty()) return;
     std::vector<std::int64_t> capacities = snapshot.capacities;
     if (volumes_.is_used()) {
@@ -97,6 +101,7 @@ class ResidentSimulation : public compare::Simulation {
 
   /// Made on the host at the start, of the scene rounded to single precision.
   const Colouring& colouring() const { return colouring_; }
+  const Colouring& segment_colouring() const { return segment_colouring_; }
   const RestState& rest_state() const { return rest_; }
   /// W, the width of the sweep's sums.
   int lanes() const { return sweep_.lanes(); }
@@ -110,6 +115,7 @@ class ResidentSimulation : public compare::Simulation {
   StepState<Backend>& state() { return state_; }
   Detection<Backend>& detection() { return detection_; }
   Volumes<Backend>& volumes() { return volumes_; }
+  Rods<Backend>& rods() { return rods_; }
   Sweep<Backend>& sweep() { return sweep_; }
   const compare::Scene& scene() const { return scene_; }
   const compare::Topology& topology() const { return topology_; }
@@ -209,6 +215,7 @@ class ResidentSimulation : public compare::Simulation {
       }
     }
     if (!targets.empty()) state_.prescribed_targets.upload(targets.data(), targets.size());
+    rods_.upload_turns(step_number_, count);
   }
 
   /// Up to `count` steps; adds a row for each that took place, and for the one that failed. Returns the control at the
@@ -293,8 +300,25 @@ class ResidentSimulation : public compare::Simulation {
     result.smallest_distance = compare::has_planes(scene_.settings.bounds)
                                    ? row.smallest_bound
                                    : row.smallest_bound / scene_.settings.bound_relaxation;
+    if (rods_.is_used()) {
+      const bool is_any = static_cast<double>(row.smallest_contact) < scene_.settings.contact_radius;
+      result.smallest_contact_distance = is_any ? row.smallest_contact : not_asked;
+      result.mean_stretch = row.mean_stretch;
+      result.largest_stretch = row.largest_stretch;
+    }
     result.status = static_cast<std::uint32_t>(row.status);
     return result;
+  }
+
+  /// Of a snapshot; of one without, those that the scene starts with. Throws std::invalid_argument where they are not
+  /// one for each segment.
+  std::vector<Quat> orientations_of(const compare::Snapshot& snapshot) const {
+    if (snapshot.orientations.empty()) return start_orientations(scene_, rest_.rods);
+    if (snapshot.orientations.size() != rest_.rods.segments.size())
+      throw std::invalid_argument("orientations of other rods");
+    std::vector<Quat> all;
+    for (const compare::Quaternion& q : snapshot.orientations) all.push_back(quat(q));
+    return all;
   }
 
   /// Of a snapshot, where it is one. Throws std::invalid_argument.
@@ -338,8 +362,10 @@ class ResidentSimulation : public compare::Simulation {
   compare::Exclusions exclusions_;
   Detection<Backend> detection_;
   PairGuess<Backend> pair_guess_;
+  Colouring segment_colouring_;
   Sweep<Backend> sweep_;
   Volumes<Backend> volumes_;
+  Rods<Backend> rods_;
   StageClock<Backend> clock_;
   StepState<Backend> state_;
   std::size_t moving_;

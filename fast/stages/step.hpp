@@ -33,6 +33,7 @@
 #include "fast/stages/pair_guess.hpp"
 #include "fast/stages/profile.hpp"
 #include "fast/stages/reduce.hpp"
+#include "fast/stages/rods.hpp"
 #include "fast/stages/step_detection.hpp"
 #include "fast/stages/sweep.hpp"
 #include "fast/stages/volumes.hpp"
@@ -131,6 +132,8 @@ class StepObserver {
   virtual void after(compare::StepEventKind kind, const Vec* position) = 0;
   /// The guess loop's last detection has its lists, which the sweeps will read.
   virtual void after_listing() = 0;
+  /// The guess loop is over, and frames of segments are turned.
+  virtual void after_guess() = 0;
 };
 
 /// The order of one step.
@@ -139,14 +142,15 @@ class Step {
  public:
   /// For a mesh of `vertices`; `state` is filled later.
   Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, PairGuess<Backend>& pair_guess,
-       Sweep<Backend>& sweep, Volumes<Backend>& volumes, StageClock<Backend>& clock, StepSettings settings,
-       int vertices)
+       Sweep<Backend>& sweep, Volumes<Backend>& volumes, Rods<Backend>& rods, StageClock<Backend>& clock,
+       StepSettings settings, int vertices)
       : backend_(backend),
         state_(state),
         detection_(detection),
         pair_guess_(pair_guess),
         sweep_(sweep),
         volumes_(volumes),
+        rods_(rods),
         clock_(clock),
         settings_(settings),
         reduction_(backend, vertices) {}
@@ -215,6 +219,7 @@ class Step {
     if (s.solids_damped)
       backend_.for_each(s.tetrahedron_count,
                         BeginTetrahedron{s.tetrahedra.data(), s.start.data(), s.solid_start.data()});
+    rods_.begin_strains(backend_, s.start.data());
   }
 
   /// The regions that end here are certified, then X_prev ← x. `target`: y in the guess loop, later null.
@@ -308,6 +313,8 @@ class Step {
     reduction_.sum(s.sums_guess.data(), vertex_sums());
     backend_.for_each(s.vertex_count, BeginSweep{s.start.data(), s.position.data(), s.padded_start.data(),
                                                  s.padded.data(), s.vertex_count});
+    rods_.begin(backend_, s.start.data(), s.position.data(), control());
+    if (observer_ != nullptr) observer_->after_guess();
   }
 
   /// Iterations `first` to `first` + `count` − 1, each followed by a detection where one is due. To ask costs a device
@@ -359,6 +366,7 @@ class Step {
     view.turn = turn;
     view.iteration = iteration;
     if (volumes_.is_used()) view.volumes = volumes_.stream();
+    rods_.complete(view.rods);
     view.contact_radius = settings_.contact_radius;
     view.friction_limit = settings_.friction_limit;
     if (sweep_.freezes()) {
@@ -389,10 +397,17 @@ class Step {
       reduction_.sum(s.sums_end.data(), energy_sums());
     else
       reduction_.sum(s.sums_end.data(), state_sums());
+    rods_.measure(backend_, view, sweep_.tables(s.previous.data()), detection_.capacity(), position,
+                  settings_.contact_radius);
     backend_.for_each(s.vertex_count,
                       CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
-    backend_.for_each(1,
-                      FinishStep{control(), detection_.view(), s.sums_guess.data(), s.sums_end.data(), s.rows.data()});
+    rods_.commit(backend_, control());
+    backend_.for_each(1, FinishStep{.control = control(),
+                                    .contacts = detection_.view(),
+                                    .sums_guess = s.sums_guess.data(),
+                                    .sums_end = s.sums_end.data(),
+                                    .rows = s.rows.data(),
+                                    .rods = {rods_.sums(), rods_.extremes(), rods_.count()}});
   }
 
   VertexSums vertex_sums() {
@@ -437,6 +452,7 @@ class Step {
   PairGuess<Backend>& pair_guess_;
   Sweep<Backend>& sweep_;
   Volumes<Backend>& volumes_;
+  Rods<Backend>& rods_;
   StageClock<Backend>& clock_;
   StepSettings settings_;
   Reduction<Backend, sum_columns> reduction_;

@@ -17,6 +17,7 @@
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
+#include "fast/stages/rod_streams.hpp"
 
 namespace ogc::fast {
 
@@ -217,8 +218,8 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
 }
 
 /// Which sum over the stencils of a vertex a scene needs, by what the sum has and others lack: GatherDefault,
-/// GatherEveryModel, GatherSolids, GatherEverything, GatherVolumes, GatherEverythingAndVolumes; with weights of an
-/// iteration GatherFrozenSurfaces, GatherFrozen.
+/// GatherEveryModel, GatherSolids, GatherEverything, GatherVolumes, GatherEverythingAndVolumes, GatherRods,
+/// GatherAnythingWithRods; with weights of an iteration GatherFrozenSurfaces, GatherFrozen.
 enum class SweepSum {
   surfaces,
   every_model,
@@ -226,17 +227,26 @@ enum class SweepSum {
   everything,
   volumes,
   everything_and_volumes,
+  rods,
+  anything_with_rods,
   frozen_surfaces,
   frozen
 };
 
-/// By the activation, springs, models, tetrahedra and volumes of the scene, and by when weights are computed.
+/// By the activation, springs, models, tetrahedra, volumes and rods of the scene, and by when weights are computed.
 inline SweepSum needed_sum(const RestState& rest, const compare::Scene& scene) {
-  const bool has_volumes = compare::has_volumes(scene);
+  const bool has_volumes = compare::has_volumes(scene), has_rods = !rest.rods.empty(),
+             is_frozen = scene.settings.contact_weights == compare::ContactWeightsRule::iteration;
+  if (has_rods && !is_frozen) {
+    const bool others = has_volumes || rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
+                        !rest.triangles.empty() || !rest.hinges.empty() || !rest.tetrahedra.empty();
+    return others ? SweepSum::anything_with_rods : SweepSum::rods;
+  }
   const bool every_model = rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
                            !std::all_of(rest.models.begin(), rest.models.end(), are_default);
-  if (scene.settings.contact_weights == compare::ContactWeightsRule::iteration)
-    return every_model || has_volumes || !rest.tetrahedra.empty() ? SweepSum::frozen : SweepSum::frozen_surfaces;
+  if (is_frozen)
+    return every_model || has_volumes || has_rods || !rest.tetrahedra.empty() ? SweepSum::frozen
+                                                                              : SweepSum::frozen_surfaces;
   if (has_volumes) return rest.tetrahedra.empty() ? SweepSum::volumes : SweepSum::everything_and_volumes;
   if (rest.tetrahedra.empty()) return every_model ? SweepSum::every_model : SweepSum::surfaces;
   const bool alone = rest.triangles.empty() && rest.hinges.empty();
@@ -248,16 +258,17 @@ inline SweepSum needed_sum(const RestState& rest, const compare::Scene& scene) {
 template <class Backend>
 class Sweep {
  public:
-  /// Of a scene; `backend` and nothing else must outlive it.
+  /// Of a scene; `backend` and nothing else must outlive it. `segments`: colours of the segments of its rods.
   Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology,
-        const compare::Scene& scene)
+        const compare::Scene& scene, const Colouring& segments = {})
       : backend_(backend),
         colour_begin_(colouring.begin),
         colours_(colouring.count),
         vertex_count_(static_cast<int>(rest.mass.size())),
         lanes_(scene.settings.lanes > 0 ? static_cast<int>(scene.settings.lanes) : default_lanes(rest.mass.size())),
         sum_(needed_sum(rest, scene)),
-        activation_(rest.activation) {
+        activation_(rest.activation),
+        rods_(rest, colouring, segments, scene.settings) {
     const SweepStreams streams = build_streams(rest, colouring, scene.settings.time_step);
     upload(vertices_, streams.vertices);
     upload(membrane_, streams.membrane);
@@ -353,6 +364,7 @@ class Sweep {
     view.tetrahedra = tetrahedra_.data();
     view.gradients = gradients_.data();
     view.solids = solids_.data();
+    rods_.complete(view.rods);
   }
 
   /// Before an iteration whose weights are frozen. `count`: of the contacts, on the backend; `overflow`: see
@@ -362,16 +374,19 @@ class Sweep {
                               FreezeContacts{view, contacts, overflow, frozen_.data()});
   }
 
-  /// One iteration: prescribed vertices, then colour by colour; each position is truncated before it is written, each
-  /// cut counted. `start`: overlapping where the launch before writes nothing that a sweep reads but StepControl::turn.
+  /// One iteration: prescribed vertices, segments and then vertices colour by colour; each position is truncated before
+  /// it is written, each cut counted. `start`: overlapping where the launch before writes nothing that a sweep reads
+  /// but StepControl::turn.
   void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
     // It writes only what a colour reads after its sum, so the first colour may overlap it.
     backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});
+    rods_.enqueue(backend_, view);
+    const bool is_before = prescribed > 0 || rods_.colours() > 0;
     for (int c = 0; c < colours_; ++c) {
       const auto k = static_cast<std::size_t>(c);
       const int count = colour_begin_[k + 1] - colour_begin_[k];
-      const bool is_first = c == 0 && prescribed == 0, asks_late = is_first && start == Start::overlapping;
+      const bool is_first = c == 0 && !is_before, asks_late = is_first && start == Start::overlapping;
       const Start own_start = is_first ? start : Start::overlapping;
       const auto with = [&](auto gather) {
         update(count, UpdateVertex<decltype(gather)>{view, colour_begin_[k], asks_late}, own_start);
@@ -383,6 +398,8 @@ class Sweep {
         case SweepSum::everything: with(GatherEverything{}); break;
         case SweepSum::volumes: with(GatherVolumes{}); break;
         case SweepSum::everything_and_volumes: with(GatherEverythingAndVolumes{}); break;
+        case SweepSum::rods: with(GatherRods{}); break;
+        case SweepSum::anything_with_rods: with(GatherAnythingWithRods{}); break;
         case SweepSum::frozen_surfaces: with(GatherFrozenSurfaces{}); break;
         case SweepSum::frozen: with(GatherFrozen{}); break;
       }
@@ -419,6 +436,7 @@ class Sweep {
   int colours_, vertex_count_, lanes_;
   SweepSum sum_;
   ContactActivation activation_;
+  RodSweep<Backend> rods_;
   Buffer<SweepVertex> vertices_;
   Buffer<MembraneIncidence> membrane_;
   Buffer<HingeIncidence> hinges_;

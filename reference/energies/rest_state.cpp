@@ -138,6 +138,7 @@ class Builder {
       for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
         add_triangle(t, static_cast<Index>(b));
     }
+    add_segments({&scene_, &topology_}, truth_, mass_, mass_scale_);
     for (std::size_t v = 0; v < mass_.size(); ++v) {
       truth_.exact.mass.push_back(static_cast<float>(mass_[v]));
       truth_.mass.push_back(static_cast<double>(mass_[v]));

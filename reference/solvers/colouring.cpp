@@ -57,6 +57,7 @@ std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestSt
   for (const compare::RestTriangle& t : rest.triangles) meet(t.corner);
   for (const compare::RestHinge& h : rest.hinges) meet(h.vertex);
   for (const compare::RestTetrahedron& t : rest.tetrahedra) meet(t.corner);
+  for (const compare::RestSegment& s : rest.segments) meet(s.end);
   for (const compare::Spring& s : scene.springs) {
     meet(std::array{s.first, s.second});
     if (s.third >= 0) meet(std::array{s.first, s.second, s.third});

@@ -79,6 +79,7 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
   lagging_ = 0;
   advanced_ = lag_asked_ = false;
   potential_.begin_step(start_, target_);
+  potential_.rods().begin_step(start_, number);
 }
 
 void ContactStep::detect_here() {
@@ -151,6 +152,7 @@ void ContactStep::guess(GuessEnd end) {
     detect_here();
   }
   guessing_ = false;
+  potential_.rods().turn(x_);
   detect_next_ = !fresh_;
   if (metrics_.guess_rounds > 0) metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
 }
@@ -223,6 +225,7 @@ StepResult ContactStep::finish(std::uint32_t status) {
   StepResult result;
   result.position = rounded(x_);
   result.velocity = end_velocities(result.position, start_, settings_.time_step);
+  result.orientation = potential_.rods().orientations();
   result.query_radius = query_radius_;
   metrics_.status = status;
   metrics_.vertex_facet_contacts = static_cast<std::int64_t>(detected_.sets.vertex_facet.size());

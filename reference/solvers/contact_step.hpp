@@ -16,6 +16,7 @@ namespace ogc::reference {
 /// What a step came to. Positions are those to store, rounded; of a step that failed they must not be used.
 struct StepResult {
   std::vector<compare::Vec3f> position, velocity;  ///< [m], [m/s]
+  std::vector<compare::Quaternion> orientation;    ///< of the segments of rods
   compare::StepMetrics metrics;
   Detected detected;       ///< the last detection
   float query_radius = 0;  ///< [m]
@@ -28,6 +29,10 @@ class StepSolver {
   /// The step with this number, from 1. Throws compare::ResourceError where memory runs out.
   virtual StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                           std::int64_t number) = 0;
+  /// qᵗ of the next step, of the segments of rods; those of the scene's start where there are none.
+  virtual void set_orientations(std::span<const compare::Quaternion> orientations) = 0;
+  /// q at the end of the last step.
+  virtual std::vector<compare::Quaternion> orientations() const = 0;
   /// Of StepMetrics::stage_ms.
   virtual std::vector<std::string> stage_names() const = 0;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "reference/geometry/plane.hpp"
+#include "reference/solvers/potential_batches.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -14,6 +15,24 @@ using compare::Vec3f;
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 Triple<double> wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
+
+/// Distance of a contact's closed faces at x [m].
+double distance_of(const ContactTerm& term, const State& x) {
+  const auto corners = contact_corners(term.sides, term.vertex, x);
+  return length(separation(closest_form(term.sides, corners).weight, corners));
+}
+
+/// What a row of a scene with rods has more.
+void measure_rods(compare::StepMetrics& metrics, const State& x, const Potential& potential) {
+  if (!potential.rods().is_used()) return;
+  const RodSystem::Stretch stretch = potential.rods().stretch(x);
+  metrics.mean_stretch = stretch.mean;
+  metrics.largest_stretch = stretch.largest;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ContactTerm& term : potential.contacts())
+    if (const double d = distance_of(term, x); d > 0 && d < term.contact_radius) smallest = std::min(smallest, d);
+  metrics.smallest_contact_distance = std::isfinite(smallest) ? smallest : std::numeric_limits<double>::quiet_NaN();
+}
 
 }  // namespace
 
@@ -62,6 +81,7 @@ double largest_lag(const State& x, const State& target, const std::vector<Mobili
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
                       const compare::Scene& scene, bool wanted) {
   metrics.inverted_tetrahedra = potential.inverted_tetrahedra(states.x);
+  measure_rods(metrics, states.x, potential);
   if (!wanted) {
     metrics.kinetic_energy = metrics.elastic_energy = metrics.contact_energy = metrics.gravity_energy =
         std::numeric_limits<double>::quiet_NaN();

@@ -136,7 +136,8 @@ Potential::Potential(const compare::Scene& scene, const compare::Topology& topol
       body_(body_of_vertex(scene)),
       mobility_(mobility_of(scene)),
       mass_(rest_.mass.begin(), rest_.mass.end()),
-      step_(scene.settings.time_step) {
+      step_(scene.settings.time_step),
+      rods_(scene, rest_) {
   switch (scene.settings.damping) {
     case compare::DampingForm::strain: break;
     case compare::DampingForm::per_vertex:
@@ -144,6 +145,9 @@ Potential::Potential(const compare::Scene& scene, const compare::Topology& topol
           "damping=per_vertex has no potential, so Newton's method can't minimise one: use --solver vbd, or "
           "damping=strain");
   }
+  unknowns_ = mobility_;
+  for (std::size_t e = 0; e < rods_.segments(); ++e)
+    unknowns_.push_back(rods_.is_free(e) ? Mobility::free : Mobility::fixed);
   free_count_ = static_cast<std::size_t>(std::count(mobility_.begin(), mobility_.end(), Mobility::free));
   for (const compare::RestTriangle& rest : rest_.triangles) membranes_.push_back(membrane_term(scene, rest));
   for (const compare::RestHinge& rest : rest_.hinges) hinges_.push_back(hinge_term(scene, rest));
@@ -242,6 +246,8 @@ std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
   stencil -= springs_.size();
   if (stencil < tetrahedra_.size()) return tetrahedra_[stencil].vertex;
   stencil -= tetrahedra_.size();
+  if (stencil < rods_.stencil_count()) return rods_.vertices(stencil);
+  stencil -= rods_.stencil_count();
   return stencil < contacts_.size() ? contacts_[stencil].vertex : frictions_[stencil - contacts_.size()].vertex;
 }
 
@@ -252,9 +258,12 @@ std::vector<std::array<Index, 4>> Potential::vertices() const {
   return all;
 }
 
+std::vector<Mobility> Potential::unknowns() const { return unknowns_; }
+
 std::vector<double> Potential::inertias() const {
   std::vector<double> all;
   for (std::size_t v = 0; v < mass_.size(); ++v) all.push_back(inertia(v));
+  for (std::size_t e = 0; e < rods_.segments(); ++e) all.push_back(rods_.regularisation(e));
   return all;
 }
 
@@ -267,6 +276,8 @@ double Potential::stencil_energy(std::size_t stencil, const State& x) const {
   stencil -= springs_.size();
   if (stencil < tetrahedra_.size()) return tetrahedra_[stencil].energy(gathered<4>(tetrahedra_[stencil].vertex, x));
   stencil -= tetrahedra_.size();
+  if (stencil < rods_.stencil_count()) return rods_.energy(stencil, x);
+  stencil -= rods_.stencil_count();
   if (stencil < contacts_.size()) return contact_term_energy(contacts_[stencil], x);
   const FrictionTerm& term = frictions_[stencil - contacts_.size()];
   return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
@@ -275,11 +286,11 @@ double Potential::stencil_energy(std::size_t stencil, const State& x) const {
 PotentialTerms Potential::terms(const State& x) const {
   PotentialTerms result;
   result.stencil.resize(stencil_count());
-  result.inertia.resize(x.size());
+  result.inertia.resize(mobility_.size());
   tbb::parallel_for(std::size_t{0}, result.stencil.size(),
                     [&](std::size_t i) { result.stencil[i] = stencil_energy(i, x); });
   for (const VolumeTerm& term : volumes_) result.stencil.push_back(term.energy(gathered<4>(term.vertex, x)));
-  for (std::size_t v = 0; v < x.size(); ++v) {
+  for (std::size_t v = 0; v < mobility_.size(); ++v) {
     if (mobility_[v] != Mobility::free) continue;
     const Triple<double> away = x[v] - target_[v];
     result.inertia[v] = 0.5 * inertia(v) * dot(away, away);
@@ -316,6 +327,11 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   add(hinges_);
   add(springs_);
   add(tetrahedra_);
+  tbb::parallel_for(std::size_t{0}, rods_.stencil_count(), [&](std::size_t i) {
+    result.stencil[first + i] = rods_.derivatives(i, x, projection);
+    measure(first + i, result);
+  });
+  first += rods_.stencil_count();
   add(contacts_);
   add(frictions_);
   sum_gradient(x, result);
@@ -329,7 +345,7 @@ void Potential::measure(std::size_t stencil, PotentialDerivatives& result) const
   double slopes = 0, curvatures = 0;
   std::array<double, 12> columns{};  // side by side: one sum would be a chain of additions
   for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
-    if (mobility_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
+    if (unknowns_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
     for (std::size_t row = 3 * k; row < 3 * k + 3; ++row) {
       slopes += std::abs(derivatives.gradient[row]);
       for (std::size_t column = 0; column < 12; ++column)
@@ -342,7 +358,7 @@ void Potential::measure(std::size_t stencil, PotentialDerivatives& result) const
 }
 
 void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const {
-  result.gradient.assign(x.size(), {});
+  result.gradient.assign(unknowns_.size(), {});
   double slopes = 0, curvatures = 0;
   for (std::size_t i = 0; i < result.stencil.size(); ++i) {
     slopes += result.slopes[i];
@@ -350,11 +366,11 @@ void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const
     const auto vertex = vertices(i);
     for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
       const auto v = static_cast<std::size_t>(vertex[k]);
-      if (mobility_[v] != Mobility::free) continue;
+      if (unknowns_[v] != Mobility::free) continue;
       for (std::size_t axis = 0; axis < 3; ++axis) result.gradient[v][axis] += result.stencil[i].gradient[3 * k + axis];
     }
   }
-  for (std::size_t v = 0; v < x.size(); ++v) {
+  for (std::size_t v = 0; v < mobility_.size(); ++v) {
     if (mobility_[v] != Mobility::free) continue;
     const Triple<double> pull = inertia(v) * (x[v] - target_[v]);
     result.gradient[v] = result.gradient[v] + pull;
@@ -372,7 +388,7 @@ double Potential::elastic_energy(const State& x) const {
   for (const HingeTerm& term : hinges_) sum += term.elastic(gathered<4>(term.vertex, x));
   for (const SpringTerm& term : springs_) sum += term.elastic(spring_corners(term, x));
   for (const TetrahedronTerm& term : tetrahedra_) sum += term.elastic(gathered<4>(term.vertex, x));
-  return sum;
+  return sum + rods_.elastic_energy(x);
 }
 
 std::int64_t Potential::inverted_tetrahedra(const State& x) const {

@@ -11,6 +11,7 @@
 #include "reference/energies/stencils/stencil_derivatives.hpp"
 #include "reference/energies/volume_term.hpp"
 #include "reference/solvers/contacts.hpp"
+#include "reference/solvers/rods/rod_system.hpp"
 
 namespace ogc::reference {
 
@@ -36,7 +37,7 @@ struct PotentialTerms {
 struct PotentialDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<double> slopes, curvatures;  ///< Σ |∂E| and Σ |∂²E| of each stencil's free vertices [N], [N/m]
-  State gradient;                          ///< by vertex; 0 where not free [N]
+  State gradient;                          ///< by unknown, vertices [N] then segments [N m]; 0 where not free
   /// What rounding of the positions alone does to the mean of ‖gradient‖ and to the energy: 2⁻⁵² ‖x‖_∞ times the sums
   /// of |∂²E| and of |∂E|.
   double force_noise = 0, energy_noise = 0;  ///< [N], [J]
@@ -68,9 +69,11 @@ class Potential {
   std::size_t stencil_count() const { return elastic_count() + contacts_.size() + frictions_.size(); }
   /// the first stencils: those that never change
   std::size_t elastic_count() const {
-    return membranes_.size() + hinges_.size() + springs_.size() + tetrahedra_.size();
+    return membranes_.size() + hinges_.size() + springs_.size() + tetrahedra_.size() + rods_.stencil_count();
   }
-  /// The stencil's vertices in the order of its derivatives; those that it lacks are −1.
+  /// By vertex, then by segment of a rod, whether Newton's method moves it (rods/rod_system.hpp).
+  std::vector<Mobility> unknowns() const;
+  /// The stencil's unknowns in the order of its derivatives; those that it lacks are −1.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
 
@@ -93,9 +96,13 @@ class Potential {
   /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none);
   /// empty where there is none.
   std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
+  /// Segments of rods with their orientations, at which energies and forces are evaluated.
+  RodSystem& rods() { return rods_; }
+  const RodSystem& rods() const { return rods_; }
   const State& target() const { return target_; }                                       ///< y of the step [m]
   double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
-  std::vector<double> inertias() const;                                                 ///< by vertex
+  /// Of each unknown: m/h² of a vertex [N/m], of a segment what makes its twist definite
+  std::vector<double> inertias() const;
   /// Number of free vertices.
   std::size_t free_count() const { return free_count_; }
 
@@ -110,7 +117,7 @@ class Potential {
   const compare::Topology& topology_;
   compare::RestStateOut rest_;
   std::vector<compare::Index> body_;
-  std::vector<Mobility> mobility_;
+  std::vector<Mobility> mobility_, unknowns_;
   std::vector<double> mass_;
   double step_;
   std::size_t free_count_ = 0;
@@ -121,6 +128,7 @@ class Potential {
   std::vector<ContactTerm> contacts_;
   std::vector<FrictionTerm> frictions_;
   std::vector<VolumeTerm> volumes_;
+  RodSystem rods_;
   State start_, target_;
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "compare/problem/rods.hpp"
 #include "reference/definitions/scene_volumes.hpp"
 #include "reference/energies/rest_state.hpp"
 #include "reference/geometry/bound.hpp"
@@ -13,6 +14,8 @@
 #include "reference/solvers/contacts.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/initial_guess.hpp"
+#include "reference/solvers/potential.hpp"
+#include "reference/solvers/rods/rod_system.hpp"
 #include "reference/solvers/step.hpp"
 #include "reference/solvers/step_order.hpp"
 #include "reference/solvers/sweep.hpp"
@@ -45,6 +48,9 @@ class ReferenceStep {
   compare::StepOut run() {
     out_.rest = rest_state({in_.scene, in_.topology}).exact;
     out_.colour = colours_of(*in_.scene, out_.rest, exclusions_.groups);
+    out_.orientation_start = q_ = start_orientations(*in_.scene, out_.rest);
+    out_.segment_colour = segment_colours_of(out_.rest,
+                                             compare::segment_groups(*in_.scene, compare::rod_segments(*in_.scene)));
     set_targets();
     for (std::size_t v = 0; v < x_.size(); ++v)
       if (is_volume_[v]) x_[v] = out_.target[v];
@@ -66,6 +72,7 @@ class ReferenceStep {
       out_.events.push_back(std::move(event));
     }
     out_.position = x_;
+    out_.orientation = q_;
     out_.velocity.clear();
     for (const Vec3& v : step(in_, out_).velocity) out_.velocity.push_back(single(v));
     return std::move(out_);
@@ -158,7 +165,17 @@ class ReferenceStep {
     is_by_pairs_ = true;
   }
 
+  /// From the start of the step to where the guess loop has led.
+  void turn_frames() {
+    if (q_.empty()) return;
+    RodSystem rods(*in_.scene, out_.rest);
+    rods.begin_step(widened(start_), 1);
+    rods.turn(widened(x_));
+    out_.turned = q_ = rods.orientations();
+  }
+
   void sweep(StepEvent& event) {
+    if (!is_swept_) turn_frames();
     is_swept_ = true;
     const std::vector<Vec3f> old = x_;
     const compare::SweepIn question{in_.scene,
@@ -173,9 +190,13 @@ class ReferenceStep {
                                     contacts_.vertex_facet,
                                     contacts_.edge_edge,
                                     &planes_,
-                                    volume_contacts_};
+                                    volume_contacts_,
+                                    out_.segment_colour,
+                                    q_,
+                                    out_.orientation_start};
     compare::SweepOut answer = reference_sweep(question, SweepStencils(question));
     x_ = std::move(answer.position);
+    q_ = event.orientation = std::move(answer.orientation);
     event.cut = answer.cut;
   }
 
@@ -189,6 +210,7 @@ class ReferenceStep {
   std::vector<bool> is_volume_;  ///< by vertex
   std::vector<compare::VolumeContact> volume_contacts_;
   std::vector<Vec3f> start_, x_, previous_;
+  std::vector<compare::Quaternion> q_;
   std::vector<float> bound_;
   compare::VertexPlanes planes_;
   ContactSets contacts_;

@@ -24,20 +24,24 @@ class ResidualMeter::Meter : private Problem, private ContactStep {
       : Problem(from), ContactStep(scene, topology, {}, 1), systems_(potential_) {}
 
   void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
-                  std::int64_t number) {
+                  std::int64_t number, std::span<const compare::Quaternion> orientations) {
+    potential_.rods().set_start(orientations);
     begin(start, velocity, number);
     guess(GuessEnd::rounds);
-    at(x_);
+    at(x_, {});
   }
 
-  Residual at(const State& x) {
+  Residual at(const State& x, std::span<const compare::Quaternion> orientations) {
     x_ = x;
+    potential_.rods().put(orientations);
     detect_here();
     return measured(detected_.sets);
   }
 
-  Residual with(const ContactSets& contacts, const State& previous, const State& x) {
+  Residual with(const ContactSets& contacts, const State& previous, const State& x,
+                std::span<const compare::Quaternion> orientations) {
     x_ = x;
+    potential_.rods().put(orientations);
     potential_.set_contacts(contacts, previous);
     return measured(contacts);
   }
@@ -49,7 +53,7 @@ class ResidualMeter::Meter : private Problem, private ContactStep {
     systems_.read_contacts();
     const double force = systems_.mean_force(x_);
     set_residual(force);
-    return {residual_, force, Potential::total(potential_.terms(x_)),
+    return {residual_, force, Potential::total(potential_.terms(x_)), potential_.rods().mean_torque(x_),
             static_cast<std::int64_t>(contacts.vertex_facet.size() + contacts.edge_edge.size())};
   }
 
@@ -60,18 +64,25 @@ ResidualMeter::ResidualMeter(const compare::Scene& scene) : meter_(std::make_uni
 ResidualMeter::~ResidualMeter() = default;
 
 void ResidualMeter::begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
-                               std::int64_t number) {
-  meter_->begin_step(start, velocity, number);
+                               std::int64_t number, std::span<const compare::Quaternion> orientations) {
+  meter_->begin_step(start, velocity, number, orientations);
 }
 
 double ResidualMeter::reference_force() const { return meter_->reference_force(); }
 
-Residual ResidualMeter::at(const std::vector<compare::Vec3f>& position) { return meter_->at(widened(position)); }
-Residual ResidualMeter::at(const std::vector<std::array<double, 3>>& position) { return meter_->at(position); }
+Residual ResidualMeter::at(const std::vector<compare::Vec3f>& position,
+                           std::span<const compare::Quaternion> orientations) {
+  return meter_->at(widened(position), orientations);
+}
+Residual ResidualMeter::at(const std::vector<std::array<double, 3>>& position,
+                           std::span<const compare::Quaternion> orientations) {
+  return meter_->at(position, orientations);
+}
 
 Residual ResidualMeter::with(const ContactSets& contacts, const std::vector<compare::Vec3f>& previous,
-                             const std::vector<compare::Vec3f>& position) {
-  return meter_->with(contacts, widened(previous), widened(position));
+                             const std::vector<compare::Vec3f>& position,
+                             std::span<const compare::Quaternion> orientations) {
+  return meter_->with(contacts, widened(previous), widened(position), orientations);
 }
 
 }  // namespace ogc::reference

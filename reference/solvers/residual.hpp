@@ -16,6 +16,7 @@ struct Residual {
   double share = 0;   ///< mean ‖f_v‖ over free vertices by that after the guess loop; 0 where the latter is 0 [1]
   double force = 0;   ///< mean ‖f_v‖ [N]
   double energy = 0;  ///< incremental potential without friction [J]
+  double torque = 0;  ///< mean ‖(I − q qᵀ)(M q + b)‖ over free segments of rods [N m]
   std::int64_t contacts = 0;
 };
 
@@ -26,15 +27,17 @@ class ResidualMeter {
   explicit ResidualMeter(const compare::Scene& scene);
   ~ResidualMeter();
   /// Xᵗ, Vᵗ and the number of the step that ends at the states to be asked about. The guess loop is done here.
+  /// `orientations`: Qᵗ of the segments of rods; empty: those of the scene's start.
   void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
-                  std::int64_t number);
+                  std::int64_t number, std::span<const compare::Quaternion> orientations = {});
   double reference_force() const;  ///< mean ‖f*‖ of the step [N]
-  /// With contacts detected at the state itself.
-  Residual at(const std::vector<compare::Vec3f>& position);
-  Residual at(const std::vector<std::array<double, 3>>& position);
+  /// With contacts detected at the state itself. `orientations`: of the state; empty: those of the last one.
+  Residual at(const std::vector<compare::Vec3f>& position, std::span<const compare::Quaternion> orientations = {});
+  Residual at(const std::vector<std::array<double, 3>>& position,
+              std::span<const compare::Quaternion> orientations = {});
   /// With contacts that were detected at X_prev = `previous`: what a solver sees between two detections.
   Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& previous,
-                const std::vector<compare::Vec3f>& position);
+                const std::vector<compare::Vec3f>& position, std::span<const compare::Quaternion> orientations = {});
 
  private:
   class Meter;

@@ -8,6 +8,7 @@
 #include "compare/problem/volumes.hpp"
 #include "reference/geometry/margin.hpp"
 #include "reference/geometry/truncate.hpp"
+#include "reference/solvers/rods/segment_questions.hpp"
 #include "reference/solvers/vertex_update.hpp"
 
 namespace ogc::reference {
@@ -75,6 +76,7 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
     truth.cut += update.cut == Cut::yes;
     truth.cut_doubtful += update.cut == Cut::doubtful;
   }
+  add_orientations(in, answer, truth);
   return truth;
 }
 
@@ -96,7 +98,7 @@ compare::Vec3f stored(const compare::Vec3& position, const compare::SweepIn& in,
 }  // namespace
 
 compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencils& stencils) {
-  compare::SweepOut out{{in.old.begin(), in.old.end()}, 0};
+  compare::SweepOut out{{in.old.begin(), in.old.end()}, 0, {}};
   const auto store = [&](std::size_t v, const VertexUpdate& update) {
     out.position[v] = stored(update.position, in, v);
     out.cut += update.cut == Cut::yes;
@@ -111,6 +113,7 @@ compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencil
     classes.resize(std::max(classes.size(), colour + 1));
     classes[colour].push_back(static_cast<Index>(v));
   }
+  set_orientations(in, out);
   for (const std::vector<Index>& members : classes) {
     std::vector<VertexUpdate> updates(members.size());
     tbb::parallel_for(std::size_t{0}, members.size(),

@@ -29,22 +29,29 @@ VbdSolver::VbdSolver(const compare::Scene& scene, const compare::Topology& topol
   if (options.iterations) meter_.emplace(scene);
 }
 
+void VbdSolver::set_orientations(std::span<const compare::Quaternion> orientations) {
+  potential_.rods().set_start(orientations);
+}
+
+std::vector<compare::Quaternion> VbdSolver::orientations() const { return potential_.rods().orientations(); }
+
 std::vector<std::string> VbdSolver::stage_names() const { return {"detection", "sweep"}; }
 
 StepResult VbdSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity, std::int64_t number) {
   begin(start, velocity, number);
   measuring_ms_ = 0;
+  if (meter_) orientations_ = orientations();
   residual_ = std::numeric_limits<double>::quiet_NaN();
   guess(GuessEnd::rounds);
   systems_.read_contacts();
   detect_next_ = false;
   measured([&] {
-    meter_->begin_step(start, velocity, number);
+    meter_->begin_step(start, velocity, number, orientations_);
     reference_force_ = meter_->reference_force();
   });
   while (metrics_.iterations < settings_.iterations && finite()) iterate();
   add_row(false);
-  if (finite()) measured([&] { residual_ = meter_->at(x_).share; });
+  if (finite()) measured([&] { residual_ = meter_->at(x_, orientations()).share; });
   StepResult result = finish(finite() ? compare::step_clean : compare::step_not_finite);
   result.metrics.wall_ms -= measuring_ms_;
   return result;
@@ -67,6 +74,7 @@ void VbdSolver::iterate() {
 std::size_t VbdSolver::sweep() {
   const State old = x_;
   std::size_t cut = move_prescribed();
+  potential_.rods().sweep(x_);
   const SweepView view{old, x_, colour_};
   for (const std::vector<Index>& members : classes_) {
     std::vector<FeasibleRegions::Inside> moved(members.size());

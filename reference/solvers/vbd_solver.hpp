@@ -23,6 +23,8 @@ class VbdSolver : public StepSolver, private ContactStep {
 
   StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                   std::int64_t number) override;
+  void set_orientations(std::span<const compare::Quaternion> orientations) override;
+  std::vector<compare::Quaternion> orientations() const override;
   std::vector<std::string> stage_names() const override;
 
  private:
@@ -39,6 +41,7 @@ class VbdSolver : public StepSolver, private ContactStep {
   std::vector<compare::Index> colour_;
   std::vector<std::vector<compare::Index>> classes_;  ///< vertices by colour
   std::optional<ResidualMeter> meter_;
+  std::vector<compare::Quaternion> orientations_;  ///< qᵗ, where it is measured
   double measuring_ms_ = 0;
 };
 

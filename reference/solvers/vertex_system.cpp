@@ -151,6 +151,10 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
     const TetrahedronTerm& term = potential_.tetrahedra()[incidence.stencil];
     add_tetrahedron(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
+  for (const Index e : potential_.rods().at(vertex)) {
+    const std::size_t end = potential_.rods().end_of(e, vertex);
+    potential_.rods().add_force(e, end, plain_corners(potential_.rods().ends(e), vertex, x), sum);
+  }
   for (const Incidence& incidence : contacts_[v]) {
     const ContactTerm& term = potential_.contacts()[incidence.stencil];
     Updated updated{};

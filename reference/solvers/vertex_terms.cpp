@@ -5,9 +5,11 @@
 
 #include "reference/energies/bending.hpp"
 #include "reference/energies/membrane.hpp"
+#include "reference/energies/rods/rod.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/energies/tetrahedron.hpp"
 #include "reference/solvers/contacts.hpp"
+#include "reference/solvers/rods/segment_questions.hpp"
 #include "reference/solvers/symmetric3.hpp"
 
 namespace ogc::reference {
@@ -134,7 +136,8 @@ compare::TetrahedronCase tetrahedron_question(const compare::SweepIn& in, const 
 
 SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*in.scene)) {
   const std::size_t count = in.old.size();
-  for (ElementsOfVertex* rows : {&triangles, &hinges, &springs, &tetrahedra, &vertex_facet, &edge_edge, &volumes})
+  for (ElementsOfVertex* rows :
+       {&triangles, &hinges, &springs, &tetrahedra, &segments, &vertex_facet, &edge_edge, &volumes})
     rows->resize(count);
   for (std::size_t i = 0; i < in.rest->triangles.size(); ++i) add_element(triangles, i, in.rest->triangles[i].corner);
   for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
@@ -147,6 +150,7 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
   }
   for (std::size_t i = 0; i < in.rest->tetrahedra.size(); ++i)
     add_element(tetrahedra, i, in.rest->tetrahedra[i].corner);
+  for (std::size_t i = 0; i < in.rest->segments.size(); ++i) add_element(segments, i, in.rest->segments[i].end);
   for (std::size_t i = 0; i < in.vertex_facet.size(); ++i)
     add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
   for (std::size_t i = 0; i < in.edge_edge.size(); ++i)
@@ -201,6 +205,12 @@ VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& ste
     const auto question = tetrahedron_question(in, in.rest->tetrahedra[tetrahedron], corner, positions);
     sum.terms.push_back(term_of({reference::tetrahedron(question)}, compare::tetrahedron_force_tolerance + inputs,
                                 compare::tetrahedron_block_tolerance + inputs));
+  }
+  for (const auto& [segment, end] : stencils.segments[v]) {
+    const compare::Edge& ends = in.rest->segments[segment].end;
+    const auto question = rod_question(in, positions.answer(), segment, end, {positions[ends[0]], positions[ends[1]]});
+    sum.terms.push_back(term_of({reference::rod(question)}, compare::rod_force_tolerance + inputs,
+                                compare::rod_block_tolerance + inputs));
   }
   add_contact_terms(in, stencils, positions, vertex, sum);
   return sum;

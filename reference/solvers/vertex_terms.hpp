@@ -32,7 +32,7 @@ using ElementsOfVertex = std::vector<std::vector<std::pair<std::size_t, std::siz
 
 /// Which elements meet at which vertex.
 struct SweepStencils {
-  ElementsOfVertex triangles, hinges, springs, tetrahedra, vertex_facet, edge_edge, volumes;
+  ElementsOfVertex triangles, hinges, springs, tetrahedra, segments, vertex_facet, edge_edge, volumes;
   std::vector<compare::Index> body;  ///< by vertex
   explicit SweepStencils(const compare::SweepIn& in);
 };
@@ -47,6 +47,8 @@ class SweepPositions {
     const auto i = static_cast<std::size_t>(vertex);
     return in_.colour[i] < in_.colour[static_cast<std::size_t>(own_)] ? answer_.position[i] : in_.old[i];
   }
+  /// Whose new positions and orientations are read.
+  const compare::SweepOut& answer() const { return answer_; }
 
  private:
   const compare::SweepIn& in_;

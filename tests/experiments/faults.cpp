@@ -14,7 +14,7 @@ struct FaultFile {
 };
 
 /// In the order of the faults' numbers. Of initial_guess the right answer uses that of truncate.
-constexpr std::array<FaultFile, 13> files{{{pair_faults, add_right_pairs},
+constexpr std::array<FaultFile, 14> files{{{pair_faults, add_right_pairs},
                                            {set_faults, add_right_sets},
                                            {plane_faults, add_right_planes},
                                            {scalar_faults, add_right_scalars},
@@ -26,6 +26,7 @@ constexpr std::array<FaultFile, 13> files{{{pair_faults, add_right_pairs},
                                            {sweep_faults, add_right_sweep},
                                            {volume_faults, add_right_volumes},
                                            {rod_faults, add_right_rods},
+                                           {rod_step_faults, [](Contestant&, const Authority&) {}},
                                            {ipc_faults, add_right_ipc}}};
 
 }  // namespace

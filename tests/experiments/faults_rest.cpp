@@ -263,6 +263,9 @@ InitialGuessOut exact_guess(const InitialGuessIn& in, const InitialGuessTruth& t
   }
   out.position = std::move(cut.position);
   out.cut = std::move(cut.cut);
+  for (const auto& q : truth.orientation)
+    out.orientation.push_back(
+        {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]), static_cast<float>(q[3])});
   return out;
 }
 

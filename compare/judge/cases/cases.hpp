@@ -4,6 +4,7 @@
 #include <any>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,12 @@ std::string print_problem(const CaseName& name);
 /// Reads the line back; keys in any order, `states` last. Throws InputError that names the key or value that is wrong,
 /// or the parameter that the stage lacks.
 CaseName parse_problem(const std::string& line);
+
+/// A vertex that is guessed, and perhaps a segment whose frame is turned.
+struct GuessCase {
+  InitialGuessCase vertex;
+  std::optional<TurnCase> turn{};
+};
 
 /// A point and a triangle [m].
 struct ClosestFaceCase {
@@ -124,7 +131,9 @@ struct SweepCase {
   std::vector<Vec3f> old, start, target, previous;  ///< x (the question brings it within the bound), xᵗ, y, X_prev [m]
   /// [m]; b_v is the smaller one of it and the bound of the detection
   std::vector<float> largest_bound;
-  float query_radius = 0;  ///< r_q [m]
+  float query_radius = 0;                                      ///< r_q [m]
+  std::vector<Index> segment_colour{};                         ///< as in SweepIn
+  std::vector<Quaternion> orientation{}, orientation_start{};  ///< q, qᵗ of the segments
 };
 
 /// A distance, and what acts there.

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "compare/problem/rods.hpp"
+
 namespace ogc::compare {
 
 namespace {
@@ -28,6 +30,30 @@ std::vector<std::set<Index>> conflicts(const Scene& scene, const Topology& topol
 }
 
 }  // namespace
+
+std::vector<Index> random_segment_colours(Random& random, const Scene& scene) {
+  const std::vector<Index> numbers = rod_segments(scene), held = segment_groups(scene, numbers);
+  std::vector<std::vector<std::size_t>> at(scene.mesh.positions.size());
+  for (std::size_t e = 0; e < numbers.size(); ++e)
+    for (const Index v : scene.mesh.loose_edges[static_cast<std::size_t>(numbers[e])])
+      at[static_cast<std::size_t>(v)].push_back(e);
+  std::vector<std::set<std::size_t>> near(numbers.size());
+  for (const auto& here : at)
+    if (here.size() == 2) near[here[0]].insert(here[1]), near[here[1]].insert(here[0]);
+  std::vector<Index> colour(numbers.size(), -1);
+  const bool chain = random.one_in(8), backwards = random.one_in(2);
+  Index next = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::size_t e = backwards ? numbers.size() - 1 - i : i;
+    if (held[e] >= 0) continue;
+    std::set<Index> taken;
+    for (const std::size_t f : near[e]) taken.insert(colour[f]);
+    Index c = chain ? next++ : 0;
+    while (taken.contains(c)) ++c;
+    colour[e] = c;
+  }
+  return colour;
+}
 
 std::vector<Index> random_colours(Random& random, const Scene& scene, const Topology& topology) {
   const auto near = conflicts(scene, topology);

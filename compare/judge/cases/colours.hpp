@@ -12,4 +12,7 @@ namespace ogc::compare {
 /// few colours, so that contacts meet inside one; in one of eight a colour for each vertex: pure Gauss–Seidel.
 std::vector<Index> random_colours(Random& random, const Scene& scene, const Topology& topology);
 
+/// Of the segments of rods that nothing holds, −1 of all others; no two neighbours share one.
+std::vector<Index> random_segment_colours(Random& random, const Scene& scene);
+
 }  // namespace ogc::compare

@@ -225,6 +225,40 @@ CaseData solid(Random& random) { return block_beside_sheet(random, random.betwee
 /// Tetrahedra without thickness, nearly.
 CaseData sliver(Random& random) { return block_beside_sheet(random, std::pow(10.0, -random.below(6))); }
 
+/// A rod of this plan as another body, turned by a symmetry of the cube or by anything.
+void add_rod(Random& random, Scene& scene, const RodPlan& plan, double scale) {
+  Mesh mesh = rod_mesh(random, plan);
+  permute(random, mesh.positions);
+  if (random.one_in(2)) rotate(random, mesh.positions);
+  for (Vec3& p : mesh.positions) p = scaled(p, scale);
+  Body body;
+  body.name = "rod_" + std::to_string(scene.bodies.size());
+  body.fixed = random.one_in(6);
+  body.material = material_of(random);
+  make_rod(random, body, random.magnitude(-2, 3), scale, random.magnitude(-6, 0));
+  append_body(scene, body, mesh);
+}
+
+/// Chains, rings and branches, alone or beside a sheet; edges that run against each other.
+CaseData rods(Random& random) {
+  Scene scene;
+  if (random.one_in(3))
+    add_body(random, scene, case_of<MeshCase>(find_generator(Stage::detect_vertex_facet, cloth).make(random)));
+  for (int k = 0, count = 1 + random.below(2); k < count; ++k)
+    add_rod(random, scene, some_rod(random), random.one_in(4) ? std::ldexp(1.0, random.below(36) - 18) : 1);
+  return finished(std::move(scene));
+}
+
+/// Directions that tend to −e₃ or to the one before turned round, as far as single precision lets them.
+CaseData turned_rods(Random& random) {
+  Scene scene;
+  RodPlan plan{.segments = 2 + random.below(4), .jitter = 0};
+  const double rung = random.rung();
+  plan.bend = random.one_in(2) ? std::numbers::pi - (rung == 0 ? 1e-3 : rung) : rung;
+  add_rod(random, scene, plan, 1);
+  return finished(std::move(scene));
+}
+
 /// Equal, extreme and zero stiffnesses and frictions of five small bodies.
 CaseData meetings(Random& random) {
   constexpr std::array<double, 6> stiffnesses{0, 0, 100, 100, 0x1p-30, 0x1p40},
@@ -251,7 +285,7 @@ CaseData isometric(Random& random) {
   return test;
 }
 
-constexpr std::array<Generator, 18> table{{{soup, 15, true, of<soup>},
+constexpr std::array<Generator, 20> table{{{soup, 15, true, of<soup>},
                                            {cloth, 20, true, of<cloth>},
                                            {any_bits, 8, false, bits},
                                            {lattice, 12, false, of<lattice>},
@@ -268,7 +302,9 @@ constexpr std::array<Generator, 18> table{{{soup, 15, true, of<soup>},
                                            {"ladder.isometric_flat", 3, false, isometric<flat>},
                                            {"ladder.isometric_needle", 6, false, isometric<needle>},
                                            {"solid", 10, true, solid, 0, Stage::tetrahedron},
-                                           {"ladder.sliver", 6, false, sliver, 0, Stage::tetrahedron}}};
+                                           {"ladder.sliver", 6, false, sliver, 0, Stage::tetrahedron},
+                                           {"rods", 10, true, rods, 0, Stage::orientation},
+                                           {"ladder.rods", 6, false, turned_rods, 0, Stage::orientation}}};
 
 }  // namespace
 
@@ -285,7 +321,8 @@ std::string problems_of(const RestStateCase& c) {
     for (const Index v : motion.vertices) held[at(v)] = true;
   for (const Body& body : scene.bodies)
     for (Index v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v)
-      if (!body.fixed && !body.is_solid() && !held[at(v)] && c.topology->vertex_triangles[at(v)].empty())
+      if (!body.fixed && !body.is_solid() && !held[at(v)] && c.topology->vertex_triangles[at(v)].empty() &&
+          !(body.material.rod && !c.topology->vertex_edges[at(v)].empty()))
         return "vertex " + std::to_string(v) + " moves and has no triangle";
   return {};
 }

@@ -160,6 +160,27 @@ struct StepBuilder {
     scene.motions.push_back(motion);
   }
 
+  /// A curve of loose edges about `origin`, whose weight is that of a sheet's vertices; now and then some of its
+  /// vertices are held by a motion that turns.
+  void rod(const Vec3& origin, const Vec3& velocity) {
+    RodPlan plan = some_rod(random);
+    plan.segments = std::min(plan.segments, 5);
+    Mesh mesh = rod_mesh(random, plan);
+    for (Vec3& x : mesh.positions) x = scaled(sum(sum(x, origin), {2, 2, 2}), spacing);
+    const auto first = static_cast<Index>(scene.mesh.positions.size());
+    add(mesh, velocity, false);
+    const double mass = 0.2 * spacing * spacing, inertia = mass / (scene.settings.time_step * scene.settings.time_step);
+    make_rod(random, scene.bodies.back(), inertia * spacing * random.magnitude(-1, 1), spacing, mass);
+    if (!random.one_in(3)) return;
+    PrescribedMotion motion;
+    motion.name = "held" + std::to_string(first);
+    for (Index v = 0; v < 2; ++v) motion.vertices.push_back(first + v);
+    motion.centre = mesh.positions.front();
+    motion.axis = sum(in_box(random, -1, 1), {0, 0, 2});
+    motion.angular_velocity = random.sign() * random.magnitude(-3, -0.5) / scene.settings.time_step;
+    scene.motions.push_back(motion);
+  }
+
   void add(const Mesh& mesh, const Vec3& velocity, bool fixed) {
     const auto first = scene.mesh.positions.size();
     Body body;
@@ -517,7 +538,18 @@ CaseData dat(Random& random) {
   });
 }
 
-constexpr std::array<Generator, 20> table{{{"fall", 12, true, fall},
+/// Rods that fall, alone, on each other, or on a sheet; the start turned against the rest shape now and then.
+CaseData rods(Random& random) {
+  StepBuilder builder(random);
+  if (random.one_in(2)) builder.sheet(side(random), side(random), {}, {}, random.one_in(2));
+  for (int k = 0, count = 1 + random.below(2); k < count; ++k)
+    builder.rod({random.between(-1, 1), random.between(-1, 1), random.between(0.3, 1.2) * (k + 1)},
+                scaled(direction(random), builder.speed(random.magnitude(-2, 0.3))));
+  builder.jitter(random.between(0.01, 0.1));
+  return builder.finish();
+}
+
+constexpr std::array<Generator, 21> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -535,6 +567,7 @@ constexpr std::array<Generator, 20> table{{{"fall", 12, true, fall},
                                            {"dat", 12, false, dat, 0, Stage::plane},
                                            {"volume", 8, false, volume, 0, Stage::volume_depth},
                                            {"ladder.volume", 8, false, volume_at_radius, 0, Stage::volume_depth},
+                                           {"rods", 12, false, rods, 0, Stage::orientation},
                                            {"pairs", 24, false, pairs, 0, std::nullopt, true},
                                            {"ladder.stack", 24, false, stack_by_pairs, 0, std::nullopt, true}}};
 

@@ -496,8 +496,18 @@ CaseData frozen(Random& random) {
   return with_frozen_weights(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
 }
 CaseData frozen_bodies(Random& random) { return with_frozen_weights(random.one_in(2) ? solid(random) : volume(random)); }
+/// Rods beside sheets, of which rows may be prescribed, or alone.
+CaseData rods(Random& random) {
+  if (random.one_in(2)) return rods_alone(random);
+  return with_rod(random, case_of<SweepCase>(random.one_in(3) ? prescribed(random) : sheets(random)));
+}
 
-constexpr std::array<Generator, 26> table{{{"sheets", 16, true, sheets},
+/// Where sheets are at rest or collapsed.
+CaseData rods_at_rest(Random& random) {
+  return with_rod(random, case_of<SweepCase>(random.one_in(2) ? at_rest(random) : collapse(random)));
+}
+
+constexpr std::array<Generator, 28> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
@@ -522,7 +532,9 @@ constexpr std::array<Generator, 26> table{{{"sheets", 16, true, sheets},
                                            {"models", 8, false, with_models<sheets>},
                                            {"models.prescribed", 4, false, with_models<prescribed>},
                                            {"ladder.models_rest", 6, false, with_models<at_rest>},
-                                           {"ladder.models_collapse", 6, false, with_models<collapse>}}};
+                                           {"ladder.models_collapse", 6, false, with_models<collapse>},
+                                           {"rods", 10, false, rods, 0, Stage::orientation},
+                                           {"ladder.rods", 5, false, rods_at_rest, 0, Stage::orientation}}};
 
 }  // namespace
 

@@ -59,4 +59,13 @@ std::span<const Generator> bending_generators();
 std::span<const Generator> sweep_generators();
 std::span<const Generator> step_generators();
 
+// Rods in cases of the sweep (compare/judge/cases/rods/).
+
+/// The case with a rod near one of its vertices: a chain, a ring or branches, with some of its vertices held now and
+/// then, frames about its segments and neighbours.
+SweepCase with_rod(Random& random, SweepCase test);
+
+/// One or two rods and nothing else, near each other.
+SweepCase rods_alone(Random& random);
+
 }  // namespace ogc::compare

@@ -46,4 +46,24 @@ MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan);
 /// A zigzag strip of `count` triangles in the plane z = 0, count + 2 vertices, edges of about 1.
 Mesh triangle_strip(int count);
 
+/// A curve of loose edges for a rod (compare/judge/cases/rods/). In edge lengths, about the origin, in the plane z = 0
+/// but for `jitter`.
+struct RodPlan {
+  int segments = 4;     ///< of the curve
+  bool closed = false;  ///< a ring; of 3 segments at least
+  int branches = 0;     ///< short chains that leave vertices of the curve
+  double bend = 0.3;    ///< angle between segments [rad]
+  double jitter = 0.1;  ///< of each coordinate
+};
+
+/// A curve of a random kind.
+RodPlan some_rod(Random& random);
+
+/// Its vertices in order of the curve, then those of branches; each edge runs its way or the other.
+Mesh rod_mesh(Random& random, const RodPlan& plan);
+
+/// Makes a body of such a mesh a rod, with stiffness k_s of about `stretch` [N], bending about as stiff at segments of
+/// that length [m], and ρ so that a vertex weighs about `mass` [kg].
+void make_rod(Random& random, Body& body, double stretch, double length, double mass);
+
 }  // namespace ogc::compare

@@ -78,10 +78,12 @@ class Bits {
     add(out.hinges);
     add(out.edge_length_squared);
     add(out.meetings);
+    add(out.segments);
   }
   void add(const SweepOut& out) {
     add(out.position);
     add(out.cut);
+    add(out.orientation);
   }
   void add(const StepEvent& event) {
     add(event.kind);
@@ -92,6 +94,7 @@ class Bits {
     add(event.bound);
     add(event.planes.items);
     add(event.volumes.contacts);
+    add(event.orientation);
   }
   void add(const StepOut& out) {
     add(out.colour);
@@ -101,6 +104,9 @@ class Bits {
     for (const StepEvent& event : out.events) add(event);
     add(out.position);
     add(out.velocity);
+    add(out.segment_colour);
+    add(out.turned);
+    add(out.orientation);
   }
 
   /// All bits so far; none stay.

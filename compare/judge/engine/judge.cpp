@@ -164,10 +164,11 @@ std::vector<Generator> chosen(Stage stage, const Contestant& contestant, const J
 
 bool is_asked(const Contestant& contestant, Stage stage, const Generator& generator) {
   const bool is_step_with_planes = stage == Stage::step && generator.also_needs == Stage::plane,
-             has_volumes = generator.also_needs == Stage::volume_depth;
+             has_volumes = generator.also_needs == Stage::volume_depth,
+             has_rods = generator.also_needs == Stage::orientation;
   return (!generator.also_needs || has_stage(contestant, *generator.also_needs)) &&
          (!is_step_with_planes || contestant.has_steps_with_planes) && (!has_volumes || contestant.has_volumes) &&
-         (!generator.by_pairs || contestant.has_steps_by_pairs) &&
+         (!has_rods || contestant.has_rods) && (!generator.by_pairs || contestant.has_steps_by_pairs) &&
          (!generator.divides || contestant.divides_by_approach);
 }
 

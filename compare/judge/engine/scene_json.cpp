@@ -129,6 +129,22 @@ std::vector<Vec3f> to_vertices(const Json& json, std::size_t count) {
   return points;
 }
 
+Json orientations_to_json(const std::vector<Quaternion>& orientations) {
+  Json json = Json::array();
+  for (const Quaternion& q : orientations) json.push_back(numbers_to_json({q.begin(), q.end()}));
+  return json;
+}
+
+std::vector<Quaternion> to_orientations(const Json& json) {
+  std::vector<Quaternion> all;
+  for (const Json& q : json) {
+    const std::vector<float> numbers = to_numbers(q);
+    if (numbers.size() != 4) throw InputError("orientations need four numbers each");
+    all.push_back({numbers[0], numbers[1], numbers[2], numbers[3]});
+  }
+  return all;
+}
+
 }  // namespace
 
 Json scene_to_json(const Scene& scene) {
@@ -147,7 +163,7 @@ Json scene_to_json(const Scene& scene) {
   for (const Spring& spring : scene.springs) json["springs"].push_back(spring_to_json(spring));
   if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = scene.excluded_pairs;
   if (!scene.mesh.tetrahedra.empty()) json["tetrahedra"] = scene.mesh.tetrahedra;
-  for (const Quaternion& q : scene.orientations) json["orientations"].push_back(numbers_to_json({q.begin(), q.end()}));
+  if (!scene.orientations.empty()) json["orientations"] = orientations_to_json(scene.orientations);
   for (const SettingInfo& info : setting_table())
     json["settings"][std::string(info.name)] = setting_text(scene.settings, info);
   return json;
@@ -166,12 +182,7 @@ Scene to_scene(const Json& json) {
   for (const Json& spring : json.at("springs")) scene.springs.push_back(to_spring(spring));
   if (json.contains("excluded_pairs"))
     scene.excluded_pairs = json.at("excluded_pairs").get<std::vector<std::array<Index, 2>>>();
-  if (json.contains("orientations"))
-    for (const Json& q : json.at("orientations")) {
-      const std::vector<float> numbers = to_numbers(q);
-      if (numbers.size() != 4) throw InputError("orientations need four numbers each");
-      scene.orientations.push_back({numbers[0], numbers[1], numbers[2], numbers[3]});
-    }
+  if (json.contains("orientations")) scene.orientations = to_orientations(json.at("orientations"));
   scene.gravity = to_vector(json.at("gravity"));
   for (const auto& [name, value] : json.at("settings").items())
     set_setting(scene.settings, name, value.get<std::string>());
@@ -180,14 +191,19 @@ Scene to_scene(const Json& json) {
 }
 
 Json sweep_case_to_json(const SweepCase& c) {
-  return {{"scene", scene_to_json(*c.scene)},
-          {"colour", c.colour},
-          {"old", points_to_json(c.old)},
-          {"start", points_to_json(c.start)},
-          {"target", points_to_json(c.target)},
-          {"previous", points_to_json(c.previous)},
-          {"largest_bound", numbers_to_json(c.largest_bound)},
-          {"query_radius", hexadecimal(c.query_radius)}};
+  Json json{{"scene", scene_to_json(*c.scene)},
+            {"colour", c.colour},
+            {"old", points_to_json(c.old)},
+            {"start", points_to_json(c.start)},
+            {"target", points_to_json(c.target)},
+            {"previous", points_to_json(c.previous)},
+            {"largest_bound", numbers_to_json(c.largest_bound)},
+            {"query_radius", hexadecimal(c.query_radius)}};
+  if (c.segment_colour.empty()) return json;
+  json["segment_colour"] = c.segment_colour;
+  json["orientation"] = orientations_to_json(c.orientation);
+  json["orientation_start"] = orientations_to_json(c.orientation_start);
+  return json;
 }
 
 SweepCase to_sweep_case(const Json& json) {
@@ -204,6 +220,14 @@ SweepCase to_sweep_case(const Json& json) {
   c.query_radius = number(json.at("query_radius"));
   if (c.colour.size() != count || c.largest_bound.size() != count)
     throw InputError("colour and largest_bound need one entry a vertex");
+  if (json.contains("segment_colour")) {
+    c.segment_colour = json.at("segment_colour").get<std::vector<Index>>();
+    c.orientation = to_orientations(json.at("orientation"));
+    c.orientation_start = to_orientations(json.at("orientation_start"));
+  }
+  const std::size_t segments = rod_segments(*c.scene).size();
+  if (c.segment_colour.size() != segments || c.orientation.size() != segments || c.orientation_start.size() != segments)
+    throw InputError("segment_colour, orientation and orientation_start need one entry a segment");
   return c;
 }
 

@@ -31,6 +31,9 @@ SweepQuestion::SweepQuestion(const SweepCase& test, const Authority& authority)
          test.start,         test.target, test.previous, bound_,      vertex_facet_.contacts,
          edge_edge_.contacts};
   in_.volumes = volumes_;
+  in_.segment_colour = test.segment_colour;
+  in_.orientation = test.orientation;
+  in_.orientation_start = test.orientation_start;
 }
 
 Vec3f within_bound(const Vec3f& wish, const Vec3f& previous, float bound) {

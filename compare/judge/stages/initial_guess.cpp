@@ -8,6 +8,7 @@
 #include "compare/judge/cases/dust.hpp"
 #include "compare/judge/cases/mutate.hpp"
 #include "compare/judge/cases/placement.hpp"
+#include "compare/judge/cases/rods/quaternions.hpp"
 #include "compare/judge/engine/numbers_json.hpp"
 #include "compare/judge/engine/units.hpp"
 #include "compare/judge/report/form_tools.hpp"
@@ -46,13 +47,13 @@ InitialGuessCase falling(Random& random, double speed) {
 
 float times(double length, double factor) { return static_cast<float>(length * factor); }
 
-CaseData uniform(Random& random) {
+InitialGuessCase uniform(Random& random) {
   InitialGuessCase c = falling(random, 5);
   c.bound = times(move_of(c), random.between(0.05, 2));
   return c;
 }
 
-CaseData bits(Random& random) {
+InitialGuessCase bits(Random& random) {
   const auto vector = [&] {
     return Vec3f{static_cast<float>(random.sign()) * random.pattern(),
                  static_cast<float>(random.sign()) * random.pattern(),
@@ -65,7 +66,7 @@ CaseData bits(Random& random) {
 }
 
 /// Without a rounding: powers of two and small integers, moves of rational length.
-CaseData lattice(Random& random) {
+InitialGuessCase lattice(Random& random) {
   constexpr std::array<Vec3, 5> steps{{{3, 4, 0}, {1, 2, 2}, {2, 3, 6}, {1, 4, 8}, {5, 0, 0}}};
   constexpr std::array<float, 5> lengths{5, 3, 7, 9, 5};
   const int k = random.below(5);
@@ -86,27 +87,27 @@ CaseData lattice(Random& random) {
 }
 
 /// ‖y − x_prev‖ → b_v.
-CaseData bound(Random& random) {
+InitialGuessCase bound(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(-2, 2));
   c.bound = times(move_of(c), 1 + random.rung());
   return c;
 }
 
 /// Likewise, on the lower rungs.
-CaseData boundary(Random& random) {
+InitialGuessCase boundary(Random& random) {
   random.be_fine();
   return bound(random);
 }
 
 /// Fast movers with small bounds: 10² … 10⁶ bounds a step.
-CaseData fast(Random& random) {
+InitialGuessCase fast(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(0, 5));
   c.bound = times(move_of(c), random.magnitude(-6, -2));
   return c;
 }
 
 /// Far from the origin: the move tends to the spacing of the coordinates.
-CaseData far(Random& random) {
+InitialGuessCase far(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(-3, 0));
   const Vec3 shift = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
   c.start = single(sum(wide(c.start), shift));
@@ -116,7 +117,7 @@ CaseData far(Random& random) {
 }
 
 /// At rest or almost: no velocity, no acceleration, no bound, or a rung of one.
-CaseData still(Random& random) {
+InitialGuessCase still(Random& random) {
   InitialGuessCase c = falling(random, 1);
   const auto little = [&] {
     return random.one_in(2) ? Vec3f{} : single(scaled(in_box(random, -1, 1), std::abs(random.rung())));
@@ -128,15 +129,54 @@ CaseData still(Random& random) {
   return c;
 }
 
-constexpr std::array<Generator, 9> table{{{"uniform", 25, true, uniform},
-                                          {"bits", 15, false, bits},
-                                          {"dust", 8, false, uniform},
-                                          {"lattice", 20, false, lattice},
-                                          {"ladder.bound", 15, false, bound},
-                                          {"ladder.fast", 10, false, fast},
-                                          {"ladder.far", 10, false, far},
-                                          {"ladder.still", 5, false, still},
-                                          {"ladder.boundary", 190, false, boundary}}};
+/// A generator of vertices as one of cases.
+template <InitialGuessCase (*make)(Random&)>
+CaseData alone(Random& random) {
+  return GuessCase{make(random), {}};
+}
+
+using rod_cases::Four;
+
+/// A direction of any length that a segment may have.
+Vec3f stretched(Random& random, const Vec3& direction) {
+  return single(scaled(direction, random.one_in(6) ? std::ldexp(1.0, random.below(80) - 48) : random.magnitude(-4, 0)));
+}
+
+/// Turned from one direction to another.
+CaseData turned(Random& random, const Vec3& from, const Vec3& to, const Four& frame) {
+  return GuessCase{uniform(random), TurnCase{stretched(random, from), stretched(random, to), rod_cases::single(frame)}};
+}
+
+/// By any angle, or as a step turns a segment.
+CaseData turn(Random& random) {
+  const Vec3 from = rod_cases::some_direction(random);
+  const Four by = rod_cases::rotation(rod_cases::some_direction(random), random.magnitude(-6, 0.4));
+  const Four frame = random.one_in(2) ? rod_cases::frame_along(random, from) : rod_cases::some_orientation(random);
+  return turned(random, from, rod_cases::turned(by, from), frame);
+}
+
+/// θ → 0 and π; one of the directions without length.
+CaseData turn_at(Random& random) {
+  if (random.one_in(2)) random.be_fine();
+  const Vec3 from = random.one_in(2) ? rod_cases::some_direction(random)
+                                     : scaled(on_lattice(random, 2), random.magnitude(-3, 0));
+  const Vec3 across = rod_cases::some_direction(random);
+  const double side = random.one_in(2) ? -1 : 1, size = length(from);
+  const Vec3 to = random.one_in(10) ? Vec3{} : sum(scaled(from, side), scaled(across, size * random.rung()));
+  return turned(random, from, to, rod_cases::some_orientation(random));
+}
+
+constexpr std::array<Generator, 11> table{{{"uniform", 25, true, alone<uniform>},
+                                           {"bits", 15, false, alone<bits>},
+                                           {"dust", 8, false, alone<uniform>},
+                                           {"lattice", 20, false, alone<lattice>},
+                                           {"ladder.bound", 15, false, alone<bound>},
+                                           {"ladder.fast", 10, false, alone<fast>},
+                                           {"ladder.far", 10, false, alone<far>},
+                                           {"ladder.still", 5, false, alone<still>},
+                                           {"ladder.boundary", 190, false, alone<boundary>},
+                                           {"turn", 20, true, turn, 0, Stage::orientation},
+                                           {"ladder.turn", 25, false, turn_at, 0, Stage::orientation}}};
 
 }  // namespace
 
@@ -151,6 +191,33 @@ TruncateIn cut_question(const InitialGuessIn& in, const InitialGuessOut& out) {
   return cut;
 }
 
+void judge_turns(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth, const InitialGuessOut& out,
+                 Tally& tally) {
+  if (out.orientation.size() != in.turns.size()) {
+    tally.mismatch("the answer does not have one orientation for each segment");
+    return;
+  }
+  for (std::size_t i = 0; i < in.turns.size(); ++i) {
+    tally.begin(cases[std::min(i, cases.size() - 1)].name);
+    const Quaternion& q = out.orientation[i];
+    const auto& exact = truth.orientation[i];
+    double squared = 0, off = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      squared += double{q[k]} * q[k];
+      off += (q[k] - exact[k]) * (q[k] - exact[k]);
+    }
+    if (!(std::abs(squared - 1) <= unit_quaternion_slack)) {
+      tally.mismatch("turn: segment " + std::to_string(i) + " has no unit quaternion");
+      continue;
+    }
+    if (std::isinf(truth.orientation_scale[i])) continue;
+    tally.error(2, in_units(std::sqrt(off), truth.orientation_scale[i]), [&] {
+      return "turn: segment " + std::to_string(i) +
+             text(" is %.4g off, scale %.4g", std::sqrt(off), truth.orientation_scale[i]);
+    });
+  }
+}
+
 void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth,
                          const TruncateTruth& cut, const InitialGuessOut& out, Tally& tally) {
   tally.begin(cases[0].name);
@@ -159,6 +226,7 @@ void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGue
     tally.mismatch("an array of the answer does not have one entry for each case");
     return;
   }
+  judge_turns(cases, in, truth, out, tally);
   for (std::size_t i = 0; i < n; ++i) {
     const InitialGuessCase& c = in.cases[i];
     const Vec3f& y = out.target[i];
@@ -193,12 +261,19 @@ WrongForm guess_asked(std::string name, std::string meaning, Change change) {
   });
 }
 
+template <class Change>
+WrongForm turn_asked(std::string name, std::string meaning, Change change) {
+  return asked(std::move(name), std::move(meaning), &Authority::initial_guess, [change](InitialGuessIn& in) {
+    for (TurnCase& c : in.turns) change(c);
+  });
+}
+
 Vec3f times(const Vec3f& v, float factor) { return {factor * v.x, factor * v.y, factor * v.z}; }
 
 /// Whether the answer is right about a vertex that is free.
 bool is_not_held(const Evidence& evidence, const Authority& authority) {
   Evidence free = evidence;
-  case_of<InitialGuessCase>(free.test.data).held = 0;
+  case_of<GuessCase>(free.test.data).vertex.held = 0;
   return agrees(free, authority);
 }
 
@@ -211,6 +286,8 @@ std::vector<WrongForm> initial_guess_forms() {
                   [](InitialGuessCase& c) { c.acceleration = times(c.acceleration, -1); }),
       guess_asked("velocity_missing", "y without h vᵗ", [](InitialGuessCase& c) { c.velocity = {}; }),
       guess_asked("from_previous", "y from X_prev in place of xᵗ", [](InitialGuessCase& c) { c.start = c.previous; }),
+      turn_asked("turn_missing", "frames stay as they were", [](TurnCase& c) { c.now = c.before; }),
+      turn_asked("turn_back", "the rotation from D to Dᵗ", [](TurnCase& c) { std::swap(c.now, c.before); }),
       {"held_ignored", "vertices that are held move like all others", is_not_held}};
 }
 
@@ -218,22 +295,26 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
                       TakenWhole,
                       ParametersOfCase<InitialGuess>,
                       InEveryRun {
-  using Case = InitialGuessCase;
+  using Case = GuessCase;
   static constexpr StageInfo info{.name = "initial_guess",
-                                  .question = "inertial target, truncated",
+                                  .question = "inertial target, truncated; a frame, turned",
                                   .unit = "vertex",
                                   .reference = "reference/solvers/initial_guess.cpp",
                                   .kind = CaseKind::single,
                                   .has_boundary = true,
                                   .determinism = Determinism::cpu_to_gpu};
   static constexpr std::array metrics{MetricInfo{"target", "u scale", initial_guess_target_tolerance},
-                                      MetricInfo{"position", "u (|x_prev| + b)", truncate_position_tolerance}};
+                                      MetricInfo{"position", "u (|x_prev| + b)", truncate_position_tolerance},
+                                      MetricInfo{"turn", "u cond", initial_guess_turn_tolerance}};
   static constexpr std::array parameters{ranges::time_step, ranges::bound};
-  static float* parameter(Case& c, std::string_view name) { return name == "h" ? &c.time_step : &c.bound; }
+  static float* parameter(Case& c, std::string_view name) {
+    return name == "h" ? &c.vertex.time_step : &c.vertex.bound;
+  }
 
   static std::span<const Generator> generators() { return table; }
 
-  static void check(const Case& c, FirstProblem& problem) {
+  static void check(const Case& whole, FirstProblem& problem) {
+    const InitialGuessCase& c = whole.vertex;
     problem.vector("a coordinate", c.start);
     problem.vector("a coordinate", c.previous);
     problem.vector("a velocity", c.velocity);
@@ -241,53 +322,91 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
     problem.number("a time step", c.time_step, least_length, 1);
     problem.number("a bound", c.bound, 0, vast);
     problem.require(c.held <= 1, "held is neither 0 nor 1");
+    if (!whole.turn) return;
+    rod_cases::check_unit(problem, whole.turn->orientation);
+    for (const Vec3f& d : {whole.turn->before, whole.turn->now}) {
+      const double size = std::hypot(d.x, d.y, d.z);
+      problem.require(size == 0 || (size >= 0x1p-50 && size <= 0x1p40), "a segment is too short or too long");
+    }
   }
   static void mutate(Random& random, Case& c) {
-    mutate_together(random, std::span(&c.previous, 1), std::span(&c.start, 1));
+    mutate_together(random, std::span(&c.vertex.previous, 1), std::span(&c.vertex.start, 1));
   }
-  static std::vector<float*> coordinates(Case& c) {
+  static std::vector<float*> coordinates(Case& whole) {
+    InitialGuessCase& c = whole.vertex;
     auto all = coordinates_of({{&c.start, 1}, {&c.velocity, 1}, {&c.acceleration, 1}, {&c.previous, 1}});
     all.push_back(&c.bound);
     return all;
   }
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
-    return states.guessed_vertex(states.frame(index), random);
+    return {states.guessed_vertex(states.frame(index), random), {}};
   }
 
-  static Json write(const Case& c) {
-    return {{"start", to_json(c.start)},
-            {"velocity", to_json(c.velocity)},
-            {"acceleration", to_json(c.acceleration)},
-            {"time_step", hexadecimal(c.time_step)},
-            {"previous", to_json(c.previous)},
-            {"bound", hexadecimal(c.bound)},
-            {"held", c.held != 0}};
+  static Json write(const Case& whole) {
+    const InitialGuessCase& c = whole.vertex;
+    Json json{{"start", to_json(c.start)},
+              {"velocity", to_json(c.velocity)},
+              {"acceleration", to_json(c.acceleration)},
+              {"time_step", hexadecimal(c.time_step)},
+              {"previous", to_json(c.previous)},
+              {"bound", hexadecimal(c.bound)},
+              {"held", c.held != 0}};
+    if (whole.turn)
+      json["turn"] = {
+          {"before", to_json(whole.turn->before)},
+          {"now", to_json(whole.turn->now)},
+          {"orientation", numbers_to_json({whole.turn->orientation.begin(), whole.turn->orientation.end()})}};
+    return json;
   }
   static Case read(const Json& data) {
-    return {to_point(data.at("start")),   to_point(data.at("velocity")), to_point(data.at("acceleration")),
-            number(data.at("time_step")), to_point(data.at("previous")), number(data.at("bound")),
-            data.at("held").get<bool>()};
+    Case whole{{to_point(data.at("start")), to_point(data.at("velocity")), to_point(data.at("acceleration")),
+                number(data.at("time_step")), to_point(data.at("previous")), number(data.at("bound")),
+                data.at("held").get<bool>()},
+               {}};
+    if (!data.contains("turn")) return whole;
+    const Json& turn = data.at("turn");
+    const std::vector<float> q = to_numbers(turn.at("orientation"));
+    if (q.size() != 4) throw InputError("an orientation needs four numbers");
+    whole.turn = {to_point(turn.at("before")), to_point(turn.at("now")), {q[0], q[1], q[2], q[3]}};
+    return whole;
   }
 
   static Shape shape(const Case& c) {
     Shape shape;
-    shape.dots.push_back(shape.add(c.previous));
-    shape.add(c.start);
+    shape.dots.push_back(shape.add(c.vertex.previous));
+    shape.add(c.vertex.start);
     shape.lines.push_back({0, 1});
     return shape;
   }
-  static std::vector<Quantity> inputs(const Case& c) {
-    return {points("start", "m", std::array{c.start}),
-            points("velocity", "m/s", std::array{c.velocity}),
-            points("acceleration", "m/s²", std::array{c.acceleration}),
-            scalar("time_step", "s", c.time_step),
-            points("previous", "m", std::array{c.previous}),
-            scalar("bound", "m", c.bound),
-            word("held", c.held ? "yes" : "no")};
+  static std::vector<Quantity> inputs(const Case& whole) {
+    const InitialGuessCase& c = whole.vertex;
+    std::vector<Quantity> all{points("start", "m", std::array{c.start}),
+                              points("velocity", "m/s", std::array{c.velocity}),
+                              points("acceleration", "m/s²", std::array{c.acceleration}),
+                              scalar("time_step", "s", c.time_step),
+                              points("previous", "m", std::array{c.previous}),
+                              scalar("bound", "m", c.bound),
+                              word("held", c.held ? "yes" : "no")};
+    if (!whole.turn) return all;
+    all.push_back(points("before", "m", std::array{whole.turn->before}));
+    all.push_back(points("now", "m", std::array{whole.turn->now}));
+    all.push_back(compare::numbers("orientation", "1", whole.turn->orientation));
+    return all;
   }
 
-  static In question(Cases cases) { return case_question(cases, &In::cases); }
-  static auto arrays(const Out& out) { return std::tie(out.target, out.position, out.cut); }
+  /// Where one case has a segment each gets one, of no length where it has none: entry i of each array is case i's.
+  static In question(Cases cases) {
+    In in;
+    const bool any = std::ranges::any_of(cases,
+                                         [](const TestCase& t) { return case_of<Case>(t.data).turn.has_value(); });
+    for (const TestCase& test : cases) {
+      const Case& c = case_of<Case>(test.data);
+      in.cases.push_back(c.vertex);
+      if (any) in.turns.push_back(c.turn.value_or(TurnCase{}));
+    }
+    return in;
+  }
+  static auto arrays(const Out& out) { return std::tie(out.target, out.position, out.cut, out.orientation); }
 
   static bool can_judge(const Contestant& c, const Authority& a) {
     return c.initial_guess && a.initial_guess && a.truncate;
@@ -308,7 +427,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
     const Truth truth = a.initial_guess(in);
     std::string note;
     const std::optional<Out> out = answer_or_note(c.initial_guess, in, note);
-    const Case& asked_about = in.cases[0];
+    const InitialGuessCase& asked_about = in.cases[0];
     const TruncateTruth cut = a.truncate(cut_question(in, out ? *out : Out{}));
     const Vec3 held{asked_about.previous.x, asked_about.previous.y, asked_about.previous.z};
     std::vector<Quantity> given;

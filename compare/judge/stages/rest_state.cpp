@@ -7,10 +7,12 @@
 #include "compare/judge/cases/mutate.hpp"
 #include "compare/judge/cases/rest_cases.hpp"
 #include "compare/judge/engine/numbers_json.hpp"
+#include "compare/judge/engine/rods/rest_segments.hpp"
 #include "compare/judge/engine/units.hpp"
 #include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/stage_of.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/rods.hpp"
 
 namespace ogc::compare {
 
@@ -26,7 +28,8 @@ enum Metric : std::size_t {
   of_stiffness,
   of_weight,
   of_meeting,
-  of_tetrahedron
+  of_tetrahedron,
+  of_rod
 };
 
 /// Whether θ₀ cannot be told from its turn by 2π.
@@ -49,6 +52,7 @@ class RestVerdict {
           truth_.edge_length_squared_scale[e]);
     for (std::size_t i = 0; i < out_.hinges.size(); ++i) judge_hinge(i);
     for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) judge_tetrahedron(t);
+    judge_segments();
     for (std::size_t i = 0; i < out_.meetings.size(); ++i) {
       one(of_meeting, "stiffness of meeting", i, out_.meetings[i].stiffness, truth_.meeting_stiffness[i],
           truth_.meeting_stiffness[i]);
@@ -80,6 +84,7 @@ class RestVerdict {
            has_length("triangles", out_.triangles.size(), exact_.triangles.size()) &&
            has_length("hinges", out_.hinges.size(), exact_.hinges.size()) &&
            has_length("tetrahedra", out_.tetrahedra.size(), exact_.tetrahedra.size()) &&
+           has_length("segments", out_.segments.size(), exact_.segments.size()) &&
            has_length("edge_length_squared", out_.edge_length_squared.size(), exact_.edge_length_squared.size()) &&
            has_length("meetings", out_.meetings.size(), exact_.meetings.size());
   }
@@ -145,6 +150,15 @@ class RestVerdict {
             truth_.tetrahedron_gradient[t][k][axis], truth_.tetrahedron_gradient_scale[t]);
   }
 
+  void judge_segments() {
+    const SegmentVerdict verdict{
+        [this](const char* what, std::size_t e, double off, double scale, double value, double exact) {
+          error(of_rod, what, e, off, scale, value, exact);
+        },
+        [this](const char* what, std::size_t e) { tally_.mismatch(std::string(what) + ": " + std::to_string(e)); }};
+    verdict.judge(truth_, out_);
+  }
+
   const RestStateTruth& truth_;
   const RestStateOut &exact_, &out_;
   Tally& tally_;
@@ -182,6 +196,12 @@ void round_exact(RestStateTruth& truth) {
     exact.hinges[i].rest_angle = static_cast<float>(truth.rest_angle[i]);
     exact.hinges[i].stiffness = static_cast<float>(truth.stiffness[i]);
   }
+  for (std::size_t e = 0; e < exact.segments.size(); ++e)
+    for (std::size_t end = 0; end < 2; ++end) {
+      exact.segments[e].weight[end] = static_cast<float>(truth.segment_weight[e][end]);
+      for (std::size_t k = 0; k < 4; ++k)
+        exact.segments[e].relative[end][k] = static_cast<float>(truth.segment_relative[e][end][k]);
+    }
 }
 
 template <class Change>
@@ -209,6 +229,17 @@ std::vector<WrongForm> rest_state_forms() {
                   for (double& x : truth.edge_length_squared) x = std::sqrt(x);
                   for (double& x : truth.edge_length_squared_scale) x = std::sqrt(x);
                 }),
+      rest_told("rod_weight_of_one_segment", "4 k_b/l, or twice the mean length, for 4 k_b/l̄",
+                [](RestStateTruth& truth) {
+                  for (auto* weights : {&truth.segment_weight, &truth.segment_weight_scale})
+                    for (auto& weight : *weights) weight[0] /= 2, weight[1] /= 2;
+                }),
+      rest_told("rod_relative_transposed", "p̄° for p°",
+                [](RestStateTruth& truth) {
+                  for (auto& relative : truth.segment_relative)
+                    for (auto& p : relative)
+                      for (std::size_t k = 0; k < 3; ++k) p[k] = -p[k];
+                }),
       rest_told("gradients_exchanged", "∇N₁ and ∇N₂ exchanged", [](RestStateTruth& truth) {
         for (auto& gradient : truth.gradient) std::swap(gradient[0], gradient[1]);
         for (auto& scales : truth.gradient_scale) std::swap(scales[0], scales[1]);
@@ -233,6 +264,9 @@ Json body_to_json(const Body& body) {
             {"bending", name_of(body.material.bending)}};
   for (const MaterialInfo& info : material_table())
     json[std::string(info.name)] = hexadecimal(static_cast<float>(body.material.*info.field));
+  if (body.material.rod)
+    for (const RodInfo& info : rod_table())
+      json["rod"][std::string(info.name)] = hexadecimal(static_cast<float>((*body.material.rod).*info.field));
   return json;
 }
 
@@ -254,6 +288,10 @@ Body to_body(const Json& json, const Scene& scene) {
   // A case that is older than a constant has its default.
   for (const MaterialInfo& info : material_table())
     if (json.contains(info.name)) body.material.*info.field = number(json.at(std::string(info.name)));
+  if (!json.contains("rod")) return body;
+  body.material.rod.emplace();
+  for (const RodInfo& info : rod_table())
+    (*body.material.rod).*info.field = number(json.at("rod").at(std::string(info.name)));
   return body;
 }
 
@@ -277,7 +315,8 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
                                       MetricInfo{"stiffness", "u cond", rest_state_tolerance},
                                       MetricInfo{"weight", "u cond", rest_state_tolerance},
                                       MetricInfo{"meeting", "u value", rest_state_tolerance},
-                                      MetricInfo{"tetrahedron", "u cond", rest_state_tolerance}};
+                                      MetricInfo{"tetrahedron", "u cond", rest_state_tolerance},
+                                      MetricInfo{"rod", "u cond", rest_state_tolerance}};
 
   static std::span<const Generator> generators() { return rest_state_generators(); }
 
@@ -363,6 +402,12 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
     for (const RestHinge& h : out.hinges) weights.push_back(h.weight);
     std::vector<std::array<float, 6>> tetrahedron_weights;
     for (const RestTetrahedron& t : out.tetrahedra) tetrahedron_weights.push_back(t.weight);
+    std::vector<std::array<float, 2>> segment_weights;
+    std::vector<Quaternion> segment_relatives;
+    for (const RestSegment& s : out.segments) {
+      segment_weights.push_back(s.weight);
+      segment_relatives.insert(segment_relatives.end(), s.relative.begin(), s.relative.end());
+    }
     return {compare::numbers("mass", "kg", out.mass),
             each("area", "m²", out.triangles, [](const RestTriangle& t) { return t.area; }),
             rows("gradient", "1/m", gradients),
@@ -372,6 +417,9 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
             each("volume", "m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.volume; }),
             each("inverse", "1/m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.inverse; }),
             rows("tetrahedron_weight", "m", tetrahedron_weights),
+            each("segment_length", "m", out.segments, [](const RestSegment& s) { return s.length; }),
+            rows("segment_weight", "N m", segment_weights),
+            rows("segment_relative", "1", segment_relatives),
             compare::numbers("edge_length_squared", "m²", out.edge_length_squared),
             each("meeting_stiffness", "N/m", out.meetings, [](const MeetingMaterial& m) { return m.stiffness; }),
             each("meeting_friction", "1", out.meetings, [](const MeetingMaterial& m) { return m.friction; })};

@@ -3,7 +3,9 @@
 // should be asked about.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "compare/judge/engine/rods/step_frames.hpp"
 #include "compare/judge/engine/units.hpp"
 #include "compare/judge/engine/volume_question.hpp"
 #include "compare/judge/stages/mesh_case.hpp"
@@ -58,6 +60,7 @@ class StepVerdict {
     });
     if (!right()) return;
     judge_colours();
+    judge_start_frames();
     judge_targets();
     tally_.error(0, in_units(std::abs(out_.query_radius - truth_.query_radius), truth_.query_radius_scale),
                  [&] { return text("%.9g, exact %.17g", out_.query_radius, truth_.query_radius); });
@@ -98,6 +101,33 @@ class StepVerdict {
     for (const RestTriangle& t : out_.rest.triangles) apart(t.corner);
     for (const RestHinge& h : out_.rest.hinges) apart(h.vertex);
     for (const RestTetrahedron& t : out_.rest.tetrahedra) apart(t.corner);
+    for (const RestSegment& s : out_.rest.segments) apart(s.end);
+    if (const std::string wrong = wrong_segment_colour(*in_.scene, out_); !wrong.empty()) tally_.mismatch(wrong);
+  }
+
+  /// Frames of segments, as stage initial_guess turns them.
+  void judge_frames(const std::string& when, const TurnedFrames& frames, const std::string& wrong) {
+    if (!wrong.empty()) tally_.mismatch(when + ": " + wrong);
+    if (frames.in.turns.empty()) return;
+    part(when, Stage::initial_guess, [&](Tally& own) {
+      judge_turns({&test_, 1}, frames.in, authority_.initial_guess(frames.in), frames.out, own);
+    });
+  }
+
+  void judge_start_frames() {
+    if (const std::string wrong = wrong_orientation_count(*in_.scene, out_); !wrong.empty())
+      return tally_.mismatch(wrong);
+    if (!right()) return;
+    std::string wrong;
+    const TurnedFrames frames = start_frames(in_, out_, wrong);
+    judge_frames("start", frames, wrong);
+  }
+
+  void judge_turned_frames() {
+    std::string wrong;
+    const TurnedFrames frames = turned_frames(in_, out_, at_, wrong);
+    judge_frames("after the guess", frames, wrong);
+    q_ = out_.turned;
   }
 
   void judge_targets() {
@@ -329,6 +359,7 @@ class StepVerdict {
 
   void judge_iteration(std::size_t i) {
     const StepEvent& event = out_.events[i];
+    if (!std::exchange(is_swept_, true)) judge_turned_frames();
     const SweepIn question{in_.scene,
                            in_.topology,
                            &out_.rest,
@@ -341,15 +372,20 @@ class StepVerdict {
                            detection_->vertex_facet.contacts,
                            detection_->edge_edge.contacts,
                            has_planes() ? &detection_->planes : nullptr,
-                           detection_->volumes.contacts};
-    const SweepOut answer{event.position, event.cut};
+                           detection_->volumes.contacts,
+                           out_.segment_colour,
+                           q_,
+                           out_.orientation_start};
+    const SweepOut answer{event.position, event.cut, event.orientation};
     part(where(i), Stage::sweep, [&](Tally& own) {
       if (can_judge_sweep(test_, question, answer, own))
         judge_sweep(test_, question, authority_.sweep(question, answer), answer, own);
     });
+    q_ = event.orientation;
   }
 
   void judge_end() {
+    if (out_.orientation != q_) tally_.mismatch("end: orientations are not those that the last sweep left");
     for (std::size_t v = 0; v < start_.size(); ++v) {
       if (!(out_.position[v] == at_[v])) tally_.mismatch("end" + vertex(v) + " is not where the last event left it");
       const Vec3f& a = out_.velocity[v];
@@ -372,6 +408,8 @@ class StepVerdict {
   VolumeQuestion volumes_;
   std::vector<Vec3f> start_;
   std::vector<Vec3f> at_;                 ///< x before the event
+  std::vector<Quaternion> q_;             ///< of the segments, likewise
+  bool is_swept_ = false;                 ///< the guess loop is over
   const StepEvent* detection_ = nullptr;  ///< the last
   std::vector<Vec3f> displacement_;       ///< what divides its gaps, with bounds=dat
   int detections_ = 0;

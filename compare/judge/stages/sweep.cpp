@@ -7,14 +7,17 @@
 
 #include "compare/judge/cases/dust.hpp"
 #include "compare/judge/cases/mutate.hpp"
+#include "compare/judge/cases/rods/quaternions.hpp"
 #include "compare/judge/engine/exact_sum.hpp"
 #include "compare/judge/engine/features.hpp"
+#include "compare/judge/engine/rods/orientation_verdict.hpp"
 #include "compare/judge/engine/scene_json.hpp"
 #include "compare/judge/engine/sweep_question.hpp"
 #include "compare/judge/engine/units.hpp"
 #include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/parameter_ranges.hpp"
 #include "compare/judge/stages/stage_of.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
@@ -58,7 +61,25 @@ std::uint64_t decisions(const SweepIn& in) {
   for (const VertexFacetContact& c : in.vertex_facet) count += 1 + corners[static_cast<std::size_t>(c.face.kind)];
   for (const EdgeEdgeContact& c : in.edge_edge)
     count += corners[static_cast<std::size_t>(c.first.kind)] + corners[static_cast<std::size_t>(c.second.kind)];
-  return count + in.volumes.size();
+  return count + in.volumes.size() + in.segment_colour.size();
+}
+
+/// Held segments keep their quaternions, free ones lie within what is accepted of the truth about this answer.
+void judge_orientations(const SweepIn& in, const SweepTruth& truth, const SweepOut& out, Tally& tally) {
+  for (std::size_t e = 0; e < in.segment_colour.size(); ++e)
+    if (in.segment_colour[e] < 0 && out.orientation[e] != in.orientation[e])
+      return tally.mismatch("segment " + std::to_string(e) + " is held, and its orientation has changed");
+  for (std::size_t k = 0; k < truth.free_segments.size(); ++k) {
+    const auto e = static_cast<std::size_t>(truth.free_segments[k]);
+    const Quaternion& q = out.orientation[e];
+    const OrientationAnswer& exact = nearest_answer(q, truth.orientation.accepted[k]);
+    const double share = std::max(orientation_errors(q, exact).share(sweep_input_tolerance),
+                                  length_error(q) / orientation_length_tolerance);
+    tally.error(1, share, [&] {
+      return "segment " + std::to_string(e) + ", colour " + std::to_string(in.segment_colour[e]) +
+             text(": w is %.9g, exact %.9g", double{q[3]}, exact.orientation[3]);
+    });
+  }
 }
 
 double error_in_units(const SweepTruth& truth, const SweepOut& out, std::size_t v) {
@@ -76,6 +97,14 @@ bool can_judge_sweep(const TestCase& test, const SweepIn& in, const SweepOut& ou
     tally.mismatch("the answer does not have one position for each vertex");
     return false;
   }
+  if (out.orientation.size() != in.orientation.size()) {
+    tally.mismatch("the answer does not have one orientation for each segment");
+    return false;
+  }
+  if (!std::ranges::all_of(out.orientation, [](const Quaternion& q) { return is_finite(q); })) {
+    tally.mismatch("an orientation is not finite");
+    return false;
+  }
   if (std::all_of(out.position.begin(), out.position.end(), is_finite)) return true;
   tally.mismatch("a position is not finite");
   return false;
@@ -83,7 +112,9 @@ bool can_judge_sweep(const TestCase& test, const SweepIn& in, const SweepOut& ou
 
 void judge_sweep(const TestCase& test, const SweepIn& in, const SweepTruth& truth, const SweepOut& out, Tally& tally) {
   tally.begin(test.name);
-  const auto grey = static_cast<std::uint64_t>(std::count(truth.grey.begin(), truth.grey.end(), std::uint8_t{1}));
+  auto grey = static_cast<std::uint64_t>(std::count(truth.grey.begin(), truth.grey.end(), std::uint8_t{1}));
+  for (const auto& accepted : truth.orientation.accepted)
+    grey += accepted.size() > 1 || std::isinf(accepted.front().scale);
   tally.count(in.old.size(), decisions(in), grey);
   if (!judge_bounds(in, out, rigid_groups(*in.scene), tally)) return;
   for (std::size_t v = 0; v < in.old.size(); ++v) {
@@ -95,6 +126,7 @@ void judge_sweep(const TestCase& test, const SweepIn& in, const SweepTruth& trut
                   std::hypot(x.x - exact.x, x.y - exact.y, x.z - exact.z), truth.accepted[v]);
     });
   }
+  judge_orientations(in, truth, out, tally);
   if (out.cut < truth.cut || out.cut > truth.cut + truth.cut_doubtful)
     tally.mismatch("cut: " + std::to_string(out.cut) + ", exact " + std::to_string(truth.cut) + " and " +
                    std::to_string(truth.cut_doubtful) + " in doubt");
@@ -107,7 +139,7 @@ struct Read {
   SweepIn in;
   Scene scene;
   RestStateOut rest;
-  std::vector<Index> colour;
+  std::vector<Index> colour, segment_colour;
 };
 
 template <class Change>
@@ -115,9 +147,14 @@ WrongForm sweep_asked(std::string name, std::string meaning, Change change) {
   return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
     Authority wrong = authority;
     wrong.sweep = [right = authority.sweep, change](const SweepIn& in, const SweepOut& out) {
-      Read read{in, *in.scene, *in.rest, {in.colour.begin(), in.colour.end()}};
+      Read read{in,
+                *in.scene,
+                *in.rest,
+                {in.colour.begin(), in.colour.end()},
+                {in.segment_colour.begin(), in.segment_colour.end()}};
       change(read);
       read.in.colour = read.colour;
+      read.in.segment_colour = read.segment_colour;
       read.in.scene = &read.scene;
       read.in.rest = &read.rest;
       return right(read.in, out);
@@ -153,6 +190,15 @@ std::vector<WrongForm> sweep_forms() {
       sweep_asked("membranes_missing", "no membrane acts", [](Read& read) { read.rest.triangles.clear(); }),
       sweep_asked("bending_missing", "no hinge acts", [](Read& read) { read.rest.hinges.clear(); }),
       sweep_asked("tetrahedra_missing", "no tetrahedron acts", [](Read& read) { read.rest.tetrahedra.clear(); }),
+      sweep_asked("rods_without_bend", "neighbours of a segment do not act",
+                  [](Read& read) {
+                    for (RestSegment& segment : read.rest.segments) segment.weight = {};
+                  }),
+      sweep_asked("segments_jacobi", "neighbours of a segment are read before the sweep, whatever their colour",
+                  [](Read& read) {
+                    for (Index& colour : read.segment_colour)
+                      if (colour > 0) colour = 0;
+                  }),
       sweep_asked("springs_missing", "no spring acts", [](Read& read) { read.scene.springs.clear(); }),
       sweep_asked("mollifier_missing", "e_k is 1: nearly parallel edges act in full",
                   [](Read& read) { read.rest.edge_length_squared.assign(read.rest.edge_length_squared.size(), -1); }),
@@ -201,6 +247,19 @@ bool is_coloured(const SweepCase& c) {
     legal = legal && apart(spring.first, spring.second);
     if (spring.third >= 0) legal = legal && apart(spring.first, spring.third) && apart(spring.second, spring.third);
   }
+  const std::vector<Index> numbers = rod_segments(*c.scene), held = segment_groups(*c.scene, numbers);
+  legal = legal && c.segment_colour.size() == numbers.size();
+  std::vector<Index> count(groups.size());
+  for (const Index e : numbers)
+    for (const Index v : c.scene->mesh.loose_edges[static_cast<std::size_t>(e)]) ++count[static_cast<std::size_t>(v)];
+  for (std::size_t e = 0; e < numbers.size() && legal; ++e) {
+    legal = (c.segment_colour[e] >= 0) == (held[e] < 0);
+    const Edge& own = c.scene->mesh.loose_edges[static_cast<std::size_t>(numbers[e])];
+    for (std::size_t f = 0; f < e && legal; ++f)
+      for (const Index v : c.scene->mesh.loose_edges[static_cast<std::size_t>(numbers[f])])
+        legal = legal && !((v == own[0] || v == own[1]) && count[static_cast<std::size_t>(v)] == 2 &&
+                           c.segment_colour[e] >= 0 && c.segment_colour[e] == c.segment_colour[f]);
+  }
   return legal;
 }
 
@@ -213,7 +272,8 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
                                   .kind = CaseKind::followed,
                                   .has_boundary = false,
                                   .determinism = Determinism::cpu_to_gpu};
-  static constexpr std::array metrics{MetricInfo{"position", "accepted error", 1}};
+  static constexpr std::array metrics{MetricInfo{"position", "accepted error", 1},
+                                      MetricInfo{"orientation", "accepted error", 1}};
   static constexpr std::array parameters{ranges::contact_radius,   ranges::query_radius,      ranges::time_step,
                                          ranges::bound_relaxation, ranges::contact_stiffness, ranges::friction};
   static std::string set(Case& c, std::span<const Override> values) {
@@ -230,6 +290,10 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
     problem.require(is_coloured(c), "two vertices of an element share a colour, or one that is held has any");
     for (const auto* positions : {&c.old, &c.start, &c.target, &c.previous})
       problem.vectors("a coordinate", *positions);
+    for (const auto* orientations : {&c.orientation, &c.orientation_start}) {
+      problem.require(orientations->size() == c.segment_colour.size(), "a segment has no orientation");
+      for (const Quaternion& q : *orientations) rod_cases::check_unit(problem, q);
+    }
     for (const float bound : c.largest_bound) problem.number("a bound", bound, 0, std::numeric_limits<float>::max());
     problem.number("a query radius", c.query_radius, static_cast<float>(c.scene->settings.contact_radius), vast);
   }
@@ -256,7 +320,9 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
         mesh_quantities(build_topology(*c.scene)), scene_quantities(*c.scene),
         std::vector{scalar("query_radius", "m", c.query_radius), indices("colour", c.colour), points("old", "m", c.old),
                     points("start", "m", c.start), points("target", "m", c.target), points("previous", "m", c.previous),
-                    compare::numbers("largest_bound", "m", c.largest_bound)});
+                    compare::numbers("largest_bound", "m", c.largest_bound),
+                    indices("segment_colour", c.segment_colour), rows("orientation", "1", c.orientation),
+                    rows("orientation_start", "1", c.orientation_start)});
   }
 
   static bool can_judge(const Contestant& c, const Authority& a) {
@@ -295,12 +361,22 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
     std::string note;
     const auto out = answer_or_note(c.sweep, question.in(), note);
     if (!out) return {{}, note};
-    if (out->position.size() != question.in().old.size())
+    if (out->position.size() != question.in().old.size() || out->orientation.size() != question.in().orientation.size())
       return {{}, "the answer does not have one position for each vertex"};
     const SweepTruth truth = a.sweep(question.in(), *out);
     const auto cut = [](Index count) { return scalar("cut", "", count); };
-    return paired({points("position", "m", out->position), cut(out->cut)},
-                  {points("position", "m", truth.position), cut(truth.cut)}, note);
+    std::vector<Quantity> given{points("position", "m", out->position), cut(out->cut)},
+        exact{points("position", "m", truth.position), cut(truth.cut)};
+    if (!out->orientation.empty()) {
+      std::vector<Quaternion> orientations = out->orientation;
+      given.push_back(rows("orientation", "1", orientations));
+      for (std::size_t k = 0; k < truth.free_segments.size(); ++k)
+        for (std::size_t i = 0; i < 4; ++i)
+          orientations[static_cast<std::size_t>(truth.free_segments[k])][i] = static_cast<float>(
+              truth.orientation.accepted[k].front().orientation[i]);
+      exact.push_back(rows("orientation", "1", orientations));
+    }
+    return paired(given, exact, note);
   }
   static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return sweep_forms(); }
 };

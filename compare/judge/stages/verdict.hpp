@@ -30,6 +30,9 @@ void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& trut
 /// The question that stage truncate is asked about an answer: X_prev, the y that is stored (X_prev where that is no
 /// point) and the bound.
 TruncateIn cut_question(const InitialGuessIn& in, const InitialGuessOut& out);
+/// Frames of the question's segments, each within its tolerance.
+void judge_turns(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth, const InitialGuessOut& out,
+                 Tally& tally);
 /// `cut`: the truth about cut_question. What is held must stay; of all others position and cut are judged as in
 /// truncate.
 void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth,

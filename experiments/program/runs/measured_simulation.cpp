@@ -8,6 +8,7 @@
 
 #include "compare/oracle/meetings.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/volumes.hpp"
 #include "reference/contestant.hpp"
@@ -56,6 +57,7 @@ class MeasuredSimulation : public compare::Simulation {
     if (what.residual || what.iterations) meter_.emplace(scene);
     if (what.ledger && compare::has_volumes(scene))
       throw compare::InputError("--ledger knows no volumes; leave it out, or the bodies surfaces");
+    if (what.ledger && compare::has_rods(scene)) throw compare::InputError("--ledger knows no rods; leave it out");
     if (what.ledger) ledger_.emplace(scene);
   }
 
@@ -67,8 +69,8 @@ class MeasuredSimulation : public compare::Simulation {
       const Snapshot after = inner_->snapshot();
       if (after.step == before.step) break;
       if (meter_) {
-        meter_->begin_step(before.positions, before.velocities, after.step);
-        rows.back().residual = meter_->at(after.positions).share;
+        meter_->begin_step(before.positions, before.velocities, after.step, before.orientations);
+        rows.back().residual = meter_->at(after.positions, after.orientations).share;
       }
       const bool asks_meetings = meetings_ && meetings_->holds(after.step);
       if (has_rows_ || ledger_ || (asks_meetings && contestant_.step))
@@ -87,7 +89,7 @@ class MeasuredSimulation : public compare::Simulation {
 
  private:
   /// The scene whose first step is the one after `before`: a trace knows no other, so that each motion becomes
-  /// two keyframes, its targets at the step's begin and end.
+  /// two keyframes, its targets at the step's begin and end, which turn frames as the motion does.
   compare::Scene scene_at(const Snapshot& before) const {
     compare::Scene scene = scene_;
     const double h = scene.settings.time_step, now = static_cast<double>(before.step) * h;
@@ -98,6 +100,11 @@ class MeasuredSimulation : public compare::Simulation {
       const std::vector<compare::Vec3f> targets = prescribed_targets(scene_, motion, end);
       keyframes.positions.insert(keyframes.positions.end(), targets.begin(), targets.end());
       scene.motions[i] = {.name = motion.name, .vertices = motion.vertices, .keyframes = std::move(keyframes)};
+      if (!compare::says_turn(motion)) continue;
+      scene.motions[i].axis = motion.axis;
+      scene.motions[i].angular_velocity = motion.angular_velocity;
+      scene.motions[i].start = motion.start - now;
+      scene.motions[i].end = motion.end - now;
     }
     scene.mesh.positions = compare::to_double(before.positions);
     scene.velocities = compare::to_double(before.velocities);
@@ -171,7 +178,7 @@ class MeasuredSimulation : public compare::Simulation {
   }
 
   void add_row(const StepEvent& event, double now, StepMetrics& step) {
-    const reference::Residual measured = meter_->with(contacts_, previous_, event.position);
+    const reference::Residual measured = meter_->with(contacts_, previous_, event.position, event.orientation);
     compare::IterationMetrics row;
     row.step = step.step;
     row.iteration = static_cast<std::int64_t>(step.iteration_rows.size());

@@ -5,8 +5,7 @@
 
 #include "fast/contact_view.hpp"
 #include "fast/kernels/contact_stream.hpp"
-#include "fast/kernels/sweep_solids.hpp"
-#include "fast/kernels/volumes/stream.hpp"
+#include "fast/kernels/rods/sweep.hpp"
 
 namespace ogc::fast {
 
@@ -61,26 +60,18 @@ struct WeightsOfIteration {
 /// As GatherDefault.
 using GatherFrozenSurfaces = GatherSurfaces<WeightsOfIteration>;
 
-/// Of any scene: as GatherEverythingAndVolumes, where there are tetrahedra and volumes.
+/// Of any scene: as GatherAnythingWithRods, where there are rods.
 struct GatherFrozen {
-  static constexpr int parts = GatherEverythingAndVolumes::parts;  ///< of the sum
+  static constexpr int parts = GatherAnythingWithRods::parts;  ///< of the sum
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                   const Team& team) const {
     const OwnVertex at{own, own - view.start[vertex.vertex]};
-    TetrahedronRow tetrahedra;
-    SolidMaterial solid;
-    if (view.tetrahedron_rows != nullptr)
-      tetrahedra = view.tetrahedron_rows[slot], solid = view.solids[vertex.body];
-    const VolumeStream& volumes = view.volumes;
-    const int volume_contacts = volumes.counts != nullptr ? volumes.counts[slot] : 0;
-    return every_model_sum<WeightsOfIteration>(
-        view, slot, vertex, at, team,
-        part(tetrahedra.count, LoadTetrahedron{view.tetrahedra + tetrahedra.begin, tetrahedra.begin},
-             AddAnyTetrahedron{view, solid, view.models[vertex.body], at}),
-        part(volume_contacts, LoadVolumeContact{volumes.contacts + slot * volumes.capacity},
-             AddVolumeContact{view, own, view.start[vertex.vertex]}));
+    const AddAnyTetrahedron add{view, view.solids[vertex.body], view.models[vertex.body], at};
+    return every_model_sum<WeightsOfIteration>(view, slot, vertex, at, team, tetrahedra_if_any(view, slot, add),
+                                               volumes_if_any(view, slot, vertex.vertex, own),
+                                               rods_if_any(view, slot, vertex, at));
   }
 };
 

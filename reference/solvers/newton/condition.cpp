@@ -71,7 +71,7 @@ double condition_number(const BlockMatrix& matrix, Factor& factor) {
 double condition_of_first(const Potential& potential, std::size_t stencils, const PotentialDerivatives& derivatives,
                           const PotentialDerivatives& projected) {
   const std::vector<StencilVertices> vertices = potential.vertices();
-  BlockMatrix matrix(potential.mobility());
+  BlockMatrix matrix(potential.unknowns());
   matrix.set_stencils(std::span(vertices).first(stencils));
   Factor factor;
   factor.analyze(matrix);

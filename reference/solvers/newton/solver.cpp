@@ -28,6 +28,12 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 }  // namespace
 
+void NewtonSolver::set_orientations(std::span<const compare::Quaternion> orientations) {
+  potential_.rods().set_start(orientations);
+}
+
+std::vector<compare::Quaternion> NewtonSolver::orientations() const { return potential_.rods().orientations(); }
+
 std::vector<std::string> NewtonSolver::stage_names() const {
   return {"detection", "derivatives", "assembly", "factorization", "line_search"};
 }
@@ -36,12 +42,13 @@ NewtonSolver::NewtonSolver(const compare::Scene& scene, const compare::Topology&
                            const compare::SimulationOptions& options)
     : ContactStep(scene, topology, options, stage_count),
       newton_(newton_settings(settings_)),
-      matrix_(potential_.mobility()) {}
+      matrix_(potential_.unknowns()) {}
 
 StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity,
                               std::int64_t number) {
   begin(start, velocity, number);
   judgements_ = 0;
+  reference_torque_ = -1;
   least_judged_ = std::numeric_limits<double>::infinity();
   matrix_.forget_pattern();
   pattern_stale_ = true;
@@ -117,8 +124,16 @@ NewtonSolver::Outcome NewtonSolver::solve_once() {
 
 double NewtonSolver::mean_force() const {
   double sum = 0;
-  for (const Triple<double>& g : derivatives_.gradient) sum += length(g);
+  for (std::size_t v = 0; v < x_.size(); ++v) sum += length(derivatives_.gradient[v]);
   return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
+}
+
+/// Torques on segments count as forces across their lengths; like forces, against those after the guess.
+bool NewtonSolver::has_small_torque() {
+  double sum = 0;
+  for (std::size_t i = x_.size(); i < derivatives_.gradient.size(); ++i) sum += length(derivatives_.gradient[i]);
+  if (reference_torque_ < 0) reference_torque_ = sum;
+  return sum <= std::max(newton_.tolerance * reference_torque_, 0x1p-40 * Potential::total(potential_.terms(x_)));
 }
 
 std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
@@ -133,7 +148,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   const double force = mean_force();
   if (!std::isfinite(force)) return Outcome::not_finite;
   set_residual(force);
-  const bool small = newton_.tolerance > 0 &&
+  const bool has_rods = potential_.rods().is_used();
+  const bool small = newton_.tolerance > 0 && (!has_rods || has_small_torque()) &&
                      force <= std::max(newton_.tolerance * reference_force_, derivatives_.force_noise);
   if (options_.iterations) rows_.push_back(new_row(detects));
   if (small && (fresh_ || nothing_near())) return Outcome::converged;
@@ -214,11 +230,13 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
   for (const std::size_t v : free)
     for (const double g : derivatives_.gradient[v]) right.push_back(-g);
   const std::vector<double> solution = timed(factorization, [&] { return factor_.solve(right); });
-  Direction direction{State(x_.size()), State(x_.size()), 0, 0};
+  const std::size_t unknowns = derivatives_.gradient.size();
+  Direction direction{State(unknowns), State(unknowns), 0, 0};
   for (std::size_t i = 0; i < free.size(); ++i) {
     const std::size_t v = free[i];
     direction.delta[v] = {solution[3 * i], solution[3 * i + 1], solution[3 * i + 2]};
-    const double change = length(direction.delta[v]);
+    const double change = v < x_.size() ? length(direction.delta[v])
+                                        : potential_.rods().length(v - x_.size()) * length(direction.delta[v]);
     if (!(change <= direction.largest)) direction.largest = change;
   }
   truncate(direction);
@@ -228,6 +246,10 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
 void NewtonSolver::truncate(Direction& direction) const {
   if (newton_.truncation == Truncation::pair) direction.truncated = planes_.truncated(x_, direction.delta);
   for (const std::size_t v : matrix_.free_vertices()) {
+    if (v >= x_.size()) {  // a segment's frame, which nothing bounds
+      direction.truncated[v] = direction.delta[v];
+      continue;
+    }
     if (newton_.truncation == Truncation::pair) {
       direction.cut += direction.truncated[v] != direction.delta[v];
       continue;
@@ -259,12 +281,12 @@ bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
 /// energy more.
 Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
   Accepted best;
-  std::vector<double> pins(x_.size(), 0);
+  std::vector<double> pins(derivatives_.gradient.size(), 0);
   for (int round = 0; round < most_pin_rounds && direction.cut > 0; ++round) {
     if (!pin(direction, pins)) break;
     direction = direction_of();
     Accepted found = timed(line_search,
-                           [&] { return backtracked(potential_, x_, direction.truncated, 1, before, noise); });
+                           [&] { return backtracked(potential_, unknowns(), direction.truncated, 1, before, noise); });
     if (found.share == 0 || (best.share > 0 && found.change >= best.change)) break;
     best = std::move(found);
   }
@@ -281,22 +303,31 @@ double NewtonSolver::accepted_share(const Direction& direction) {
   }
   if (best.share == 0) return 0;
   if (on_accepted) on_accepted(Potential::total(before), best.change, noise);
+  potential_.rods().turn_by(best.x);
+  best.x.resize(x_.size());
   x_ = std::move(best.x);
   return best.share;
+}
+
+State NewtonSolver::unknowns() const {
+  State all = x_;
+  all.resize(derivatives_.gradient.size());
+  return all;
 }
 
 double NewtonSolver::room_for(const State& delta) const {
   if (newton_.truncation == Truncation::pair) return planes_.share_inside(x_, delta);
   double room = 1;
-  for (const std::size_t v : matrix_.free_vertices()) room = std::min(room, regions_.share_inside(v, x_[v], delta[v]));
+  for (const std::size_t v : matrix_.free_vertices())
+    if (v < x_.size()) room = std::min(room, regions_.share_inside(v, x_[v], delta[v]));
   return room;
 }
 
 /// Along δ'; where that was cut and along δ scaled to fit all balls the energy falls far more, along the latter.
 Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
-  Accepted best = backtracked(potential_, x_, direction.truncated, 1, before, noise);
+  Accepted best = backtracked(potential_, unknowns(), direction.truncated, 1, before, noise);
   if (direction.cut > 0) {
-    Accepted scaled = backtracked(potential_, x_, direction.delta, room_for(direction.delta), before, noise);
+    Accepted scaled = backtracked(potential_, unknowns(), direction.delta, room_for(direction.delta), before, noise);
     if (scaled.share > 0 && (best.share == 0 || scaled.change < far_more * best.change)) best = std::move(scaled);
   }
   return best;

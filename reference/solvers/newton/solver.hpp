@@ -67,6 +67,8 @@ class NewtonSolver : public StepSolver, private ContactStep {
 
   StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                   std::int64_t number) override;
+  void set_orientations(std::span<const compare::Quaternion> orientations) override;
+  std::vector<compare::Quaternion> orientations() const override;
   std::vector<std::string> stage_names() const override;
 
   /// Called with each accepted step of the line search: energies before and after, with the same contacts and friction
@@ -84,7 +86,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   };
   enum class Outcome { converged, iteration_limit, indefinite, no_decrease, not_finite };
   struct Direction {
-    State delta;         ///< of all vertices; 0 where not free [m]
+    State delta;         ///< of all vertices [m], then of all segments [1]; 0 where not free
     State truncated;     ///< δ'
     double largest = 0;  ///< ‖δ‖_∞ [m]
     std::size_t cut = 0;
@@ -98,6 +100,9 @@ class NewtonSolver : public StepSolver, private ContactStep {
   std::optional<Outcome> advance(std::size_t prescribed_cut);
   bool judged_in_vain(double force);
   double mean_force() const;
+  bool has_small_torque();
+  /// x, and behind it ω = 0 of each segment of a rod.
+  State unknowns() const;
   void derive(HessianProjection projection);
   /// With stencils projected where the matrix of these derivatives is not positive definite.
   bool factorized_definite();
@@ -128,6 +133,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   HessianProjection projection_ = HessianProjection::none;  ///< of derivatives_
   int judgements_ = 0;                                      ///< without a smaller force than before
   double least_judged_ = 0;                                 ///< [N]
+  double reference_torque_ = -1;  ///< Σ ‖∂E/∂ω‖ after the guess [N m]; negative before
   bool pattern_stale_ = true;
 };
 

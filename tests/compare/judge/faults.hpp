@@ -60,5 +60,6 @@ std::vector<Fault> rod_faults();
 void add_right_rods(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> ipc_faults();
 void add_right_ipc(compare::Contestant& exact, const compare::Authority& authority);
+std::vector<Fault> rod_step_faults();
 
 }  // namespace ogc::tests

@@ -11,6 +11,7 @@
 #include "compare/judge/cases/dust.hpp"
 #include "compare/judge/cases/mutate.hpp"
 #include "compare/judge/cases/placement.hpp"
+#include "compare/judge/engine/rods/orientation_verdict.hpp"
 #include "compare/judge/engine/stencil_json.hpp"
 #include "compare/judge/engine/units.hpp"
 #include "compare/judge/report/form_tools.hpp"
@@ -350,47 +351,17 @@ double inner(const std::array<double, 4>& a, const std::array<double, 4>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// Errors of one answer against one minimiser, each in its unit.
-struct Errors {
-  double orientation = 0, residual = 0, energy = 0;
-};
-
-Errors errors_of(const Quaternion& stored, const OrientationAnswer& exact) {
-  Four q = wide(stored), apart, pull = exact.vector;
-  for (std::size_t k = 0; k < 4; ++k) apart[k] = q[k] - exact.orientation[k];
-  const double length = std::sqrt(inner(q, q));
-  for (double& x : q) x /= length;
-  double quadratic = 0;
-  for (std::size_t row = 0; row < 4; ++row) {
-    const double turned = inner(exact.matrix[row], q);
-    pull[row] += turned;
-    quadratic += 0.5 * q[row] * turned;
-  }
-  const double multiplier = inner(pull, q), energy = -quadratic - inner(exact.vector, q);
-  for (std::size_t k = 0; k < 4; ++k) pull[k] -= multiplier * q[k];
-  const double off = std::sqrt(inner(apart, apart));
-  return {std::isinf(exact.scale) ? 0 : in_units(off, exact.scale),
-          in_units(std::sqrt(inner(pull, pull)), exact.energy_scale),
-          in_units(std::max(0.0, energy - exact.energy), exact.energy_scale)};
-}
-
-double share(const Errors& errors, std::span<const MetricInfo> infos) {
-  return std::max({errors.orientation / infos[0].tolerance, errors.residual / infos[1].tolerance,
-                   errors.energy / infos[2].tolerance});
-}
-
 void judge_case(const TestCase& test, const std::vector<OrientationAnswer>& accepted, bool near, const Quaternion& q,
-                std::span<const MetricInfo> infos, Tally& tally) {
+                Tally& tally) {
   tally.begin(test.name);
   const bool grey = accepted.size() > 1 || std::isinf(accepted.front().scale);
   tally.count(1, 1, grey, near);
-  if (!std::ranges::all_of(q, [](float x) { return std::isfinite(x); })) {
+  if (!is_finite(q)) {
     tally.mismatch("an orientation is no finite quaternion");
     return;
   }
-  const OrientationAnswer& exact = *std::ranges::min_element(
-      accepted, {}, [&](const OrientationAnswer& a) { return share(errors_of(q, a), infos); });
-  const Errors errors = errors_of(q, exact);
+  const OrientationAnswer& exact = nearest_answer(q, accepted);
+  const OrientationErrors errors = orientation_errors(q, exact);
   const auto both = [&] {
     const auto& e = exact.orientation;
     char buffer[200];
@@ -398,12 +369,11 @@ void judge_case(const TestCase& test, const std::vector<OrientationAnswer>& acce
                   double{q[1]}, double{q[2]}, double{q[3]}, e[0], e[1], e[2], e[3]);
     return std::string(buffer);
   };
-  if (share(errors, infos) <= 1 && share(errors_of(q, accepted.front()), infos) > 1) tally.answered_not_exactly();
+  if (errors.share() <= 1 && orientation_errors(q, accepted.front()).share() > 1) tally.answered_not_exactly();
   if (!std::isinf(exact.scale)) tally.error(0, errors.orientation, both);
   tally.error(1, errors.residual, both);
   tally.error(2, errors.energy, both);
-  const Four length = wide(q);
-  tally.error(3, in_units(std::abs(std::sqrt(inner(length, length)) - 1), 1), both);
+  tally.error(3, length_error(q), both);
 }
 
 // Known ways to get it wrong.
@@ -577,7 +547,7 @@ struct OrientationStage : BatchStage<OrientationStage, &Contestant::orientation,
       return;
     }
     for (std::size_t i = 0; i < cases.size(); ++i)
-      judge_case(cases[i], truth.accepted[i], truth.near[i] != 0, out.orientation[i], metrics, tally);
+      judge_case(cases[i], truth.accepted[i], truth.near[i] != 0, out.orientation[i], tally);
   }
   static auto arrays(const Out& out) { return std::tie(out.orientation); }
   static std::string note(const Truth& truth) {

@@ -1,0 +1,79 @@
+// The frames of segments at the start of a step and at its end (compare/rods.md).
+#pragma once
+
+#include "fast/kernels/control.hpp"
+#include "fast/kernels/rods/segments.hpp"
+
+namespace ogc::fast {
+
+/// q after half a turn about its own first axis: its director is reversed.
+OGC_HD inline Quat turned_round(const Quat& q) { return {q.w, q.z, -q.y, -q.x}; }
+
+/// q after the smallest rotation from one direction to another; of opposite ones half a turn about its first axis, and
+/// where one of them is 0 the same q. From half-way vectors: (a × b, 1 + a·b) is twice cos θ/2 of that rotation.
+OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
+  const float first = sqrtf(dot(from, from)), second = sqrtf(dot(to, to));
+  if (!(first > 0 && second > 0)) return q;
+  // What a rounding of unit vectors leaves of a rotation by π: u of 1 + a·b, squared, with room.
+  constexpr float lost = 0x1p-40f;
+  const Vec a = (1.0f / first) * from, b = (1.0f / second) * to, axis = cross(a, b);
+  const Quat twice{axis.x, axis.y, axis.z, 1.0f + dot(a, b)};
+  if (!(dot(twice, twice) > lost)) return turned_round(q);
+  return unit(unit(twice) * q);
+}
+
+/// for_each over segments, where strains are damped: c.
+struct SetDirection {
+  const SegmentRest* segments;    ///< by segment
+  const Vec* start;               ///< xᵗ by vertex [m]
+  const Quat* orientation_start;  ///< qᵗ by segment
+  Vec* direction;                 ///< c by segment, written
+
+  OGC_HD void operator()(int e) const {
+    const SegmentRest rest = segments[e];
+    direction[e] = rod_rest_direction(rest, rest.damping, orientation_start[e],
+                                      start[rest.end[1]] - start[rest.end[0]]);
+  }
+};
+
+/// for_each over segments, after the guess loop: q for the step.
+struct TurnSegment {
+  const SegmentRest* segments;    ///< by segment
+  const int* motion;              ///< by segment: what holds it
+  const Quat* motion_turns;       ///< [step of the frame][motion]: how it turns in the step; w = 2: it does not say
+  int motions;                    ///< of a row of turns
+  const Vec* start;               ///< xᵗ by vertex [m]
+  const Vec* position;            ///< x by vertex [m], after the guess
+  const Quat* orientation_start;  ///< qᵗ by segment
+  Quat* orientation;              ///< q by segment, written
+  bool turns;                     ///< false: free frames stay (orientation_start=kept)
+  const StepControl* control;     ///< on the backend: number of the step
+
+  OGC_HD void operator()(int e) const {
+    const SegmentRest rest = segments[e];
+    const Quat before = orientation_start[e];
+    const Vec apart = start[rest.end[1]] - start[rest.end[0]], now = position[rest.end[1]] - position[rest.end[0]];
+    const int held = motion[e];
+    Quat q = before;
+    if (held >= 0) {
+      const Quat turn = motion_turns[control->steps_done * motions + held];
+      q = turn.w <= 1.0f ? unit(turn * before) : turned_along(apart, now, before);
+    } else if (held == segment_free && turns) {
+      q = turned_along(apart, now, before);
+    }
+    orientation[e] = q;
+  }
+};
+
+/// for_each over segments of a step that is clean: qᵗ = q.
+struct CommitSegment {
+  const Quat* orientation;     ///< q by segment
+  const StepControl* control;  ///< on the backend; not active: the step failed, and nothing is written
+  Quat* orientation_start;     ///< qᵗ by segment, written
+
+  OGC_HD void operator()(int e) const {
+    if (control->active != 0) orientation_start[e] = orientation[e];
+  }
+};
+
+}  // namespace ogc::fast

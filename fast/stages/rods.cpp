@@ -1,0 +1,25 @@
+#include "fast/stages/rods.hpp"
+
+namespace ogc::fast {
+
+std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods) {
+  std::vector<Quat> orientations;
+  if (!scene.orientations.empty()) {
+    for (const compare::Quaternion& q : scene.orientations) orientations.push_back(quat(q));
+    return orientations;
+  }
+  const auto apart = [](const std::vector<compare::Vec3>& x, const SegmentRest& segment) {
+    const compare::Vec3 &a = x[static_cast<std::size_t>(segment.end[0])],
+                        &b = x[static_cast<std::size_t>(segment.end[1])];
+    return Vec{static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y), static_cast<float>(b.z - a.z)};
+  };
+  for (std::size_t e = 0; e < rods.segments.size(); ++e) {
+    const SegmentRest& segment = rods.segments[e];
+    const Vec rest = apart(scene.rest_positions, segment), now = apart(scene.mesh.positions, segment);
+    const bool is_same = rest.x == now.x && rest.y == now.y && rest.z == now.z;
+    orientations.push_back(is_same ? rods.orientations[e] : turned_along(rest, now, rods.orientations[e]));
+  }
+  return orientations;
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,175 @@
+// Orientations of a simulation: qᵗ and q, how a step begins and ends them, and what a row reports of rods. A scene
+// without rods has none of it, and launches nothing.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "compare/problem/rods.hpp"
+#include "fast/kernels/rods/contact_distance.hpp"
+#include "fast/kernels/rods/metrics.hpp"
+#include "fast/kernels/rods/turn.hpp"
+#include "fast/stages/backend.hpp"
+#include "fast/stages/reduce.hpp"
+#include "fast/stages/rest_state.hpp"
+#include "fast/stages/rod_streams.hpp"
+
+namespace ogc::fast {
+
+/// Where a scene says nothing else: those of the rest shape, each turned to where its segment starts.
+std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods);
+
+/// Sums over segments.
+struct SegmentSums {
+  SegmentTerm term;
+  int count;  ///< segments
+
+  /// Those of one chunk.
+  OGC_HD void add(int chunk, int chunks, double* sums) const {
+    for (int e = chunk; e < count; e += chunks) term(e, sums);
+  }
+};
+
+/// The resident rods of one scene.
+template <class Backend>
+class Rods {
+ public:
+  /// `longest_frame`: steps for which turns of motions are uploaded ahead.
+  Rods(Backend& backend, const compare::Scene& scene, const RestState& rest, int longest_frame)
+      : scene_(scene),
+        count_(static_cast<int>(rest.rods.segments.size())),
+        motions_(static_cast<int>(scene.motions.size())),
+        turns_(scene.settings.start_frames == compare::StartFrames::turned),
+        has_triangles_(!scene.mesh.triangles.empty()),
+        reduction_(backend, is_used() ? count_ : 0, is_used()) {
+    if (!is_used()) return;
+    segments_.upload(rest.rods.segments.data(), rest.rods.segments.size());
+    neighbours_.upload(rest.rods.neighbours.data(), rest.rods.neighbours.size());
+    motion_.upload(rest.rods.motion.data(), rest.rods.motion.size());
+    orientation_.resize(segments_.size());
+    motion_turns_.resize(static_cast<std::size_t>(std::max(1, longest_frame * motions_)));
+    if (!rod_damping(rest).empty() && scene.settings.damping == compare::DampingForm::strain)
+      direction_.resize(segments_.size());
+    sums_.resize(rod_columns);
+    extremes_.resize(1);
+    put(start_orientations(scene, rest.rods));
+  }
+
+  bool is_used() const { return count_ > 0; }  ///< whether there are any
+  int count() const { return count_; }         ///< segments
+
+  /// Host only: qᵗ.
+  void put(const std::vector<Quat>& orientations) {
+    if (is_used()) orientation_start_.upload(orientations.data(), orientations.size());
+  }
+  /// Host only: qᵗ, or q of the step.
+  std::vector<compare::Quaternion> start() const { return downloaded(orientation_start_); }
+  std::vector<compare::Quaternion> now() const { return downloaded(orientation_); }
+
+  /// Host only: how motions turn in `steps` steps from `first` on, counted from 0.
+  void upload_turns(std::int64_t first, int steps) {
+    if (!is_used() || motions_ == 0) return;
+    std::vector<Quat> turns;
+    const double h = scene_.settings.time_step;
+    for (std::int64_t k = first; k < first + steps; ++k)
+      for (const compare::PrescribedMotion& motion : scene_.motions)
+        turns.push_back(compare::says_turn(motion) ? quat(compare::prescribed_turn(motion, static_cast<double>(k) * h,
+                                                                                   static_cast<double>(k + 1) * h))
+                                                   : Quat{0, 0, 0, 2});
+    motion_turns_.upload(turns.data(), turns.size());
+  }
+
+  /// After the guess loop: q turned from qᵗ as segments have turned from xᵗ to x.
+  void begin(Backend& backend, const Vec* start, const Vec* position, const StepControl* control) {
+    if (!is_used()) return;
+    backend.for_each(count_, TurnSegment{.segments = segments_.data(),
+                                         .motion = motion_.data(),
+                                         .motion_turns = motion_turns_.data(),
+                                         .motions = motions_,
+                                         .start = start,
+                                         .position = position,
+                                         .orientation_start = orientation_start_.data(),
+                                         .orientation = orientation_.data(),
+                                         .turns = turns_,
+                                         .control = control});
+  }
+
+  /// At the start of a step: what damping counts from.
+  void begin_strains(Backend& backend, const Vec* start) {
+    if (direction_.size() == 0) return;
+    backend.for_each(count_, SetDirection{segments_.data(), start, orientation_start_.data(), direction_.data()});
+  }
+
+  /// What the sweep reads beside its streams.
+  void complete(RodStream& rods) {
+    rods.orientation = orientation_.data();
+    rods.orientation_start = orientation_start_.data();
+    rods.direction = direction_.data();
+  }
+
+  /// At the end of a step: what its row reports.
+  void measure(Backend& backend, const ContactView& contacts, const ContactTables& tables, int capacity,
+               const Vec* position, float contact_radius) {
+    if (!is_used()) return;
+    backend.for_each(1, ResetRodExtremes{extremes_.data()});
+    backend.for_each(count_, RaiseStretch{segments_.data(), position, extremes_.data()});
+    if (has_triangles_)
+      backend.for_each_counted(contacts.vertex_facet_count, capacity,
+                               LowerContactDistance<VertexFacetRecord>{contacts.vertex_facet, tables, position,
+                                                                       contact_radius, extremes_.data()});
+    backend.for_each_counted(
+        contacts.edge_edge_count, capacity,
+        LowerContactDistance<EdgeEdgeRecord>{contacts.edge_edge, tables, position, contact_radius, extremes_.data()});
+    reduction_.sum(sums_.data(),
+                   SegmentSums{{segments_.data(), neighbours_.data(), position, orientation_.data()}, count_});
+  }
+
+  /// qᵗ = q, where the step is clean.
+  void commit(Backend& backend, const StepControl* control) {
+    if (!is_used()) return;
+    backend.for_each(count_, CommitSegment{orientation_.data(), control, orientation_start_.data()});
+  }
+
+  /// On the backend, after `measure`; null where there is no rod.
+  const double* sums() const { return sums_.data(); }
+  const RodExtremes* extremes() const { return extremes_.data(); }
+
+ private:
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  /// No memory of sums where there is nothing to sum.
+  struct OptionalReduction {
+    std::vector<Reduction<Backend, rod_columns>> one;
+    OptionalReduction(Backend& backend, int count, bool is_used) {
+      if (is_used) one.emplace_back(backend, count);
+    }
+    template <class All>
+    void sum(double* total, const All& all) {
+      one.front().sum(total, all);
+    }
+  };
+
+  std::vector<compare::Quaternion> downloaded(const Buffer<Quat>& buffer) const {
+    std::vector<Quat> from(static_cast<std::size_t>(count_));
+    if (is_used()) buffer.download(from.data(), from.size());
+    std::vector<compare::Quaternion> to;
+    for (const Quat& q : from) to.push_back(quaternion(q));
+    return to;
+  }
+
+  const compare::Scene& scene_;
+  int count_, motions_;
+  bool turns_, has_triangles_;
+  OptionalReduction reduction_;
+  Buffer<SegmentRest> segments_;
+  Buffer<SegmentNeighbours> neighbours_;
+  Buffer<int> motion_;
+  Buffer<Quat> motion_turns_, orientation_start_, orientation_;
+  Buffer<Vec> direction_;
+  Buffer<double> sums_;
+  Buffer<RodExtremes> extremes_;
+};
+
+}  // namespace ogc::fast

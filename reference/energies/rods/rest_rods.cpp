@@ -1,0 +1,214 @@
+// Directions come from exact differences; what follows is in extended precision, 2⁻⁶⁴, of which a rod of 10⁵ segments
+// loses 17 bits at most: far from single precision.
+#include <CGAL/Mpzf.h>
+
+#include <cmath>
+#include <limits>
+
+#include "compare/problem/rods.hpp"
+#include "reference/energies/inputs.hpp"
+#include "reference/energies/rest_state.hpp"
+#include "reference/energies/rods/rod_terms.hpp"
+
+namespace ogc::reference {
+namespace {
+
+using compare::Index;
+using Wide = long double;
+using Direction = Triple<Wide>;
+using Frame = FourOf<Wide>;
+
+constexpr double largest_scale = 0x1p20;
+
+Wide exact_difference(double a, double b) {
+  const CGAL::Mpzf difference = CGAL::Mpzf(a) - CGAL::Mpzf(b);
+  const double high = difference.to_double();
+  return static_cast<Wide>(high) + static_cast<Wide>((difference - CGAL::Mpzf(high)).to_double());
+}
+
+compare::Vec3f single(const compare::Vec3& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+Frame normalised(const Frame& q) {
+  const Wide length = std::sqrt(inner(q, q));
+  Frame unit;
+  for (std::size_t k = 0; k < 4; ++k) unit[k] = q[k] / length;
+  return unit;
+}
+
+/// A rotation between two directions, and how a small error of them counts in it.
+struct Turn {
+  Frame rotation;
+  double factor;  ///< 1/cos(θ/2)
+};
+
+/// Half-way vectors: the product of both directions as quaternions is cos θ + sin θ axis, its root the rotation.
+Turn smallest_turn(const Direction& from, const Direction& to) {
+  const Triple<Wide> across = cross(from, to);
+  const Wide along = dot(from, to), one = std::sqrt(dot(from, from) * dot(to, to));
+  const Frame twice{across[0], across[1], across[2], one + along};
+  const Wide cosine = std::sqrt(inner(twice, twice)) / (2 * one);
+  return {normalised(twice), static_cast<double>(1 / cosine)};
+}
+
+template <class T>
+std::array<T, 4> numbers(const Frame& q) {
+  std::array<T, 4> all;
+  for (std::size_t k = 0; k < 4; ++k) all[k] = static_cast<T>(q[k]);
+  return all;
+}
+
+const Frame half_turn{1, 0, 0, 0};  // about the first axis
+
+class Rods {
+ public:
+  Rods(const compare::RestStateIn& in, compare::RestStateTruth& truth)
+      : scene_(*in.scene), numbers_(compare::rod_segments(scene_)), truth_(truth), frame_(numbers_.size()) {}
+
+  void add(std::vector<long double>& mass, std::vector<double>& mass_scale) {
+    add_lengths(mass, mass_scale);
+    find_neighbours();
+    walk();
+    for (std::size_t e = 0; e < numbers_.size(); ++e) add_neighbours(e);
+  }
+
+ private:
+  const compare::Vec3& at(Index v) const { return scene_.rest_positions[static_cast<std::size_t>(v)]; }
+  compare::RestSegment& segment(std::size_t e) { return truth_.exact.segments[e]; }
+  const compare::RodMaterial& material(std::size_t e) {
+    return *scene_.bodies[static_cast<std::size_t>(segment(e).body)].material.rod;
+  }
+
+  Triple<Input> reacting(Inputs& inputs, std::size_t e) {
+    return inputs.vector(single(at(segment(e).end[1])), single(at(segment(e).end[0])));
+  }
+
+  void add_lengths(std::vector<long double>& mass, std::vector<double>& mass_scale) {
+    const std::vector<Index> body = compare::body_of_vertex(scene_);
+    for (const Index number : numbers_) {
+      compare::RestSegment rest;
+      rest.end = scene_.mesh.loose_edges[static_cast<std::size_t>(number)];
+      rest.body = body[static_cast<std::size_t>(rest.end[0])];
+      const compare::Vec3 &a = at(rest.end[0]), &b = at(rest.end[1]);
+      direction_.push_back({exact_difference(b.x, a.x), exact_difference(b.y, a.y), exact_difference(b.z, a.z)});
+      const Wide length = std::sqrt(dot(direction_.back(), direction_.back()));
+      rest.length = static_cast<float>(length);
+      truth_.exact.segments.push_back(rest);
+      Inputs inputs;
+      const Triple<Input> along = reacting(inputs, truth_.exact.segments.size() - 1);
+      const Input size = sqrt(dot(along, along));
+      const double scale = inputs.condition({&size, 1});
+      length_.push_back(length);
+      truth_.segment_length.push_back(static_cast<double>(length));
+      truth_.segment_length_scale.push_back(scale);
+      const compare::Body& owner = scene_.bodies[static_cast<std::size_t>(rest.body)];
+      if (owner.fixed) continue;
+      for (const Index end : rest.end) {
+        const auto v = static_cast<std::size_t>(end);
+        mass[v] += owner.material.rod->density * length / 2;
+        mass_scale[v] += owner.material.rod->density * (scale + static_cast<double>(length)) / 2;
+      }
+    }
+  }
+
+  void find_neighbours() {
+    std::vector<std::vector<std::pair<std::size_t, std::size_t>>> around(scene_.rest_positions.size());
+    for (std::size_t e = 0; e < numbers_.size(); ++e)
+      for (std::size_t end = 0; end < 2; ++end)
+        around[static_cast<std::size_t>(segment(e).end[end])].push_back({e, end});
+    for (const auto& here : around) {
+      if (here.size() != 2) continue;
+      for (std::size_t k = 0; k < 2; ++k)
+        segment(here[k].first).neighbour[here[k].second] = static_cast<Index>(here[1 - k].first);
+    }
+  }
+
+  /// From a segment with its frame through one of its ends, as far as there are neighbours without one.
+  void follow(std::size_t e, std::size_t end) {
+    while (segment(e).neighbour[end] >= 0) {
+      const auto next = static_cast<std::size_t>(segment(e).neighbour[end]);
+      if (has_frame(next)) return;
+      const bool enters_first = segment(next).end[0] == segment(e).end[end];
+      const bool agree = enters_first == (end == 1);
+      Direction to = direction_[next];
+      if (!agree)
+        for (Wide& x : to) x = -x;
+      const Turn turn = smallest_turn(direction_[e], to);
+      const Frame moved = product(turn.rotation, frame_[e]);
+      set(next, agree ? moved : product(moved, half_turn), truth_.segment_frame_scale[e] + turn.factor);
+      e = next;
+      end = enters_first ? 1 : 0;
+    }
+  }
+
+  bool has_frame(std::size_t e) const { return truth_.segment_frame_scale[e] > 0; }
+  void set(std::size_t e, const Frame& frame, double scale) {
+    frame_[e] = normalised(frame);
+    truth_.segment_frame_scale[e] = scale <= largest_scale ? scale : std::numeric_limits<double>::infinity();
+    truth_.segment_orientation[e] = numbers<double>(frame_[e]);
+    segment(e).orientation = numbers<float>(frame_[e]);
+  }
+
+  void walk() {
+    truth_.segment_frame_scale.assign(numbers_.size(), 0);
+    truth_.segment_orientation.resize(numbers_.size());
+    const auto begin = [&](std::size_t e) {
+      const Direction& d = direction_[e];
+      if (d[0] == 0 && d[1] == 0 && d[2] < 0) return set(e, half_turn, 2);
+      const Turn turn = smallest_turn({0, 0, 1}, d);
+      set(e, turn.rotation, 1 + turn.factor);
+    };
+    for (const bool of_rings : {false, true})
+      for (std::size_t e = 0; e < numbers_.size(); ++e) {
+        const auto& near = segment(e).neighbour;
+        if (has_frame(e) || (!of_rings && near[0] >= 0 && near[1] >= 0)) continue;
+        begin(e);
+        if (of_rings || near[1] >= 0)
+          follow(e, 1);
+        else
+          follow(e, 0);
+      }
+  }
+
+  void add_neighbours(std::size_t e) {
+    std::array<double, 2> weight{}, scale{};
+    std::array<std::array<double, 4>, 2> relative{};
+    for (std::size_t end = 0; end < 2; ++end) {
+      segment(e).relative[end] = {0, 0, 0, 0};
+      if (segment(e).neighbour[end] < 0) continue;
+      const auto f = static_cast<std::size_t>(segment(e).neighbour[end]);
+      Inputs inputs;
+      const Triple<Input> own = reacting(inputs, e), other = reacting(inputs, f);
+      const Input mean = Input(0.5) * (sqrt(dot(own, own)) + sqrt(dot(other, other)));
+      const Input answer = Input(4.0) * inputs.number(material(e).bend) / mean;
+      scale[end] = inputs.condition({&answer, 1});
+      const Wide exact = 4 * static_cast<Wide>(material(e).bend) / ((length_[e] + length_[f]) / 2);
+      weight[end] = static_cast<double>(exact);
+      segment(e).weight[end] = static_cast<float>(exact);
+      const Frame between = end == 1 ? product(conjugate(frame_[e]), frame_[f])
+                                     : product(conjugate(frame_[f]), frame_[e]);
+      relative[end] = numbers<double>(between);
+      segment(e).relative[end] = numbers<float>(between);
+    }
+    truth_.segment_weight.push_back(weight);
+    truth_.segment_weight_scale.push_back(scale);
+    truth_.segment_relative.push_back(relative);
+  }
+
+  const compare::Scene& scene_;
+  std::vector<Index> numbers_;
+  compare::RestStateTruth& truth_;
+  std::vector<Direction> direction_;
+  std::vector<Wide> length_;
+  std::vector<Frame> frame_;
+};
+
+}  // namespace
+
+void add_segments(const compare::RestStateIn& in, compare::RestStateTruth& truth, std::vector<long double>& mass,
+                  std::vector<double>& mass_scale) {
+  Rods(in, truth).add(mass, mass_scale);
+}
+
+}  // namespace ogc::reference

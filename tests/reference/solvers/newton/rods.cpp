@@ -1,0 +1,124 @@
+// Newton's method with the frames of rods as unknowns: derivatives against differences, the same minimiser as sweeps
+// reach, and the deflection of a cantilever.
+#include <cmath>
+
+#include "compare/problem/rods.hpp"
+#include "reference/energies/rest_state.hpp"
+#include "reference/simulation.hpp"
+#include "reference/solvers/rods/rod_system.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc;
+using reference::Triple;
+
+namespace {
+
+using compare::Index;
+using compare::Vec3;
+
+/// A rod along these points whose first segment is held.
+compare::Scene held_rod(const std::vector<Vec3>& points, const compare::RodMaterial& rod) {
+  compare::Scene scene;
+  scene.name = "rod";
+  compare::Mesh mesh;
+  mesh.positions = points;
+  for (Index v = 1; v < static_cast<Index>(points.size()); ++v) mesh.loose_edges.push_back({v - 1, v});
+  compare::Body body;
+  body.name = "rod";
+  body.material.rod = rod;
+  append_body(scene, body, mesh);
+  scene.motions = {{.name = "clamp", .vertices = {0, 1}, .keyframes = {}}};
+  scene.settings.contact_radius = 1e-4;
+  compare::round_to_single(scene);
+  return scene;
+}
+
+std::vector<Vec3> straight(int segments) {
+  std::vector<Vec3> points;
+  for (int k = 0; k <= segments; ++k) points.push_back({1e-3 * k, 0, 0});
+  return points;
+}
+
+double distance(const compare::Vec3f& a, const compare::Vec3f& b) {
+  return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
+}
+
+}  // namespace
+
+TEST_CASE("rods: gradients and Hessians of segments and joints are those of their energies", "[property]") {
+  std::vector<Vec3> points;
+  for (int k = 0; k <= 3; ++k) points.push_back({1e-3 * k, 4e-4 * k * k, 2e-4 * std::sin(2.0 * k)});
+  compare::Scene scene = held_rod(points, {.damping = 1e-3});
+  const compare::Topology topology = build_topology(scene);
+  reference::RodSystem system(scene, reference::rest_state({&scene, &topology}).exact);
+  std::vector<Triple<double>> x;
+  for (const Vec3& p : scene.mesh.positions) x.push_back({p.x, p.y, p.z});
+  system.begin_step(x, 1);
+  for (std::size_t v = 0; v < x.size(); ++v)
+    for (std::size_t axis = 0; axis < 3; ++axis) x[v][axis] += 1e-4 * std::sin(3.0 * static_cast<double>(3 * v + axis));
+  system.sweep(x);  // frames that are neither those of the start nor at rest
+  x.resize(x.size() + system.segments());
+  for (std::size_t i = 0; i < system.stencil_count(); ++i) {
+    const auto unknown = system.vertices(i);
+    const reference::StencilDerivatives at = system.derivatives(i, x, reference::HessianProjection::none);
+    CHECK(at.energy == Approx(system.energy(i, x)));
+    const auto moved = [&](std::size_t a, double by, std::size_t b, double also) {
+      auto to = x;
+      to[static_cast<std::size_t>(unknown[a / 3])][a % 3] += by;
+      to[static_cast<std::size_t>(unknown[b / 3])][b % 3] += also;
+      return system.energy(i, to);
+    };
+    const std::size_t count = unknown[2] < 0 ? 6 : 9;
+    for (std::size_t a = 0; a < count; ++a) {
+      // Positions in metres, turns in radians: steps that lose half of the digits in each.
+      const auto step = [&](std::size_t k) { return unknown[k / 3] < 4 ? 1e-6 : 1e-3; };
+      const double slope = (moved(a, step(a), a, 0) - moved(a, -step(a), a, 0)) / (2 * step(a));
+      CHECK(at.gradient[a] == Approx(slope).epsilon(1e-5).margin(1e-9));
+      for (std::size_t b = 0; b < count; ++b) {
+        const double s = step(a), t = step(b);
+        const double bend = (moved(a, s, b, t) - moved(a, s, b, -t) - moved(a, -s, b, t) + moved(a, -s, b, -t)) /
+                            (4 * s * t);
+        CHECK(at.hessian[12 * a + b] == Approx(bend).epsilon(1e-3).margin(1e-5 * (0.1 / (s * 1e3) / (t * 1e3))));
+      }
+    }
+  }
+}
+
+TEST_CASE("rods: Newton's method and converged sweeps end at the same minimiser", "[property]") {
+  std::vector<Vec3> points;
+  for (int k = 0; k <= 10; ++k) points.push_back({1e-3 * k, 3e-4 * std::sin(0.8 * k), 2e-4 * std::cos(0.5 * k)});
+  compare::Scene scene = held_rod(points, {});
+  scene.motions[0].axis = {1, 0, 0};
+  scene.motions[0].angular_velocity = 20;
+  scene.settings.time_step = 1e-3;
+  scene.settings.iterations = 2000;
+  set_setting(scene.settings, "newton_tolerance", 1e-9);
+  const auto newton = reference::start_newton(scene, {}), vbd = reference::start_vbd(scene, {});
+  for (int step = 0; step < 5; ++step) {
+    CHECK(newton->advance(1).back().status == compare::step_clean);
+    vbd->advance(1);
+  }
+  const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
+  // Both are rounded to single precision in each step, at 1 cm from the origin: 2⁻²⁴ of it, five times.
+  for (std::size_t v = 0; v < points.size(); ++v) CHECK(distance(a.positions[v], b.positions[v]) < 5e-9);
+  for (std::size_t e = 0; e < a.orientations.size(); ++e)
+    for (std::size_t k = 0; k < 4; ++k)
+      CHECK(double{a.orientations[e][k]} == Approx(double{b.orientations[e][k]}).margin(1e-5));
+}
+
+TEST_CASE("rods: a cantilever under its weight sinks as a beam does, in proportion to load and 1/k_b", "[property]") {
+  const auto deflection = [](double density, double bend) {
+    compare::Scene scene = held_rod(straight(101), {.density = density, .stretch = 100, .bend = bend});
+    scene.settings.time_step = 0.01;
+    set_setting(scene.settings, "newton_tolerance", 1e-7);
+    const auto newton = reference::start_newton(scene, {});
+    newton->advance(60);
+    return -double{newton->snapshot().positions.back().y};
+  };
+  const double density = 4e-4, bend = 1e-4, load = density * 9.81;
+  // The frame of the held segment is clamped, at its middle: half a segment more than is free.
+  const double length = 100.5e-3, sunk = deflection(density, bend);
+  CHECK(sunk == Approx(load * std::pow(length, 4) / (8 * bend)).epsilon(0.01));
+  CHECK(deflection(density, 2 * bend) == Approx(sunk / 2).epsilon(2e-3));
+  CHECK(deflection(density / 2, bend) == Approx(sunk / 2).epsilon(2e-3));
+}
