@@ -10,6 +10,7 @@
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/rods.hpp"
+#include "compare/problem/volumes.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -85,6 +86,7 @@ Json bodies_json(const Scene& scene) {
                     {"first_tetrahedron", body.first_tetrahedron},
                     {"tetrahedron_count", body.tetrahedron_count},
                     {"fixed", body.fixed},
+                    {"contact", name_of(body.contact)},
                     {"prescribed_vertices", prescribed_count(scene, body)},
                     {"material", material_json(body.material)}});
   return json;

@@ -16,7 +16,7 @@ import math
 import sys
 from pathlib import Path
 
-from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError, runs_in
+from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError, contact_of, runs_in
 from paper_figures.workflow.verdicts import STATES, band_in_words, judge_all, within
 
 BANDS = RESULTS / "bands.json"
@@ -42,7 +42,9 @@ def counterpart(run, accepted):
 def question(run):
     """What a run was asked: of settings their values, whatever words explain them."""
     asked = {key: run.manifest.get(key) for key in QUESTION}
-    return {**asked, "settings": {name: entry["value"] for name, entry in asked["settings"].items()}}
+    bodies = [{**body, "contact": contact_of(body)} for body in asked["scene"]["bodies"]]
+    return {**asked, "settings": {name: entry["value"] for name, entry in asked["settings"].items()},
+            "scene": {**asked["scene"], "bodies": bodies}}
 
 
 def differences(run, old, allowed):

@@ -28,6 +28,7 @@ RESULTS, CLAIMS = ROOM / "results", ROOM / "claims"
 SCENES = "scenes"  # folder below the results: the scenes of accepted manifests, each named by its hash
 ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
 PAPER_BOUNDS = "ball"
+SURFACE, VOLUME = "surface", "volume"  # what a body is to others
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
 
 
@@ -80,6 +81,11 @@ def columns_of(path, stamp):
 def is_driven(body):
     """Whether nothing of the body is simulated: it is fixed, or all of it follows a prescribed motion."""
     return body["fixed"] or body.get("prescribed_vertices") == body["vertex_count"]
+
+
+def contact_of(body):
+    """A manifest that does not say it is from before there were volumes."""
+    return body.get("contact", SURFACE)
 
 
 def manifest_at(path):
@@ -179,18 +185,21 @@ class RunEvidence:
 
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
-        membrane, activation, bounds, redetect_fraction (rounded to single precision in the manifest), and steps: so
-        many from the scene's start, not a window. A start that --jitter moved is another question, and so are bounds
-        other than the paper's, where the claim names none."""
+        membrane, activation, bounds, contact, redetect_fraction (rounded to single precision in the manifest), and
+        steps: so many from the scene's start, not a window. A start that --jitter moved is another question, and so are
+        bounds other than the paper's, and bodies that may be entered, where the claim does not name them."""
         m = self.manifest
         bounds = m["settings"].get("bounds", {}).get("value", PAPER_BOUNDS)
         if "jitter" in m and "jitter" not in wanted or bounds != wanted.get("bounds", PAPER_BOUNDS):
+            return False
+        if self.contact != wanted.get("contact", SURFACE):
             return False
         special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
                    "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
                    "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
                    "bounds": lambda name: bounds == name,
+                   "contact": lambda name: self.contact == name,
                    "redetect_fraction":
                        lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,
@@ -213,6 +222,11 @@ class RunEvidence:
             return self.thinned.first(steps)
         except ValueError as error:
             raise EvidenceError(f"{self.source}: {error}: accept a run of {steps} steps") from error
+
+    @property
+    def contact(self):
+        """Of its bodies: VOLUME where others may enter any of them (compare/volumes.md)."""
+        return VOLUME if any(contact_of(body) == VOLUME for body in self.manifest["scene"]["bodies"]) else SURFACE
 
     @property
     def membranes(self):

@@ -474,9 +474,10 @@ void RunSession::finish() {
   writer_->set_extra("audited_states", std::to_string(summary_.audited_states));
   if (summary_.has_volumes) {
     writer_->set_extra("vertices_inside_at_start", std::to_string(summary_.inside_at_start));
-    writer_->set_extra("most_vertices_inside", std::to_string(summary_.most_inside));
-    writer_->set_extra("deepest_m", number(summary_.deepest, 6));
-    writer_->set_extra("most_edges_meeting_volumes", std::to_string(summary_.most_edges_meeting));
+    const auto checked = [&](std::string most) { return summary_.audited_states > 0 ? most : "not checked"; };
+    writer_->set_extra("most_vertices_inside", checked(std::to_string(summary_.most_inside)));
+    writer_->set_extra("deepest_m", checked(number(summary_.deepest, 6)));
+    writer_->set_extra("most_edges_meeting_volumes", checked(std::to_string(summary_.most_edges_meeting)));
   }
   writer_->close();
   take_times();

@@ -71,12 +71,14 @@ Json to_json(const RunSummary& summary) {
     json["audit"]["meetings"] = summary.meetings;
     json["audit"]["first_meeting"] = summary.first_meeting < 0 ? Json(nullptr) : Json(summary.first_meeting);
   }
-  if (summary.has_volumes)
+  if (summary.has_volumes) {
+    const auto checked = [&](Json most) { return summary.audited_states > 0 ? most : Json(nullptr); };
     json["volumes"] = {{"inside_at_start", summary.inside_at_start},
-                       {"most_inside", summary.most_inside},
-                       {"deepest_m", summary.deepest},
-                       {"deepest_step", summary.deepest_step},
-                       {"most_edges_meeting", summary.most_edges_meeting}};
+                       {"most_inside", checked(summary.most_inside)},
+                       {"deepest_m", checked(summary.deepest)},
+                       {"deepest_step", checked(summary.deepest_step)},
+                       {"most_edges_meeting", checked(summary.most_edges_meeting)}};
+  }
   if (!summary.left_out_of_audits.empty()) json["audit"]["left_out"] = summary.left_out_of_audits;
   if (!summary.failure.empty()) json["failure"] = summary.failure;
   json["warnings"] = summary.warnings;

@@ -288,6 +288,16 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.judged(planes, run={"scale": "paper", "bounds": "planes"}), "reproduced")
         self.assertEqual(self.judged(lambda m: None, run={"scale": "paper", "bounds": "planes"}), "not yet run")
 
+    def test_bodies_that_may_be_entered_answer_claims_that_name_them_alone(self):
+        volume = lambda m: m["scene"]["bodies"][-1].update(contact="volume")  # noqa: E731
+        said = lambda m: [body.update(contact="surface") for body in m["scene"]["bodies"]]  # noqa: E731
+        self.assertEqual(self.judged(volume), "not yet run")
+        self.assertEqual(self.judged(said), "reproduced")
+        wanted = {"run": {"scale": "paper", "contact": "volume"}}
+        self.assertEqual(self.judged(volume, **wanted), "reproduced")
+        for bounded in (said, lambda m: None):
+            self.assertEqual(self.judged(bounded, **wanted), "not yet run")
+
     def test_a_failed_audit_refutes_the_guarantee_and_nothing_else(self):
         failed = lambda m: m.update(status="failed: intersection", guarantee_kept=False)  # noqa: E731
         guarantee = {**GUARANTEE, "run": {"scale": "paper", "steps": 1000}}

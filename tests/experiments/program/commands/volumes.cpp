@@ -59,6 +59,36 @@ TEST_CASE("a dress on a volume: no lag, no intersection among its panels, and th
   CHECK(contains(audit.out, {"0 vertex positions inside volumes"}));
 }
 
+TEST_CASE("run.json says what each body is to others, and not how deep one is inside where nobody looked", "[unit]") {
+  const auto manifest = [](const std::string& options) {
+    const TemporaryFolder folder;
+    const std::filesystem::path run = folder / "run";
+    const ProgramResult result = run_ogc("run dress --scale smoke --steps 2 " + options + " --out " + run.string());
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    return nlohmann::json::parse(compare::read_bytes(run / "run.json"));
+  };
+  for (const std::string kind : {"surface", "volume"}) {
+    const auto json = manifest("--set contact=" + kind + " --audit off");
+    for (const auto& body : json.at("scene").at("bodies"))
+      CHECK(body.at("contact") == (body.at("name") == "body" ? kind : "surface"));
+    for (const char* most : {"most_vertices_inside", "deepest_m", "most_edges_meeting_volumes"}) {
+      CHECK(json.contains(most) == (kind == "volume"));
+      if (kind == "volume") CHECK(json.at(most) == "not checked");
+    }
+  }
+  CHECK(manifest("--set contact=volume --audit end").at("most_vertices_inside") == "0");
+}
+
+TEST_CASE("a ledger of a scene with volumes is refused before anything is written", "[unit]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder / "run";
+  const ProgramResult result = run_ogc("run dress --scale smoke --set contact=volume --ledger --out " + out.string());
+  CHECK(result.status == 2);
+  CHECK(contains(result.err, {"--ledger knows no volumes", "leave it out"}));
+  CHECK(!std::filesystem::exists(out));
+}
+
 TEST_CASE("contact= belongs to scenes with a driven body, and knows two words", "[unit]") {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& arguments) {
