@@ -36,7 +36,8 @@ struct CcdTruth {
   /// the largest double that is not above the first time at which the faces share a point, exactly; infinite where they
   /// never do
   std::vector<double> impact;
-  /// until then the faces are farther apart than ccd_gap_left of their distance at the start, plus ccd_resolution · u S
+  /// until then the faces are farther apart than ccd_gap_left of their distance at the start, plus ccd_resolution · u
+  /// S, as far as ccd_fewest_steps of conservative advancement tell
   std::vector<double> early;
 };
 
@@ -48,6 +49,9 @@ struct CcdTruth {
 inline constexpr double ccd_early_share = 0.75;
 /// The share of the first distance that is too little to go on with.
 inline constexpr double ccd_gap_left = 0.1;
+/// A contestant may give up after so many steps: faces that are a million times as large as their gap, and turn, take
+/// more.
+inline constexpr int ccd_fewest_steps = 1000;
 /// Times u S, S the largest coordinate relative to vertex 0 at the start plus the largest of a displacement relative to
 /// the mean one: a distance that no contestant need tell from 0. The grey zone has the same factor
 /// (compare/stages/numbers.hpp).

@@ -9,10 +9,6 @@ namespace {
 
 using Corners = std::array<Triple<double>, 4>;
 
-/// Each safe step takes at least a ninetieth part of what ℓ allows for a tenth of the gap, so this ends only motions
-/// that would take longer than is worth it; the time reached by then is a safe answer.
-constexpr int most_steps = 10000;
-
 double length(const Triple<double>& a) { return std::sqrt(dot(a, a)); }
 
 double largest_coordinate(const Corners& x) {
@@ -114,8 +110,8 @@ class Motion {
 
 }  // namespace
 
-double additive_ccd(compare::ContactSides sides, const Corners& x, const Corners& delta, double thickness,
-                    double until) {
+double additive_ccd(compare::ContactSides sides, const Corners& x, const Corners& delta, double thickness, double until,
+                    int most_steps) {
   const Motion motion(sides, x, delta);
   Motion::Slab slab = motion.slab(0);
   const double first_gap = slab.width - thickness;

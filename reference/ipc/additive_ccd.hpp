@@ -15,10 +15,15 @@ namespace ogc::reference {
 /// is shortened.
 inline constexpr double ccd_gap_left = 0.1, ccd_rescaling = 0.9;
 
+/// Each safe step takes at least a ninetieth part of what ℓ allows for a tenth of the gap, so this ends only motions
+/// that would take longer than is worth it; the time reached by then is a safe answer.
+inline constexpr int ccd_most_steps = 10000;
+
 /// A time t in [0, until] such that on [0, t] the pair keeps more than `thickness` [m] apart while its vertices move
 /// from x to x + delta; `until` where nothing is in the way. 0 where no gap can be told from rounding at the start.
 /// Sides are point_triangle or edge_edge; until ≤ 1.
 double additive_ccd(compare::ContactSides sides, const std::array<Triple<double>, 4>& x,
-                    const std::array<Triple<double>, 4>& delta, double thickness, double until = 1);
+                    const std::array<Triple<double>, 4>& delta, double thickness, double until = 1,
+                    int most_steps = ccd_most_steps);
 
 }  // namespace ogc::reference

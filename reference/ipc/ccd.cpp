@@ -54,7 +54,7 @@ double early(const CcdCase& c) {
   const double size = largest_coordinate(x, x[0]) + largest_coordinate(delta, mean);
   const double left = compare::ccd_gap_left * distance_above(sides, x) +
                       compare::ccd_resolution * compare::unit_roundoff * size;
-  return additive_ccd(sides, x, delta, left);
+  return additive_ccd(sides, x, delta, left, 1, compare::ccd_fewest_steps);
 }
 
 }  // namespace

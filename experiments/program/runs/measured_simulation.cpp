@@ -135,15 +135,15 @@ class MeasuredSimulation : public compare::Simulation {
   }
 
   void add_meetings(const std::vector<compare::Vec3f>& from, const std::vector<compare::Vec3f>& to, StepMetrics& step) {
-    constexpr std::size_t most_named = 3;
     const compare::MeetingsResult found = compare::meetings(topology_, compare::to_double(from), compare::to_double(to),
-                                                            exclusions_, most_named);
+                                                            exclusions_, most_named - named_);
     if (std::isnan(step.meetings)) step.meetings = 0;
     step.meetings += static_cast<double>(found.count);
     for (const compare::Meeting& meeting : found.meetings)
       step.notes.push_back("step " + std::to_string(step.step) + ": " + describe(meeting, topology_, names_));
-    if (found.count > found.meetings.size())
-      step.notes.push_back("and " + std::to_string(found.count - found.meetings.size()) + " more on that way");
+    named_ += found.meetings.size();
+    if (!found.meetings.empty() && named_ == most_named)
+      step.notes.push_back("further meetings are counted, not named");
   }
 
   /// As the contestant's own detections find them.
@@ -199,6 +199,8 @@ class MeasuredSimulation : public compare::Simulation {
   compare::Contestant contestant_;
   bool has_rows_;
   std::optional<StepRange> meetings_;
+  static constexpr std::size_t most_named = 10;  ///< a baseline may have thousands
+  std::size_t named_ = 0;                        ///< meetings that notes named so far
   std::optional<reference::ResidualMeter> meter_;
   std::optional<reference::LedgerWriter> ledger_;
   reference::ContactSets contacts_;       ///< of the trace's last detection

@@ -112,7 +112,7 @@ TEST_CASE("the ends of the ranges of contacts are taken by every engine, and a p
 }
 
 TEST_CASE("a range of steps that is none is refused by its option and text", "[unit]") {
-  for (const char* value : {"5", "0:4", "7:3", "1:", ":3", "1:2:3", "one:two", "-1:4", "1:99999999999999999999", "on"})
+  for (const char* value : {"5", "0:4", "7:3", "1:", ":3", "1:2:3", "one:two", "1:99999999999999999999", "on"})
     check_refused("run twist --scale smoke --audit-meetings " + std::string(value),
                   {"--audit-meetings", value, "as in 40:139", "or off"});
 }
