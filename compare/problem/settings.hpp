@@ -59,7 +59,7 @@ struct Settings {
   ContactActivation activation = ContactActivation::ogc;  ///< contact energy over distance
   /// `per_vertex`, the authors' form, brakes translation, too
   DampingForm damping = DampingForm::strain;
-  std::int64_t seed = 0;  ///< of whatever the scene draws at random
+  std::int64_t seed = 0;                                     ///< of whatever the scene draws at random
   OrientationUpdate orientation = OrientationUpdate::exact;  ///< of the segments of rods
   StartFrames start_frames = StartFrames::turned;            ///< likewise
   /// Declared by contestants, where not the default: numbers, of a choice the index of its name. By set_setting.
