@@ -63,7 +63,7 @@ struct Settings {
   /// `per_vertex`, the authors' form, brakes translation, too
   DampingForm damping = DampingForm::strain;
   ContactWeightsRule contact_weights = ContactWeightsRule::update;  ///< when closest points are found
-  std::int64_t seed = 0;  ///< of whatever the scene draws at random
+  std::int64_t seed = 0;                                            ///< of whatever the scene draws at random
   OrientationUpdate orientation = OrientationUpdate::exact;  ///< of the segments of rods
   StartFrames start_frames = StartFrames::turned;            ///< likewise
   /// Declared by contestants, where not the default: numbers, of a choice the index of its name. By set_setting.

@@ -38,8 +38,8 @@ struct InitialGuessIn {
 
 /// The position that is stored obeys ‖x − x_prev‖ ≤ b_v exactly.
 struct InitialGuessOut {
-  std::vector<Vec3f> target, position;  ///< y, x [m]
-  std::vector<std::uint8_t> cut;        ///< 1 where ‖y − x_prev‖ > b_v, for the y that is stored
+  std::vector<Vec3f> target, position;    ///< y, x [m]
+  std::vector<std::uint8_t> cut;          ///< 1 where ‖y − x_prev‖ > b_v, for the y that is stored
   std::vector<Quaternion> orientation{};  ///< by turn
 };
 

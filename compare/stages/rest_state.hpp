@@ -47,22 +47,22 @@ struct MeetingMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ_c
 };
 
-/// A segment of a rod, whether it is held or not. Of two segments, and no third, that share a vertex each is the other's
-/// neighbour there.
+/// A segment of a rod, whether it is held or not. Of two segments, and no third, that share a vertex each is the
+/// other's neighbour there.
 ///
 /// Frames are those of a walk. A chain of neighbours begins at the lowest-numbered of its ends, a ring at its
-/// lowest-numbered segment, from x₀ to x₁. The first frame is the smallest rotation from e₃ to x₁ − x₀, half a turn about
-/// the first axis where that is −e₃. Each next one is the frame before it, turned by the smallest rotation from one
-/// direction of the walk to the next, and, where its own x₀ → x₁ is to the walk what that of the one before it is not,
-/// then by half a turn about its own first axis (q i).
+/// lowest-numbered segment, from x₀ to x₁. The first frame is the smallest rotation from e₃ to x₁ − x₀, half a turn
+/// about the first axis where that is −e₃. Each next one is the frame before it, turned by the smallest rotation from
+/// one direction of the walk to the next, and, where its own x₀ → x₁ is to the walk what that of the one before it is
+/// not, then by half a turn about its own first axis (q i).
 struct RestSegment {
-  Edge end{};                                ///< x₀, x₁ as the scene's loose edge has them
-  Index body = -1;                           ///< whose material it has
-  float length = 0;                          ///< l [m]
-  std::array<Index, 2> neighbour{-1, -1};    ///< behind, ahead: numbers of segments; −1: there is none
-  std::array<float, 2> weight{};             ///< w = 4 k_b/l̄ [N m], l̄ = (l + l_f)/2; 0: there is no neighbour
-  std::array<Quaternion, 2> relative{};      ///< p° = q̄°_f q° of the one behind, q̄° q°_f of the one ahead; 0: none
-  Quaternion orientation{};                  ///< q°; of either sign, as p°
+  Edge end{};                              ///< x₀, x₁ as the scene's loose edge has them
+  Index body = -1;                         ///< whose material it has
+  float length = 0;                        ///< l [m]
+  std::array<Index, 2> neighbour{-1, -1};  ///< behind, ahead: numbers of segments; −1: there is none
+  std::array<float, 2> weight{};           ///< w = 4 k_b/l̄ [N m], l̄ = (l + l_f)/2; 0: there is no neighbour
+  std::array<Quaternion, 2> relative{};  ///< p° = q̄°_f q° of the one behind, q̄° q°_f of the one ahead; 0: none
+  Quaternion orientation{};              ///< q°; of either sign, as p°
 };
 
 /// Scene: rounded (`round_to_single`) and valid (`validate`), but that k_c may be 0; every vertex that no motion and no
@@ -75,8 +75,8 @@ struct RestStateIn {
 /// Triangles and hinges in the order of the topology, without those of fixed bodies, of solids and of models `none`;
 /// tetrahedra in the order of the mesh, without those of fixed bodies.
 struct RestStateOut {
-  /// m_v [kg]: a third of ρ A of each triangle at v, on solids a quarter of ρ V of each tetrahedron, half of ρ l of each
-  /// segment; 0 on fixed bodies
+  /// m_v [kg]: a third of ρ A of each triangle at v, on solids a quarter of ρ V of each tetrahedron, half of ρ l of
+  /// each segment; 0 on fixed bodies
   std::vector<float> mass;
   std::vector<RestTriangle> triangles;     ///< in the order of the mesh
   std::vector<RestHinge> hinges;           ///< in the order of the topology
@@ -106,10 +106,10 @@ struct RestStateTruth {
   std::vector<std::array<double, 6>> tetrahedron_weight;
   std::vector<std::array<std::array<double, 3>, 3>> tetrahedron_gradient;
   std::vector<double> tetrahedron_weight_scale, tetrahedron_gradient_scale;
-  std::vector<double> segment_length, segment_length_scale;                    ///< by segment [m]
-  std::vector<std::array<double, 2>> segment_weight, segment_weight_scale;     ///< behind, ahead [N m]
-  std::vector<std::array<double, 4>> segment_orientation;                      ///< q°
-  std::vector<std::array<std::array<double, 4>, 2>> segment_relative;          ///< p° behind, ahead; 0: none
+  std::vector<double> segment_length, segment_length_scale;                 ///< by segment [m]
+  std::vector<std::array<double, 2>> segment_weight, segment_weight_scale;  ///< behind, ahead [N m]
+  std::vector<std::array<double, 4>> segment_orientation;                   ///< q°
+  std::vector<std::array<std::array<double, 4>, 2>> segment_relative;       ///< p° behind, ahead; 0: none
   /// of q° and of p°: 1 + Σ 1/cos(θ/2) of the smallest rotations on the way there, each by its θ; infinite where that
   /// exceeds 2²⁰, and with it any unit quaternion is accepted
   std::vector<double> segment_frame_scale;

@@ -66,10 +66,10 @@ struct SweepOut {
 /// infinite, unless the vertex was not cut and moved against its force beyond all error: then 0. Infinite, too, where
 /// half-spaces cut a free vertex, or may: the judge then asks that it lies in its region. How it slides, truncate asks.
 struct SweepTruth {
-  std::vector<Vec3> position;       ///< that follows from the answer's own neighbours [m]
-  std::vector<double> accepted;     ///< largest error [m]
-  std::vector<std::uint8_t> grey;   ///< 1 where a decision may go either way
-  Index cut = 0, cut_doubtful = 0;  ///< certain cuts, and proposals within their error of the bound
+  std::vector<Vec3> position;          ///< that follows from the answer's own neighbours [m]
+  std::vector<double> accepted;        ///< largest error [m]
+  std::vector<std::uint8_t> grey;      ///< 1 where a decision may go either way
+  Index cut = 0, cut_doubtful = 0;     ///< certain cuts, and proposals within their error of the bound
   std::vector<Index> free_segments{};  ///< whose truth follows, ascending
   OrientationTruth orientation{};      ///< by free segment, that follows from the answer's own neighbours
 };

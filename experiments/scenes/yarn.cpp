@@ -1,8 +1,8 @@
-// The curve of a row is Crane's (2023, A Simple Parametric Model of Plain-Knit Yarns), x = w t/2π + a sin 2t, y = h cos
-// t, z = d cos 2t, with lengths decided here so that neighbouring yarns start 2.95 mm apart, within their contact radius
-// of 3 mm; rows are joined in turn by half circles, so that the cloth is one rod, as knitted by hand. Yarn of 1 g/m,
-// contact radius and time step are the paper's (Table 1, §5.2); k_s, k_b, speeds and what is held are those of the
-// second author's public yarn code; 222 N/m is its k_c in this unit.
+// The curve of a row is Crane's (2023, A Simple Parametric Model of Plain-Knit Yarns), x = w t/2π + a sin 2t,
+// y = h cos t, z = d cos 2t, with lengths decided here so that neighbouring yarns start 2.95 mm apart, within their
+// contact radius of 3 mm; rows are joined in turn by half circles, so that the cloth is one rod, as knitted by hand.
+// Yarn of 1 g/m, contact radius and time step are the paper's (Table 1, §5.2); k_s, k_b, speeds and what is held are
+// those of the second author's public yarn code; 222 N/m is its k_c in this unit.
 #include "experiments/scenes/yarn.hpp"
 
 #include <algorithm>

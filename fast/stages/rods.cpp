@@ -1,6 +1,20 @@
+// Host code in a file of its own (fast/stages/surface.cpp says why).
 #include "fast/stages/rods.hpp"
 
+#include "compare/problem/rods.hpp"
+
 namespace ogc::fast {
+
+std::vector<Quat> motion_turns(const compare::Scene& scene, std::int64_t first, int steps) {
+  std::vector<Quat> turns;
+  const double h = scene.settings.time_step;
+  for (std::int64_t k = first; k < first + steps; ++k)
+    for (const compare::PrescribedMotion& motion : scene.motions)
+      turns.push_back(compare::says_turn(motion) ? quat(compare::prescribed_turn(motion, static_cast<double>(k) * h,
+                                                                                 static_cast<double>(k + 1) * h))
+                                                 : Quat{0, 0, 0, 2});
+  return turns;
+}
 
 std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods) {
   std::vector<Quat> orientations;

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "compare/problem/rods.hpp"
+#include "compare/problem/scene.hpp"
 #include "fast/kernels/rods/contact_distance.hpp"
 #include "fast/kernels/rods/metrics.hpp"
 #include "fast/kernels/rods/turn.hpp"
@@ -19,6 +19,9 @@ namespace ogc::fast {
 
 /// Where a scene says nothing else: those of the rest shape, each turned to where its segment starts.
 std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods);
+
+/// How each motion turns in `steps` steps from `first` on, counted from 0: [step][motion]; w = 2: it does not say.
+std::vector<Quat> motion_turns(const compare::Scene& scene, std::int64_t first, int steps);
 
 /// Sums over segments.
 struct SegmentSums {
@@ -70,13 +73,7 @@ class Rods {
   /// Host only: how motions turn in `steps` steps from `first` on, counted from 0.
   void upload_turns(std::int64_t first, int steps) {
     if (!is_used() || motions_ == 0) return;
-    std::vector<Quat> turns;
-    const double h = scene_.settings.time_step;
-    for (std::int64_t k = first; k < first + steps; ++k)
-      for (const compare::PrescribedMotion& motion : scene_.motions)
-        turns.push_back(compare::says_turn(motion) ? quat(compare::prescribed_turn(motion, static_cast<double>(k) * h,
-                                                                                   static_cast<double>(k + 1) * h))
-                                                   : Quat{0, 0, 0, 2});
+    const std::vector<Quat> turns = motion_turns(scene_, first, steps);
     motion_turns_.upload(turns.data(), turns.size());
   }
 

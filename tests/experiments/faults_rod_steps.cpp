@@ -1,5 +1,6 @@
 // Faults of rods in rest_state, initial_guess, sweep and step.
 #include <cmath>
+#include <utility>
 
 #include "tests/compare/judge/faults.hpp"
 

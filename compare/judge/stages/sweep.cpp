@@ -105,7 +105,7 @@ bool can_judge_sweep(const TestCase& test, const SweepIn& in, const SweepOut& ou
     tally.mismatch("an orientation is not finite");
     return false;
   }
-  if (std::all_of(out.position.begin(), out.position.end(), is_finite)) return true;
+  if (std::ranges::all_of(out.position, [](const Vec3f& x) { return is_finite(x); })) return true;
   tally.mismatch("a position is not finite");
   return false;
 }

@@ -15,13 +15,13 @@ namespace ogc::reference {
 
 /// A segment with what of it is constant in a step.
 struct RodTerm {
-  std::array<compare::Index, 2> vertex{-1, -1};    ///< x₀, x₁
-  double length = 0, stretch = 0, damping = 0;     ///< l [m], k_s [N], k [1]
-  Triple<double> start{};                          ///< R(qᵗ)ᵀ Dᵗ/l
-  std::array<compare::Index, 2> neighbour{-1, -1}; ///< behind, ahead
-  std::array<double, 2> weight{};                  ///< w = 4 k_b/l̄ [N m]
-  std::array<FourOf<double>, 2> rest{}, before{};  ///< p°, pᵗ, as the segment sees them
-  compare::Index held = -1;                        ///< as compare::segment_groups
+  std::array<compare::Index, 2> vertex{-1, -1};     ///< x₀, x₁
+  double length = 0, stretch = 0, damping = 0;      ///< l [m], k_s [N], k [1]
+  Triple<double> start{};                           ///< R(qᵗ)ᵀ Dᵗ/l
+  std::array<compare::Index, 2> neighbour{-1, -1};  ///< behind, ahead
+  std::array<double, 2> weight{};                   ///< w = 4 k_b/l̄ [N m]
+  std::array<FourOf<double>, 2> rest{}, before{};   ///< p°, pᵗ, as the segment sees them
+  compare::Index held = -1;                         ///< as compare::segment_groups
 };
 
 /// Colours of the segments that nothing holds, −1 of others: no two neighbours share one, and each has the lowest that
@@ -66,7 +66,9 @@ class RodSystem {
   std::size_t end_of(compare::Index e, compare::Index vertex) const {
     return terms_[static_cast<std::size_t>(e)].vertex[0] == vertex ? 0 : 1;
   }
-  const std::array<compare::Index, 2>& ends(compare::Index e) const { return terms_[static_cast<std::size_t>(e)].vertex; }
+  const std::array<compare::Index, 2>& ends(compare::Index e) const {
+    return terms_[static_cast<std::size_t>(e)].vertex;
+  }
 
   // As stencils of Newton's method: segments, then joints. Behind the vertices, at `vertex_count + e`, stands ω of
   // segment e, three unknowns: positions that hold it mean q exp(ω/2), others q.
@@ -81,9 +83,7 @@ class RodSystem {
   std::size_t segments() const { return terms_.size(); }
   bool is_free(std::size_t segment) const { return terms_[segment].held == -1; }
   /// What stands on the diagonal of ω, so that a matrix in which a twist is free is definite: far below k_s l [N m].
-  double regularisation(std::size_t segment) const {
-    return 1e-8 * terms_[segment].stretch * terms_[segment].length;
-  }
+  double regularisation(std::size_t segment) const { return 1e-8 * terms_[segment].stretch * terms_[segment].length; }
   /// q ← q exp(ω/2), where there are ω behind the positions.
   void turn_by(const std::vector<Triple<double>>& x);
 
@@ -109,8 +109,8 @@ class RodSystem {
   const compare::Scene& scene_;
   std::vector<RodTerm> terms_;
   std::vector<Joint> joints_;
-  std::vector<std::vector<compare::Index>> around_;    ///< by vertex
-  std::vector<std::vector<std::size_t>> classes_;      ///< free segments by colour
+  std::vector<std::vector<compare::Index>> around_;  ///< by vertex
+  std::vector<std::vector<std::size_t>> classes_;    ///< free segments by colour
   std::vector<compare::Quaternion> scene_start_;
   std::vector<FourOf<double>> start_, q_;
   Positions start_positions_;

@@ -94,6 +94,9 @@ TEST_CASE("a ledger's columns come back, each in a field of its own, behind all 
   CHECK(step_lines(table.rows, 1, all) == line + "\n");
   CHECK(read_text(folder, step_header(stages, common)).groups == common);
   CHECK(read_text(folder, step_header(stages, {.volumes = true})).groups == StepGroups{.volumes = true});
+  for (const StepGroups& groups : {StepGroups{.rods = true}, StepGroups{.solids = true, .volumes = true, .rods = true},
+                                   StepGroups{.ledger = true, .rods = true}})
+    CHECK(read_text(folder, step_header(stages, groups)).groups == groups);
   const auto refuses_without = [&](const std::string& title, const StepGroups& groups) {
     const std::string whole = step_header({}, groups);
     CHECK_THROWS_WITH(read_text(folder, whole.substr(0, whole.find("," + title)) + "\n"),
@@ -101,6 +104,7 @@ TEST_CASE("a ledger's columns come back, each in a field of its own, behind all 
   };
   refuses_without("vertices_inside", {.volumes = true});
   refuses_without("momentum_sweep_z", {.ledger = true});
+  refuses_without("mean_stretch", {.rods = true});
 }
 
 TEST_CASE(

@@ -29,6 +29,10 @@ double shortest_edge(const Scene& scene) {
     const Vec3& s = scene.rest_positions[static_cast<std::size_t>(c)];
     result = std::min({result, length(p, q), length(q, s), length(s, p)});
   }
+  if (scene.bodies[0].triangle_count > 0) return result;
+  for (const Edge& e : scene.mesh.loose_edges)
+    result = std::min(result, length(scene.rest_positions[static_cast<std::size_t>(e[0])],
+                                     scene.rest_positions[static_cast<std::size_t>(e[1])]));
   return result;
 }
 
@@ -80,10 +84,28 @@ TEST_CASE("scales shrink vertices and steps, and keep the radius in units of the
     const double regime = paper.settings.contact_radius / shortest_edge(paper);
     for (const Scene& scene : {smoke, small}) {
       // Positions of up to 0.5 m in single precision (layers a little beyond, strips shorter across) against edges of
-      // more than 7 mm (2 mm across a strip of 4.5 cm): half an ulp at each end, twice.
-      CHECK(scene.settings.contact_radius / shortest_edge(scene) == Approx(regime).epsilon(4 * 0x1p-25 / 0.007));
+      // more than 7 mm (2 mm across a strip of 4.5 cm) or of 1 mm (yarn): half an ulp at each end, twice.
+      const double edge = scene.mesh.triangles.empty() ? 0.001 : 0.007;
+      CHECK(scene.settings.contact_radius / shortest_edge(scene) == Approx(regime).epsilon(4 * 0x1p-25 / edge));
     }
   }
+}
+
+TEST_CASE("yarn scenes have the paper's numbers: one rod, neighbours of a smooth yarn are no contact", "[unit]") {
+  for (const char* name : {"yarn_stretch", "yarn_twist"}) {
+    const Scene scene = make_scene(name, Scale::paper);
+    CHECK(scene.mesh.positions.size() == 65'266);
+    CHECK(scene.mesh.loose_edges.size() == 65'265);
+    CHECK(scene.settings.contact_radius == static_cast<double>(3e-3f));
+    CHECK(scene.settings.time_step == static_cast<double>(4e-4f));
+    CHECK(scene.settings.iterations == 4);
+    REQUIRE(scene.bodies[0].material.rod);
+    CHECK(scene.bodies[0].material.rod->density == static_cast<double>(1e-3f));
+    REQUIRE(scene.motions.size() == 2);
+    // All vertices within 10 mm of both edges, the live loops of the last row among them.
+    CHECK(scene.motions[0].vertices.size() > 33 * 12);
+  }
+  CHECK(make_scene("yarn_stretch", Scale::paper).settings.steps == 16'250);
 }
 
 TEST_CASE("cloth_on_sphere has the paper's numbers", "[unit]") {
