@@ -127,7 +127,10 @@ std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> seg
   return held;
 }
 
-bool says_turn(const PrescribedMotion& motion) { return motion.keyframes.empty() || motion.angular_velocity != 0; }
+/// No file has keyframes and a velocity (validate.cpp): who writes a rigid motion as keyframes sets one to say so.
+bool says_turn(const PrescribedMotion& motion) {
+  return motion.keyframes.empty() || motion.angular_velocity != 0 || motion.velocity != Vec3{};
+}
 
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to) {
   const auto elapsed = [&](double t) { return std::clamp(t, motion.start, motion.end) - motion.start; };

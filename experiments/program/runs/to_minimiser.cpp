@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/rods.hpp"
 #include "reference/contestant.hpp"
 
 namespace ogc::experiments {
@@ -194,6 +195,7 @@ std::optional<Positions> with_own_friction(reference::Minimiser& minimiser, Posi
 ToMinimiser distance_to_minimiser(const compare::Contestant& contestant, const compare::Scene& scene,
                                   const Snapshot& start, std::int64_t most_sweeps) {
   ToMinimiser result;
+  compare::refuse_rods(scene, "minimise");
   const Snapshot end = after_step(contestant, scene, start, result.device);
   const Question question(contestant, scene, start, end);
   const std::vector<compare::Index> groups = rigid_groups(scene);

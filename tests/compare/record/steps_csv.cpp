@@ -95,7 +95,7 @@ TEST_CASE("a ledger's columns come back, each in a field of its own, behind all 
   CHECK(read_text(folder, step_header(stages, common)).groups == common);
   CHECK(read_text(folder, step_header(stages, {.volumes = true})).groups == StepGroups{.volumes = true});
   for (const StepGroups& groups : {StepGroups{.rods = true}, StepGroups{.solids = true, .volumes = true, .rods = true},
-                                   StepGroups{.ledger = true, .rods = true}})
+                                   StepGroups{.rods = true, .ledger = true}})
     CHECK(read_text(folder, step_header(stages, groups)).groups == groups);
   const auto refuses_without = [&](const std::string& title, const StepGroups& groups) {
     const std::string whole = step_header({}, groups);
@@ -111,7 +111,7 @@ TEST_CASE(
     "meetings come back in a column of their own behind volumes and before a ledger, not-a-number where not asked",
     "[unit]") {
   const Scratch folder;
-  const StepGroups groups{.volumes = true, .ledger = true, .meetings = true};
+  const StepGroups groups{.volumes = true, .meetings = true, .ledger = true};
   const std::string header = step_header({}, groups);
   CHECK(header.find(",deepest [m],meetings [1],energy_start [J],") != std::string::npos);
   StepMetrics asked;

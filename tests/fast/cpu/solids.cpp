@@ -181,13 +181,13 @@ TEST_CASE("solids give the same bits run to run, with any number of threads, and
 
 TEST_CASE("a solid alone has the sum of tetrahedra and contacts, one with a sheet the sum of everything", "[unit]") {
   const auto needed = [](const compare::Scene& scene) {
-    return needed_sum(build_rest_state(scene, build_topology(scene)), false);
+    return needed_sum(build_rest_state(scene, build_topology(scene)), scene);
   };
   CHECK(needed(drop_scene(false)) == SweepSum::solids);
   CHECK(needed(drop_scene(true)) == SweepSum::everything);
-  const compare::Scene both = drop_scene(true);
-  const RestState rest = build_rest_state(both, build_topology(both));
-  CHECK(needed_sum(rest, true) == SweepSum::everything_and_volumes);
+  compare::Scene with_volume = drop_scene(true);
+  with_volume.bodies.back().contact = compare::BodyContact::volume;
+  CHECK(needed(with_volume) == SweepSum::everything_and_volumes);
   compare::Scene by_vertex = drop_scene(false);
   by_vertex.settings.damping = compare::DampingForm::per_vertex;
   CHECK(needed(by_vertex) == SweepSum::everything);

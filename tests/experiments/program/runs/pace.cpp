@@ -141,8 +141,8 @@ TEST_CASE("where a simulation pauses changes no bit of its states and rows, whoe
   options.solver = solver;
   const compare::Scene scene = experiments::make_scene("cloth_on_sphere", experiments::Scale::smoke);
   constexpr std::int64_t steps = 6;
-  const auto whole = experiments::contestant_of(options).start(scene, {}),
-             cut = experiments::contestant_of(options).start(scene, {});
+  const auto whole = experiments::contestant_of(options, {}).start(scene, {}),
+             cut = experiments::contestant_of(options, {}).start(scene, {});
   const std::vector<compare::StepMetrics> expected = whole->advance(steps);
   const unsigned seed = std::random_device{}();
   INFO(solver << ", seed " << seed);

@@ -19,7 +19,7 @@ namespace {
 
 using SolidCorners = std::array<compare::Vec3, 4>;
 
-const SolidCorners unit{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+const SolidCorners unit_corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 const SolidMaterial soft{3e4f, 1e4f, 0};
 
 RestState rest_of(const SolidCorners& x) {
@@ -117,7 +117,7 @@ std::array<double, 3> numbers(const Vec& a) { return {a.x, a.y, a.z}; }
 /// Random shapes: near rest, sheared, flat, inverted, needles.
 SolidCorners random_shape(std::mt19937& random, int kind) {
   std::uniform_real_distribution<double> about(-1, 1);
-  SolidCorners x = unit;
+  SolidCorners x = unit_corners;
   const double size = kind == 0 ? 0.01 : 0.7;
   for (compare::Vec3& p : x) p = {p.x + size * about(random), p.y + size * about(random), p.z + size * about(random)};
   if (kind == 2) x[3].z = x[0].z = x[1].z = x[2].z;
@@ -136,7 +136,7 @@ TEST_CASE("a tetrahedron's force is minus the derivative of its energy in every 
           "[property]") {
   std::mt19937 random(1);
   for (int i = 0; i < 500; ++i) {
-    const SolidCorners rest = i % 2 == 0 ? unit : random_shape(random, 0), x = random_shape(random, i % 5),
+    const SolidCorners rest = i % 2 == 0 ? unit_corners : random_shape(random, 0), x = random_shape(random, i % 5),
                        start = random_shape(random, 0);
     const RestState state = rest_of(rest);
     for (const float damping : {0.0f, 0.5f}) {
@@ -163,7 +163,7 @@ TEST_CASE("a tetrahedron's block is the second derivative of the elastic energy,
   std::mt19937 random(2);
   for (int i = 0; i < 500; ++i) {
     const SolidCorners x = random_shape(random, i % 5);
-    const RestState state = rest_of(unit);
+    const RestState state = rest_of(unit_corners);
     for (int corner = 0; corner < 4; ++corner) {
       const Symmetric3 b = seen_from(state, soft, x, x, corner).block;
       const double diagonal[] = {b.xx, b.yy, b.zz};
@@ -171,8 +171,8 @@ TEST_CASE("a tetrahedron's block is the second derivative of the elastic energy,
         SolidCorners ahead = x, behind = x;
         constexpr double step = 1e-3;  // J is affine in one vertex: the energy is quadratic, and no step too long
         coordinate(ahead, corner, axis) += step, coordinate(behind, corner, axis) -= step;
-        const double bend = (energy(unit, soft, ahead, x) - 2 * energy(unit, soft, x, x) +
-                             energy(unit, soft, behind, x)) /
+        const double bend = (energy(unit_corners, soft, ahead, x) - 2 * energy(unit_corners, soft, x, x) +
+                             energy(unit_corners, soft, behind, x)) /
                             (step * step);
         CHECK(diagonal[axis] == Approx(bend).epsilon(1e-4));
       }
@@ -216,8 +216,8 @@ TEST_CASE("a tetrahedron at rest has no force, nor has one that is turned and mo
 }
 
 TEST_CASE("an inverted tetrahedron that is swept vertex by vertex recovers", "[property]") {
-  const RestState state = rest_of(unit);
-  SolidCorners x = unit;
+  const RestState state = rest_of(unit_corners);
+  SolidCorners x = unit_corners;
   x[3].z = -0.4;
   CHECK(volume_ratio(state.tetrahedra[0], single(x[1]), single(x[2]), single(x[3])) < 0);
   for (int sweep = 0; sweep < 200; ++sweep)
@@ -229,7 +229,7 @@ TEST_CASE("an inverted tetrahedron that is swept vertex by vertex recovers", "[p
     }
   const auto to = [&](std::size_t k) { return single({x[k].x - x[0].x, x[k].y - x[0].y, x[k].z - x[0].z}); };
   CHECK(volume_ratio(state.tetrahedra[0], to(1), to(2), to(3)) == Approx(1).margin(1e-3));
-  CHECK(energy(unit, soft, x, x) < 1e-3);
+  CHECK(energy(unit_corners, soft, x, x) < 1e-3);
 }
 
 TEST_CASE("the energy that is reported is that of F", "[unit]") {
@@ -237,7 +237,7 @@ TEST_CASE("the energy that is reported is that of F", "[unit]") {
   for (int i = 0; i < 100; ++i) {
     const SolidCorners x = random_shape(random, i % 5);
     const auto to = [&](std::size_t k) { return single({x[k].x - x[0].x, x[k].y - x[0].y, x[k].z - x[0].z}); };
-    const double reported = solid_energy(rest_of(unit).tetrahedra[0], soft, to(1), to(2), to(3));
-    CHECK(reported == Approx(energy(unit, soft, x, x)).epsilon(1e-5).margin(1e-2));
+    const double reported = solid_energy(rest_of(unit_corners).tetrahedra[0], soft, to(1), to(2), to(3));
+    CHECK(reported == Approx(energy(unit_corners, soft, x, x)).epsilon(1e-5).margin(1e-2));
   }
 }
