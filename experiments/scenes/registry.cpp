@@ -185,10 +185,17 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
+/// A run of so few steps with a handful of frames.
+compare::Scene with_frames(compare::Scene scene) {
+  scene.settings.frame_steps = 20;
+  return scene;
+}
+
 /// Loops at the same spacing, pulled at the same rate of strain.
 compare::Scene yarn_stretch_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return yarn_stretch({.rows = 4, .loops = 4, .rest_steps = 50, .steps = 100, .pull = 0.25});
+    case Scale::smoke:
+      return with_frames(yarn_stretch({.rows = 4, .loops = 4, .rest_steps = 50, .steps = 100, .pull = 0.25}));
     case Scale::small: return yarn_stretch({.rows = 10, .loops = 8, .pull = 0.0625});
     case Scale::paper: break;
   }
@@ -197,7 +204,7 @@ compare::Scene yarn_stretch_at(Scale scale) {
 
 compare::Scene yarn_twist_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return yarn_twist({.rows = 4, .loops = 4, .steps = 100});
+    case Scale::smoke: return with_frames(yarn_twist({.rows = 4, .loops = 4, .steps = 100}));
     case Scale::small: return yarn_twist({.rows = 10, .loops = 8, .steps = 7500, .turns = 1});
     case Scale::paper: break;
   }

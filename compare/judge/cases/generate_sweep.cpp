@@ -534,7 +534,7 @@ constexpr std::array<Generator, 28> table{{{"sheets", 16, true, sheets},
                                            {"ladder.models_rest", 6, false, with_models<at_rest>},
                                            {"ladder.models_collapse", 6, false, with_models<collapse>},
                                            {"rods", 10, false, rods, 0, Stage::orientation},
-                                           {"ladder.rods", 5, false, rods_at_rest, 0, Stage::orientation}}};
+                                           {"ladder.rods", 17, false, rods_at_rest, 0, Stage::orientation}}};
 
 }  // namespace
 

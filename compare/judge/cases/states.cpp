@@ -8,6 +8,7 @@
 #include "compare/judge/cases/colours.hpp"
 #include "compare/judge/cases/stage_traits.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/rods.hpp"
 #include "compare/record/run_folder.hpp"
 
 namespace ogc::compare {
@@ -51,7 +52,8 @@ States::States(const std::filesystem::path& folder, const Authority& authority)
   for (std::size_t i = 0; i < count; ++i) {
     Frame frame = run.frame(count == 1 ? 0 : i * (run.frame_count() - 1) / (count - 1));
     if (i == 0) cell_size_ = mean_edge_length(*topology_, frame.positions);
-    State state{std::move(frame.positions), std::move(frame.bounds), std::move(frame.velocities), frame.step, {}};
+    State state{std::move(frame.positions), std::move(frame.bounds), std::move(frame.velocities),
+                std::move(frame.orientations), frame.step, {}};
     for (std::size_t v = 0; v < state.positions.size(); ++v)
       state.cells.emplace_back(cell(state.positions[v]), static_cast<Index>(v));
     std::sort(state.cells.begin(), state.cells.end());
@@ -123,6 +125,11 @@ BoundCase States::bound(std::size_t frame) const {
   return *c;
 }
 
+std::vector<Quaternion> States::orientations_of(const State& state) const {
+  if (!state.orientations.empty()) return state.orientations;
+  return std::vector<Quaternion>(rod_segments(*scene_).size(), Quaternion{0, 0, 0, 1});
+}
+
 SweepCase States::sweep(std::size_t frame, Random& random) const {
   const State& state = states_[frame];
   SweepCase c;
@@ -145,6 +152,9 @@ SweepCase States::sweep(std::size_t frame, Random& random) const {
   c.old = c.target;
   c.largest_bound.assign(c.previous.size(), std::numeric_limits<float>::max());
   c.query_radius = static_cast<float>(contact_radius_ * random.between(1, std::max(1.0f, query_radius_cap_)));
+  if (!has_rods(*scene_)) return c;
+  c.segment_colour = random_segment_colours(random, *scene_);
+  c.orientation = c.orientation_start = orientations_of(state);
   return c;
 }
 
@@ -153,6 +163,7 @@ StepCase States::step(std::size_t frame) const {
   auto scene = std::make_shared<Scene>(*scene_);
   scene->mesh.positions = to_double(state.positions);
   scene->velocities = to_double(state.velocities);
+  if (has_rods(*scene)) scene->orientations = orientations_of(state);
   const double now = static_cast<double>(state.step) * scene->settings.time_step;
   for (PrescribedMotion& motion : scene->motions) {
     const double elapsed = std::clamp(now, motion.start, motion.end) - motion.start;

@@ -74,6 +74,7 @@ class States {
     std::vector<Vec3f> positions;
     std::vector<float> bounds;
     std::vector<Vec3f> velocities;
+    std::vector<Quaternion> orientations;  // of the segments of rods
     std::int64_t step = 0;
     std::vector<std::pair<std::uint64_t, Index>> cells;
   };
@@ -83,6 +84,8 @@ class States {
     std::vector<EdgeEdgeContact> edge_edge;
     std::size_t size() const { return vertex_facet.size() + edge_edge.size(); }
   };
+  /// Those of the frame; of one that holds none, unturned.
+  std::vector<Quaternion> orientations_of(const State& state) const;
   /// Asked of the authority once a frame.
   const Contacts& contacts(std::size_t frame) const;
   /// The first frame from this one on, and around, that has a contact; none where the run has none.

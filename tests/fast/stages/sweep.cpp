@@ -443,7 +443,8 @@ struct FrozenSweep {
 TEST_CASE("before anything has moved, weights of the iteration are those of an update", "[property]") {
   Fixture f(false, 4, 0);
   const FrozenSweep frozen(f);
-  const SweepView view = f.view();
+  SweepView view = frozen.view;
+  f.sweep->complete(view);
   for (std::size_t slot = 0; slot < f.colouring.order.size(); ++slot) {
     const SweepVertex vertex = view.vertices[slot];
     if (f.colouring.colour[static_cast<std::size_t>(vertex.vertex)] != 0) continue;  // reads old positions alone
