@@ -7,7 +7,7 @@ those of `ogc run`; `backend` is that of VBD in single precision, all else runs 
 
 from dataclasses import dataclass
 
-from paper_figures.workflow import layers, slide
+from paper_figures.workflow import layers, release, slide
 from paper_figures.workflow.audited import Audit
 from paper_figures.workflow.jobs import Command, Job, Share, Step
 
@@ -398,6 +398,66 @@ def ledgers(scale, backend):
                 yield Job(start, (*shared_words, *last))
             state = {"state": (start, Step(first)), "more_steps": steps} if first > 0 else {}
             yield Job(name, (*shared_words, "--ledger", "--audit", "end"), scene=sheet, **state)
+
+
+# Fig. 15 and 16. The baseline is the same sweep without bounds and with a force that no distance makes infinite: the
+# paper's "Newton". What decides is the tension of the yarn against k_c r, so that Fig. 15 has two weaker k_c, too,
+# pulled as far as a mean stretch of 1 needs.
+STRETCH, YARN_TWIST = "yarn_stretch", "yarn_twist"
+YARN_KINDS = {"ogc": (), "baseline": ("--set", "bounds=off", "--set", "activation=quadratic")}
+YARN_STIFFNESS = (222, 22, 2)  # N/m, the scene's first
+YARN_STEPS = {STRETCH: {"smoke": 100, "small": 16250, "paper": 16250},
+              YARN_TWIST: {"smoke": 100, "small": 7500, "paper": 27500}}
+WEAK_YARN_STEPS = {"smoke": 100, "small": 6250, "paper": 6250}  # at rest, then pulled for 2 s
+YARN_FRAME_STEPS = {"smoke": 5, "small": 125, "paper": 125}
+RELEASE_STEPS = {"smoke": 60, "small": 7500, "paper": 25000}  # at paper 10 s
+# A meeting is asked for exactly on the way of every step, which is traced; at the paper's size only of the baselines,
+# which break up, and of ours in windows of so many steps from states at these shares of the run [%].
+MEETING_STEPS, MEETING_SHARES = 100, (0, 25, 50, 75, 99)
+
+
+def yarn(scene, kind, scale, backend, name, more=(), steps=0):
+    """One run; meetings of the baseline are a result, and so is where its numbers end."""
+    asked = kind == "baseline" or scale != "paper"
+    meetings = ("--audit-meetings", f"1:{YARN_STEPS[scene][scale]}") if asked else ("--audit-meetings", "off")
+    audit = "off" if kind == "baseline" else "frame"
+    words = (scene, "--scale", scale, "--backend", backend, "--audit", audit, *meetings, *YARN_KINDS[kind], *more,
+             "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}", "--steps", steps or YARN_STEPS[scene][scale])
+    return Job(name, words, may_fail=kind == "baseline")
+
+
+def yarn_windows(scene, scale, backend):
+    """Windows of our run at the paper's size in which meetings are asked for."""
+    last = YARN_STEPS[scene][scale]
+    for share in MEETING_SHARES if scale == "paper" else ():
+        words = (scene, "--scale", scale, "--backend", backend, "--audit", "end", "--audit-meetings", f"1:{last}")
+        name = "ogc" if scene == YARN_TWIST else f"ogc_{YARN_STIFFNESS[0]}"
+        yield Job(f"window_{share}", words, (name, Share(share, YARN_FRAME_STEPS[scale])), MEETING_STEPS,
+                  pictured=False)
+
+
+def yarn_stretched(scale, backend):
+    """Fig. 15."""
+    for stiffness in YARN_STIFFNESS:
+        scenes_own = stiffness == YARN_STIFFNESS[0]
+        more = () if scenes_own else ("--set", f"contact_stiffness={stiffness}")
+        for kind in YARN_KINDS:
+            yield yarn(STRETCH, kind, scale, backend, f"{kind}_{stiffness}", more,
+                       0 if scenes_own else WEAK_YARN_STEPS[scale])
+    yield from yarn_windows(STRETCH, scale, backend)
+
+
+def yarn_twisted(scale, backend):
+    """Fig. 16: twisted, let go, and beside it the cloth that hangs as it is."""
+    let_go = ("--backend", backend, "--audit-meetings", "off", "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}")
+    scene, steps = release.Release(scale), RELEASE_STEPS[scale]
+    for kind, options in YARN_KINDS.items():
+        audit = ("--audit", "frame" if kind == "ogc" else "off")
+        yield yarn(YARN_TWIST, kind, scale, backend, kind)
+        yield Job(f"{kind}_released", (*let_go, *audit, *options), (kind, -1), steps, scene=scene,
+                  may_fail=kind == "baseline")
+    yield Job("hanging", (*let_go, "--audit", "frame", "--steps", steps), scene=scene)
+    yield from yarn_windows(YARN_TWIST, scale, backend)
 
 
 # Smaller measurements beside Table 1 (fast/PERFORMANCE.md).
