@@ -1,5 +1,5 @@
-"""Yarn as it is drawn: tubes around the segments of rods with two plies, which lie on a helix of the material. The helix
-turns with the segments' orientations, so that twist shows.
+"""Yarn as it is drawn: tubes around the segments of rods with two plies, which lie on a helix of the material. It turns
+with the segments' orientations, so that twist shows.
 """
 
 from itertools import chain
