@@ -56,9 +56,12 @@ def yarn_of(run, body, frame):
     colours = np.empty((len(segments), yarn.PLIES, 3))
     for number, links in enumerate(chains):
         colours[[e for e, _ in links]] = yarn.plies_of(YARNS[number % len(YARNS)])
-    orientations = frame.orientations[body["first_segment"]:body["first_segment"] + len(segments)].astype(float)
     angles = yarn.angles_of(chains, lengths, yarn.PITCH * diameter)
-    return (*yarn.tubes(frame.positions[first:first + count], segments, orientations, angles, diameter, colours), None)
+    points = frame.positions[first:first + count]
+    orientations = frame.orientations[body["first_segment"]:body["first_segment"] + len(segments)].astype(float)
+    if not len(orientations):  # the start of a scene that gives none: frames follow from its rest shape
+        orientations = yarn.untwisted(chains, points.astype(float), segments)
+    return (*yarn.tubes(points, segments, orientations, angles, diameter, colours), None)
 
 
 def draw_time(axes, run, claims, profiled):

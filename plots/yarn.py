@@ -58,6 +58,33 @@ def rotated(quaternions, axis):
     return e + 2 * np.cross(v, np.cross(v, e) + w * e)
 
 
+def untwisted(chains_of, positions, segments):
+    """Orientations without twist [n, 4]: along each chain a frame is turned on by the smallest rotation, as a rod's
+    frames at rest are (compare/rods.md, "Rest data"); the first one from the axes."""
+    directions = _unit(positions[segments[:, 1]] - positions[segments[:, 0]])
+    result = np.empty((len(segments), 4))
+    for links in chains_of:
+        direction, frame = np.array([0.0, 0.0, 1.0]), np.array([[0.0, 0.0, 0.0, 1.0]])
+        for e, _ in links:
+            frame = _product(_smallest_rotation(direction, directions[e]), frame)
+            result[e], direction = frame[0], directions[e]
+    return result
+
+
+def _smallest_rotation(a, b):
+    """Quaternion [1, 4] that takes the unit vector a to b; half a turn where they are opposite."""
+    w = 1 + a @ b
+    axis = np.cross(a, b) if w > 1e-12 else np.cross(a, np.eye(3)[np.argmin(np.abs(a))])
+    q = np.append(axis, max(w, 0) if w > 1e-12 else 0)
+    return (q / np.linalg.norm(q))[None]
+
+
+def _product(p, q):
+    """Of quaternions x, y, z, w [n, 4]."""
+    v = p[:, 3:] * q[:, :3] + q[:, 3:] * p[:, :3] + np.cross(p[:, :3], q[:, :3])
+    return np.hstack([v, p[:, 3:] * q[:, 3:] - np.sum(p[:, :3] * q[:, :3], axis=1, keepdims=True)])
+
+
 def _unit(vectors):
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     return vectors / np.where(length > 0, length, 1)

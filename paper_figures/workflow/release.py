@@ -1,5 +1,5 @@
-"""`yarn_twist` without the motion that turns it, as a scene file: what was twisted is let go, or hangs from the start as
-it is. Python's own library is enough.
+"""`yarn_twist` without the motion that turns it, as a scene file: what was twisted is let go, or hangs as it is from
+the start. Python's own library is enough.
 """
 
 import json

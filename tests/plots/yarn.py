@@ -90,6 +90,16 @@ class Tubes(unittest.TestCase):
         # About x, along which the tube lies: y to z.
         self.assertTrue(np.allclose(after, np.stack([before[:, 0], -before[:, 2], before[:, 1]], axis=1), atol=1e-12))
 
+    def test_frames_of_a_start_lie_along_their_segments_and_have_no_twist(self):
+        bent = self.positions + np.stack([np.zeros(9), np.sin(np.arange(9)), np.cos(np.arange(9))], axis=1)
+        chains = yarn.chains(self.segments, 9)
+        frames = yarn.untwisted(chains, bent, self.segments)
+        directions = np.diff(bent, axis=0)
+        directions /= np.linalg.norm(directions, axis=1)[:, None]
+        self.assertTrue(np.allclose(yarn.rotated(frames, 2), directions, atol=1e-12))
+        turns = product(frames[1:], frames[:-1] * (-1, -1, -1, 1))  # between neighbours, about no part of their bisector
+        self.assertTrue(np.allclose(np.sum(turns[:, :3] * (directions[1:] + directions[:-1]), axis=1), 0, atol=1e-12))
+
     def test_chains_end_where_not_two_segments_meet_and_rings_close(self):
         star = np.array([[0, 1], [1, 2], [3, 1], [4, 5], [5, 6], [6, 4]])
         found = sorted(sorted(e for e, _ in links) for links in yarn.chains(star, 8))

@@ -87,7 +87,8 @@ def first_meeting(run):
 
 def row_of(name, run):
     stretch, stiffness = material(run)
-    most, asked, first, pull = stiffness * run.setting("contact_radius"), meetings(run), first_meeting(run), tension(run)
+    most, asked = stiffness * run.setting("contact_radius"), meetings(run)
+    first, pull = first_meeting(run), tension(run)
     cell = lambda value: "" if value is None else f"{value:.6g}"  # noqa: E731
     at = lambda values: None if first is None else values[first]  # noqa: E731
     return {"run": name, "kind": kind_of(run), "k_c [N/m]": f"{stiffness:g}", "k_s [N]": f"{stretch:g}",
