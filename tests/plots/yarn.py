@@ -97,7 +97,7 @@ class Tubes(unittest.TestCase):
         directions = np.diff(bent, axis=0)
         directions /= np.linalg.norm(directions, axis=1)[:, None]
         self.assertTrue(np.allclose(yarn.rotated(frames, 2), directions, atol=1e-12))
-        turns = product(frames[1:], frames[:-1] * (-1, -1, -1, 1))  # between neighbours, about no part of their bisector
+        turns = product(frames[1:], frames[:-1] * (-1, -1, -1, 1))  # about no part of the bisector
         self.assertTrue(np.allclose(np.sum(turns[:, :3] * (directions[1:] + directions[:-1]), axis=1), 0, atol=1e-12))
 
     def test_chains_end_where_not_two_segments_meet_and_rings_close(self):

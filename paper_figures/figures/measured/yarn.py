@@ -27,7 +27,7 @@ SHOWN = (0, 1 / 3, 2 / 3, 1)  # of the run
 # Where the eye is, and what is up: from above, pulled from left to right; from the front, turned about the vertical.
 VIEWS = {commands.STRETCH: ((0, 1, 0), (1, 0, 0)), commands.YARN_TWIST: ((0.25, 0.1, 1), (0, 1, 0))}
 MARGIN, ANGLE = 1.08, 30  # of a picture around the yarn; PyVista's angle of view [degrees]
-SIZE = {commands.STRETCH: (960, 480), commands.YARN_TWIST: (640, 720)}
+SIZE = {commands.STRETCH: (640, 480), commands.YARN_TWIST: (640, 720)}
 
 
 def runs_of(options):
