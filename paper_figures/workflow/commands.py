@@ -411,29 +411,25 @@ YARN_STEPS = {STRETCH: {"smoke": 100, "small": 16250, "paper": 16250},
 WEAK_YARN_STEPS = {"smoke": 100, "small": 6250, "paper": 6250}  # at rest, then pulled for 2 s
 YARN_FRAME_STEPS = {"smoke": 5, "small": 125, "paper": 125}
 RELEASE_STEPS = {"smoke": 60, "small": 7500, "paper": 25000}  # at paper 10 s
-# A meeting is asked for exactly on the way of every step, which is traced; at the paper's size only of the baselines,
-# which break up, and of ours in windows of so many steps from states at these shares of the run [%].
-MEETING_STEPS, MEETING_SHARES = 100, (0, 25, 50, 75, 99)
+# Whether threads meet on the way of a step is asked exactly, which takes 0.3 s a step of 4,000 segments: of every step
+# at smoke alone, else in windows of so many steps from states at these shares of a run [%].
+MEETING_STEPS, MEETING_SHARES = {"small": 20, "paper": 50}, (0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 99)
+WINDOW_OF = "_window_"  # between the name of a run and the share
 
 
 def yarn(scene, kind, scale, backend, name, more=(), steps=0):
-    """One run; meetings of the baseline are a result, and so is where its numbers end."""
-    asked = kind == "baseline" or scale != "paper"
-    meetings = ("--audit-meetings", f"1:{YARN_STEPS[scene][scale]}") if asked else ("--audit-meetings", "off")
-    audit = "off" if kind == "baseline" else "frame"
-    words = (scene, "--scale", scale, "--backend", backend, "--audit", audit, *meetings, *YARN_KINDS[kind], *more,
-             "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}", "--steps", steps or YARN_STEPS[scene][scale])
-    return Job(name, words, may_fail=kind == "baseline")
-
-
-def yarn_windows(scene, scale, backend):
-    """Windows of our run at the paper's size in which meetings are asked for."""
-    last = YARN_STEPS[scene][scale]
-    for share in MEETING_SHARES if scale == "paper" else ():
-        words = (scene, "--scale", scale, "--backend", backend, "--audit", "end", "--audit-meetings", f"1:{last}")
-        name = "ogc" if scene == YARN_TWIST else f"ogc_{YARN_STIFFNESS[0]}"
-        yield Job(f"window_{share}", words, (name, Share(share, YARN_FRAME_STEPS[scale])), MEETING_STEPS,
-                  pictured=False)
+    """One run and its windows; meetings of the baseline are a result, and so is where its numbers end."""
+    steps = steps or YARN_STEPS[scene][scale]
+    shared_words = (scene, "--scale", scale, "--backend", backend, *YARN_KINDS[kind], *more)
+    asked = ("--audit-meetings", f"1:{steps}")
+    words = (*shared_words, "--audit", "off" if kind == "baseline" else "frame",
+             *(asked if scale == "smoke" else ("--audit-meetings", "off")),
+             "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}", "--steps", steps)
+    yield Job(name, words, may_fail=kind == "baseline")
+    for share in MEETING_SHARES if scale in MEETING_STEPS else ():
+        yield Job(f"{name}{WINDOW_OF}{share}", (*shared_words, "--audit", "off", *asked),
+                  (name, Share(share, YARN_FRAME_STEPS[scale])), MEETING_STEPS[scale], pictured=False,
+                  may_fail=kind == "baseline")
 
 
 def yarn_stretched(scale, backend):
@@ -442,9 +438,8 @@ def yarn_stretched(scale, backend):
         scenes_own = stiffness == YARN_STIFFNESS[0]
         more = () if scenes_own else ("--set", f"contact_stiffness={stiffness}")
         for kind in YARN_KINDS:
-            yield yarn(STRETCH, kind, scale, backend, f"{kind}_{stiffness}", more,
-                       0 if scenes_own else WEAK_YARN_STEPS[scale])
-    yield from yarn_windows(STRETCH, scale, backend)
+            yield from yarn(STRETCH, kind, scale, backend, f"{kind}_{stiffness}", more,
+                            0 if scenes_own else WEAK_YARN_STEPS[scale])
 
 
 def yarn_twisted(scale, backend):
@@ -453,11 +448,10 @@ def yarn_twisted(scale, backend):
     scene, steps = release.Release(scale), RELEASE_STEPS[scale]
     for kind, options in YARN_KINDS.items():
         audit = ("--audit", "frame" if kind == "ogc" else "off")
-        yield yarn(YARN_TWIST, kind, scale, backend, kind)
+        yield from yarn(YARN_TWIST, kind, scale, backend, kind)
         yield Job(f"{kind}_released", (*let_go, *audit, *options), (kind, -1), steps, scene=scene,
                   may_fail=kind == "baseline")
     yield Job("hanging", (*let_go, "--audit", "frame", "--steps", steps), scene=scene)
-    yield from yarn_windows(YARN_TWIST, scale, backend)
 
 
 # Smaller measurements beside Table 1 (fast/PERFORMANCE.md).

@@ -85,19 +85,31 @@ def first_meeting(run):
     return int(met[0]) if len(met) else None
 
 
-def row_of(name, run):
+def windows_of(name, runs):
+    """The windows of a run in which meetings were asked for, in order."""
+    return [run for other, run in runs.items() if other.startswith(name + commands.WINDOW_OF)]
+
+
+def first_among(parts):
+    """(part, row) of the first meeting in a run or its windows; (the run, None) where threads never met."""
+    return next(((part, row) for part in parts if (row := first_meeting(part)) is not None), (parts[0], None))
+
+
+def row_of(name, run, windows=()):
     stretch, stiffness = material(run)
-    most, asked = stiffness * run.setting("contact_radius"), meetings(run)
-    first, pull = first_meeting(run), tension(run)
+    parts, pull = [run, *windows], tension(run)
+    most, asked = stiffness * run.setting("contact_radius"), np.concatenate([meetings(part) for part in parts])
+    part, first = first_among(parts)
     cell = lambda value: "" if value is None else f"{value:.6g}"  # noqa: E731
     at = lambda values: None if first is None else values[first]  # noqa: E731
     return {"run": name, "kind": kind_of(run), "k_c [N/m]": f"{stiffness:g}", "k_s [N]": f"{stretch:g}",
             "first step": int(run.column("step")[0]), "last step": int(run.column("step")[-1]),
             "steps asked [1]": int(np.isfinite(asked).sum()),
             "meetings [1]": "" if np.isnan(asked).all() else int(np.nansum(asked)),
-            "first meeting at step": "" if first is None else int(run.column("step")[first]),
-            "mean stretch there [1]": cell(at(run.column("mean_stretch"))),
-            "mean tension there [N]": cell(at(pull)), "tension over k_c r [1]": cell(at(pull / most)),
+            "first meeting at step": "" if first is None else int(part.column("step")[first]),
+            "mean stretch there [1]": cell(at(part.column("mean_stretch"))),
+            "mean tension there [N]": cell(at(tension(part))),
+            "tension over k_c r [1]": cell(at(tension(part) / most)),
             "largest mean tension [N]": cell(np.nanmax(pull)),
             "largest mean tension over k_c r [1]": cell(np.nanmax(pull) / most),
             "largest stretch [1]": cell(np.nanmax(run.column("largest_stretch"))),
@@ -131,7 +143,7 @@ def table(runs, how_far):
     rows = []
     for name, run in runs.items():
         of = how_far.get(name)
-        rows.append(row_of(name, run) | {f"distance, {words} [m]": "" if of is None else f"{np.percentile(of, k):.6g}"
+        rows.append(row_of(name, run, windows_of(name, runs)) | {f"distance, {words} [m]": "" if of is None else f"{np.percentile(of, k):.6g}"
                                          for words, k in shares.items()})
     return rows
 
@@ -167,22 +179,26 @@ def label(run):
     return f"{KINDS[kind_of(run)]}, k_c = {material(run)[1]:g} N/m"
 
 
-def drawn_over_time(scene, runs):
-    """Runs that begin with the scene's start."""
-    return [run for name, run in runs.items() if run.column("step")[0] == 1 and name != "hanging"]
+def drawn_over_time(runs):
+    """Runs of the scene from its start."""
+    return {name: run for name, run in runs.items()
+            if commands.WINDOW_OF not in name and run.column("step")[0] == 1 and name != "hanging"}
 
 
-def draw_over_time(axes_of_tension, axes_of_meetings, scene, runs):
-    for run in drawn_over_time(scene, runs):
+def draw_over_time(axes_of_tension, axes_of_meetings, runs):
+    for name, run in drawn_over_time(runs).items():
         weaker = commands.YARN_STIFFNESS.index(round(material(run)[1]))
         colour, dash = style.COLOURS[weaker], style.DASHES[kind_of(run) == "baseline"]
         axes_of_tension.plot(seconds(run), tension(run), dash, color=colour, linewidth=1, label=label(run))
-        first = first_meeting(run)
+        parts = [run, *windows_of(name, runs)]
+        part, first = first_among(parts)
         if first is not None:
-            axes_of_tension.plot(seconds(run)[first], tension(run)[first], "x", color=colour)
-        asked = meetings(run)
-        if np.isfinite(asked).any():
-            axes_of_meetings.plot(seconds(run), np.nancumsum(asked), dash, color=colour, linewidth=1, label=label(run))
+            axes_of_tension.plot(seconds(part)[first], tension(part)[first], "x", color=colour)
+        time, asked = (np.concatenate([of(each) for each in parts]) for of in (seconds, meetings))
+        time, asked = time[np.isfinite(asked)], asked[np.isfinite(asked)]
+        if len(asked):
+            axes_of_meetings.plot(time, np.cumsum(asked), dash, color=colour, linewidth=1,
+                                  label=label(run))
     axes_of_tension.set(xlabel="time [s]", ylabel="k_s · mean stretch [N]",
                         title="Mean tension; ×: the first meeting")
     axes_of_meetings.set(xlabel="time [s]", ylabel="meetings so far", title="Threads that met on the way of a step",
@@ -205,14 +221,17 @@ def draw_distances(axes, how_far):
 
 def draw_reached(axes, runs):
     """Tension at the first meeting over k_c r; where threads never met, how far the tension came."""
-    for place, (name, run) in enumerate(pair for pair in runs.items() if "window" not in pair[0]):
-        first, most = first_meeting(run), material(run)[1] * run.setting("contact_radius")
-        height = (np.nanmax(tension(run)) if first is None else tension(run)[first]) / most
-        axes.bar(place, height, color=style.COLOURS[2] if first is None else style.COLOURS[3])
-        axes.annotate(f"{height:.2g}" + ("" if first is not None else ", none"), (place, height), ha="center",
-                      va="bottom", fontsize=6)
-    names = [name.replace("_", "\n") for name in runs if "window" not in name]
-    axes.set_xticks(range(len(names)), names, fontsize=6)
+    chosen = drawn_over_time(runs)
+    for place, (name, run) in enumerate(chosen.items()):
+        parts = [run, *windows_of(name, runs)]
+        part, first = first_among(parts)
+        asked = any(np.isfinite(meetings(each)).any() for each in parts)
+        height = np.nanmax(tension(run)) if first is None else tension(part)[first]
+        height /= material(run)[1] * run.setting("contact_radius")
+        axes.bar(place, height, color=style.COLOURS[2 if first is None else 3])
+        words = "" if first is not None else ", none" if asked else ", not asked"
+        axes.annotate(f"{height:.2g}{words}", (place, height), ha="center", va="bottom", fontsize=6)
+    axes.set_xticks(range(len(chosen)), [name.replace("_", "\n") for name in chosen], fontsize=6)
     axes.set(ylabel="tension over k_c r [1]", title="At the first meeting; none: at the most")
 
 
@@ -223,7 +242,7 @@ def draw(scene, runs, how_far, out):
     for row, (kind, name) in enumerate(main_runs(scene).items()):
         draw_pictures(figure, [grid[row, 3 * k:3 * k + 3] for k in range(4)], scene, runs[name], KINDS[kind])
     panels = [figure.add_subplot(grid[2, 4 * k:4 * k + 4]) for k in range(3)]
-    draw_over_time(*panels[:2], scene, runs)
+    draw_over_time(*panels[:2], runs)
     if scene == commands.YARN_TWIST:
         draw_distances(panels[2], how_far)
     else:

@@ -57,6 +57,15 @@ class Known(unittest.TestCase):
         self.assertEqual([row[name] for name in names], [3, 7, 3, "0.8", "0.8", "1.8"])
         self.assertEqual(row["kind"], "baseline")
 
+    def test_where_a_run_was_not_asked_its_windows_are(self):
+        runs = {"a": made_up(self.folder / "a", ["nan"] * 3, [0.1, 0.2, 0.4]),
+                "a_window_10": made_up(self.folder / "b", [0, 0], [0.2, 0.3]),
+                "a_window_20": made_up(self.folder / "c", [0, 5], [0.4, 0.5])}
+        row = yarn.row_of("a", runs["a"], yarn.windows_of("a", runs))
+        names = ("steps asked [1]", "meetings [1]", "mean tension there [N]", "largest mean tension [N]")
+        self.assertEqual([row[name] for name in names], [4, 5, "1", "0.8"])
+        self.assertEqual(list(yarn.drawn_over_time(runs)), ["a"])
+
     def test_a_run_that_nobody_asked_has_no_number_of_meetings_and_one_without_any_has_none_at_first(self):
         silent = yarn.row_of("a", made_up(self.folder / "a", ["nan"] * 2, [0.1, 0.2], "ball"))
         self.assertEqual([silent[name] for name in ("kind", "meetings [1]", "tension over k_c r [1]")], ["ogc", "", ""])
