@@ -143,8 +143,9 @@ def table(runs, how_far):
     rows = []
     for name, run in runs.items():
         of = how_far.get(name)
-        rows.append(row_of(name, run, windows_of(name, runs)) | {f"distance, {words} [m]": "" if of is None else f"{np.percentile(of, k):.6g}"
-                                         for words, k in shares.items()})
+        far_off = {f"distance, {words} [m]": "" if of is None else f"{np.percentile(of, k):.6g}"
+                   for words, k in shares.items()}
+        rows.append(row_of(name, run, windows_of(name, runs)) | far_off)
     return rows
 
 
