@@ -14,7 +14,7 @@ def available():
 
 def picture(bodies, camera, size=(640, 480)):
     """An RGB image of `bodies`, each (points [n, 3], triangles [m, 3], front colour, back colour), seen from camera =
-    (eye, target, up).
+    (eye, target, up). In place of the front colour RGB of each point [n, 3]: a closed surface, whose back nobody sees.
 
     Front and back of a sheet have different colours, so that folds can be told; ambient occlusion makes contacts
     readable.
@@ -30,8 +30,9 @@ def picture(bodies, camera, size=(640, 480)):
     for points, triangles, front, back in bodies:
         faces = np.hstack([np.full((len(triangles), 1), 3), triangles]).ravel()
         mesh = pv.PolyData(np.asarray(points, dtype=float), faces)
-        plotter.add_mesh(mesh, color=front, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1,
-                         backface_params={"color": back})
+        colour = ({"color": front, "backface_params": {"color": back}} if isinstance(front, str)
+                  else {"scalars": front, "rgb": True})
+        plotter.add_mesh(mesh, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1, **colour)
     extent = np.linalg.norm(np.ptp(np.concatenate([points for points, *_ in bodies]), axis=0))
     plotter.enable_ssao(radius=0.05 * extent, bias=0.001 * extent, kernel_size=64, blur=True)
     plotter.enable_anti_aliasing("ssaa")

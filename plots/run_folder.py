@@ -4,7 +4,8 @@ of drawing nonsense."""
 import csv
 import json
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 import h5py
@@ -19,13 +20,15 @@ class RunError(Exception):
 
 @dataclass
 class Frame:
-    """One stored state; positions [m], velocities [m/s], bounds [m]."""
+    """One stored state; positions [m], velocities [m/s], bounds [m], orientations [segments of rods, 4] as x, y, z,
+    w."""
 
     step: int
     time: float
     positions: np.ndarray
     velocities: np.ndarray
     bounds: np.ndarray
+    orientations: np.ndarray = field(default_factory=lambda: np.empty((0, 4), np.float32))
 
 
 class Run:
@@ -69,22 +72,34 @@ class Run:
 
     def bodies(self):
         """The scene's bodies as in run.json, each with its own `triangles` [n, 3], numbered from the body's first
-        vertex."""
+        vertex; a rod also with `segments` [n, 2], numbered likewise, and `first_segment`, the place of the first one's
+        orientation."""
         path = self.folder / "trajectory.vtkhdf"
         if not path.is_file():
             raise RunError(f"{path} is missing: the run is not finished; assemble it with: ogc export {self.folder}")
         with h5py.File(path, "r") as file:
             triangles = file["VTKHDF/Polygons/Connectivity"][:].reshape(-1, 3)
-        result = []
+            edges = file["VTKHDF/Lines/Connectivity"][:].reshape(-1, 2)
+        result, segment_count = [], 0
         for body in self.manifest["scene"]["bodies"]:
-            first = body["first_triangle"]
-            result.append({**body, "triangles": triangles[first:first + body["triangle_count"]] - body["first_vertex"]})
+            first, vertex = body["first_triangle"], body["first_vertex"]
+            result.append({**body, "triangles": triangles[first:first + body["triangle_count"]] - vertex})
+            if "rod" in body["material"]:
+                own = edges[(edges[:, 0] >= vertex) & (edges[:, 0] < vertex + body["vertex_count"])]
+                result[-1].update(segments=own - vertex, first_segment=segment_count)
+                segment_count += len(own)
         return result
+
+    @cached_property
+    def start_positions(self):
+        """Of the first stored frame [m]."""
+        return self.frame(self.frames[0]).positions
 
     def frame(self, path):
         with h5py.File(path, "r") as file:
             frame = Frame(int(file.attrs["step"]), float(file.attrs["time"]),
-                          file["positions"][:], file["velocities"][:], file["bounds"][:])
+                          file["positions"][:], file["velocities"][:], file["bounds"][:],
+                          file["orientations"][:] if "orientations" in file else np.empty((0, 4), np.float32))
             expected = int(file.attrs.get("crc32", _checksum(frame)))  # frames of format 1 have none
         if expected != _checksum(frame):
             raise RunError(f"{path} is damaged: its content is not what its checksum says; "
@@ -117,10 +132,11 @@ def commits_in_words(runs):
 
 
 def _checksum(frame):
-    """CRC-32 of the bytes of positions, velocities, bounds, step and time, as the file's writer took it."""
+    """CRC-32 of the bytes of positions, velocities, bounds, step, time and orientations, as the file's writer took
+    it."""
     step, time = np.array(frame.step, "<i8"), np.array(frame.time, "<f8")
     result = 0
-    for part in (frame.positions, frame.velocities, frame.bounds, step, time):
+    for part in (frame.positions, frame.velocities, frame.bounds, step, time, frame.orientations):
         result = zlib.crc32(part.tobytes(), result)
     return result
 

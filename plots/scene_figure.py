@@ -6,8 +6,10 @@ from pathlib import Path
 import h5py  # noqa: F401  (a missing reader should be reported before anything is drawn)
 import numpy as np
 
-from plots import render, style
+from plots import render, style, yarn
 from plots.run_folder import RunError, commits_in_words
+
+YARNS = ("#0072B2", "#D55E00", "#009E73")
 
 
 def load_claims(path, backend):
@@ -26,18 +28,40 @@ def is_cloth(body):
 
 def bodies_of(run, frame):
     """Bodies as `render.picture` wants them, with the frame's positions; bodies that are fixed or wholly prescribed
-    grey."""
+    grey; rods as tubes with plies."""
     fronts, backs = ["#56B4E9", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#F0E442"]
     result, cloth = [], 0
     for body in run.bodies():
         first, count = body["first_vertex"], body["vertex_count"]
         points, triangles = frame.positions[first:first + count], body["triangles"]
+        if "segments" in body:
+            result.append(yarn_of(run, body, frame))
+        if not len(triangles):
+            continue
         if is_cloth(body):
             result.append((points, triangles, fronts[cloth % 3], backs[cloth % 3]))
             cloth += 1
         else:
             result.append((points, triangles, "#B0B0B0", "#B0B0B0"))
     return result
+
+
+def yarn_of(run, body, frame):
+    """A rod as `render.picture` wants it; each of its chains has a colour."""
+    first, count, segments = body["first_vertex"], body["vertex_count"], body["segments"]
+    start = run.start_positions[first:first + count].astype(float)
+    lengths = np.linalg.norm(start[segments[:, 1]] - start[segments[:, 0]], axis=1)
+    diameter = body["material"]["rod"]["diameter"]["value"]
+    chains = yarn.chains(segments, count)
+    colours = np.empty((len(segments), yarn.PLIES, 3))
+    for number, links in enumerate(chains):
+        colours[[e for e, _ in links]] = yarn.plies_of(YARNS[number % len(YARNS)])
+    angles = yarn.angles_of(chains, lengths, yarn.PITCH * diameter)
+    points = frame.positions[first:first + count]
+    orientations = frame.orientations[body["first_segment"]:body["first_segment"] + len(segments)].astype(float)
+    if not len(orientations):  # the start of a scene that gives none: frames follow from its rest shape
+        orientations = yarn.untwisted(chains, points.astype(float), segments)
+    return (*yarn.tubes(points, segments, orientations, angles, diameter, colours), None)
 
 
 def draw_time(axes, run, claims, profiled):

@@ -7,7 +7,7 @@ those of `ogc run`; `backend` is that of VBD in single precision, all else runs 
 
 from dataclasses import dataclass
 
-from paper_figures.workflow import layers, slide
+from paper_figures.workflow import layers, release, slide
 from paper_figures.workflow.audited import Audit
 from paper_figures.workflow.jobs import Command, Job, Share, Step
 
@@ -398,6 +398,60 @@ def ledgers(scale, backend):
                 yield Job(start, (*shared_words, *last))
             state = {"state": (start, Step(first)), "more_steps": steps} if first > 0 else {}
             yield Job(name, (*shared_words, "--ledger", "--audit", "end"), scene=sheet, **state)
+
+
+# Fig. 15 and 16. The baseline is the same sweep without bounds and with a force that no distance makes infinite: the
+# paper's "Newton". What decides is the tension of the yarn against k_c r, so that Fig. 15 has two weaker k_c, too,
+# pulled as far as a mean stretch of 1 needs.
+STRETCH, YARN_TWIST = "yarn_stretch", "yarn_twist"
+YARN_KINDS = {"ogc": (), "baseline": ("--set", "bounds=off", "--set", "activation=quadratic")}
+YARN_STIFFNESS = (222, 22, 2)  # N/m, the scene's first
+YARN_STEPS = {STRETCH: {"smoke": 100, "small": 16250, "paper": 16250},
+              YARN_TWIST: {"smoke": 100, "small": 7500, "paper": 27500}}
+WEAK_YARN_STEPS = {"smoke": 100, "small": 6250, "paper": 6250}  # at rest, then pulled for 2 s
+YARN_FRAME_STEPS = {"smoke": 5, "small": 125, "paper": 125}
+RELEASE_STEPS = {"smoke": 60, "small": 7500, "paper": 25000}  # at paper 10 s
+# Whether threads meet on the way of a step is asked exactly, which takes 0.3 s a step of 4,000 segments: of every step
+# at smoke alone, else in windows of so many steps from states at these shares of a run [%].
+MEETING_STEPS, MEETING_SHARES = {"small": 20, "paper": 50}, (0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 99)
+WINDOW_OF = "_window_"  # between the name of a run and the share
+
+
+def yarn(scene, kind, scale, backend, name, more=(), steps=0):
+    """One run and its windows; meetings of the baseline are a result, and so is where its numbers end."""
+    steps = steps or YARN_STEPS[scene][scale]
+    shared_words = (scene, "--scale", scale, "--backend", backend, *YARN_KINDS[kind], *more)
+    asked = ("--audit-meetings", f"1:{steps}")
+    words = (*shared_words, "--audit", "off" if kind == "baseline" else "frame",
+             *(asked if scale == "smoke" else ("--audit-meetings", "off")),
+             "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}", "--steps", steps)
+    yield Job(name, words, may_fail=kind == "baseline")
+    for share in MEETING_SHARES if scale in MEETING_STEPS else ():
+        yield Job(f"{name}{WINDOW_OF}{share}", (*shared_words, "--audit", "off", *asked),
+                  (name, Share(share, YARN_FRAME_STEPS[scale])), MEETING_STEPS[scale], pictured=False,
+                  may_fail=kind == "baseline")
+
+
+def yarn_stretched(scale, backend):
+    """Fig. 15."""
+    for stiffness in YARN_STIFFNESS:
+        scenes_own = stiffness == YARN_STIFFNESS[0]
+        more = () if scenes_own else ("--set", f"contact_stiffness={stiffness}")
+        for kind in YARN_KINDS:
+            yield from yarn(STRETCH, kind, scale, backend, f"{kind}_{stiffness}", more,
+                            0 if scenes_own else WEAK_YARN_STEPS[scale])
+
+
+def yarn_twisted(scale, backend):
+    """Fig. 16: twisted, let go, and beside it the cloth that hangs as it is."""
+    let_go = ("--backend", backend, "--audit-meetings", "off", "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}")
+    scene, steps = release.Release(scale), RELEASE_STEPS[scale]
+    for kind, options in YARN_KINDS.items():
+        audit = ("--audit", "frame" if kind == "ogc" else "off")
+        yield from yarn(YARN_TWIST, kind, scale, backend, kind)
+        yield Job(f"{kind}_released", (*let_go, *audit, *options), (kind, -1), steps, scene=scene,
+                  may_fail=kind == "baseline")
+    yield Job("hanging", (*let_go, "--audit", "frame", "--steps", steps), scene=scene)
 
 
 # Smaller measurements beside Table 1 (fast/PERFORMANCE.md).

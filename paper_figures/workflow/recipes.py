@@ -31,7 +31,7 @@ FIGURES, RESULTS, ROOT = ROOM / "figures", ROOM / "results", ROOM.parent
 SCALES = ("smoke", "small", "paper")
 PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
-RUNS = ("commands.py", "layers.py", "slide.py")  # what runs are made of, where a figure has several
+RUNS = ("commands.py", "layers.py", "release.py", "slide.py")  # what runs are made of, where a figure has several
 # What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
 KEYS = {"title", "illustrations", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends",

@@ -1,0 +1,130 @@
+"""Fig. 15 and 16: the tension at the first meeting, over k_c r, is the one counted by hand; steps that were not asked
+count for nothing; both figures are drawn from the smallest runs, and nothing is
+made twice.
+
+Usage: yarn.py SOURCE_DIR OGC. Exit status 77: skipped, matplotlib or h5py is missing.
+"""
+
+import csv
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+SOURCE, OGC = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+del sys.argv[1:3]
+sys.path.insert(0, str(SOURCE))
+try:
+    import numpy as np
+
+    from paper_figures.figures.measured import yarn
+    from paper_figures.workflow import commands
+    from plots.run_folder import Run
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+
+
+def made_up(folder, met, stretch, bounds="off"):
+    """A run with k_s = 2 N, k_c = 10 N/m and r = 0.1 m."""
+    folder.mkdir(parents=True)
+    rod = {"stretch": {"value": 2}, "diameter": {"value": 0.1}}
+    body = {"material": {"rod": rod, "contact_stiffness": {"value": 10}}}
+    values = {"bounds": bounds, "contact_radius": 0.1, "time_step": 0.5}
+    (folder / "run.json").write_text(json.dumps(
+        {"status": "finished", "scale": "smoke", "commit": "0123456789abcdef", "device": "device", "backend": "cpu",
+         "solver": "vbd", "ended": "e", "command": "ogc run x", "scene": {"name": "x", "bodies": [body]},
+         "settings": {name: {"value": value} for name, value in values.items()}}))
+    head = "step [1],wall [ms],mean_stretch [1],largest_stretch [1],smallest_contact_distance [m],meetings [1]"
+    rows = [f"{k + 1},1,{s},1,nan,{n}" for k, (s, n) in enumerate(zip(stretch, met))]
+    (folder / "steps.csv").write_text("\n".join([head, *rows]) + "\n")
+    return Run(folder)
+
+
+class Known(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def test_the_number_of_fig_15_is_the_tension_at_the_first_meeting_over_k_c_r(self):
+        run = made_up(self.folder / "a", ["nan", 0, 3, 4], [0.1, 0.2, 0.4, 0.9])
+        row = yarn.row_of("a", run)
+        names = ("steps asked [1]", "meetings [1]", "first meeting at step", "mean tension there [N]",
+                 "tension over k_c r [1]", "largest mean tension [N]")
+        self.assertEqual([row[name] for name in names], [3, 7, 3, "0.8", "0.8", "1.8"])
+        self.assertEqual(row["kind"], "baseline")
+
+    def test_where_a_run_was_not_asked_its_windows_are(self):
+        runs = {"a": made_up(self.folder / "a", ["nan"] * 3, [0.1, 0.2, 0.4]),
+                "a_window_10": made_up(self.folder / "b", [0, 0], [0.2, 0.3]),
+                "a_window_20": made_up(self.folder / "c", [0, 5], [0.4, 0.5])}
+        row = yarn.row_of("a", runs["a"], yarn.windows_of("a", runs))
+        names = ("steps asked [1]", "meetings [1]", "mean tension there [N]", "largest mean tension [N]")
+        self.assertEqual([row[name] for name in names], [4, 5, "1", "0.8"])
+        self.assertEqual(list(yarn.drawn_over_time(runs)), ["a"])
+
+    def test_a_run_that_nobody_asked_has_no_number_of_meetings_and_one_without_any_has_none_at_first(self):
+        silent = yarn.row_of("a", made_up(self.folder / "a", ["nan"] * 2, [0.1, 0.2], "ball"))
+        self.assertEqual([silent[name] for name in ("kind", "meetings [1]", "tension over k_c r [1]")], ["ogc", "", ""])
+        kept = yarn.row_of("b", made_up(self.folder / "b", [0, 0], [0.1, 0.2]))
+        self.assertEqual([kept[name] for name in ("meetings [1]", "first meeting at step")], [0, ""])
+
+    def test_every_run_of_a_figure_has_a_name_of_its_own_and_the_claims_find_theirs(self):
+        for scale in ("smoke", "paper"):
+            for scene, jobs in yarn.JOBS.items():
+                names = [job.name for job in jobs(scale, "cpu")]
+                self.assertEqual(len(set(names)), len(names))
+                self.assertLessEqual(set(yarn.main_runs(scene).values()), set(names))
+        self.assertIn("baseline_222", [job.name for job in commands.yarn_stretched("paper", "cuda")])
+        self.assertIn("ogc_released", [job.name for job in commands.yarn_twisted("paper", "cuda")])
+
+    def test_the_whole_yarn_is_in_the_picture(self):
+        random = np.random.default_rng(1)
+        for scene, size in yarn.SIZE.items():
+            points = random.uniform(-1, 1, (50, 3)) * (0.4, 0.1, 1.3)
+            eye, target, up = map(np.array, yarn.camera_of(scene, points, size))
+            back = (eye - target) / np.linalg.norm(eye - target)
+            right = np.cross(up, back) / np.linalg.norm(np.cross(up, back))
+            seen = points - eye
+            deep = -seen @ back
+            tangent = np.tan(np.radians(yarn.ANGLE / 2))
+            self.assertLess(np.abs(seen @ np.cross(back, right) / deep).max(), tangent)
+            self.assertLess(np.abs(seen @ right / deep).max(), tangent * size[0] / size[1])
+
+
+class Drawn(unittest.TestCase):
+    def drawn(self, scene, rows):
+        with tempfile.TemporaryDirectory() as name:
+            words = ["yarn", name, "--ogc", str(OGC), "--scale", "smoke", "--scene", scene]
+            with mock.patch.object(sys, "argv", words):
+                options = yarn.arguments()
+            with mock.patch.object(yarn.render, "available", return_value=(False, "left out here")):
+                yarn.make(options)
+                written = {path: path.stat().st_mtime_ns for path in Path(name).glob("*/steps.csv")}
+                yarn.make(options)
+            self.assertEqual(written, {path: path.stat().st_mtime_ns for path in Path(name).glob("*/steps.csv")})
+            self.assertTrue((Path(name) / f"{yarn.FIGURE[scene]}.png").is_file())
+            with (Path(name) / f"{yarn.FIGURE[scene]}.csv").open(newline="") as file:
+                found = {row["run"]: row for row in csv.DictReader(file)}
+            self.assertEqual(list(found), rows)
+            return found
+
+    def test_fig_15_from_the_smallest_runs(self):
+        rows = [f"{kind}_{k}" for k in commands.YARN_STIFFNESS for kind in commands.YARN_KINDS]
+        found = self.drawn(commands.STRETCH, rows)
+        self.assertEqual({row["steps asked [1]"] for row in found.values()}, {"100"})
+        self.assertEqual([found[f"ogc_{k}"]["meetings [1]"] for k in commands.YARN_STIFFNESS], ["0"] * 3)
+
+    def test_fig_16_from_the_smallest_runs(self):
+        rows = ["ogc", "ogc_released", "baseline", "baseline_released", "hanging"]
+        found = self.drawn(commands.YARN_TWIST, rows)
+        self.assertEqual((found["ogc_released"]["first step"], found["ogc_released"]["last step"]), ("101", "160"))
+        self.assertGreater(float(found["ogc_released"]["distance, largest [m]"]), 0)
+        self.assertEqual(found["hanging"]["distance, largest [m]"], "")
+
+
+if __name__ == "__main__":
+    unittest.main()
