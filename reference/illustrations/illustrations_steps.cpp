@@ -146,8 +146,8 @@ std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vec
                                const std::vector<Vec3f>& target, float query_radius) {
   const std::vector<Index> no_groups;
   const std::vector<std::uint8_t> all_free(x.size(), 0);
-  compare::PlaneOut held = pair_planes({&topology, no_groups, x, all_free, query_radius,
-                                        static_cast<float>(compare::Settings{}.bound_relaxation)});
+  compare::PlaneOut held = pair_planes(
+      {&topology, no_groups, x, all_free, query_radius, static_cast<float>(compare::Settings{}.bound_relaxation)});
   Detected here;
   here.previous = x, here.bound = std::move(held.bound), here.planes = std::move(held.planes);
   const FeasibleRegions regions(here, compare::Bounds::planes);
@@ -239,7 +239,8 @@ std::vector<DrawingPanel> falling_triangles() {
   DrawingLayer rounds{"rounds", {}, {}, {{}}, {}, true}, with_planes{"rounds with planes", {}, {}, {{}}, {}, true};
   for (int k = 0; k <= 64; ++k) {
     const double speed = 0.125 * k;
-    for (const auto& [layer, kind] : {std::pair{&rounds, compare::Bounds::ball}, {&with_planes, compare::Bounds::planes}}) {
+    for (const auto& [layer, kind] :
+         {std::pair{&rounds, compare::Bounds::ball}, {&with_planes, compare::Bounds::planes}}) {
       layer->lines[0].push_back(k);
       layer->points.push_back({speed, static_cast<double>(fall(speed, kind).rounds.size()), 0});
     }
@@ -247,7 +248,9 @@ std::vector<DrawingPanel> falling_triangles() {
   const auto limit = static_cast<double>(compare::Settings{}.guess_rounds);
   const DrawingLayer most{"guess_rounds", {{0, limit, 0}, {rounds.points.back()[0], limit, 0}}, {}, {{0, 1}}, {}, true};
   return {std::move(way),
-          {"rounds", "rounds of detection and truncation until the target is reached", {std::move(rounds), std::move(with_planes), most}}};
+          {"rounds",
+           "rounds of detection and truncation until the target is reached",
+           {std::move(rounds), std::move(with_planes), most}}};
 }
 
 }  // namespace ogc::reference

@@ -82,7 +82,8 @@ void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils
   const auto add = [&](const ContactStencil& stencil, std::size_t own) {
     add_terms(question_of(in, stencils.body, stencil, own, positions), weights_at(in, stencil), sum);
   };
-  for (const auto& [contact, own] : stencils.vertex_facet[v]) add(stencil_of(*in.topology, in.vertex_facet[contact]), own);
+  for (const auto& [contact, own] : stencils.vertex_facet[v])
+    add(stencil_of(*in.topology, in.vertex_facet[contact]), own);
   for (const auto& [contact, own] : stencils.edge_edge[v]) add(stencil_of(*in.topology, in.edge_edge[contact]), own);
   for (const auto& [contact, own] : stencils.volumes[v]) {
     constexpr double inputs = compare::sweep_input_tolerance;

@@ -495,7 +495,9 @@ CaseData frozen(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 6> scenes{sheets, fold, prescribed, slip, strands, with_models<sheets>};
   return with_frozen_weights(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
 }
-CaseData frozen_bodies(Random& random) { return with_frozen_weights(random.one_in(2) ? solid(random) : volume(random)); }
+CaseData frozen_bodies(Random& random) {
+  return with_frozen_weights(random.one_in(2) ? solid(random) : volume(random));
+}
 /// Rods beside sheets, of which rows may be prescribed, or alone.
 CaseData rods(Random& random) {
   if (random.one_in(2)) return rods_alone(random);
@@ -527,14 +529,15 @@ constexpr std::array<Generator, 28> table{{{"sheets", 16, true, sheets},
                                            {"solid", 4, false, solid, 0, Stage::tetrahedron},
                                            {"volume", 4, false, volume, 0, Stage::volume_depth},
                                            {"ladder.volume", 4, false, volume_at_radius, 0, Stage::volume_depth},
-                                           {"frozen", 8, false, frozen},
-                                           {"frozen.bodies", 4, false, frozen_bodies, 0, Stage::volume_depth},
+                                           // not of plug-ins, which are not told when weights are found
+                                           {"frozen", 8, false, frozen, 0, std::nullopt, true},
+                                           {"frozen.bodies", 4, false, frozen_bodies, 0, Stage::volume_depth, true},
                                            {"models", 8, false, with_models<sheets>},
                                            {"models.prescribed", 4, false, with_models<prescribed>},
                                            {"ladder.models_rest", 6, false, with_models<at_rest>},
                                            {"ladder.models_collapse", 6, false, with_models<collapse>},
                                            {"rods", 10, false, rods, 0, Stage::orientation},
-                                           {"ladder.rods", 17, false, rods_at_rest, 0, Stage::orientation}}};
+                                           {"ladder.rods", 27, false, rods_at_rest, 0, Stage::orientation}}};
 
 }  // namespace
 

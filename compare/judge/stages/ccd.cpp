@@ -302,6 +302,7 @@ struct Ccd : BatchStage<Ccd, &Contestant::ccd, &Authority::ccd>, NoParameters, I
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
     Case c{.kind = some_kind(random)};
     const std::size_t frame = states.frame(index);
+    if (states.topology().triangles.empty()) c.kind = CcdKind::edge_edge;
     if (c.kind == CcdKind::edge_edge) {
       const ClosestPointsCase pair = states.edge_edge(frame, random);
       c.from = {pair.first[0], pair.first[1], pair.second[0], pair.second[1]};

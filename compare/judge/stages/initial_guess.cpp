@@ -139,7 +139,7 @@ using rod_cases::Four;
 
 /// A direction of any length that a segment may have.
 Vec3f stretched(Random& random, const Vec3& direction) {
-  return single(scaled(direction, random.one_in(6) ? std::ldexp(1.0, random.below(80) - 48) : random.magnitude(-4, 0)));
+  return single(scaled(direction, random.one_in(6) ? std::ldexp(1.0, random.below(70) - 38) : random.magnitude(-4, 0)));
 }
 
 /// Turned from one direction to another.
@@ -174,7 +174,7 @@ constexpr std::array<Generator, 11> table{{{"uniform", 25, true, alone<uniform>}
                                            {"ladder.fast", 10, false, alone<fast>},
                                            {"ladder.far", 10, false, alone<far>},
                                            {"ladder.still", 5, false, alone<still>},
-                                           {"ladder.boundary", 190, false, alone<boundary>},
+                                           {"ladder.boundary", 250, false, alone<boundary>},
                                            {"turn", 20, true, turn, 0, Stage::orientation},
                                            {"ladder.turn", 25, false, turn_at, 0, Stage::orientation}}};
 
@@ -405,6 +405,15 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
       if (any) in.turns.push_back(c.turn.value_or(TurnCase{}));
     }
     return in;
+  }
+  /// Of a segment only where the case has one: whether others of its batch do is no matter of the case.
+  static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
+    const Out out = c.initial_guess(question(cases));
+    std::vector<std::string> all = bits_by_case(cases.size(), out.target, out.position, out.cut);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (case_of<Case>(cases[i].data).turn)
+        all[i].append(reinterpret_cast<const char*>(&out.orientation[i]), sizeof out.orientation[i]);
+    return all;
   }
   static auto arrays(const Out& out) { return std::tie(out.target, out.position, out.cut, out.orientation); }
 

@@ -220,9 +220,12 @@ std::vector<WrongForm> sweep_forms() {
     forms.push_back(sweep_asked(std::move(name), std::move(meaning),
                                 [rule](Read& read) { read.scene.settings.contact_weights = rule; }));
   };
-  weights_at("weights_of_update", "closest points where each update reads positions, also where those of the iteration "
-             "are asked for", ContactWeightsRule::update);
-  weights_at("weights_of_iteration", "closest points before the iteration, also where those of each update are asked for",
+  weights_at("weights_of_update",
+             "closest points where each update reads positions, also where those of the iteration "
+             "are asked for",
+             ContactWeightsRule::update);
+  weights_at("weights_of_iteration",
+             "closest points before the iteration, also where those of each update are asked for",
              ContactWeightsRule::iteration);
   for (const auto& [kind, name, meaning] : other_activations)
     forms.push_back(sweep_asked(name, std::string(meaning) + ", where `ogc` is asked for", [to = kind](Read& read) {

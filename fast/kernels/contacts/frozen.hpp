@@ -1,4 +1,4 @@
-// Contacts frozen for an iteration (contact_weights=iteration, method.md §7.2): weights of the closest points and Σ w xᵗ
+// Contacts frozen for an iteration (contact_weights=iteration, method.md §7.2): weights of closest points and Σ w xᵗ
 // are computed once a pair and iteration. An update then gathers four positions and 32 bytes in place of eight
 // positions, and solves no closest-point problem.
 #pragma once

@@ -49,8 +49,9 @@ std::vector<compare::StepMetrics> rows_of(const std::filesystem::path& run) { re
 
 }  // namespace
 
-TEST_CASE("the option --audit-meetings changes no bit, fills a column of the steps that it names, and bounds have no meeting",
-          "[property]") {
+TEST_CASE(
+    "the option --audit-meetings changes no bit, fills a column of the steps that it names, and bounds have no meeting",
+    "[property]") {
   const TemporaryFolder folder;
   const std::string options = GENERATE("cloth_on_sphere --scale smoke --steps 20 --audit off",
                                        "twist --scale smoke --steps 12 --audit off --set bounds=planes",
