@@ -20,7 +20,7 @@ from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of, draw_movie
 
-FIGURE = {commands.STRETCH: "fig15", commands.YARN_TWIST: "fig16"}
+PICTURES = {commands.STRETCH: "fig15.png", commands.YARN_TWIST: "fig16.png"}
 JOBS = {commands.STRETCH: commands.yarn_stretched, commands.YARN_TWIST: commands.yarn_twisted}
 KINDS = {"ogc": "OGC", "baseline": "baseline"}
 SHOWN = (0, 1 / 3, 2 / 3, 1)  # of the run
@@ -275,7 +275,7 @@ def make(options):
     runs = runs_of(options)
     how_far = far(runs) if scene == commands.YARN_TWIST else {}
     write_table(folder / f"{FIGURE[scene]}.csv", table(runs, how_far))
-    return draw(scene, runs, how_far, folder / f"{FIGURE[scene]}.png")
+    return draw(scene, runs, how_far, folder / PICTURES[scene])
 
 
 if __name__ == "__main__":
