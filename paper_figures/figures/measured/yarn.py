@@ -20,6 +20,7 @@ from plots import render, style
 from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of, draw_movie
 
+FIGURE = {commands.STRETCH: "fig15", commands.YARN_TWIST: "fig16"}
 PICTURES = {commands.STRETCH: "fig15.png", commands.YARN_TWIST: "fig16.png"}
 JOBS = {commands.STRETCH: commands.yarn_stretched, commands.YARN_TWIST: commands.yarn_twisted}
 KINDS = {"ogc": "OGC", "baseline": "baseline"}
