@@ -174,7 +174,7 @@ constexpr std::array<Generator, 11> table{{{"uniform", 25, true, alone<uniform>}
                                            {"ladder.fast", 10, false, alone<fast>},
                                            {"ladder.far", 10, false, alone<far>},
                                            {"ladder.still", 5, false, alone<still>},
-                                           {"ladder.boundary", 250, false, alone<boundary>},
+                                           {"ladder.boundary", 290, false, alone<boundary>},
                                            {"turn", 20, true, turn, 0, Stage::orientation},
                                            {"ladder.turn", 25, false, turn_at, 0, Stage::orientation}}};
 
