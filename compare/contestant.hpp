@@ -180,8 +180,9 @@ struct Contestant {
   bool has_steps_with_planes = true;
   /// Whether its planes divide gaps by approach. A plug-in's do not: compare/plugin.h has no displacements there.
   bool divides_by_approach = true;
-  /// Whether its steps know guess=pairs. A plug-in's do not: compare/plugin.h has no such setting.
-  bool has_steps_by_pairs = true;
+  /// Whether its sweeps and steps know guess=pairs and contact_weights=iteration. A plug-in's do not: compare/plugin.h
+  /// has no such settings.
+  bool has_newer_settings = true;
   /// Whether its sweeps and steps know volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
   bool has_volumes = true;
   /// Whether its rest states, guesses, sweeps and steps know rods. A plug-in's do not: compare/plugin.h has no

@@ -127,10 +127,7 @@ std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> seg
   return held;
 }
 
-/// No file has keyframes and a velocity (validate.cpp): who writes a rigid motion as keyframes sets one to say so.
-bool says_turn(const PrescribedMotion& motion) {
-  return motion.keyframes.empty() || motion.angular_velocity != 0 || motion.velocity != Vec3{};
-}
+bool says_turn(const PrescribedMotion& motion) { return motion.keyframes.empty() || motion.keyframes.is_rigid; }
 
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to) {
   const auto elapsed = [&](double t) { return std::clamp(t, motion.start, motion.end) - motion.start; };

@@ -38,8 +38,7 @@ bool has_rods(const Scene& scene);
 /// What holds each segment: −1: nothing; 0: it is fixed; k ≥ 1: both of its ends are in the k-th prescribed motion.
 std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> segments);
 
-/// Whether a motion says how what it moves turns: any that is rigid does, and one by keyframes that has an angular
-/// velocity.
+/// Whether a motion says how what it moves turns: any that is rigid does, written as keyframes or not.
 bool says_turn(const PrescribedMotion& motion);
 /// How such a motion turns from one time to another [s], computed in double and rounded once.
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to);

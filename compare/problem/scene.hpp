@@ -72,6 +72,7 @@ struct Body {
 struct Keyframes {
   std::vector<double> times;     ///< ascending [s]; at least two where there are any
   std::vector<Vec3f> positions;  ///< [m]; frame by frame, in each the vertices in the order of the motion
+  bool is_rigid = false;         ///< the motion's axis and ω say how it turns; no file sets it
   bool empty() const { return times.empty(); }  ///< whether there are none
   friend bool operator==(const Keyframes&, const Keyframes&) = default;
 };

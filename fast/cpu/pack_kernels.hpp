@@ -55,35 +55,23 @@ TeamLaneSums one_by_one(const AnyPart& part, ForceAndBlock (&sums)[W]) {
   return {sums, part.count};
 }
 
-/// As GatherDefault.
-struct GatherPacked {
-  static constexpr int parts = GatherDefault::parts;  ///< of the sum; devices alone read it
-  const PackKernels& kernels = pack_kernels();        ///< those of this machine
+/// As `Gather`, whose sums in packs are that member of PackKernels.
+template <class Gather, GatherByLanes PackKernels::*in_packs>
+struct GatherPackedSurfaces {
+  static constexpr int parts = Gather::parts;   ///< of the sum; devices alone read it
+  const PackKernels& kernels = pack_kernels();  ///< those of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                            const SerialTeam<W>& team) const {
     if constexpr (W < 4)
-      return GatherDefault{}(view, slot, vertex, own, team);
+      return Gather{}(view, slot, vertex, own, team);
     else
-      return kernels.surfaces.template gather<W>()(view, slot, vertex, own, {});
+      return (kernels.*in_packs).template gather<W>()(view, slot, vertex, own, {});
   }
 };
-
-/// As GatherFrozenSurfaces.
-struct GatherPackedFrozen {
-  static constexpr int parts = GatherFrozenSurfaces::parts;  ///< of the sum; devices alone read it
-  const PackKernels& kernels = pack_kernels();               ///< those of this machine
-
-  template <int W>
-  ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
-                           const SerialTeam<W>& team) const {
-    if constexpr (W < 4)
-      return GatherFrozenSurfaces{}(view, slot, vertex, own, team);
-    else
-      return kernels.frozen_surfaces.template gather<W>()(view, slot, vertex, own, {});
-  }
-};
+using GatherPacked = GatherPackedSurfaces<GatherDefault, &PackKernels::surfaces>;
+using GatherPackedFrozen = GatherPackedSurfaces<GatherFrozenSurfaces, &PackKernels::frozen_surfaces>;
 
 /// As GatherSolids: in packs but for tetrahedra that damp, which are computed one by one.
 struct GatherPackedSolids {

@@ -68,9 +68,7 @@ std::vector<compare::Quaternion> probe_turns(Backend& backend, const std::vector
                    ProbeTurn{memory.template in<Vec>(before), memory.template in<Vec>(now),
                              memory.template in<Quat>(orientation), memory.template out<Quat>(found, turns.size())});
   memory.fetch();
-  std::vector<compare::Quaternion> all;
-  for (const Quat& q : found) all.push_back(quaternion(q));
-  return all;
+  return quaternions(found);
 }
 
 /// The stage `initial_guess`.

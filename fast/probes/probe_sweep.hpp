@@ -118,9 +118,7 @@ class ProbeRods {
  public:
   ProbeRods(Backend& backend, const compare::SweepIn& in, const RestState& rest) : count_(in.orientation.size()) {
     if (count_ == 0) return;
-    std::vector<Quat> now, before;
-    for (const compare::Quaternion& q : in.orientation) now.push_back(quat(q));
-    for (const compare::Quaternion& q : in.orientation_start) before.push_back(quat(q));
+    const std::vector<Quat> now = quats(in.orientation), before = quats(in.orientation_start);
     orientation_.upload(now.data(), now.size());
     start_.upload(before.data(), before.size());
     if (rod_damping(rest).empty() || in.scene->settings.damping != compare::DampingForm::strain) return;
@@ -144,9 +142,7 @@ class ProbeRods {
   std::vector<compare::Quaternion> orientations() const {
     std::vector<Quat> now(count_);
     if (count_ > 0) orientation_.download(now.data(), count_);
-    std::vector<compare::Quaternion> all;
-    for (const Quat& q : now) all.push_back(quaternion(q));
-    return all;
+    return quaternions(now);
   }
 
  private:

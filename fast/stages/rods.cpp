@@ -17,11 +17,8 @@ std::vector<Quat> motion_turns(const compare::Scene& scene, std::int64_t first, 
 }
 
 std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods) {
+  if (!scene.orientations.empty()) return quats(scene.orientations);
   std::vector<Quat> orientations;
-  if (!scene.orientations.empty()) {
-    for (const compare::Quaternion& q : scene.orientations) orientations.push_back(quat(q));
-    return orientations;
-  }
   const auto apart = [](const std::vector<compare::Vec3>& x, const SegmentRest& segment) {
     const compare::Vec3 &a = x[static_cast<std::size_t>(segment.end[0])],
                         &b = x[static_cast<std::size_t>(segment.end[1])];

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "compare/problem/scene.hpp"
 #include "fast/kernels/rods/contact_distance.hpp"
 #include "fast/kernels/rods/metrics.hpp"
 #include "fast/kernels/rods/turn.hpp"
+#include "fast/kernels/step_sums.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/reduce.hpp"
 #include "fast/stages/rest_state.hpp"
@@ -29,9 +31,7 @@ struct SegmentSums {
   int count;  ///< segments
 
   /// Those of one chunk.
-  OGC_HD void add(int chunk, int chunks, double* sums) const {
-    for (int e = chunk; e < count; e += chunks) term(e, sums);
-  }
+  OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
 };
 
 /// The resident rods of one scene.
@@ -44,9 +44,9 @@ class Rods {
         count_(static_cast<int>(rest.rods.segments.size())),
         motions_(static_cast<int>(scene.motions.size())),
         turns_(scene.settings.start_frames == compare::StartFrames::turned),
-        has_triangles_(!scene.mesh.triangles.empty()),
-        reduction_(backend, is_used() ? count_ : 0, is_used()) {
+        has_triangles_(!scene.mesh.triangles.empty()) {
     if (!is_used()) return;
+    reduction_.emplace(backend, count_);
     segments_.upload(rest.rods.segments.data(), rest.rods.segments.size());
     neighbours_.upload(rest.rods.neighbours.data(), rest.rods.neighbours.size());
     motion_.upload(rest.rods.motion.data(), rest.rods.motion.size());
@@ -118,8 +118,8 @@ class Rods {
     backend.for_each_counted(
         contacts.edge_edge_count, capacity,
         LowerContactDistance<EdgeEdgeRecord>{contacts.edge_edge, tables, position, contact_radius, extremes_.data()});
-    reduction_.sum(sums_.data(),
-                   SegmentSums{{segments_.data(), neighbours_.data(), position, orientation_.data()}, count_});
+    reduction_->sum(sums_.data(),
+                    SegmentSums{{segments_.data(), neighbours_.data(), position, orientation_.data()}, count_});
   }
 
   /// qᵗ = q, where the step is clean.
@@ -136,30 +136,16 @@ class Rods {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// No memory of sums where there is nothing to sum.
-  struct OptionalReduction {
-    std::vector<Reduction<Backend, rod_columns>> one;
-    OptionalReduction(Backend& backend, int count, bool is_used) {
-      if (is_used) one.emplace_back(backend, count);
-    }
-    template <class All>
-    void sum(double* total, const All& all) {
-      one.front().sum(total, all);
-    }
-  };
-
   std::vector<compare::Quaternion> downloaded(const Buffer<Quat>& buffer) const {
     std::vector<Quat> from(static_cast<std::size_t>(count_));
     if (is_used()) buffer.download(from.data(), from.size());
-    std::vector<compare::Quaternion> to;
-    for (const Quat& q : from) to.push_back(quaternion(q));
-    return to;
+    return quaternions(from);
   }
 
   const compare::Scene& scene_;
   int count_, motions_;
   bool turns_, has_triangles_;
-  OptionalReduction reduction_;
+  std::optional<Reduction<Backend, rod_columns>> reduction_;
   Buffer<SegmentRest> segments_;
   Buffer<SegmentNeighbours> neighbours_;
   Buffer<int> motion_;

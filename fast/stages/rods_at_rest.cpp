@@ -13,17 +13,10 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A frame at rest.
-struct RestFrame {
-  double x, y, z, w;
-};
+using RestFrame = QuatOf<double>;
 
-RestFrame times(const RestFrame& a, const RestFrame& b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
-          a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
-}
-RestFrame reversed(const RestFrame& a) { return {-a.x, -a.y, -a.z, a.w}; }
 RestFrame normal(const RestFrame& a) {
-  const double length = std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z + a.w * a.w);
+  const double length = std::sqrt(dot(a, a));
   return {a.x / length, a.y / length, a.z / length, a.w / length};
 }
 Quat rounded(const RestFrame& a) {
@@ -75,7 +68,7 @@ class Walks {
   /// p° as the segment sees it across that end.
   RestFrame relative(int e, int end) const {
     const RestFrame &own = frame(e), &other = frame(neighbour(e, end));
-    return end == 1 ? times(reversed(own), other) : times(reversed(other), own);
+    return end == 1 ? conjugate(own) * other : conjugate(other) * own;
   }
 
  private:
@@ -93,8 +86,8 @@ class Walks {
       const int entered = enters_[at(e)][at(end)];
       const RestVector& to = directions_[at(next)];
       const bool runs_on = entered != end;
-      const RestFrame moved = times(turn_between(directions_[at(e)], runs_on ? to : opposite(to)), frames_[at(e)]);
-      frames_[at(next)] = normal(runs_on ? moved : times(moved, turned_round));
+      const RestFrame moved = turn_between(directions_[at(e)], runs_on ? to : opposite(to)) * frames_[at(e)];
+      frames_[at(next)] = normal(runs_on ? moved : moved * turned_round);
       is_set_[at(next)] = true;
       e = next, end = 1 - entered;
     }
@@ -195,6 +188,18 @@ RodsAtRest rods_of(const compare::Scene& scene, const std::vector<compare::RestS
     }
   }
   return rods;
+}
+
+std::vector<Quat> quats(std::span<const compare::Quaternion> all) {
+  std::vector<Quat> to;
+  for (const compare::Quaternion& q : all) to.push_back(quat(q));
+  return to;
+}
+
+std::vector<compare::Quaternion> quaternions(std::span<const Quat> all) {
+  std::vector<compare::Quaternion> to;
+  for (const Quat& q : all) to.push_back(quaternion(q));
+  return to;
 }
 
 }  // namespace ogc::fast

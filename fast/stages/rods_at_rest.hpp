@@ -1,6 +1,7 @@
 // Rest data of the segments of rods, made once on the host in double and rounded once.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "compare/problem/scene.hpp"
@@ -28,8 +29,10 @@ std::vector<compare::RestSegment> rest_segments(const RodsAtRest& rods);
 /// With the numbers of an answer.
 RodsAtRest rods_of(const compare::Scene& scene, const std::vector<compare::RestSegment>& segments);
 
-/// A quaternion of either room.
+/// A quaternion of either room, or several.
 inline Quat quat(const compare::Quaternion& q) { return {q[0], q[1], q[2], q[3]}; }
 inline compare::Quaternion quaternion(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
+std::vector<Quat> quats(std::span<const compare::Quaternion> all);
+std::vector<compare::Quaternion> quaternions(std::span<const Quat> all);
 
 }  // namespace ogc::fast

@@ -316,9 +316,7 @@ class ResidentSimulation : public compare::Simulation {
     if (snapshot.orientations.empty()) return start_orientations(scene_, rest_.rods);
     if (snapshot.orientations.size() != rest_.rods.segments.size())
       throw std::invalid_argument("orientations of other rods");
-    std::vector<Quat> all;
-    for (const compare::Quaternion& q : snapshot.orientations) all.push_back(quat(q));
-    return all;
+    return quats(snapshot.orientations);
   }
 
   /// Of a snapshot, where it is one. Throws std::invalid_argument.

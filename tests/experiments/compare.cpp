@@ -256,9 +256,11 @@ TEST_CASE(
         CHECK(given.unit == exact.unit);
         CHECK(given.numbers.size() == exact.numbers.size());
         CHECK(given.words.size() == exact.words.size());
-        // an impact may be told early (compare/stages/ccd.hpp)
-        for (std::size_t k = 0; k < exact.numbers.size() && stage != Stage::ccd; ++k)
-          CHECK(given.numbers[k] == Approx(exact.numbers[k]).epsilon(1e-2).margin(1e-2));
+        for (std::size_t k = 0; k < exact.numbers.size(); ++k)
+          if (stage == Stage::ccd)  // an impact may be told early (compare/stages/ccd.hpp)
+            CHECK(given.numbers[k] <= exact.numbers[k]);
+          else
+            CHECK(given.numbers[k] == Approx(exact.numbers[k]).epsilon(1e-2).margin(1e-2));
       }
       const auto json = explanation_json(told);
       CHECK(json.at("inputs").size() == told.inputs.size());

@@ -529,7 +529,6 @@ constexpr std::array<Generator, 28> table{{{"sheets", 16, true, sheets},
                                            {"solid", 4, false, solid, 0, Stage::tetrahedron},
                                            {"volume", 4, false, volume, 0, Stage::volume_depth},
                                            {"ladder.volume", 4, false, volume_at_radius, 0, Stage::volume_depth},
-                                           // not of plug-ins, which are not told when weights are found
                                            {"frozen", 8, false, frozen, 0, std::nullopt, true},
                                            {"frozen.bodies", 4, false, frozen_bodies, 0, Stage::volume_depth, true},
                                            {"models", 8, false, with_models<sheets>},

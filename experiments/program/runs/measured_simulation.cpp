@@ -103,7 +103,7 @@ class MeasuredSimulation : public compare::Simulation {
       if (!compare::says_turn(motion)) continue;
       scene.motions[i].axis = motion.axis;
       scene.motions[i].angular_velocity = motion.angular_velocity;
-      scene.motions[i].velocity = {1, 0, 0};  // which keyframes do not read: the motion is rigid (says_turn)
+      scene.motions[i].keyframes.is_rigid = true;
       scene.motions[i].start = motion.start - now;
       scene.motions[i].end = motion.end - now;
     }

@@ -1,4 +1,4 @@
-// Quaternions in single precision, with the layout of compare::Quaternion. Products are added from the left, as in
+// Quaternions, in single precision with the layout of compare::Quaternion. Products are added from the left, as in
 // vector.hpp.
 #pragma once
 
@@ -9,21 +9,39 @@
 
 namespace ogc::fast {
 
-/// u + w: sixteen bytes, one read on a device.
-struct alignas(16) Quat {
-  float x = 0, y = 0, z = 0, w = 1;  ///< of i, j, k, and the real part
+/// u + w: of floats sixteen bytes, one read on a device.
+template <class T>
+struct alignas(4 * sizeof(T)) QuatOf {
+  T x = 0, y = 0, z = 0, w = 1;  ///< of i, j, k, and the real part
 };
+using Quat = QuatOf<float>;
 
-OGC_HD inline Quat operator+(const Quat& a, const Quat& b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
-OGC_HD inline Quat operator-(const Quat& a, const Quat& b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
-OGC_HD inline Quat operator*(float s, const Quat& a) { return {s * a.x, s * a.y, s * a.z, s * a.w}; }
+template <class T>
+OGC_HD QuatOf<T> operator+(const QuatOf<T>& a, const QuatOf<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+}
+template <class T>
+OGC_HD QuatOf<T> operator-(const QuatOf<T>& a, const QuatOf<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
+}
+template <class T>
+OGC_HD QuatOf<T> operator*(T s, const QuatOf<T>& a) {
+  return {s * a.x, s * a.y, s * a.z, s * a.w};
+}
 /// a b, the product of quaternions.
-OGC_HD inline Quat operator*(const Quat& a, const Quat& b) {
+template <class T>
+OGC_HD QuatOf<T> operator*(const QuatOf<T>& a, const QuatOf<T>& b) {
   return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
           a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
-OGC_HD inline Quat conjugate(const Quat& a) { return {-a.x, -a.y, -a.z, a.w}; }
-OGC_HD inline float dot(const Quat& a, const Quat& b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
+template <class T>
+OGC_HD QuatOf<T> conjugate(const QuatOf<T>& a) {
+  return {-a.x, -a.y, -a.z, a.w};
+}
+template <class T>
+OGC_HD T dot(const QuatOf<T>& a, const QuatOf<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
 OGC_HD inline Quat pure(const Vec& v) { return {v.x, v.y, v.z, 0.0f}; }
 
 /// R(q) v = v + 2 w (u × v) + 2 u × (u × v).

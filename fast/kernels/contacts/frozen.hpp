@@ -11,10 +11,10 @@ namespace ogc::fast {
 
 /// for_each_counted over the pairs of the last detection, vertex–facet ones first, before an iteration.
 struct FreezeContacts {
-  SweepView view;          ///< of the iteration
-  ContactView contacts;    ///< records of the detection
-  const int* overflow;     ///< not 0: records are not whole, and no step comes of it; null: never
-  FrozenContact* frozen;   ///< by pair, written
+  SweepView view;         ///< of the iteration
+  ContactView contacts;   ///< records of the detection
+  const int* overflow;    ///< not 0: records are not whole, and no step comes of it; null: never
+  FrozenContact* frozen;  ///< by pair, written
 
   OGC_HD void operator()(int i) const {
     if (view.is_off() || (overflow != nullptr && *overflow != 0)) return;
@@ -51,8 +51,8 @@ struct WeightsOfIteration {
     const float normal_force = add_contact(activation, at.shape, at.weight, at.majorant, view.contact_radius,
                                            incidence.stiffness, term);
     if (incidence.friction > 0)
-      add_friction(at.shape.normal, separation - frozen.start, at.weight, at.majorant, incidence.friction,
-                   normal_force, view.friction_limit, term);
+      add_friction(at.shape.normal, separation - frozen.start, at.weight, at.majorant, incidence.friction, normal_force,
+                   view.friction_limit, term);
     return term;
   }
 };
@@ -60,19 +60,7 @@ struct WeightsOfIteration {
 /// As GatherDefault.
 using GatherFrozenSurfaces = GatherSurfaces<WeightsOfIteration>;
 
-/// Of any scene: as GatherAnythingWithRods, where there are rods.
-struct GatherFrozen {
-  static constexpr int parts = GatherAnythingWithRods::parts;  ///< of the sum
-
-  template <class Team>
-  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
-                                  const Team& team) const {
-    const OwnVertex at{own, own - view.start[vertex.vertex]};
-    const AddAnyTetrahedron add{view, view.solids[vertex.body], view.models[vertex.body], at};
-    return every_model_sum<WeightsOfIteration>(view, slot, vertex, at, team, tetrahedra_if_any(view, slot, add),
-                                               volumes_if_any(view, slot, vertex.vertex, own),
-                                               rods_if_any(view, slot, vertex, at));
-  }
-};
+/// Of any scene.
+using GatherFrozen = GatherAnything<WeightsOfIteration>;
 
 }  // namespace ogc::fast

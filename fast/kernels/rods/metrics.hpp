@@ -6,24 +6,15 @@
 
 namespace ogc::fast {
 
-/// A quaternion in double: energies of small angles are differences of numbers near 1.
-struct WideQuat {
-  double x, y, z, w;
-};
-OGC_HD inline WideQuat wide(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
-/// ā b.
-OGC_HD inline WideQuat between(const WideQuat& a, const WideQuat& b) {
-  return {a.w * b.x - a.x * b.w - a.y * b.z + a.z * b.y, a.w * b.y - a.y * b.w - a.z * b.x + a.x * b.z,
-          a.w * b.z - a.z * b.w - a.x * b.y + a.y * b.x, a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z};
-}
+/// In double: energies of small angles are differences of numbers near 1.
+OGC_HD inline QuatOf<double> wide(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
 /// ‖a − s b‖² for the sign s that makes it smaller.
-OGC_HD inline double squared_apart(const WideQuat& a, const WideQuat& b) {
-  const double s = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1.0 : 1.0;
-  const double d[4] = {a.x - s * b.x, a.y - s * b.y, a.z - s * b.z, a.w - s * b.w};
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + d[3] * d[3];
+OGC_HD inline double squared_apart(const QuatOf<double>& a, const QuatOf<double>& b) {
+  const QuatOf<double> apart = dot(a, b) < 0 ? a + b : a - b;
+  return dot(apart, apart);
 }
 
-/// Term of a segment; bend and twist belong to the one that has the other ahead of it, or both halves to each.
+/// Term of a segment; of bend and twist at a vertex each of the two segments there adds half.
 struct SegmentTerm {
   const SegmentRest* segments;          ///< by segment
   const SegmentNeighbours* neighbours;  ///< by segment
@@ -35,7 +26,7 @@ struct SegmentTerm {
     const Vec a = position[rest.end[0]], b = position[rest.end[1]];
     const double l = rest.length, d[3] = {(static_cast<double>(b.x) - a.x) / l, (static_cast<double>(b.y) - a.y) / l,
                                           (static_cast<double>(b.z) - a.z) / l};
-    const WideQuat q = wide(orientation[e]);
+    const QuatOf<double> q = wide(orientation[e]);
     const double director[3] = {2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x),
                                 1 - 2 * (q.x * q.x + q.y * q.y)};
     double strain = 0;
@@ -45,9 +36,9 @@ struct SegmentTerm {
     const SegmentNeighbours& seen = neighbours[e];
     for (int k = 0; k < 2; ++k) {
       if (!(seen.rest[k].weight > 0)) continue;
-      // Each of both neighbours adds half of 2 k_b/l̄ ‖…‖² = w/2 ‖…‖².
-      const WideQuat other = wide(orientation[seen.number[k]]);
-      const WideQuat relative = k == 1 ? between(q, other) : between(other, q);
+      // half of 2 k_b/l̄ ‖…‖² = w/2 ‖…‖²
+      const QuatOf<double> other = wide(orientation[seen.number[k]]);
+      const QuatOf<double> relative = k == 1 ? conjugate(q) * other : conjugate(other) * q;
       sum[rod_energy] += 0.25 * static_cast<double>(seen.rest[k].weight) *
                          squared_apart(relative, wide(seen.rest[k].rest));
     }

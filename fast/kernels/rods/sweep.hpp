@@ -88,8 +88,10 @@ OGC_HD inline Part<LoadRod, AddRod> rods_if_any(const SweepView& view, int slot,
   return part(0, LoadRod{view.rods.incidences}, AddRod{view, own, 0.0f});
 }
 
-/// As GatherEveryModel, with tetrahedra, volumes and segments as parts between springs and contacts.
-struct GatherAnythingWithRods {
+/// As GatherEveryModel, with tetrahedra, volumes and segments, where there are any, as parts between springs and
+/// contacts. `Weights`: of contacts, as ContactParts has them.
+template <class Weights>
+struct GatherAnything {
   static constexpr int parts = GatherEveryModel::parts + 3;  ///< of the sum
 
   template <class Team>
@@ -97,10 +99,12 @@ struct GatherAnythingWithRods {
                                   const Team& team) const {
     const OwnVertex at{own, own - view.start[vertex.vertex]};
     const AddAnyTetrahedron add{view, view.solids[vertex.body], view.models[vertex.body], at};
-    return every_model_sum(view, slot, vertex, at, team, tetrahedra_if_any(view, slot, add),
-                           volumes_if_any(view, slot, vertex.vertex, own), rod_part(view, slot, vertex, at));
+    return every_model_sum<Weights>(view, slot, vertex, at, team, tetrahedra_if_any(view, slot, add),
+                                    volumes_if_any(view, slot, vertex.vertex, own),
+                                    rods_if_any(view, slot, vertex, at));
   }
 };
+using GatherAnythingWithRods = GatherAnything<WeightsOfUpdate>;
 
 /// μ = σ + ‖b‖, as Hsu et al. 2025 have it: q ∝ (μ + M) b.
 OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const Vec& direction, const Quat& b,

@@ -46,7 +46,7 @@ struct TurnSegment {
   const Vec* position;            ///< x by vertex [m], after the guess
   const Quat* orientation_start;  ///< qᵗ by segment
   Quat* orientation;              ///< q by segment, written
-  bool turns;                     ///< false: free frames stay (orientation_start=kept)
+  bool turns;                     ///< false: free frames stay (start_frames=kept)
   const StepControl* control;     ///< on the backend: number of the step
 
   OGC_HD void operator()(int e) const {

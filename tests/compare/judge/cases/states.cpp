@@ -166,7 +166,7 @@ TEST_CASE("a stage of which a run has nothing says why, in the report and to who
   const Authority authority = ogc::reference::authority();
   const States states(write_run(scratch / "run", recorded_scene()), authority);
   REQUIRE(states.missing(Stage::spring) == "its scene has no spring");
-  REQUIRE(states.missing(Stage::tetrahedron) != "");
+  REQUIRE(states.missing(Stage::tetrahedron) == "no body that moves has tetrahedra");
   REQUIRE(states.missing(Stage::contact_force) == "none of its frames has a contact");
   REQUIRE_THROWS_WITH(generate({Stage::spring, "states", 1, 0, states.folder(), {}}, &states),
                       ContainsSubstring("its scene has no spring"));
