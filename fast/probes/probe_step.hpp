@@ -10,7 +10,7 @@
 namespace ogc::fast {
 
 /// One step of a simulation, told event by event: of a step that was repeated because a list grew, the last attempt.
-/// Needs SimulationOptions::profile; changes no bit.
+/// Changes no bit.
 template <class Backend>
 compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
   StepState<Backend>& state = simulation.state();
@@ -41,7 +41,6 @@ compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
 template <class Backend>
 compare::StepOut probe_step(const compare::StepIn& in, int list_capacity = 0, Backend backend = Backend{}) {
   compare::SimulationOptions options;
-  options.profile = true;
   options.energies = false;
   ResidentSimulation<Backend> simulation(std::move(backend), *in.scene, options, "probe", list_capacity);
   return trace_step(simulation);

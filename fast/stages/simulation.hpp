@@ -12,13 +12,15 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "compare/way.hpp"
 #include "fast/stages/step.hpp"
+#include "fast/stages/way.hpp"
 
 namespace ogc::fast {
 
 /// The simulation of one scene.
 template <class Backend>
-class ResidentSimulation : public compare::Simulation {
+class ResidentSimulation : public compare::Simulation, public compare::WayTeller {
  public:
   /// `device`: what device() answers. `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists
   /// grow by themselves.
@@ -65,6 +67,15 @@ class ResidentSimulation : public compare::Simulation {
     return rows;
   }
 
+  std::vector<compare::StepMetrics> advance_telling(std::vector<std::vector<compare::Vec3f>>& states) override {
+    WayRecorder<Backend> recorder(backend_, state_);
+    observe(&recorder);
+    std::vector<compare::StepMetrics> rows = advance(1);
+    observe(nullptr);
+    states = recorder.take();
+    return rows;
+  }
+
   compare::Snapshot snapshot() override {
     compare::Snapshot result;
     result.step = step_number_;
@@ -106,7 +117,7 @@ class ResidentSimulation : public compare::Simulation {
   /// W, the width of the sweep's sums.
   int lanes() const { return sweep_.lanes(); }
 
-  /// Null ends it. Needs SimulationOptions::profile; changes no bit.
+  /// Null ends it; changes no bit. Steps that are looked at are not recorded.
   void observe(StepObserver* observer) { step_.observe(observer); }
   // What an observer looks at.
   float query_radius() const { return query_radius_; }  ///< r_q of the last step [m]
@@ -254,10 +265,10 @@ class ResidentSimulation : public compare::Simulation {
     return control;
   }
 
-  /// The backend times each step. Where the clock times stages, too, nothing is recorded, so that the host can look at
-  /// it between launches.
+  /// The backend times each step. Where the clock times stages or an observer looks on, nothing is recorded, so that
+  /// the host can act between launches.
   void enqueue(int count, std::vector<double>& wall_ms, std::vector<std::vector<double>>& stage_ms) {
-    if (!clock_.on()) {
+    if (!clock_.on() && !step_.is_observed()) {
       backend_.replay(recordings_[group_ > 1 ? 1 : 0], count, [this] { step_.enqueue(group_); });
       backend_.synchronize();
       wall_ms = backend_.replay_milliseconds();
@@ -267,6 +278,7 @@ class ResidentSimulation : public compare::Simulation {
     for (int k = 0; k < count; ++k) {
       const Clock::time_point start = Clock::now();
       step_.enqueue(group_);
+      if (!clock_.on()) backend_.synchronize();
       wall_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
       stage_ms.push_back(clock_.take());
     }

@@ -120,8 +120,8 @@ struct StepState {
   Buffer<double> sums_guess, sums_end;  ///< by SumColumn, after the guess loop and at the end
 };
 
-/// Follows a step from the host, event by event. It needs a clock that is on, because a recorded step has no host
-/// between its launches (fast/probes/trace.hpp).
+/// Follows a step from the host, event by event, as no recorded step can be followed (fast/probes/trace.hpp,
+/// fast/stages/way.hpp).
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
@@ -157,6 +157,7 @@ class Step {
 
   /// Null ends it.
   void observe(StepObserver* observer) { observer_ = observer; }
+  bool is_observed() const { return observer_ != nullptr; }
 
   /// r, with the contact margin [m].
   float detection_radius() const { return settings_.detection_radius; }

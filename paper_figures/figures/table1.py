@@ -1,5 +1,5 @@
-"""Table 1, rows of cloth and of the mat: ours beside the paper's, as CSV, Markdown and HTML, from the runs that the
-runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
+"""Table 1, rows of cloth, of the mat and of yarn: ours beside the paper's, as CSV, Markdown and HTML, from the runs
+that the runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
 
 Average and maximum are of whole steps as steps.csv times them. A step that was repeated because a list grew is in the
 average, not in the maximum, and counted. The CPU's average is that of its windows, each with the same weight. With
@@ -20,7 +20,7 @@ from paper_figures.workflow.evidence import CLAIMS, NOT_RUN, EvidenceError, colu
 from paper_figures.workflow.jobs import MEMORY
 
 ROWS = commands.ROWS
-TITLE = "Table 1, rows of cloth and of the mat, with the paper's bounds and with planes"
+TITLE = "Table 1, rows of cloth, of the mat and of yarn, with the paper's bounds and with planes"
 WINDOWS = 5  # on the CPU, of each row
 STALE, FRESH = "residual, last detection's contacts [1]", "residual, contacts of the end [1]"
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from paper_figures.workflow import layers, release, slide
 from paper_figures.workflow.audited import Audit
+from paper_figures.workflow.first_meeting import FirstMeeting
 from paper_figures.workflow.jobs import Command, Job, Share, Step
 
 TWIST, THREE_CLOTHS = "large_radius_twist", "three_cloths_on_sphere"
@@ -180,7 +181,7 @@ def activations(scale, backend):
 # Steps between stored, audited states: as many as go into 1/60 s, one where a step is longer than half of that.
 MAT, MAT_PLANES = "mat_twist", "mat_twist_planes"
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
-               "robot_shirt": 10, MAT: 4}
+               "robot_shirt": 10, MAT: 4, "yarn_stretch": 41, "yarn_twist": 41}
 WITH_PLANES = "_planes"  # ends a row's name
 ROWS = tuple(scene + end for scene in FRAME_STEPS for end in ("", WITH_PLANES))
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
@@ -411,47 +412,55 @@ YARN_STEPS = {STRETCH: {"smoke": 100, "small": 16250, "paper": 16250},
 WEAK_YARN_STEPS = {"smoke": 100, "small": 6250, "paper": 6250}  # at rest, then pulled for 2 s
 YARN_FRAME_STEPS = {"smoke": 5, "small": 125, "paper": 125}
 RELEASE_STEPS = {"smoke": 60, "small": 7500, "paper": 25000}  # at paper 10 s
-# Whether threads meet on the way of a step is asked exactly, which takes 0.3 s a step of 4,000 segments: of every step
-# at smoke alone, else in windows of so many steps from states at these shares of a run [%].
-MEETING_STEPS, MEETING_SHARES = {"small": 20, "paper": 50}, (0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 99)
-WINDOW_OF = "_window_"  # between the name of a run and the share
+# Whether threads meet on the way of a step is asked exactly, which takes 0.3 s of a core for 65,000 segments: of every
+# step but at the paper's size, where it is asked in windows of so many steps from states at these shares of a run [%].
+MEETING_STEPS, MEETING_SHARES = {"paper": 50}, (0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 99)
+WINDOW_OF = "_window_"  # between the name of a run and the share, or the step that a window begins after
 
 
 def yarn(scene, kind, scale, backend, name, more=(), steps=0):
     """One run and its windows; meetings of the baseline are a result, and so is where its numbers end."""
-    steps = steps or YARN_STEPS[scene][scale]
+    steps, every, may_fail = steps or YARN_STEPS[scene][scale], YARN_FRAME_STEPS[scale], kind == "baseline"
     shared_words = (scene, "--scale", scale, "--backend", backend, *YARN_KINDS[kind], *more)
-    asked = ("--audit-meetings", f"1:{steps}")
+    asked, in_windows = ("--audit-meetings", f"1:{steps}"), scale in MEETING_STEPS
     words = (*shared_words, "--audit", "off" if kind == "baseline" else "frame",
-             *(asked if scale == "smoke" else ("--audit-meetings", "off")),
-             "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}", "--steps", steps)
-    yield Job(name, words, may_fail=kind == "baseline")
-    for share in MEETING_SHARES if scale in MEETING_STEPS else ():
-        yield Job(f"{name}{WINDOW_OF}{share}", (*shared_words, "--audit", "off", *asked),
-                  (name, Share(share, YARN_FRAME_STEPS[scale])), MEETING_STEPS[scale], pictured=False,
-                  may_fail=kind == "baseline")
+             *(("--audit-meetings", "off") if in_windows else asked), "--set", f"frame_steps={every}", "--steps", steps)
+    yield Job(name, words, may_fail=may_fail)
+    if not in_windows:
+        return
+
+    def window(place, begin, length):
+        return Job(f"{name}{WINDOW_OF}{place}", (*shared_words, "--audit", "off", *asked), (name, begin), length,
+                   pictured=False, may_fail=may_fail)
+
+    places = [(share, Share(share, every)) for share in MEETING_SHARES]
+    windows = tuple(window(share, begin, MEETING_STEPS[scale]) for share, begin in places)
+    yield from windows
+    if kind == "baseline":
+        yield FirstMeeting(f"{name}{WINDOW_OF}search", windows,
+                           lambda step: window(f"after_{step}", Step(step), every), every)
 
 
 def yarn_stretched(scale, backend):
-    """Fig. 15."""
+    """Fig. 15: a chain a run."""
     for stiffness in YARN_STIFFNESS:
         scenes_own = stiffness == YARN_STIFFNESS[0]
         more = () if scenes_own else ("--set", f"contact_stiffness={stiffness}")
         for kind in YARN_KINDS:
-            yield from yarn(STRETCH, kind, scale, backend, f"{kind}_{stiffness}", more,
-                            0 if scenes_own else WEAK_YARN_STEPS[scale])
+            yield tuple(yarn(STRETCH, kind, scale, backend, f"{kind}_{stiffness}", more,
+                             0 if scenes_own else WEAK_YARN_STEPS[scale]))
 
 
 def yarn_twisted(scale, backend):
-    """Fig. 16: twisted, let go, and beside it the cloth that hangs as it is."""
+    """Fig. 16: a chain a run that is twisted and let go, and one of the cloth that hangs as it is."""
     let_go = ("--backend", backend, "--audit-meetings", "off", "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}")
     scene, steps = release.Release(scale), RELEASE_STEPS[scale]
     for kind, options in YARN_KINDS.items():
         audit = ("--audit", "frame" if kind == "ogc" else "off")
-        yield from yarn(YARN_TWIST, kind, scale, backend, kind)
-        yield Job(f"{kind}_released", (*let_go, *audit, *options), (kind, -1), steps, scene=scene,
-                  may_fail=kind == "baseline")
-    yield Job("hanging", (*let_go, "--audit", "frame", "--steps", steps), scene=scene)
+        released = Job(f"{kind}_released", (*let_go, *audit, *options), (kind, -1), steps, scene=scene,
+                       may_fail=kind == "baseline")
+        yield *yarn(YARN_TWIST, kind, scale, backend, kind), released
+    yield (Job("hanging", (*let_go, "--audit", "frame", "--steps", steps), scene=scene),)
 
 
 # Smaller measurements beside Table 1 (fast/PERFORMANCE.md).

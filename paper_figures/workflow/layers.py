@@ -46,6 +46,11 @@ def positions(side, spacing, height, shift=(0, 0)):
     return result
 
 
+def face(a, b, c):
+    """As binary PLY has it."""
+    return struct.pack("<Biii", 3, a, b, c)
+
+
 def triangles(side):
     """Two a cell, with diagonals that alternate, as the faces of a binary PLY file."""
     result = []
@@ -53,7 +58,7 @@ def triangles(side):
         for j in range(side - 1):
             a, b, c, d = (i * side + j, i * side + j + 1, (i + 1) * side + j + 1, (i + 1) * side + j)
             first, second = ((a, b, c), (a, c, d)) if (i + j) % 2 == 0 else ((a, b, d), (b, c, d))
-            result.append(struct.pack("<BiiiBiii", 3, *first, 3, *second))
+            result.append(face(*first) + face(*second))
     return b"".join(result)
 
 

@@ -101,8 +101,8 @@ def of_figures(wanted):
         "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0),
         "quality": Part(folder("table1"), (tuple(commands.to_quality(scale, backend)),), "quality", frames=0),
         "ledger": Part(folder("ledger"), (tuple(commands.ledgers(scale, backend)),), "ledger", frames=0),
-        "fig15": Part(folder("fig15"), (tuple(commands.yarn_stretched(scale, backend)),), "fig15", frames=13, last=1),
-        "fig16": Part(folder("fig16"), (tuple(commands.yarn_twisted(scale, backend)),), "fig16", frames=13, last=1),
+        "fig15": Part(folder("fig15"), tuple(commands.yarn_stretched(scale, backend)), "fig15", frames=13, last=1),
+        "fig16": Part(folder("fig16"), tuple(commands.yarn_twisted(scale, backend)), "fig16", frames=13, last=1),
     }
 
 

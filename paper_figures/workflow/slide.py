@@ -25,14 +25,19 @@ def resting_height():
     return RADIUS - DENSITY * SPACING**2 * ACROSS / STIFFNESS
 
 
-def write(folder, side, steps):
-    """Writes the scene of side × side vertices; returns its file. The plane reaches farther than the sheet comes."""
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+def plane(side, steps):
+    """(positions, faces) of a plane that reaches farther than the sheet comes."""
     way = 0.5 * ALONG * (steps * TIME_STEP)**2 + side * SPACING
     cells = 2 * (int(way / CELL) + 2)
+    return layers.positions(cells + 1, CELL, 0.0), layers.triangles(cells + 1)
+
+
+def write(folder, side, steps, on=None):
+    """Writes the scene of side × side vertices; returns its file. `on`: the plane's positions and faces."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
     layers.write_mesh(folder / "sheet.ply", layers.positions(side, SPACING, resting_height()), layers.triangles(side))
-    layers.write_mesh(folder / "plane.ply", layers.positions(cells + 1, CELL, 0.0), layers.triangles(cells + 1))
+    layers.write_mesh(folder / "plane.ply", *(on or plane(side, steps)))
     material = {"density": DENSITY, "contact_stiffness": STIFFNESS, "friction": 0}
     scene = {"format_version": 2, "name": "slide", "gravity": [ALONG, -ACROSS, 0],
              "settings": {"time_step": TIME_STEP, "steps": steps, "iterations": 20, "contact_radius": RADIUS},

@@ -11,6 +11,7 @@
 #include "compare/problem/rods.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/volumes.hpp"
+#include "compare/way.hpp"
 #include "reference/contestant.hpp"
 
 namespace ogc::experiments {
@@ -51,6 +52,7 @@ class MeasuredSimulation : public compare::Simulation {
         topology_(build_topology(scene)),
         exclusions_(exclusions(scene)),
         inner_(std::move(inner)),
+        teller_(dynamic_cast<compare::WayTeller*>(inner_.get())),
         contestant_(std::move(contestant)),
         has_rows_(what.iterations),
         meetings_(what.meetings) {
@@ -65,15 +67,20 @@ class MeasuredSimulation : public compare::Simulation {
     std::vector<StepMetrics> rows;
     for (std::int64_t k = 0; k < steps; ++k) {
       const Snapshot before = inner_->snapshot();
-      for (StepMetrics& row : inner_->advance(1)) rows.push_back(std::move(row));
+      const bool asks_meetings = meetings_ && meetings_->holds(before.step + 1);
+      const bool is_told = asks_meetings && teller_ != nullptr && !has_rows_ && !ledger_;
+      std::vector<std::vector<compare::Vec3f>> way;
+      for (StepMetrics& row : is_told ? teller_->advance_telling(way) : inner_->advance(1))
+        rows.push_back(std::move(row));
       const Snapshot after = inner_->snapshot();
       if (after.step == before.step) break;
       if (meter_) {
         meter_->begin_step(before.positions, before.velocities, after.step, before.orientations);
         rows.back().residual = meter_->at(after.positions, after.orientations).share;
       }
-      const bool asks_meetings = meetings_ && meetings_->holds(after.step);
-      if (has_rows_ || ledger_ || (asks_meetings && contestant_.step))
+      if (is_told)
+        add_meetings(way, after.positions, rows.back());
+      else if (has_rows_ || ledger_ || (asks_meetings && contestant_.step))
         add_from_trace(before, after, rows.back());
       else if (asks_meetings)
         add_meetings(before.positions, after.positions, rows.back());
@@ -120,18 +127,22 @@ class MeasuredSimulation : public compare::Simulation {
       throw std::logic_error("the trace of step " + std::to_string(step.step) + " ends in another state than the step");
     if (ledger_) step.ledger = ledger_->of(before.positions, before.velocities, trace, contacts_at(after.positions));
     if (has_rows_) add_iterations(trace, step);
-    if (meetings_ && meetings_->holds(step.step)) add_meetings(trace, step);
+    if (meetings_ && meetings_->holds(step.step)) add_meetings(detected_at(trace), trace.position, step);
   }
 
-  /// Along the states at which the trace detected. Between two of them bounds hold, so that a meeting breaks them.
-  void add_meetings(const compare::StepOut& trace, StepMetrics& step) {
-    const std::vector<compare::Vec3f>* last = nullptr;
-    for (const StepEvent& event : trace.events) {
-      if (event.kind != StepEventKind::detection) continue;
-      if (last != nullptr) add_meetings(*last, event.position, step);
-      last = &event.position;
-    }
-    if (last != nullptr) add_meetings(*last, trace.position, step);
+  static std::vector<std::vector<compare::Vec3f>> detected_at(const compare::StepOut& trace) {
+    std::vector<std::vector<compare::Vec3f>> states;
+    for (const StepEvent& event : trace.events)
+      if (event.kind == StepEventKind::detection) states.push_back(event.position);
+    return states;
+  }
+
+  /// Along the states at which a step detected, to its end. Between two of them bounds hold, so that a meeting breaks
+  /// them.
+  void add_meetings(const std::vector<std::vector<compare::Vec3f>>& states, const std::vector<compare::Vec3f>& end,
+                    StepMetrics& step) {
+    for (std::size_t k = 0; k < states.size(); ++k)
+      add_meetings(states[k], k + 1 < states.size() ? states[k + 1] : end, step);
     if (step.meetings > 0 && scene_.settings.bounds != compare::Bounds::off) step.status |= compare::step_met;
   }
 
@@ -197,6 +208,7 @@ class MeasuredSimulation : public compare::Simulation {
   compare::Topology topology_;
   compare::Exclusions exclusions_;
   std::unique_ptr<Simulation> inner_;
+  compare::WayTeller* teller_;  ///< inner_, if it is one
   compare::Contestant contestant_;
   bool has_rows_;
   std::optional<StepRange> meetings_;

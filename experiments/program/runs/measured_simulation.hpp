@@ -36,9 +36,9 @@ struct Measured {
 /// step's time but its detections and iterations, then each of these with an equal share of what all of them took;
 /// without SimulationOptions::profile iterations share the whole. A trace that ends in another state than the step
 /// throws std::logic_error.
-/// Meetings are counted from each X_prev of the trace to the next, and from the last to the end of the step; of a
-/// contestant without traces from the begin of a step to its end. Where the scene's bounds forbid them, and the trace
-/// shows them, the row says step_met, and names pairs in its notes.
+/// Meetings are counted from each X_prev to the next, and from the last to the end of the step, as the simulation tells
+/// (compare::WayTeller) or the trace; of a contestant that has neither from the begin of a step to its end. Where the
+/// scene's bounds forbid them, and states of detections show them, the row says step_met, and names pairs in its notes.
 compare::Contestant measured(compare::Contestant contestant, const Measured& what);
 
 }  // namespace ogc::experiments

@@ -2,10 +2,10 @@
 paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
 
 NAME.yaml beside this file says all: `study` has `jitter` [m], `repeat`, `audit`, and `scenes`, each with `points` (of
-`ogc ablate --point`; the others are held against the first), and by scale `set` (settings of all points) and `options`
-(further options of `ogc ablate`). FOLDER then holds a folder of `ogc ablate` for each scene, NAME.csv (a row
-a scene, metric and point), NAME.txt (findings), NAME.png and NAME.pdf. Cut off and called again, it goes on with the
-run that was cut off."""
+`ogc ablate --point`; the others are held against the first), and by scale `set` (settings of all points) and
+`options` (further options of `ogc ablate`); `scales` names those that the scene is run at, where it is not at all.
+FOLDER then holds a folder of `ogc ablate` for each scene, NAME.csv (a row a scene, metric and point), NAME.txt
+(findings), NAME.png and NAME.pdf. Cut off and called again, it goes on with the run that was cut off."""
 
 import argparse
 import csv
@@ -23,7 +23,7 @@ from plots import ablation, style
 
 HERE = Path(__file__).parent
 KEYS = {"jitter", "repeat", "audit", "scenes", "panels"}
-SCENE_KEYS = {"points", "set", "options"}
+SCENE_KEYS = {"points", "set", "options", "scales"}
 CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
 PANELS = ("median_step", "detections_a_step", "contacts_a_step", "largest_momentum_lost_end", "smallest_distance",
           "last_energy")
@@ -45,6 +45,11 @@ def load(name):
         raise StudyError(f"{path.name}: unknown key {', '.join(sorted(unknown))}; there are: "
                          f"{', '.join(sorted(KEYS | SCENE_KEYS))}")
     return study
+
+
+def scenes_at(study, scale):
+    """Names of the scenes that are run at this scale."""
+    return [name for name, body in study["scenes"].items() if scale in body.get("scales", [scale])]
 
 
 def command(study, scene, scale, backend):
@@ -129,9 +134,10 @@ def main():
     asked = arguments()
     study = load(asked.study)
     table, findings, metrics = [], [], {}
-    for number, scene in enumerate(study["scenes"], 1):
+    scenes = scenes_at(study, asked.scale)
+    for number, scene in enumerate(scenes, 1):
         words = command(study, scene, asked.scale, asked.backend)
-        print(f"{asked.study}: {scene} ({number} of {len(study['scenes'])}): ogc {' '.join(words)}", flush=True)
+        print(f"{asked.study}: {scene} ({number} of {len(scenes)}): ogc {' '.join(words)}", flush=True)
         folder = asked.folder / scene
         run(asked.ogc, words, folder)
         table += rows(folder, scene)

@@ -9,11 +9,13 @@ released cloth is from the cloth that hangs as it is. A step whose way was not a
 
 import argparse
 import sys
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 
 from paper_figures.workflow import commands
+from paper_figures.workflow.first_meeting import FirstMeeting
 from paper_figures.workflow.jobs import Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import render, style
@@ -33,13 +35,14 @@ SIZE = {commands.STRETCH: (640, 480), commands.YARN_TWIST: (640, 720)}
 
 def runs_of(options):
     """name -> Run with at least one step, made where it is not there yet; with --made those that there are."""
-    folder, jobs = Path(options.folder), list(JOBS[options.scene](options.scale, options.backend))
+    folder, jobs = Path(options.folder), list(chain.from_iterable(JOBS[options.scene](options.scale, options.backend)))
     try:
         for job in () if options.made else jobs:
             job.make(options.ogc, folder, Limit(), True)
     except RunFailure as error:
         raise RunError(str(error)) from error
-    found = {job.name: Run(folder / job.name) for job in jobs if has_steps(folder / job.name)}
+    searched = [window for job in jobs if isinstance(job, FirstMeeting) for window in job.made_below(folder)]
+    found = {job.name: Run(folder / job.name) for job in (*jobs, *searched) if has_steps(folder / job.name)}
     main = [name for name in main_runs(options.scene).values() if name not in found]
     if main:
         raise RunError(f"{folder} lacks {' and '.join(main)}; leave --made out, and they are made")
@@ -80,6 +83,13 @@ def meetings(run):
     return run.steps.get("meetings", np.full(len(run.column("step")), np.nan))
 
 
+def asked_of(parts):
+    """(times [s], meetings) of the steps whose way was asked in a run or its windows, each once, in order."""
+    found = {step: (time, met) for part in parts
+             for step, time, met in zip(part.column("step"), seconds(part), meetings(part)) if np.isfinite(met)}
+    return np.array([found[step] for step in sorted(found)]).reshape(-1, 2).T
+
+
 def first_meeting(run):
     """Row of the first step on whose way threads met, or None."""
     met = np.flatnonzero(meetings(run) > 0)
@@ -87,8 +97,9 @@ def first_meeting(run):
 
 
 def windows_of(name, runs):
-    """The windows of a run in which meetings were asked for, in order."""
-    return [run for other, run in runs.items() if other.startswith(name + commands.WINDOW_OF)]
+    """The windows of a run in which meetings were asked for, by step."""
+    found = [run for other, run in runs.items() if other.startswith(name + commands.WINDOW_OF)]
+    return sorted(found, key=lambda run: run.column("step")[0])
 
 
 def first_among(parts):
@@ -99,14 +110,14 @@ def first_among(parts):
 def row_of(name, run, windows=()):
     stretch, stiffness = material(run)
     parts, pull = [run, *windows], tension(run)
-    most, asked = stiffness * run.setting("contact_radius"), np.concatenate([meetings(part) for part in parts])
+    most, (_, asked) = stiffness * run.setting("contact_radius"), asked_of(parts)
     part, first = first_among(parts)
     cell = lambda value: "" if value is None else f"{value:.6g}"  # noqa: E731
     at = lambda values: None if first is None else values[first]  # noqa: E731
     return {"run": name, "kind": kind_of(run), "k_c [N/m]": f"{stiffness:g}", "k_s [N]": f"{stretch:g}",
             "first step": int(run.column("step")[0]), "last step": int(run.column("step")[-1]),
-            "steps asked [1]": int(np.isfinite(asked).sum()),
-            "meetings [1]": "" if np.isnan(asked).all() else int(np.nansum(asked)),
+            "steps asked [1]": len(asked),
+            "meetings [1]": int(asked.sum()) if len(asked) else "",
             "first meeting at step": "" if first is None else int(part.column("step")[first]),
             "mean stretch there [1]": cell(at(part.column("mean_stretch"))),
             "mean tension there [N]": cell(at(tension(part))),
@@ -196,8 +207,7 @@ def draw_over_time(axes_of_tension, axes_of_meetings, runs):
         part, first = first_among(parts)
         if first is not None:
             axes_of_tension.plot(seconds(part)[first], tension(part)[first], "x", color=colour)
-        time, asked = (np.concatenate([of(each) for each in parts]) for of in (seconds, meetings))
-        time, asked = time[np.isfinite(asked)], asked[np.isfinite(asked)]
+        time, asked = asked_of(parts)
         if len(asked):
             axes_of_meetings.plot(time, np.cumsum(asked), dash, color=colour, linewidth=1,
                                   label=label(run))
@@ -227,7 +237,7 @@ def draw_reached(axes, runs):
     for place, (name, run) in enumerate(chosen.items()):
         parts = [run, *windows_of(name, runs)]
         part, first = first_among(parts)
-        asked = any(np.isfinite(meetings(each)).any() for each in parts)
+        asked = len(asked_of(parts)[0]) > 0
         height = np.nanmax(tension(run)) if first is None else tension(part)[first]
         height /= material(run)[1] * run.setting("contact_radius")
         axes.bar(place, height, color=style.COLOURS[2 if first is None else 3])

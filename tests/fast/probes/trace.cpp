@@ -6,6 +6,7 @@
 
 #include "fast/cpu/backend.hpp"
 #include "fast/cpu/simulation.hpp"
+#include "fast/stages/way.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/scenes.hpp"
 
@@ -73,6 +74,27 @@ TEST_CASE("the last detection of a trace is the one that the state's certificate
                                  [](const auto& e) { return e.kind == compare::StepEventKind::detection; });
   CHECK(same_bits(last->position, end.previous));
   CHECK(last->bound == end.bounds);
+}
+
+TEST_CASE("a simulation tells the states at which it detected: those of its trace, and looking changes no bit",
+          "[property]") {
+  const compare::Scene scene = thrown_sheet();
+  for (const int list_capacity : {0, 1}) {  // with 1 the lists grow, and the last attempt counts
+    const auto seen = start_cpu(scene, {}, list_capacity), unseen = start_cpu(scene, {}, list_capacity);
+    std::vector<std::vector<compare::Vec3f>> states;
+    const std::vector<compare::StepMetrics> rows =
+        dynamic_cast<compare::WayTeller&>(*seen).advance_telling(states);
+    REQUIRE(rows.size() == 1);
+    CHECK(std::ssize(states) == rows[0].discrete_detections);
+    CHECK(states.size() > 2);
+    std::vector<std::vector<compare::Vec3f>> traced_states;
+    for (const compare::StepEvent& event : traced(scene, list_capacity).events)
+      if (event.kind == compare::StepEventKind::detection) traced_states.push_back(event.position);
+    CHECK(std::ranges::equal(states, traced_states, same_bits));
+    unseen->advance(1);
+    for (int k = 0; k < 3; ++k) seen->advance(1), unseen->advance(1);  // nobody looks any more
+    CHECK(same_bits(seen->snapshot().positions, unseen->snapshot().positions));
+  }
 }
 
 TEST_CASE("of a step that was repeated because its lists grew the trace tells the last attempt", "[property]") {

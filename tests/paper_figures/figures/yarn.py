@@ -10,6 +10,7 @@ import json
 import sys
 import tempfile
 import unittest
+from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
 
@@ -21,14 +22,16 @@ try:
 
     from paper_figures.figures.measured import yarn
     from paper_figures.workflow import commands
+    from paper_figures.workflow.first_meeting import FirstMeeting, met_at
+    from paper_figures.workflow.jobs import FINISHED, KEPT
     from plots.run_folder import Run
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
 
 
-def made_up(folder, met, stretch, bounds="off"):
-    """A run with k_s = 2 N, k_c = 10 N/m and r = 0.1 m."""
+def made_up(folder, met, stretch, bounds="off", first=1):
+    """A run from step `first` on with k_s = 2 N, k_c = 10 N/m and r = 0.1 m."""
     folder.mkdir(parents=True)
     rod = {"stretch": {"value": 2}, "diameter": {"value": 0.1}}
     body = {"material": {"rod": rod, "contact_stiffness": {"value": 10}}}
@@ -38,7 +41,7 @@ def made_up(folder, met, stretch, bounds="off"):
          "solver": "vbd", "ended": "e", "command": "ogc run x", "scene": {"name": "x", "bodies": [body]},
          "settings": {name: {"value": value} for name, value in values.items()}}))
     head = "step [1],wall [ms],mean_stretch [1],largest_stretch [1],smallest_contact_distance [m],meetings [1]"
-    rows = [f"{k + 1},1,{s},1,nan,{n}" for k, (s, n) in enumerate(zip(stretch, met))]
+    rows = [f"{k + first},1,{s},1,nan,{n}" for k, (s, n) in enumerate(zip(stretch, met))]
     (folder / "steps.csv").write_text("\n".join([head, *rows]) + "\n")
     return Run(folder)
 
@@ -59,12 +62,19 @@ class Known(unittest.TestCase):
 
     def test_where_a_run_was_not_asked_its_windows_are(self):
         runs = {"a": made_up(self.folder / "a", ["nan"] * 3, [0.1, 0.2, 0.4]),
-                "a_window_10": made_up(self.folder / "b", [0, 0], [0.2, 0.3]),
-                "a_window_20": made_up(self.folder / "c", [0, 5], [0.4, 0.5])}
+                "a_window_20": made_up(self.folder / "c", [0, 5], [0.4, 0.5], first=3),
+                "a_window_10": made_up(self.folder / "b", [0, 0], [0.2, 0.3])}
         row = yarn.row_of("a", runs["a"], yarn.windows_of("a", runs))
         names = ("steps asked [1]", "meetings [1]", "mean tension there [N]", "largest mean tension [N]")
         self.assertEqual([row[name] for name in names], [4, 5, "1", "0.8"])
         self.assertEqual(list(yarn.drawn_over_time(runs)), ["a"])
+
+    def test_a_step_that_two_windows_asked_counts_once(self):
+        runs = {"a": made_up(self.folder / "a", ["nan"] * 3, [0.1, 0.2, 0.4]),
+                "a_window_0": made_up(self.folder / "b", [0, 2], [0.2, 0.3]),
+                "a_window_after_0": made_up(self.folder / "c", [0, 2, 1], [0.2, 0.3, 0.4])}
+        row = yarn.row_of("a", runs["a"], yarn.windows_of("a", runs))
+        self.assertEqual([row[name] for name in ("steps asked [1]", "meetings [1]")], [3, 3])
 
     def test_a_run_that_nobody_asked_has_no_number_of_meetings_and_one_without_any_has_none_at_first(self):
         silent = yarn.row_of("a", made_up(self.folder / "a", ["nan"] * 2, [0.1, 0.2], "ball"))
@@ -75,11 +85,11 @@ class Known(unittest.TestCase):
     def test_every_run_of_a_figure_has_a_name_of_its_own_and_the_claims_find_theirs(self):
         for scale in ("smoke", "paper"):
             for scene, jobs in yarn.JOBS.items():
-                names = [job.name for job in jobs(scale, "cpu")]
+                names = [job.name for chain in jobs(scale, "cpu") for job in chain]
                 self.assertEqual(len(set(names)), len(names))
                 self.assertLessEqual(set(yarn.main_runs(scene).values()), set(names))
-        self.assertIn("baseline_222", [job.name for job in commands.yarn_stretched("paper", "cuda")])
-        self.assertIn("ogc_released", [job.name for job in commands.yarn_twisted("paper", "cuda")])
+        self.assertIn("baseline_222", [chain[0].name for chain in commands.yarn_stretched("paper", "cuda")])
+        self.assertIn("ogc_released", [chain[-1].name for chain in commands.yarn_twisted("paper", "cuda")])
 
     def test_the_whole_yarn_is_in_the_picture(self):
         random = np.random.default_rng(1)
@@ -93,6 +103,45 @@ class Known(unittest.TestCase):
             tangent = np.tan(np.radians(yarn.ANGLE / 2))
             self.assertLess(np.abs(seen @ np.cross(back, right) / deep).max(), tangent)
             self.assertLess(np.abs(seen @ right / deep).max(), tangent * size[0] / size[1])
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A window of a made-up run whose threads meet in every step from `first_met` on."""
+
+    name: str
+    after: int
+    length: int
+    first_met: int
+    on_device = False
+
+    def done(self, root):
+        return (root / self.name).is_dir()
+
+    def make(self, program, root, limit=None, shown=False):
+        if self.done(root):
+            return KEPT
+        steps = range(self.after + 1, self.after + self.length + 1)
+        made_up(root / self.name, [int(step >= self.first_met) for step in steps], [1] * self.length,
+                first=self.after + 1)
+        return FINISHED
+
+
+class Search(unittest.TestCase):
+    def test_halves_lead_to_the_first_meeting_and_ask_few_windows(self):
+        for first_met in (1, 2, 20, 21, 130, 399, 400, 1000):
+            with self.subTest(first_met=first_met), tempfile.TemporaryDirectory() as name:
+                root, length = Path(name), 20
+                windows = tuple(Asked(f"a_window_{k}", after, 5, first_met) for k, after in enumerate((0, 200, 390)))
+                for window in windows:
+                    window.make("", root)
+                job = FirstMeeting("a_window_search", windows,
+                                   lambda step: Asked(f"a_window_after_{step}", step, length, first_met), length)
+                job.make("", root)
+                self.assertTrue(job.done(root))
+                found = [met_at(path)[0] for path in root.glob("a_window_*")]
+                self.assertEqual(min(filter(None, found), default=None), first_met if first_met <= 395 else None)
+                self.assertLessEqual(len(job.made_below(root)), 5)  # of at most ten stored states
 
 
 class Drawn(unittest.TestCase):
