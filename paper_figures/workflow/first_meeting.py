@@ -1,28 +1,24 @@
-"""In which step of a run threads first met, where not every step was asked. Windows that are far apart say between
-which of them that was; halves of what lies between are asked next, down to the steps between two stored states.
-
-That threads which met once go on to meet is supposed; where they do not, the meeting that is found is a later one, and
-the table's number of steps asked says how much was looked at. Python's own library is enough.
+"""In which step of a run threads first met, where not every step was asked. A window in which they met says how far to
+look; all steps before are asked, from one stored state to the next. Python's own library is enough.
 """
 
 import csv
+import os
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 from paper_figures.workflow.jobs import FINISHED, KEPT, STOPPED, Limit
 
 
 def met_at(run):
-    """(first step at which a window's threads met or None, its first step, its last one); None of a window without
-    rows."""
+    """First step of a window on whose way threads met, or None."""
     rows = run / "steps.csv"
     if not rows.is_file():
         return None
-    with rows.open() as lines:
+    with rows.open(newline="") as lines:
         asked = [(int(row["step [1]"]), float(row.get("meetings [1]") or "nan")) for row in csv.DictReader(lines)]
-    if not asked:
-        return None
-    return next((step for step, met in asked if met > 0), None), asked[0][0], asked[-1][0]
+    return next((step for step, met in asked if met > 0), None)
 
 
 @dataclass(frozen=True)
@@ -39,46 +35,22 @@ class FirstMeeting:
     def on_device(self):
         return self.windows[0].on_device
 
-    def between(self, root):
-        """The stored states after which the first meeting may be; none where threads did not meet in a window."""
-        low = 0
-        for found in filter(None, (met_at(root / window.name) for window in self.windows)):
-            first_met, _, last = found
-            if first_met is not None:
-                return range(low // self.every * self.every, first_met, self.every)
-            low = last
-        return range(0)
+    def before(self, root):
+        """The windows up to the first meeting that is known; none where there is none."""
+        known = [step for step in (met_at(root / window.name) for window in self.windows) if step is not None]
+        return [self.window_after(step) for step in range(0, min(known, default=0), self.every)]
 
     def made_below(self, root):
-        """Windows that there are, by step."""
-        return [window for window in map(self.window_after, self.between(root)) if (root / window.name).is_dir()]
+        return [window for window in self.before(root) if (root / window.name).is_dir()]
 
     def done(self, root):
-        ahead = self.between(root)
-        while len(ahead) > 1:
-            middle = len(ahead) // 2 - 1
-            window = self.window_after(ahead[middle])
-            if not window.done(root):
-                return False
-            ahead = self.half(root, ahead, middle)
-        return not ahead or self.window_after(ahead[0]).done(root)
-
-    def half(self, root, ahead, middle):
-        """What is left of `ahead` after the window that begins at its item `middle`."""
-        found = met_at(root / self.window_after(ahead[middle]).name)
-        return ahead[:middle + 1] if found and found[0] is not None else ahead[middle + 1:]
+        return all(window.done(root) for window in self.before(root))
 
     def make(self, program, root, limit=Limit(), shown=False):
-        ahead, ends = self.between(root), [KEPT]
-        while ahead:
-            middle = max(0, len(ahead) // 2 - 1)
-            ends.append(self.window_after(ahead[middle]).make(program, root, limit, shown))
-            if ends[-1] == STOPPED:
-                return STOPPED
-            if len(ahead) == 1:
-                break
-            ahead = self.half(root, ahead, middle)
-        return FINISHED if FINISHED in ends else KEPT
+        with ThreadPoolExecutor(max_workers=max(1, (os.cpu_count() or 1) // 2)) as pool:
+            tasks = [pool.submit(window.make, program, root, limit, shown) for window in self.before(root)]
+        ends = [task.result() for task in tasks]
+        return next((end for end in (STOPPED, FINISHED) if end in ends), KEPT)
 
     def results(self, root, frames, last):
         for window in self.made_below(root):

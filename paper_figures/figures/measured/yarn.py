@@ -150,10 +150,12 @@ def far(runs):
 
 
 def table(runs, how_far):
-    """A row a run; empty cells where nothing was asked or found."""
+    """A row a run, its windows in it; empty cells where nothing was asked or found."""
     shares = {"median": 50, "nine vertices in ten within": 90, "largest": 100}
     rows = []
     for name, run in runs.items():
+        if commands.WINDOW_OF in name:
+            continue
         of = how_far.get(name)
         far_off = {f"distance, {words} [m]": "" if of is None else f"{np.percentile(of, k):.6g}"
                    for words, k in shares.items()}
