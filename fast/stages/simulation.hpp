@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "fast/stages/settings.hpp"
 #include "fast/stages/step.hpp"
 
 namespace ogc::fast {
@@ -31,12 +32,13 @@ class ResidentSimulation : public compare::Simulation {
         rest_(build_rest_state(scene_, topology_)),
         colouring_(colour_vertices(rest_)),
         exclusions_(compare::exclusions(scene_)),
-        detection_(backend_, topology_, exclusions_, list_capacity, 0, scene_.settings.bounds, fixed_vertices()),
+        detection_(backend_, topology_, exclusions_, list_capacity, skin_share(scene_), scene_.settings.bounds,
+                   fixed_vertices()),
         pair_guess_(scene_.settings, fixed_vertices()),
         segment_colouring_(colour_segments(rest_.rods)),
         sweep_(backend_, rest_, colouring_, topology_, scene_, segment_colouring_),
         volumes_(detection_.surface(), volume_parts(scene_, topology_), sweep_.slots()),
-        rods_(backend_, scene_, rest_, longest_frame),
+        rods_(scene_, rest_, longest_frame),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
         step_(backend_, state_, detection_, pair_guess_, sweep_, volumes_, rods_, clock_,
@@ -60,6 +62,8 @@ class ResidentSimulation : public compare::Simulation {
       if (control.status != 0) {
         grow();
         ++repeats;
+      } else if (detection_.make_room()) {
+        lists_moved();
       }
     }
     return rows;
@@ -174,8 +178,7 @@ class ResidentSimulation : public compare::Simulation {
     s.strain_start.resize(rest_.triangles.size());
     s.angle_start.resize(rest_.hinges.size());
     s.solid_start.resize(rest_.tetrahedra.size());
-    s.sums_guess.resize(sum_columns);
-    s.sums_end.resize(sum_columns);
+    s.sums.resize(guess_columns + sum_columns);
     s.control.resize(1);
     s.rows.resize(longest_frame);
     upload(s.mass, rest_.mass);
