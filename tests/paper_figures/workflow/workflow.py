@@ -202,7 +202,7 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
     def test_a_study_that_is_not_there_is_refused_with_those_that_are(self):
         status, said = self.study("ablation_nothing")
         self.assertEqual(status, 1)
-        self.assertIn("no study 'ablation_nothing'; there are: ablation_iterations", said)
+        self.assertIn("no study 'ablation_nothing'; there are: ablation_frames", said)
 
 
 class Jobs(Scratch):
