@@ -3,7 +3,6 @@
 // functor.
 #pragma once
 
-#include "fast/kernels/beside.hpp"
 #include "fast/kernels/bound.hpp"
 #include "fast/kernels/bvh.hpp"
 #include "fast/kernels/detect_edge_edge.hpp"

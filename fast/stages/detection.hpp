@@ -17,6 +17,7 @@
 #include "fast/kernels/detection.hpp"
 #include "fast/kernels/pair_guess.hpp"
 #include "fast/stages/backend.hpp"
+#include "fast/stages/beside.hpp"
 #include "fast/stages/bvh.hpp"
 #include "fast/stages/detect_edge_edge.hpp"
 #include "fast/stages/detect_vertex_facet.hpp"

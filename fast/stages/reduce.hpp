@@ -7,7 +7,7 @@
 
 #include <utility>
 
-#include "fast/kernels/beside.hpp"
+#include "fast/stages/beside.hpp"
 
 namespace ogc::fast {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fast/kernels/step_detection.hpp"
+#include "fast/stages/beside.hpp"
 
 namespace ogc::fast {
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Yarn scenes at smoke from jittered starts: every run comes to its end, keeps its bounds, and no thread meets a thread
-on any step's way (compare/meetings.md). Usage: yarn_repeats.py OGC [REPEATS], 20 by default, which takes minutes; a test
-takes two. Python's own library is enough.
+on any step's way (compare/meetings.md). Usage: yarn_repeats.py OGC [REPEATS], 20 by default, which takes minutes; the
+test makes two. Python's own library is enough.
 """
 
 import json
