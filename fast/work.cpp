@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "fast/cpu/backend.hpp"
+#include "fast/kernels/rods/segments.hpp"
 #include "fast/kernels/sweep.hpp"
 #include "fast/kernels/sweep_solids.hpp"
 #include "fast/probes/contact_engine.hpp"
@@ -33,6 +34,14 @@ constexpr double tetrahedron_flop = 85;
 /// Its damping: F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks
 /// 2 + 15 + 45.
 constexpr double solid_damping_flop = 238;
+/// fast/kernels/models/rod.hpp, at one end: difference 3, over its length 5, turned director 30, strain 3, force 6,
+/// block 4.
+constexpr double rod_flop = 51;
+/// fast/kernels/models/orientation.hpp: difference 3, two neighbours 2 · (28 + 7 + 4 + 4), lengths 12, σ 3, ‖b‖ 8,
+/// frame 8, parts of b 128 + 4, their lengths 16, one step to the root 26, sum 16, unit 26.
+constexpr double orientation_flop = 336;
+/// Its damping: two neighbours 2 · (28 + 1 + 43).
+constexpr double orientation_damping_flop = 144;
 /// fast/kernels/contact_force.hpp and friction_force.hpp, what every kind does: separation 24, normal and distance 10,
 /// activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11, force 7, blocks 22.
 constexpr double contact_flop = 145;
@@ -128,6 +137,24 @@ void add_tetrahedra(const RestState& rest, SweepWork& work) {
   if (damped > 0) work.bytes += static_cast<double>(rest.tetrahedra.size() * sizeof(SolidStrain));
 }
 
+/// Adds what rods cost: each segment once and for each of its free ends, and a launch for each colour of segments.
+void add_rods(const RestState& rest, SweepWork& work) {
+  const Colouring colouring = colour_segments(rest.rods);
+  double ends = 0, damped = 0;
+  for (const SegmentRest& segment : rest.rods.segments)
+    ends += static_cast<double>(std::ranges::count_if(
+        segment.end, [&](int v) { return rest.mobility[static_cast<std::size_t>(v)] == Mobility::free; }));
+  for (const int e : colouring.order)
+    if (rest.rods.segments[static_cast<std::size_t>(e)].damping > 0) ++damped;
+  const auto segments = static_cast<double>(colouring.order.size());
+  if (ends + segments == 0) return;
+  work.colours += colouring.count;
+  work.flop += ends * rod_flop + segments * orientation_flop + damped * orientation_damping_flop;
+  // q read and written; qᵗ and c where damped
+  work.bytes += ends * sizeof(RodIncidence) + static_cast<double>(work.vertices) * sizeof(RodRow) +
+                segments * (sizeof(SegmentSlot) + 2 * sizeof(Quat)) + damped * (sizeof(Quat) + sizeof(Vec));
+}
+
 }  // namespace
 
 SweepWork sweep_work(const compare::Scene& scene) {
@@ -153,6 +180,7 @@ SweepWork sweep_work(const compare::Scene& scene) {
   if (damped)
     work.bytes += static_cast<double>(rest.triangles.size() * sizeof(Symmetric2) + rest.hinges.size() * sizeof(float));
   add_tetrahedra(rest, work);
+  add_rods(rest, work);
   work.flop_vertex_facet = contact_vertices * (contact_flop + on_triangle_flop);
   work.flop_edge_edge = contact_vertices * (contact_flop + on_segments_flop);
   work.bytes_contact = contact_vertices * sizeof(ContactIncidence);

@@ -70,6 +70,13 @@ compare::Contestant newton() {
   return contestant;
 }
 
+compare::Contestant penalty() {
+  compare::Contestant contestant;
+  contestant.name = "penalty";
+  contestant.start = start_penalty;
+  return contestant;
+}
+
 compare::Contestant ipc() {
   compare::Contestant contestant;
   contestant.name = "ipc";

@@ -24,6 +24,9 @@ compare::Authority authority();
 /// Newton-OGC: no stages, but a simulation to `start` (method.md §7.6).
 compare::Contestant newton();
 
+/// The penalty baseline: Newton's method without bounds, line search or guarantee. Likewise.
+compare::Contestant penalty();
+
 /// The IPC baseline: likewise.
 compare::Contestant ipc();
 

@@ -78,10 +78,8 @@ class ReferenceSimulation : public compare::Simulation {
   compare::Snapshot state_;
 };
 
-}  // namespace
-
-std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
-                                                  const compare::SimulationOptions& options) {
+/// What neither of Newton's solvers takes.
+void refuse_for_newton(const compare::Scene& scene, const char* solver) {
   if (scene.settings.guess == compare::Guess::pairs)
     throw compare::InputError(
         "setting 'guess' can't be 'pairs' with Newton's method; give guess=rounds or --solver vbd");
@@ -93,10 +91,30 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
     throw compare::InputError(
         "setting 'contact_weights' can't be 'iteration' with Newton's method, whose energy is that of the closest "
         "points; give contact_weights=update or --solver vbd");
-  refuse_volumes(scene, "newton", "leave the body a surface");
+  refuse_volumes(scene, solver, "leave the body a surface");
+}
+
+}  // namespace
+
+std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
+                                                  const compare::SimulationOptions& options) {
+  refuse_for_newton(scene, "newton");
   if (has_rods(scene) && newton_settings(scene.settings).truncation == Truncation::pair)
     throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
+}
+
+std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
+                                                   const compare::SimulationOptions& options) {
+  const compare::Settings& settings = scene.settings;
+  if (settings.bounds != compare::Bounds::off || settings.activation != compare::ContactActivation::quadratic)
+    throw compare::InputError(
+        "a penalty method has bounds=off and activation=quadratic; give both, or --solver newton");
+  if (newton_settings(settings).truncation == Truncation::pair)
+    throw compare::InputError(
+        "setting 'truncation' can't be 'pair' with penalty, which truncates nothing; leave it out");
+  refuse_for_newton(scene, "penalty");
+  return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options, NewtonSteps::whole);
 }
 
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,

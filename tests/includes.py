@@ -46,7 +46,8 @@ PROJECT = {
     "compare/judge/report": REPORT,
     "compare/judge/stages": REPORT + ("compare/judge/stages/",),
     "compare/oracle": PROBLEM + ("compare/oracle/",),
-    "compare/plugin.h": (),
+    "compare/plugin.h": ("compare/plugin/",),
+    "compare/plugin": ("compare/plugin/",),
     "reference": PROBLEM + CONTESTANT + ("reference/",),
     # The truth of the stage is an exact decision, which the oracle has.
     "reference/ipc/ccd.cpp": PROBLEM + CONTESTANT + ("reference/", "compare/oracle/first_meeting.hpp"),
@@ -97,7 +98,7 @@ FOREIGN = {
     "poll.h": ("experiments/plugins",),
     "signal.h": ("experiments/plugins",),
     "spawn.h": ("experiments/plugins", "experiments/bench"),
-    "stdint.h": ("compare/plugin.h",),
+    "stdint.h": ("compare/plugin",),
     "catch2/": (),
     "unistd.h": ("compare/files", "compare/record", "experiments"),
     "fcntl.h": ("compare/files", "compare/record", "experiments"),

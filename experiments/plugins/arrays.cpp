@@ -52,6 +52,17 @@ CompressedRows rows_by_vertex(const CompressedRows* partners, std::size_t count)
 
 VertexFacetContact contact_of(const ogc_vertex_facet_contact& c) { return {c.vertex, face(c.kind, c.face), c.owner}; }
 
+VolumeContact contact_of(const ogc_volume_contact& c, const ogc_volume_numbers& numbers) {
+  const auto& [weights, n, depth] = numbers;
+  VolumeContact contact;
+  contact.point = c.point, contact.inside = c.inside != 0 ? 1 : 0, contact.triangle = c.triangle;
+  contact.face = face(c.kind, c.face);
+  std::copy(weights, weights + 3, contact.weights.begin());
+  contact.direction = {n.x, n.y, n.z};
+  contact.depth = depth;
+  return contact;
+}
+
 EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c) {
   return {face(c.first_kind, c.first_face), face(c.second_kind, c.second_face), c.first_edge, c.second_edge};
 }

@@ -48,6 +48,8 @@ class Outputs {
 
 /// As the plug-in wrote them; throw compare::ContestantFailure for a kind of face that does not exist.
 compare::VertexFacetContact contact_of(const ogc_vertex_facet_contact& c);
+/// Both halves of a contact with a volume.
+compare::VolumeContact contact_of(const ogc_volume_contact& c, const ogc_volume_numbers& numbers);
 /// The contact in the judge's terms.
 compare::EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c);
 

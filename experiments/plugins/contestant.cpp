@@ -35,6 +35,9 @@ static_assert(sizeof(FrictionForceCase) == sizeof(ogc_friction_force_case) &&
               offsetof(FrictionForceCase, slip_limit) == offsetof(ogc_friction_force_case, slip_limit));
 static_assert(sizeof(InitialGuessCase) == sizeof(ogc_initial_guess_case) &&
               offsetof(InitialGuessCase, held) == offsetof(ogc_initial_guess_case, held));
+static_assert(sizeof(CcdCase) == sizeof(ogc_ccd_case) && offsetof(CcdCase, to) == offsetof(ogc_ccd_case, to));
+static_assert(sizeof(VolumeForceCase) == sizeof(ogc_volume_force_case) &&
+              offsetof(VolumeForceCase, slip_limit) == offsetof(ogc_volume_force_case, slip_limit));
 static_assert(sizeof(BlockQuestion) == sizeof(ogc_block_question) &&
               offsetof(BlockQuestion, face) == offsetof(ogc_block_question, face_kind));
 
@@ -181,6 +184,46 @@ TruncateOut ask_truncate(PluginProcess& plugin, const TruncateIn& in) {
   return out;
 }
 
+CcdOut ask_ccd(PluginProcess& plugin, const CcdIn& in) {
+  const std::vector<Bytes> inputs{bytes_of(in.cases)};
+  const auto answer = plugin.ask("ccd", sizes_of(in.cases.size()), inputs);
+  CcdOut out;
+  Outputs(answer).to(out.time);
+  return out;
+}
+
+BarrierOut ask_barrier(PluginProcess& plugin, const BarrierIn& in) {
+  std::vector<float> squared, activation, thickness;
+  for (const BarrierCase& c : in.cases) {
+    squared.push_back(c.squared_distance);
+    activation.push_back(c.activation_distance);
+    thickness.push_back(c.thickness);
+  }
+  const std::vector<Bytes> inputs{bytes_of(squared), bytes_of(activation), bytes_of(thickness)};
+  const auto answer = plugin.ask("barrier", sizes_of(in.cases.size()), inputs);
+  BarrierOut out;
+  Outputs(answer).to(out.energy, out.slope, out.curvature);
+  return out;
+}
+
+VolumeDepthOut ask_volume_depth(PluginProcess& plugin, const VolumeDepthIn& in) {
+  std::vector<Bytes> inputs = inputs_of(*in.topology);
+  inputs.push_back(bytes_of(in.positions));
+  inputs.push_back(bytes_of(in.points));
+  QuestionSizes sizes = sizes_of(*in.topology);
+  sizes.first = in.contact_radius;
+  sizes.cases = static_cast<std::int64_t>(in.points.size());
+  const auto answer = plugin.ask("volume_depth", sizes, inputs);
+  std::vector<ogc_volume_contact> contacts;
+  std::vector<ogc_volume_numbers> numbers;
+  Outputs(answer).to(contacts, numbers);
+  VolumeDepthOut out;
+  for (std::size_t i = 0; i < contacts.size(); ++i) out.contacts.push_back(contact_of(contacts[i], numbers[i]));
+  std::ranges::sort(out.contacts, {},
+                    [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
+  return out;
+}
+
 template <class In>
 ForceOut ask_force(PluginProcess& plugin, std::string_view stage, const In& in) {
   const std::vector<Bytes> inputs{bytes_of(in.cases)};
@@ -248,6 +291,10 @@ Contestant plugin_contestant(Plugin plugin) {
   c.bending = [plugin](const BendingIn& in) { return ask_force(*plugin, "bending", in); };
   c.spring = [plugin](const SpringIn& in) { return ask_force(*plugin, "spring", in); };
   c.tetrahedron = [plugin](const TetrahedronIn& in) { return ask_force(*plugin, "tetrahedron", in); };
+  c.ccd = [plugin](const CcdIn& in) { return ask_ccd(*plugin, in); };
+  c.barrier = [plugin](const BarrierIn& in) { return ask_barrier(*plugin, in); };
+  c.volume_depth = [plugin](const VolumeDepthIn& in) { return ask_volume_depth(*plugin, in); };
+  c.volume_force = [plugin](const VolumeForceIn& in) { return ask_force(*plugin, "volume_force", in); };
   c.truncate = [plugin](const TruncateIn& in) { return ask_truncate(*plugin, in); };
   c.rest_state = [plugin](const RestStateIn& in) { return ask_rest_state(*plugin, in); };
   c.sweep = [plugin](const SweepIn& in) { return ask_sweep(*plugin, in); };

@@ -104,6 +104,29 @@ int call_truncate(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
+constexpr std::array ccd_outputs{OutputInfo{"time", Element::number, 1, Per::item}};
+int call_ccd(void* function, CallArrays& a) {
+  const ogc_ccd_in in{a.sizes.cases, a.in()};
+  ogc_ccd_out out{a.out()};
+  return call(function, in, out);
+}
+
+int call_barrier(void* function, CallArrays& a) {
+  const ogc_barrier_in in{a.sizes.cases, a.in(), a.in(), a.in()};
+  ogc_barrier_out out{a.out(), a.out(), a.out()};
+  return call(function, in, out);
+}
+
+constexpr std::array depth_outputs{OutputInfo{"contacts", Element::index, 5, Per::one, List::volume_contacts},
+                                   OutputInfo{"numbers", Element::number, 7, Per::one, List::volume_contacts}};
+int call_volume_depth(void* function, CallArrays& a) {
+  const ogc_volume_depth_in in{topology(a), a.in(), a.sizes.first, a.sizes.cases, a.in()};
+  ogc_volume_depth_out out{a.out(), a.out(), a.capacity(List::volume_contacts), -1};
+  const int status = call(function, in, out);
+  a.count(List::volume_contacts) = out.count;
+  return status;
+}
+
 constexpr std::array force_outputs{OutputInfo{"force", Element::number, 3, Per::item},
                                    OutputInfo{"block", Element::number, 6, Per::item}};
 template <class In>
@@ -294,8 +317,12 @@ constexpr std::array table{
     PluginStage{"detect_edge_edge", topology_inputs + 5, edge_outputs, call_detect_edge_edge},
     PluginStage{"bound", topology_inputs + 4, bound_outputs, call_bound},
     PluginStage{"plane", topology_inputs + 6, plane_outputs, call_plane},
+    PluginStage{"ccd", 1, ccd_outputs, call_ccd},
+    PluginStage{"volume_depth", topology_inputs + 2, depth_outputs, call_volume_depth},
     PluginStage{"initial_guess", 1, guess_outputs, call_initial_guess},
     PluginStage{"activation", 4, activation_outputs, call_activation},
+    PluginStage{"barrier", 3, activation_outputs, call_barrier},
+    PluginStage{"volume_force", 1, force_outputs, call_force<ogc_volume_force_in>},
     PluginStage{"contact_force", 1, force_outputs, call_force<ogc_contact_force_in>},
     PluginStage{"friction_force", 1, force_outputs, call_force<ogc_friction_force_in>},
     PluginStage{"membrane", 1, force_outputs, call_force<ogc_membrane_in>},
@@ -330,14 +357,22 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
-  return {1,          contacts,    contacts, sizes.triangles, sizes.hinges, sizes.tetrahedra, 2 * rounds + 1,
-          rounds + 1, 4 * contacts};
+  return {1,
+          contacts,
+          contacts,
+          sizes.triangles,
+          sizes.hinges,
+          sizes.tetrahedra,
+          2 * rounds + 1,
+          rounds + 1,
+          4 * contacts,
+          64 + 4 * sizes.cases};
 }
 
 // Contacts at most: each vertex with each triangle, each edge with each other one as first and as second, at each
 // detection; and those of the guess above, so that contacts which are listed twice in a small mesh are told as what
-// they are. Planes: one for each vertex of each of these pairs. The products fit into 64 bits: sizes do into 31, and
-// 2^40 ends them.
+// they are. Planes: one for each vertex of each of these pairs. Contacts with a volume: each point with each face. The
+// products fit into 64 bits: sizes do into 31, and 2^40 ends them.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);
@@ -351,12 +386,14 @@ ListSizes most_entries(const QuestionSizes& sizes) {
   add_pairs(List::edge_edge, sizes.edges, sizes.edges);
   add_pairs(List::planes, 4.0 * sizes.vertices, sizes.triangles);
   add_pairs(List::planes, 4.0 * sizes.edges, sizes.edges);
+  add_pairs(List::volume_contacts, static_cast<double>(sizes.cases),
+            static_cast<double>(sizes.vertices) + sizes.edges + sizes.triangles);
   return entries;
 }
 
 std::string_view list_name(List list) {
   constexpr std::array<std::string_view, list_count> names{
-      "", "contacts", "contacts", "triangles", "hinges", "tetrahedra", "events", "detections", "planes"};
+      "", "contacts", "contacts", "triangles", "hinges", "tetrahedra", "events", "detections", "planes", "contacts"};
   return names[static_cast<std::size_t>(list)];
 }
 

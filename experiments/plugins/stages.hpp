@@ -38,9 +38,10 @@ enum class List : std::uint8_t {
   tetrahedra,
   events,
   detections,
-  planes
+  planes,
+  volume_contacts
 };
-inline constexpr std::size_t list_count = 9;
+inline constexpr std::size_t list_count = 10;
 /// For each list its number of entries, or the room for them; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 

@@ -16,6 +16,7 @@
 #include "experiments/scenes/one_iteration_drop.hpp"
 #include "experiments/scenes/robot_shirt.hpp"
 #include "experiments/scenes/three_cloths_on_sphere.hpp"
+#include "experiments/scenes/turning_rod.hpp"
 #include "experiments/scenes/twist.hpp"
 #include "experiments/scenes/yarn.hpp"
 
@@ -176,6 +177,15 @@ compare::Scene robot_shirt_at(Scale scale) {
   return robot_shirt();
 }
 
+compare::Scene turning_rod_at(Scale scale) {
+  switch (scale) {
+    case Scale::smoke: return turning_rod({.segments = 25, .steps = 100});
+    case Scale::small: return turning_rod({.segments = 50});
+    case Scale::paper: break;
+  }
+  return turning_rod();
+}
+
 compare::Scene twist_at(Scale scale) {
   switch (scale) {
     case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 720});  // the first contacts: step 513
@@ -211,7 +221,7 @@ compare::Scene yarn_twist_at(Scale scale) {
   return yarn_twist();
 }
 
-constexpr std::array<SceneInfo, 15> table{{
+constexpr std::array<SceneInfo, 16> table{{
     {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence",
      activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
@@ -229,6 +239,7 @@ constexpr std::array<SceneInfo, 15> table{{
     {"robot_shirt", "Fig. 14", "two grippers lift, shake and fold a T-shirt", robot_shirt_at},
     {"three_cloths_on_sphere", "Fig. 17", "three square cloths, one above the other, fall onto a fixed sphere",
      three_cloths_at},
+    {"turning_rod", "rods.md", "a free straight rod that turns about its middle", turning_rod_at},
     {"twist", "Fig. 12", "a square cloth twisted by its two ends until it coils", twist_at},
     {"two_hundred_layers", "Divide and Truncate", "two hundred square cloths fall off-centre onto a fixed cylinder",
      two_hundred_layers_at},

@@ -71,6 +71,9 @@ struct StepControl {
   int not_finite = 0, violations = 0;
   /// With volumes, at the end: contacts, vertices inside; how deep the deepest was at the last detection, bits [m].
   int volume_contacts = 0, vertices_inside = 0, deepest = 0;
+  /// With rods, at the end: bits of the largest ‖D‖/l [1]; smallest distance of contacts that act [m].
+  int longest_segment = 0;
+  float nearest_contact = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
   /// Threads of one launch call these together; sums and maxima do not depend on their order.
@@ -117,6 +120,8 @@ struct BeginStep {
     c.lagging = c.advanced = c.lag_asked = 0;
     c.pairs = c.unsafe = c.left = c.unsafe_seen = 0;
     c.volume_contacts = c.vertices_inside = c.deepest = 0;
+    c.longest_segment = 0;
+    c.nearest_contact = 3.40282347e38f;
     c.rounds = c.detections = c.since_detection = c.iterations = c.turn = 0;
   }
 };

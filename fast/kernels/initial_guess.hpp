@@ -44,7 +44,7 @@ struct BeginVertex {
       control->count_not_finite();
       return;
     }
-    atomic_max(&control->largest_move, float_bits(length));
+    raise_together(&control->largest_move, float_bits(length));
   }
 };
 

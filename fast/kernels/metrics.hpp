@@ -27,8 +27,12 @@ enum SumColumn : int {
   sum_edge_edge = 11,     ///< [J]
   sum_solid = 12,         ///< [J]
   sum_inverted = 13,      ///< tetrahedra with J ≤ 0
-  sum_columns = 14
+  sum_rod = 14,           ///< stretch, shear, bend and twist of rods [J]
+  sum_stretch = 15,       ///< Σ ‖D‖/l − 1 over segments [1]
+  sum_columns = 16
 };
+/// After the guess loop: the columns of vertices alone.
+inline constexpr int guess_columns = sum_membrane;
 
 /// One row of the device's ring; the host makes a compare::StepMetrics of it.
 struct StepRow {
@@ -65,7 +69,7 @@ struct CheckVertex {
     const Vec x = position[v];
     if (!is_finite(x)) control->count_not_finite();
     if (is_outside(regions[v], x)) control->count_violation();
-    atomic_min(&control->smallest_bound, regions.has_planes() ? nearest[v] : regions.radius[v]);
+    lower_together(&control->smallest_bound, regions.has_planes() ? nearest[v] : regions.radius[v]);
     if (prescribed_number[v] < 0) return;
     const Vec behind = target[v] - x;
     atomic_max(&control->largest_lag, float_bits(square_root(dot(behind, behind))));
@@ -226,39 +230,19 @@ OGC_HD inline double momentum_lost(const double* sums) {
   return moved > 0 ? sqrt(lost / moved) : 0.0;
 }
 
-/// Sums over segments that a row needs.
-enum RodColumn : int {
-  rod_energy = 0,   ///< stretch, shear, bend and twist [J]
-  rod_stretch = 1,  ///< Σ ‖D‖/l − 1 [1]
-  rod_columns = 2
-};
-
-/// Extremes of a step, as bits of floats: nothing of the order in which they are raised is left in them.
-struct RodExtremes {
-  int stretch = 0;                 ///< of ‖D‖/l [1]
-  float contact = 3.40282347e38f;  ///< smallest distance of contacts that act [m]
-};
-
-/// What a step with rods has measured (fast/kernels/rods/metrics.hpp); all null without.
-struct MeasuredRods {
-  const double* sums = nullptr;           ///< by RodColumn
-  const RodExtremes* extremes = nullptr;  ///< one
-  int segments = 0;                       ///< how many
-};
-
 /// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is
 /// repeated).
 struct FinishStep {
-  StepControl* control;      ///< on the backend
-  ContactView contacts;      ///< whose counts are reported
-  const double* sums_guess;  ///< by SumColumn, after the guess loop
-  const double* sums_end;    ///< by SumColumn, at the end
-  StepRow* rows;             ///< by step of the frame, on the backend
-  MeasuredRods rods{};       ///< where there are any
+  StepControl* control;  ///< on the backend
+  ContactView contacts;  ///< whose counts are reported
+  const double* sums;    ///< the first guess_columns after the guess loop, then by SumColumn at the end
+  StepRow* rows;         ///< by step of the frame, on the backend
+  int segments = 0;      ///< of rods
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
     if (c.attempted == 0 || (c.status & compare::step_list_grew) != 0) return;
+    const double *sums_guess = sums, *sums_end = sums + guess_columns;
     StepRow row;
     row.status = c.status;
     row.vertex_facet_contacts = *contacts.vertex_facet_count;
@@ -280,11 +264,11 @@ struct FinishStep {
     row.volume_contacts = c.volume_contacts;
     row.vertices_inside = c.vertices_inside;
     row.deepest = float_from_bits(c.deepest);
-    if (rods.segments > 0) {
-      row.elastic += rods.sums[rod_energy];
-      row.mean_stretch = rods.sums[rod_stretch] / rods.segments;
-      row.largest_stretch = float_from_bits(rods.extremes->stretch) - 1.0f;
-      row.smallest_contact = rods.extremes->contact;
+    if (segments > 0) {
+      row.elastic += sums_end[sum_rod];
+      row.mean_stretch = sums_end[sum_stretch] / segments;
+      row.largest_stretch = float_from_bits(c.longest_segment) - 1.0f;
+      row.smallest_contact = c.nearest_contact;
     }
     rows[c.steps_done] = row;
     if (c.active != 0) ++c.steps_done;

@@ -21,6 +21,10 @@
 
 namespace ogc::fast {
 
+/// Largest m as a fraction of r: a list outlives displacements of up to 7/32 of m, and grows with it
+/// (fast/PERFORMANCE.md).
+inline constexpr float usual_skin = 1.0F;
+
 /// What a detection does: search the trees; also keep the pairs within the margin; look at the kept pairs.
 enum class SkinMode : int { search, list, recheck };
 
@@ -70,10 +74,9 @@ struct SkinView {
 /// Whether a detection needs its trees; null: one that keeps no pairs.
 OGC_HD inline bool needs_trees(const SkinState* skin) { return skin == nullptr || skin->mode != SkinMode::recheck; }
 
-/// As atomic_max, for values that seldom raise the target.
+/// What is no number counts as infinite.
 OGC_HD inline void raise_bits(int* target, float value) {
-  const int bits = float_bits(value >= 0 ? value : __builtin_huge_valf());
-  if (bits > *const_cast<const volatile int*>(target)) atomic_max(target, bits);
+  raise_together(target, float_bits(value >= 0 ? value : __builtin_huge_valf()));
 }
 
 /// for_each over vertices: raises δ, the largest displacement since the search, and X, the largest coordinate.

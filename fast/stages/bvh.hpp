@@ -59,7 +59,7 @@ class Bvh {
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
   /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are
-  /// rechecked. For for_each over its count().
+  /// rechecked, and for vertices that have no facet to search. For for_each over its count().
   RefitTrees refit(const Vec* positions, const float* query_radius, const SkinView& skin = {}) {
     return {.reach = {surface_, positions, query_radius, skin.state},
             .facets = facets_,
@@ -67,7 +67,7 @@ class Bvh {
             .facet_arrivals = facet_arrivals_.data(),
             .edge_arrivals = edge_arrivals_.data(),
             .vertex_limit = vertex_limit_.data(),
-            .vertex_count = surface_.vertex_count};
+            .vertex_count = facets_.count > 0 ? surface_.vertex_count : 0};
   }
 
   /// A new order for `positions`; boxes are stale until the next refit.

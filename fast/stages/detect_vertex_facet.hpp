@@ -7,9 +7,9 @@
 
 namespace ogc::fast {
 
-/// One for each vertex.
+/// One for each vertex; none where there is no facet.
 inline Searches<DetectVertexFacet> searches_of(const DetectVertexFacet& query) {
-  return {query.tree, query.surface.searched_vertices, query};
+  return {query.tree, query.tree.count > 0 ? query.surface.searched_vertices : 0, query};
 }
 
 }  // namespace ogc::fast

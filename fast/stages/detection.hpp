@@ -17,6 +17,7 @@
 #include "fast/kernels/detection.hpp"
 #include "fast/kernels/pair_guess.hpp"
 #include "fast/stages/backend.hpp"
+#include "fast/stages/beside.hpp"
 #include "fast/stages/bvh.hpp"
 #include "fast/stages/detect_edge_edge.hpp"
 #include "fast/stages/detect_vertex_facet.hpp"
@@ -30,10 +31,11 @@ namespace ogc::fast {
 /// The launches of a detection that nothing else shares. Another caller's launches have the same three members
 /// (fast/stages/step_detection.hpp).
 struct PlainLaunches {
-  /// First launch, where a skin decides afterwards whether the trees are needed.
+  /// First launch, where a skin decides afterwards whether the trees are needed: `drift` is measured for `vertices`.
   template <class Backend>
-  void prepare(Backend& backend, int items, const PrepareDetection& prepare) const {
-    backend.for_each(items, prepare);
+  void prepare(Backend& backend, int items, const PrepareDetection& prepare, int vertices,
+               const MeasureDrift& drift) const {
+    for_each_beside(backend, items, prepare, vertices, drift);
   }
   /// First launch, where the trees are needed in any case.
   template <class Backend>
@@ -112,7 +114,7 @@ class Detection {
         Searches<GuessEdgeEdge>{
             bvh_.edges(), surface_.view().searched_edges, {{edge_edge_query(contact_radius), reach}, local}},
         Searches<GuessVertexFacet>{
-            bvh_.facets(), surface_.view().searched_vertices, {{vertex_facet_query(contact_radius), reach}, local}});
+            bvh_.facets(), facet_searches(), {{vertex_facet_query(contact_radius), reach}, local}});
   }
 
   /// As kernels see them; positions are those of the last detection.
@@ -205,15 +207,17 @@ class Detection {
     const DetectVertexFacet vertex_facet = vertex_facet_query(contact_radius);
     const DetectEdgeEdge edge_edge = edge_edge_query(contact_radius);
     if (planes_.is_used()) {
-      backend_.search(
-          Searches<NearEdgeEdge>{bvh_.edges(), surface.searched_edges, {edge_edge, query_radius}},
-          Searches<NearVertexFacet>{bvh_.facets(), surface.searched_vertices, {vertex_facet, query_radius}});
+      backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.searched_edges, {edge_edge, query_radius}},
+                      Searches<NearVertexFacet>{bvh_.facets(), facet_searches(), {vertex_facet, query_radius}});
       planes_.make(backend_, surface, vertex_facet.positions, lists, bound_relaxation, query_radius, bound_.data());
     } else {
       backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
       skin_.complete(backend_, vertex_facet, edge_edge, positions);
     }
   }
+
+  /// None where there is no facet.
+  int facet_searches() { return searches_of(vertex_facet_query(0)).count; }
 
   DetectVertexFacet vertex_facet_query(float contact_radius) {
     return {.surface = surface_.view(),

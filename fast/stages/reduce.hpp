@@ -1,12 +1,13 @@
 // Sums in double over vertices, elements and records, for reports. The order of addition is fixed by the size of the
 // mesh alone: item i goes to chunk i mod C, C = 1024 or, for large meshes, 32768; chunks are added in runs of 32 until
 // 32 rows are left, then those; no backend and no number of threads can change a bit. A chunk is one thread's work. One
-// launch adds items of all kinds: a launch for each kind would take as long as that.
+// launch adds items of all kinds, and runs of what was added at different times are added together: a launch for each
+// would take as long as that. For the same reason launches of the caller's that need no sum stand beside these.
 #pragma once
 
 #include <utility>
 
-#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/stages/beside.hpp"
 
 namespace ogc::fast {
 
@@ -16,18 +17,19 @@ inline constexpr int reduce_run = 32;
 /// C for a mesh of so many vertices: an item or two a chunk, where there are enough of them to pay for the rows.
 inline int reduce_chunks(int vertices) { return vertices <= 2048 ? 1024 : 32768; }
 
-/// for_each over chunks: a row of partial sums each. all.add(chunk, chunks, sums) adds the items of a chunk, kind by
-/// kind.
-template <int columns, class All>
+/// for_each over chunks: part of a row of partial sums each. all.add(chunk, chunks, sums) adds the items of a chunk,
+/// kind by kind.
+template <int count, class All>
 struct AddChunk {
   All all;
   int chunks;       ///< C
-  double* partial;  ///< [chunk][column], on the backend
+  double* partial;  ///< from the part's first column on
+  int columns;      ///< of a whole row
 
   OGC_HD void operator()(int chunk) const {
-    double sums[columns] = {};
+    double sums[count] = {};
     all.add(chunk, chunks, sums);
-    for (int k = 0; k < columns; ++k) partial[chunk * columns + k] = sums[k];
+    for (int k = 0; k < count; ++k) partial[chunk * columns + k] = sums[k];
   }
 };
 
@@ -54,16 +56,23 @@ class Reduction {
     partial_.resize(static_cast<std::size_t>(chunks_ * columns));
     runs_.resize(static_cast<std::size_t>(chunks_ / reduce_run * columns));
   }
-  /// The totals of all items, `columns` of them.
-  template <class All>
-  void sum(double* total, const All& all) {
-    backend_.for_each(chunks_, AddChunk<columns, All>{all, chunks_, partial_.data()});
+  /// Adds all items, into the columns from `first` on; f(i) for i < n beside it.
+  template <int first, int count, class All, class F>
+  void add(const All& all, int n, const F& f) {
+    static_assert(0 <= first && first + count <= columns);
+    for_each_beside(backend_, chunks_, AddChunk<count, All>{all, chunks_, partial_.data() + first, columns}, n, f);
+  }
+
+  /// The totals of all columns, each added since the last total. f(i) for i < n beside the first launch, then g(i) for
+  /// i < m beside the last.
+  template <class F, class G>
+  void total(double* totals, int n, const F& f, int m, const G& g) {
     double *from = partial_.data(), *to = runs_.data();
-    for (int rows = chunks_ / reduce_run; rows > 1; rows /= reduce_run) {
+    int rows = chunks_ / reduce_run;  // at least reduce_run
+    for_each_beside(backend_, rows * columns, AddRun<columns>{from, to}, n, f);
+    for (std::swap(from, to); (rows /= reduce_run) > 1; std::swap(from, to))
       backend_.for_each(rows * columns, AddRun<columns>{from, to});
-      std::swap(from, to);
-    }
-    backend_.for_each(columns, AddRun<columns>{from, total});
+    for_each_beside(backend_, columns, AddRun<columns>{from, totals}, m, g);
   }
 
  private:

@@ -4,16 +4,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "compare/problem/scene.hpp"
-#include "fast/kernels/rods/contact_distance.hpp"
-#include "fast/kernels/rods/metrics.hpp"
+#include "fast/kernels/rods/sums.hpp"
 #include "fast/kernels/rods/turn.hpp"
-#include "fast/kernels/step_sums.hpp"
 #include "fast/stages/backend.hpp"
-#include "fast/stages/reduce.hpp"
 #include "fast/stages/rest_state.hpp"
 #include "fast/stages/rod_streams.hpp"
 
@@ -25,28 +21,17 @@ std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRe
 /// How each motion turns in `steps` steps from `first` on, counted from 0: [step][motion]; w = 2: it does not say.
 std::vector<Quat> motion_turns(const compare::Scene& scene, std::int64_t first, int steps);
 
-/// Sums over segments.
-struct SegmentSums {
-  SegmentTerm term;
-  int count;  ///< segments
-
-  /// Those of one chunk.
-  OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
-};
-
 /// The resident rods of one scene.
 template <class Backend>
 class Rods {
  public:
   /// `longest_frame`: steps for which turns of motions are uploaded ahead.
-  Rods(Backend& backend, const compare::Scene& scene, const RestState& rest, int longest_frame)
+  Rods(const compare::Scene& scene, const RestState& rest, int longest_frame)
       : scene_(scene),
         count_(static_cast<int>(rest.rods.segments.size())),
         motions_(static_cast<int>(scene.motions.size())),
-        turns_(scene.settings.start_frames == compare::StartFrames::turned),
-        has_triangles_(!scene.mesh.triangles.empty()) {
+        turns_(scene.settings.start_frames == compare::StartFrames::turned) {
     if (!is_used()) return;
-    reduction_.emplace(backend, count_);
     segments_.upload(rest.rods.segments.data(), rest.rods.segments.size());
     neighbours_.upload(rest.rods.neighbours.data(), rest.rods.neighbours.size());
     motion_.upload(rest.rods.motion.data(), rest.rods.motion.size());
@@ -54,8 +39,6 @@ class Rods {
     motion_turns_.resize(static_cast<std::size_t>(std::max(1, longest_frame * motions_)));
     if (!rod_damping(rest).empty() && scene.settings.damping == compare::DampingForm::strain)
       direction_.resize(segments_.size());
-    sums_.resize(rod_columns);
-    extremes_.resize(1);
     put(start_orientations(scene, rest.rods));
   }
 
@@ -77,19 +60,18 @@ class Rods {
     motion_turns_.upload(turns.data(), turns.size());
   }
 
-  /// After the guess loop: q turned from qᵗ as segments have turned from xᵗ to x.
-  void begin(Backend& backend, const Vec* start, const Vec* position, const StepControl* control) {
-    if (!is_used()) return;
-    backend.for_each(count_, TurnSegment{.segments = segments_.data(),
-                                         .motion = motion_.data(),
-                                         .motion_turns = motion_turns_.data(),
-                                         .motions = motions_,
-                                         .start = start,
-                                         .position = position,
-                                         .orientation_start = orientation_start_.data(),
-                                         .orientation = orientation_.data(),
-                                         .turns = turns_,
-                                         .control = control});
+  /// After the guess loop, for_each over segments: q turned from qᵗ as segments have turned from xᵗ to x.
+  TurnSegment begin(const Vec* start, const Vec* position, const StepControl* control) {
+    return {.segments = segments_.data(),
+            .motion = motion_.data(),
+            .motion_turns = motion_turns_.data(),
+            .motions = motions_,
+            .start = start,
+            .position = position,
+            .orientation_start = orientation_start_.data(),
+            .orientation = orientation_.data(),
+            .turns = turns_,
+            .control = control};
   }
 
   /// At the start of a step: what damping counts from.
@@ -105,32 +87,22 @@ class Rods {
     rods.direction = direction_.data();
   }
 
-  /// At the end of a step: what its row reports.
-  void measure(Backend& backend, const ContactView& contacts, const ContactTables& tables, int capacity,
-               const Vec* position, float contact_radius) {
-    if (!is_used()) return;
-    backend.for_each(1, ResetRodExtremes{extremes_.data()});
-    backend.for_each(count_, RaiseStretch{segments_.data(), position, extremes_.data()});
-    if (has_triangles_)
-      backend.for_each_counted(contacts.vertex_facet_count, capacity,
-                               LowerContactDistance<VertexFacetRecord>{contacts.vertex_facet, tables, position,
-                                                                       contact_radius, extremes_.data()});
-    backend.for_each_counted(
-        contacts.edge_edge_count, capacity,
-        LowerContactDistance<EdgeEdgeRecord>{contacts.edge_edge, tables, position, contact_radius, extremes_.data()});
-    reduction_->sum(sums_.data(),
-                    SegmentSums{{segments_.data(), neighbours_.data(), position, orientation_.data()}, count_});
+  /// At the end of a step: `others` and what else its row reports.
+  template <class Others>
+  RodSums<Others> sums(const Others& others, const ContactView& contacts, const ContactTables& tables,
+                       const Vec* position, float contact_radius, StepControl* control) {
+    return {.others = others,
+            .segment = {segments_.data(), neighbours_.data(), position, orientation_.data()},
+            .segments = count_,
+            .vertex_facet = {contacts.vertex_facet, tables, position, contact_radius},
+            .edge_edge = {contacts.edge_edge, tables, position, contact_radius},
+            .vertex_facet_count = contacts.vertex_facet_count,
+            .edge_edge_count = contacts.edge_edge_count,
+            .control = control};
   }
 
-  /// qᵗ = q, where the step is clean.
-  void commit(Backend& backend, const StepControl* control) {
-    if (!is_used()) return;
-    backend.for_each(count_, CommitSegment{orientation_.data(), control, orientation_start_.data()});
-  }
-
-  /// On the backend, after `measure`; null where there is no rod.
-  const double* sums() const { return sums_.data(); }
-  const RodExtremes* extremes() const { return extremes_.data(); }
+  /// For_each over segments: qᵗ = q, where the step is clean.
+  CommitSegment commit(const StepControl* control) { return {orientation_.data(), control, orientation_start_.data()}; }
 
  private:
   template <class T>
@@ -144,15 +116,12 @@ class Rods {
 
   const compare::Scene& scene_;
   int count_, motions_;
-  bool turns_, has_triangles_;
-  std::optional<Reduction<Backend, rod_columns>> reduction_;
+  bool turns_;
   Buffer<SegmentRest> segments_;
   Buffer<SegmentNeighbours> neighbours_;
   Buffer<int> motion_;
   Buffer<Quat> motion_turns_, orientation_start_, orientation_;
   Buffer<Vec> direction_;
-  Buffer<double> sums_;
-  Buffer<RodExtremes> extremes_;
 };
 
 }  // namespace ogc::fast

@@ -13,6 +13,7 @@
 
 #include "compare/contestant.hpp"
 #include "compare/way.hpp"
+#include "fast/stages/settings.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/way.hpp"
 
@@ -33,12 +34,13 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
         rest_(build_rest_state(scene_, topology_)),
         colouring_(colour_vertices(rest_)),
         exclusions_(compare::exclusions(scene_)),
-        detection_(backend_, topology_, exclusions_, list_capacity, 0, scene_.settings.bounds, fixed_vertices()),
+        detection_(backend_, topology_, exclusions_, list_capacity, skin_share(scene_), scene_.settings.bounds,
+                   fixed_vertices()),
         pair_guess_(scene_.settings, fixed_vertices()),
         segment_colouring_(colour_segments(rest_.rods)),
         sweep_(backend_, rest_, colouring_, topology_, scene_, segment_colouring_),
         volumes_(detection_.surface(), volume_parts(scene_, topology_), sweep_.slots()),
-        rods_(backend_, scene_, rest_, longest_frame),
+        rods_(scene_, rest_, longest_frame),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
         step_(backend_, state_, detection_, pair_guess_, sweep_, volumes_, rods_, clock_,
@@ -62,6 +64,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
       if (control.status != 0) {
         grow();
         ++repeats;
+      } else if (detection_.make_room()) {
+        lists_moved();
       }
     }
     return rows;
@@ -185,8 +189,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     s.strain_start.resize(rest_.triangles.size());
     s.angle_start.resize(rest_.hinges.size());
     s.solid_start.resize(rest_.tetrahedra.size());
-    s.sums_guess.resize(sum_columns);
-    s.sums_end.resize(sum_columns);
+    s.sums.resize(guess_columns + sum_columns);
     s.control.resize(1);
     s.rows.resize(longest_frame);
     upload(s.mass, rest_.mass);

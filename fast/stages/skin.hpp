@@ -12,10 +12,6 @@
 
 namespace ogc::fast {
 
-/// Largest m as a fraction of r: a list outlives displacements of up to 7/32 of m, and grows with it
-/// (fast/PERFORMANCE.md).
-inline constexpr float usual_skin = 1.0F;
-
 /// Memory and launches of the list of one surface.
 template <class Backend>
 class Skin {
@@ -52,8 +48,7 @@ class Skin {
     const int items = std::max(prepare.lists.lists.buckets, surface_.triangle_count);
     if (!is_used()) return launches.prepare_and_refit(backend, items, prepare, refit);
     const int* overflow = prepare.lists.lists.overflow;
-    launches.prepare(backend, items, prepare);
-    backend.for_each(surface_.vertex_count, MeasureDrift{skin, prepare.positions, overflow});
+    launches.prepare(backend, items, prepare, surface_.vertex_count, MeasureDrift{skin, prepare.positions, overflow});
     backend.for_each(1, ChooseSkinMode{skin, prepare.distances.query_radius, overflow});
     backend.for_each(refit.count(), refit);
   }
@@ -63,14 +58,15 @@ class Skin {
                 const Vec* positions) {
     if (!is_used()) return;
     const SkinView& skin = edge_edge.skin;
-    backend.for_each_counted(&skin.state->count, skin.capacity, RecheckPairs{vertex_facet, edge_edge});
-    backend.for_each(std::max({surface_.vertex_count, surface_.edge_count, surface_.triangle_count}),
+    // after a search the one does nothing, after a look at the list the other
+    backend.for_both(std::max({surface_.vertex_count, surface_.edge_count, surface_.triangle_count}),
                      KeepAnchor{.skin = skin,
                                 .surface = surface_,
                                 .positions = positions,
                                 .d_min_vertex = vertex_facet.d_min_vertex,
                                 .d_min_edge = edge_edge.d_min_edge,
-                                .d_min_triangle = vertex_facet.d_min_triangle});
+                                .d_min_triangle = vertex_facet.d_min_triangle},
+                     &skin.state->count, skin.capacity, RecheckPairs{vertex_facet, edge_edge});
   }
 
   /// Host only: the next detection searches.
@@ -82,6 +78,7 @@ class Skin {
   /// Host only: room for half as many pairs again as the longest list had, where that found none; true where something
   /// moved.
   bool make_room() {
+    if (!is_used()) return false;
     const SkinState now = state();
     const int most = std::max(now.most, now.count);
     if (most <= capacity_) return false;

@@ -116,8 +116,8 @@ struct StepState {
   Buffer<float> angle_start;               ///< θᵗ by hinge [rad]
   Buffer<StepControl> control;             ///< one item
   Buffer<StepRow> rows;                    ///< by step of the frame
-  Buffer<int> touched;                  ///< by vertex, in the guess loop: not 0 where it is part of an active contact
-  Buffer<double> sums_guess, sums_end;  ///< by SumColumn, after the guess loop and at the end
+  Buffer<int> touched;  ///< by vertex, in the guess loop: not 0 where it is part of an active contact
+  Buffer<double> sums;  ///< as FinishStep reads them
 };
 
 /// Follows a step from the host, event by event, as no recorded step can be followed (fast/probes/trace.hpp,
@@ -311,10 +311,12 @@ class Step {
                 [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
     if (observer_ != nullptr) observer_->after_listing();
     StepState<Backend>& s = state_;
-    reduction_.sum(s.sums_guess.data(), vertex_sums());
-    backend_.for_each(s.vertex_count, BeginSweep{s.start.data(), s.position.data(), s.padded_start.data(),
-                                                 s.padded.data(), s.vertex_count});
-    rods_.begin(backend_, s.start.data(), s.position.data(), control());
+    using BeginBoth = Beside<BeginSweep, TurnSegment>;
+    const BeginBoth begin{s.vertex_count,
+                          {s.start.data(), s.position.data(), s.padded_start.data(), s.padded.data(), s.vertex_count},
+                          rods_.count(),
+                          rods_.begin(s.start.data(), s.position.data(), control())};
+    reduction_.template add<0, guess_columns>(vertex_sums(), begin.count(), begin);
     if (observer_ != nullptr) observer_->after_guess();
   }
 
@@ -380,35 +382,46 @@ class Step {
   void finish() {
     StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
-    const ContactView view = detection_.view();
-    backend_.for_each(s.vertex_count, CheckVertex{.position = position,
-                                                  .regions = regions(),
-                                                  .target = s.target.data(),
-                                                  .prescribed_number = s.prescribed_number.data(),
-                                                  .control = control(),
-                                                  .nearest = view.d_min_vertex});
-    backend_.for_each(1, EndCheck{control()});
-    if (volumes_.is_used()) volumes_.count(backend_, settings_.contact_radius, control());
     if (settings_.energies && volumes_.is_used())
-      reduction_.sum(s.sums_end.data(),
-                     VolumeSums{energy_sums(),
-                                {volumes_.stream(), sweep_.vertices(), position, settings_.contact_radius},
-                                volumes_.slots()});
+      check_and_add(VolumeSums{
+          energy_sums(), {volumes_.stream(), sweep_.vertices(), position, settings_.contact_radius}, volumes_.slots()});
     else if (settings_.energies)
-      reduction_.sum(s.sums_end.data(), energy_sums());
+      check_and_add(energy_sums());
     else
-      reduction_.sum(s.sums_end.data(), state_sums());
-    rods_.measure(backend_, view, sweep_.tables(s.previous.data()), detection_.capacity(), position,
-                  settings_.contact_radius);
-    backend_.for_each(s.vertex_count,
-                      CommitVertex{position, settings_.step, control(), s.start.data(), s.velocity.data()});
-    rods_.commit(backend_, control());
+      check_and_add(state_sums());
+    using CommitBoth = Beside<CommitVertex, CommitSegment>;
+    const CommitBoth commit{s.vertex_count,
+                            {position, settings_.step, control(), s.start.data(), s.velocity.data()},
+                            rods_.count(),
+                            rods_.commit(control())};
+    reduction_.total(s.sums.data(), 1, EndCheck{control()}, commit.count(), commit);
+    if (volumes_.is_used()) volumes_.count(backend_, settings_.contact_radius, control());
     backend_.for_each(1, FinishStep{.control = control(),
                                     .contacts = detection_.view(),
-                                    .sums_guess = s.sums_guess.data(),
-                                    .sums_end = s.sums_end.data(),
+                                    .sums = s.sums.data(),
                                     .rows = s.rows.data(),
-                                    .rods = {rods_.sums(), rods_.extremes(), rods_.count()}});
+                                    .segments = rods_.count()});
+  }
+
+  /// The certificate, and `sums` with those of rods.
+  template <class Sums>
+  void check_and_add(const Sums& sums) {
+    StepState<Backend>& s = state_;
+    const Vec* position = s.position.data();
+    const ContactView view = detection_.view();
+    const CheckVertex check{.position = position,
+                            .regions = regions(),
+                            .target = s.target.data(),
+                            .prescribed_number = s.prescribed_number.data(),
+                            .control = control(),
+                            .nearest = view.d_min_vertex};
+    const auto add = [&](const auto& all) {
+      reduction_.template add<guess_columns, sum_columns>(all, s.vertex_count, check);
+    };
+    if (rods_.is_used())
+      add(rods_.sums(sums, view, sweep_.tables(s.previous.data()), position, settings_.contact_radius, control()));
+    else
+      add(sums);
   }
 
   VertexSums vertex_sums() {
@@ -456,7 +469,7 @@ class Step {
   Rods<Backend>& rods_;
   StageClock<Backend>& clock_;
   StepSettings settings_;
-  Reduction<Backend, sum_columns> reduction_;
+  Reduction<Backend, guess_columns + sum_columns> reduction_;
   StepObserver* observer_ = nullptr;
 };
 

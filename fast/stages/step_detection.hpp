@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fast/kernels/step_detection.hpp"
+#include "fast/stages/beside.hpp"
 
 namespace ogc::fast {
 
@@ -13,8 +14,9 @@ struct StepStart {
 
   /// As PlainLaunches::prepare.
   template <class Backend>
-  void prepare(Backend& backend, int items, const PrepareDetection& prepare) const {
-    backend.for_each(items, PrepareStepDetection{regions, prepare});
+  void prepare(Backend& backend, int items, const PrepareDetection& prepare, int vertices,
+               const MeasureDrift& drift) const {
+    for_each_beside(backend, items, PrepareStepDetection{regions, prepare}, vertices, drift);
   }
   /// As PlainLaunches::prepare_and_refit.
   template <class Backend>

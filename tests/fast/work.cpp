@@ -1,6 +1,8 @@
 // Work counted by hand beside work counted by carrying it out.
 #include "fast/contestant.hpp"
 
+#include <string>
+
 #include "compare/problem/scene.hpp"
 #include "tests/catch.hpp"
 
@@ -55,4 +57,33 @@ TEST_CASE("what lies beyond the radius costs no distance", "[property]") {
 TEST_CASE("positions of another mesh are refused", "[unit]") {
   const compare::Scene scene = two_triangles(0.1, 0.2);
   CHECK_THROWS_AS(fast::search_work(scene, std::vector<compare::Vec3f>(5), 0.2F), std::invalid_argument);
+}
+
+TEST_CASE("the work of a sweep counts a segment once, and for each of its free ends", "[unit]") {
+  const auto work_of_rods = [](int segments, int rods, bool is_held) {
+    compare::Scene scene;
+    for (int rod = 0; rod < rods; ++rod) {
+      compare::Mesh mesh;
+      for (compare::Index k = 0; k <= segments; ++k) {
+        mesh.positions.push_back({1e-3 * k, 0.1 * rod, 0});
+        if (k > 0) mesh.loose_edges.push_back({k - 1, k});
+      }
+      compare::Body body;
+      body.name = "rod" + std::to_string(rod);
+      body.material.rod = compare::RodMaterial{};
+      append_body(scene, body, mesh);
+    }
+    if (is_held) scene.motions = {{.name = "held", .vertices = {0, 1}, .keyframes = {}}};
+    return fast::sweep_work(scene);
+  };
+  const fast::SweepWork one = work_of_rods(100, 1, false), two = work_of_rods(100, 2, false),
+                        longer = work_of_rods(200, 1, false), held = work_of_rods(100, 1, true);
+  CHECK(one.vertices == 101);
+  CHECK(one.colours == 4);  // two of segments, two of vertices
+  CHECK(two.flop == 2 * one.flop);
+  CHECK(two.bytes == 2 * one.bytes);
+  // A vertex more is a segment more with two ends: about what the paper's yarn has a vertex.
+  CHECK((longer.flop - one.flop) / 100 == Approx(54 + 2 * 51 + 336));
+  CHECK((longer.bytes - one.bytes) / 100 == Approx(280).epsilon(0.1));
+  CHECK(one.flop - held.flop == Approx(2 * 54 + 3 * 51 + 336));
 }

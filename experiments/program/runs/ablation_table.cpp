@@ -72,8 +72,8 @@ struct StepMetric {
   double (*over_steps)(const std::vector<double>& values);
 };
 
-const std::array<StepMetric, 19>& step_metrics() {
-  static const std::array<StepMetric, 19> metrics{{
+const std::array<StepMetric, 21>& step_metrics() {
+  static const std::array<StepMetric, 21> metrics{{
       {{"median_step", "ms"}, [](const StepMetrics& r) { return r.wall_ms; }, median_of},
       {{"worst_step", "ms"}, [](const StepMetrics& r) { return r.wall_ms; }, largest},
       {{"iterations_a_step", "1"}, [](const StepMetrics& r) { return static_cast<double>(r.iterations); }, mean},
@@ -97,6 +97,8 @@ const std::array<StepMetric, 19>& step_metrics() {
       {{"last_gravity_energy", "J"}, [](const StepMetrics& r) { return r.gravity_energy; }, last},
       {{"last_energy", "J"}, energy, last},
       {{"largest_lag", "m"}, [](const StepMetrics& r) { return r.largest_lag; }, largest},
+      {{"last_mean_stretch", "1"}, [](const StepMetrics& r) { return r.mean_stretch; }, last},
+      {{"largest_stretch", "1"}, [](const StepMetrics& r) { return r.largest_stretch; }, largest},
   }};
   return metrics;
 }

@@ -127,7 +127,9 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
                   "With a mesh file: height y of the ground [m] (default: a tenth of the mesh's size below it)")
       ->check(real_number(-compare::most_length, compare::most_length, "m"));
   add_mesh_options(command, options->mesh);
-  command.add_option("--solver", options->solver, "How a step is solved")
+  command
+      .add_option("--solver", options->solver,
+                  "How a step is solved; penalty, a baseline, has no bounds and guarantees nothing")
       ->check(CLI::IsMember(std::vector<std::string>(solver_names().begin(), solver_names().end())))
       ->capture_default_str();
   command.add_option("--backend", options->backend, "Where it is computed")
@@ -267,6 +269,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.scene = std::move(file.scene);
   request.sources = std::move(file.sources);
   apply_settings(request.scene, options);
+  require_settings(parse_solver(options.solver), options.assignments, request.scene.settings);
   check_jitter(options.jitter, request.scene.settings);
   request.jitter = options.jitter;
   request.solver = options.solver;

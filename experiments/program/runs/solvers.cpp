@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "compare/problem/error.hpp"
 #include "fast/contestant.hpp"
@@ -10,7 +11,7 @@
 namespace ogc::experiments {
 namespace {
 
-constexpr std::array<std::string_view, 4> names{"vbd", "newton", "reference_vbd", "ipc"};
+constexpr std::array<std::string_view, 5> names{"vbd", "newton", "reference_vbd", "ipc", "penalty"};
 
 /// The fast path's colours, so that both go through the vertices in one order: from the trace of a step of one
 /// iteration.
@@ -31,7 +32,8 @@ Solver parse_solver(std::string_view name) {
     throw compare::InputError("--solver " + std::string(name) +
                               " does not exist; there are: vbd (Vertex Block Descent with OGC contact), newton "
                               "(Newton's method with OGC contact), "
-                              "ipc (Incremental Potential Contact), reference_vbd (vbd in double, slow)");
+                              "ipc (Incremental Potential Contact), reference_vbd (vbd in double, slow), "
+                              "penalty (Newton's method without bounds, line search or guarantee: a baseline)");
   return static_cast<Solver>(found - names.begin());
 }
 
@@ -40,9 +42,21 @@ SolverOptions options_of(Solver solver) {
     case Solver::vbd: return {.has_backends = true, .has_measured_residual = true, .has_traced_rows = true};
     case Solver::newton: return {.has_condition = true, .has_measured_residual = true};
     case Solver::reference_vbd: return {.has_measured_residual = true};
+    case Solver::penalty: return {.has_measured_residual = true, .is_penalty = true};
     case Solver::ipc: break;
   }
   return {};
+}
+
+void require_settings(Solver solver, std::span<const std::string> assigned, compare::Settings& settings) {
+  if (!options_of(solver).is_penalty) return;
+  for (const auto& [key, value] : {std::pair<std::string, std::string>{"bounds", "off"}, {"activation", "quadratic"}}) {
+    for (const std::string& assignment : assigned)
+      if (assignment.starts_with(key + "=") && assignment != key + "=" + value)
+        throw compare::InputError("--set " + assignment + ": --solver penalty has " + key + "=" + value +
+                                  "; leave it out, or take --solver newton");
+    compare::set_setting(settings, key, value);
+  }
 }
 
 compare::Contestant contestant_of(Solver solver, bool on_device) {
@@ -51,6 +65,7 @@ compare::Contestant contestant_of(Solver solver, bool on_device) {
     case Solver::newton: return reference::newton();
     case Solver::reference_vbd: return reference::vbd(fast_colours);
     case Solver::ipc: return reference::ipc();
+    case Solver::penalty: return reference::penalty();
   }
   return fast::contestant(on_device ? fast::Backend::cuda : fast::Backend::cpu);
 }

@@ -17,7 +17,7 @@ double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y
 std::string bounds_warning(const compare::Scene& scene) {
   if (scene.settings.bounds != compare::Bounds::off) return "";
   return "bounds=off: nothing keeps surfaces from passing through each other, and this run guarantees nothing; take "
-         "bounds=ball, bounds=planes or bounds=dat";
+         "bounds=ball, bounds=planes or bounds=dat (not with --solver penalty)";
 }
 
 std::string box_warning(const compare::Scene& scene) {

@@ -33,6 +33,17 @@ OGC_HD inline void atomic_max(int* target, int value) {
 #endif
 }
 
+/// As atomic_max, for a launch whose threads all raise one target: those of a warp that are here together ask once.
+OGC_HD inline void raise_together(int* target, int value) {
+#if defined(__CUDA_ARCH__)
+  const unsigned here = __activemask();
+  const int most = __reduce_max_sync(here, value);
+  if (threadIdx.x % 32 == static_cast<unsigned>(__ffs(static_cast<int>(here))) - 1) atomicMax(target, most);
+#else
+  atomic_max(target, value);
+#endif
+}
+
 /// Likewise.
 OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
@@ -110,6 +121,18 @@ OGC_HD inline void atomic_min(float* target, float value) {
   std::atomic_ref<float> shared(*target);
   float seen = shared.load(std::memory_order_relaxed);
   while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
+#endif
+}
+
+/// As raise_together, of a minimum of non-negative floats.
+OGC_HD inline void lower_together(float* target, float value) {
+#if defined(__CUDA_ARCH__)
+  const unsigned here = __activemask();
+  const int least = __reduce_min_sync(here, __float_as_int(value));
+  if (threadIdx.x % 32 == static_cast<unsigned>(__ffs(static_cast<int>(here))) - 1)
+    atomicMin(reinterpret_cast<int*>(target), least);
+#else
+  atomic_min(target, value);
 #endif
 }
 

@@ -3,26 +3,25 @@
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
-#include "fast/kernels/rods/metrics.hpp"
 
 namespace ogc::fast {
 
-/// for_each_counted over the records of one kind.
+/// The distance of a record's contact where it acts, else a larger one.
 template <class Record>
-struct LowerContactDistance {
+struct ActiveDistance {
   const Record* records;  ///< of the last detection
   ContactTables tables;
-  const Vec* position;    ///< x by vertex [m]
-  float contact_radius;   ///< r [m]
-  RodExtremes* extremes;  ///< on the backend
+  const Vec* position;   ///< x by vertex [m]
+  float contact_radius;  ///< r [m]
 
-  OGC_HD void operator()(int i) const {
+  OGC_HD float operator()(int i) const {
+    constexpr float none = 3.40282347e38f;
     const ContactIncidence contact = contact_of(tables, records[i]);
-    if (!(contact.stiffness > 0)) return;
+    if (!(contact.stiffness > 0)) return none;
     Vec x[4];
     for (int k = 0; k < 4; ++k) x[k] = position[contact.index[k]];
     const ContactShape shape = contact_shape(weighted_sum(contact_weights(contact.kind, x), x), contact_radius);
-    if (shape.acts) atomic_min(&extremes->contact, shape.distance);
+    return shape.acts ? shape.distance : none;
   }
 };
 

@@ -14,14 +14,15 @@ OGC_HD inline double squared_apart(const QuatOf<double>& a, const QuatOf<double>
   return dot(apart, apart);
 }
 
-/// Term of a segment; of bend and twist at a vertex each of the two segments there adds half.
+/// Term of a segment; of bend and twist at a vertex each of the two segments there adds half. Returns ‖D‖/l; 0 where it
+/// is not finite.
 struct SegmentTerm {
   const SegmentRest* segments;          ///< by segment
   const SegmentNeighbours* neighbours;  ///< by segment
   const Vec* position;                  ///< x by vertex [m]
   const Quat* orientation;              ///< q by segment
 
-  OGC_HD void operator()(int e, double* sum) const {
+  OGC_HD float operator()(int e, double* sum) const {
     const SegmentRest& rest = segments[e];
     const Vec a = position[rest.end[0]], b = position[rest.end[1]];
     const double l = rest.length, d[3] = {(static_cast<double>(b.x) - a.x) / l, (static_cast<double>(b.y) - a.y) / l,
@@ -31,38 +32,20 @@ struct SegmentTerm {
                                 1 - 2 * (q.x * q.x + q.y * q.y)};
     double strain = 0;
     for (int k = 0; k < 3; ++k) strain += (d[k] - director[k]) * (d[k] - director[k]);
-    sum[rod_energy] += 0.5 * static_cast<double>(rest.stretch) * l * strain;
-    sum[rod_stretch] += sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - 1;
+    sum[sum_rod] += 0.5 * static_cast<double>(rest.stretch) * l * strain;
+    sum[sum_stretch] += sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - 1;
     const SegmentNeighbours& seen = neighbours[e];
     for (int k = 0; k < 2; ++k) {
       if (!(seen.rest[k].weight > 0)) continue;
       // half of 2 k_b/l̄ ‖…‖² = w/2 ‖…‖²
       const QuatOf<double> other = wide(orientation[seen.number[k]]);
       const QuatOf<double> relative = k == 1 ? conjugate(q) * other : conjugate(other) * q;
-      sum[rod_energy] += 0.25 * static_cast<double>(seen.rest[k].weight) *
-                         squared_apart(relative, wide(seen.rest[k].rest));
+      sum[sum_rod] += 0.25 * static_cast<double>(seen.rest[k].weight) *
+                      squared_apart(relative, wide(seen.rest[k].rest));
     }
-  }
-};
-
-/// One item: before the extremes of a step are sought.
-struct ResetRodExtremes {
-  RodExtremes* extremes;  ///< on the backend
-
-  OGC_HD void operator()(int) const { *extremes = {}; }
-};
-
-/// for_each over segments: the largest ‖D‖/l.
-struct RaiseStretch {
-  const SegmentRest* segments;  ///< by segment
-  const Vec* position;          ///< x by vertex [m]
-  RodExtremes* extremes;        ///< on the backend
-
-  OGC_HD void operator()(int e) const {
-    const SegmentRest& rest = segments[e];
-    const Vec apart = position[rest.end[1]] - position[rest.end[0]];
+    const Vec apart = b - a;
     const float ratio = sqrtf(dot(apart, apart)) / rest.length;
-    if (is_finite(ratio)) atomic_max(&extremes->stretch, float_bits(ratio));
+    return is_finite(ratio) ? ratio : 0.0f;
   }
 };
 

@@ -39,9 +39,10 @@ std::vector<std::string> NewtonSolver::stage_names() const {
 }
 
 NewtonSolver::NewtonSolver(const compare::Scene& scene, const compare::Topology& topology,
-                           const compare::SimulationOptions& options)
+                           const compare::SimulationOptions& options, NewtonSteps steps)
     : ContactStep(scene, topology, options, stage_count),
       newton_(newton_settings(settings_)),
+      steps_(steps),
       matrix_(potential_.unknowns()) {}
 
 StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector<Vec3f>& velocity,
@@ -90,12 +91,13 @@ std::size_t NewtonSolver::move_prescribed_between_planes() {
   return cut;
 }
 
-std::uint32_t NewtonSolver::status_of(Outcome outcome) {
+std::uint32_t NewtonSolver::status_of(Outcome outcome) const {
   switch (outcome) {
     case Outcome::converged: return compare::step_clean;
     case Outcome::not_finite: return compare::step_not_finite;
     case Outcome::indefinite: return compare::step_indefinite;
     case Outcome::iteration_limit:
+      return steps_ == NewtonSteps::whole ? compare::step_clean : compare::step_not_converged;
     case Outcome::no_decrease: break;
   }
   return compare::step_not_converged;
@@ -177,7 +179,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
   const Direction direction = direction_of();
   if (!std::isfinite(direction.largest)) return Outcome::not_finite;
   if (options_.iterations && options_.condition) measure_condition(rows_.back());
-  const double share = accepted_share(direction);
+  const double share = steps_ == NewtonSteps::searched ? accepted_share(direction) : whole_step(direction);
   ++metrics_.iterations;
   ++iterations_since_;
   cut_ = direction.cut + prescribed_cut;
@@ -187,8 +189,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
     rows_.back().vertices_cut = static_cast<std::int64_t>(cut_);
   }
   if (share == 0 && fresh_) return Outcome::no_decrease;
-  detect_next_ = share == 0 || (share < least_share && cut_ > 0) || detection_due(cut_) ||
-                 (newton_.tolerance > 0 && cut_ > 0);
+  detect_next_ = steps_ == NewtonSteps::whole || share == 0 || (share < least_share && cut_ > 0) ||
+                 detection_due(cut_) || (newton_.tolerance > 0 && cut_ > 0);
   fresh_ = false;
   if (cut_ == 0 && direction.largest <= newton_.step_tolerance * settings_.time_step) return Outcome::converged;
   return {};
@@ -303,10 +305,21 @@ double NewtonSolver::accepted_share(const Direction& direction) {
   }
   if (best.share == 0) return 0;
   if (on_accepted) on_accepted(Potential::total(before), best.change, noise);
-  potential_.rods().turn_by(best.x);
-  best.x.resize(x_.size());
-  x_ = std::move(best.x);
+  move_to(std::move(best.x));
   return best.share;
+}
+
+double NewtonSolver::whole_step(const Direction& direction) {
+  State all = unknowns();
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = all[i] + direction.delta[i];
+  move_to(std::move(all));
+  return 1;
+}
+
+void NewtonSolver::move_to(State all) {
+  potential_.rods().turn_by(all);
+  all.resize(x_.size());
+  x_ = std::move(all);
 }
 
 State NewtonSolver::unknowns() const {

@@ -41,6 +41,10 @@
 // from the solution it rarely is. Always projected, a step of a crumpled cloth ends in a long linear tail, for the
 // projection keeps curvature that other stencils cancel.
 //
+// With NewtonSteps::whole there is none of all this: each iteration detects, solves and takes the whole step, whatever
+// it does to the energy and whatever it passes through, and a step ends at the tolerance or with its last iteration.
+// That is the usual solve of a penalty method, a baseline.
+//
 // OGC's force jumps where a contact point leaves its block for one that is not in contact (Fig. 22), so that there may
 // be no state at all whose force vanishes with the contacts detected at it: solves then alternate between two sets of
 // contacts, each converged with its own. After a few of these rounds that don't halve the residual found there the step
@@ -58,12 +62,18 @@
 
 namespace ogc::reference {
 
+/// What Newton's method does with its direction.
+enum class NewtonSteps {
+  searched,  ///< truncates it and searches along it
+  whole      ///< takes it: a baseline without bounds
+};
+
 /// Newton-OGC (method.md §7.6).
 class NewtonSolver : public StepSolver, private ContactStep {
  public:
   /// Scene: rounded and valid. Both must outlive it.
   NewtonSolver(const compare::Scene& scene, const compare::Topology& topology,
-               const compare::SimulationOptions& options);
+               const compare::SimulationOptions& options, NewtonSteps steps = NewtonSteps::searched);
 
   StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                   std::int64_t number) override;
@@ -92,7 +102,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
     std::size_t cut = 0;
   };
 
-  static std::uint32_t status_of(Outcome outcome);
+  std::uint32_t status_of(Outcome outcome) const;
   Outcome solve();
   Outcome solve_once();
   /// One round of the loop; empty where it goes on.
@@ -121,9 +131,14 @@ class NewtonSolver : public StepSolver, private ContactStep {
   Accepted pinned(Direction direction, const PotentialTerms& before, double noise);
   /// The share of the best direction that was taken, or 0.
   double accepted_share(const Direction& direction);
+  /// All of the direction; 1.
+  double whole_step(const Direction& direction);
+  /// To these unknowns.
+  void move_to(State all);
   Accepted searched(const Direction& direction, const PotentialTerms& before, double noise) const;
 
   NewtonSettings newton_;
+  NewtonSteps steps_;
   MovingPlanes planes_;  ///< of the last detection, where pairs are held
   BlockMatrix matrix_;
   Factor factor_;

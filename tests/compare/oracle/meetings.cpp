@@ -11,11 +11,15 @@
 #include "compare/oracle/audit.hpp"
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/oracle/rings.hpp"
 #include "tests/reference/ipc/exact_meeting.hpp"
 
 using namespace ogc::compare;
+using ogc::tests::add_ring;
 using ogc::tests::exactly_meet;
+using ogc::tests::linking_number;
 using ogc::tests::Points4;
+using ogc::tests::sense;
 
 namespace {
 
@@ -77,51 +81,6 @@ std::vector<std::array<Index, 3>> names(const MeetingsResult& result) {
   std::vector<std::array<Index, 3>> found;
   for (const Meeting& m : result.meetings) found.push_back({m.kind == edges ? 1 : 0, m.first, m.second});
   return found;
-}
-
-/// A closed polygon of n loose edges about `centre`, spanned by u and v.
-void add_ring(std::vector<Vec3>& positions, std::vector<Edge>& loose, Index n, Vec3 centre, Vec3 u, Vec3 v) {
-  const auto first = static_cast<Index>(positions.size());
-  for (Index k = 0; k < n; ++k) {
-    const double angle = 2 * 3.141592653589793 * (double(k) + 0.3) / double(n), c = std::cos(angle),
-                 s = std::sin(angle);
-    positions.push_back({centre.x + c * u.x + s * v.x, centre.y + c * u.y + s * v.y, centre.z + c * u.z + s * v.z});
-    loose.push_back({first + k, first + (k + 1) % n});
-  }
-}
-
-/// Signed crossings of the first ring's edges over the second's, seen along z: the linking number of two rings whose
-/// projections are in general position.
-int linking_number(const std::vector<Vec3>& x, Index n) {
-  const auto side = [&](Index a, Index b, Index c) {
-    const Vec3 &p = x[at(a)], &q = x[at(b)], &r = x[at(c)];
-    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x) > 0 ? 1 : -1;
-  };
-  int sum = 0;
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) {
-      const Index a = i, b = (i + 1) % n, c = n + j, d = n + (j + 1) % n;
-      if (side(a, b, c) == side(a, b, d) || side(c, d, a) == side(c, d, b)) continue;
-      const auto height = [&](Index p, Index q, Index r, Index s) {  // of edge pq where it crosses rs
-        const Vec3 &o = x[at(p)], &e = x[at(q)], &g = x[at(r)], &h = x[at(s)];
-        const double dx = h.x - g.x, dy = h.y - g.y;
-        const double before = (o.x - g.x) * dy - (o.y - g.y) * dx, after = (e.x - g.x) * dy - (e.y - g.y) * dx;
-        return o.z + before / (before - after) * (e.z - o.z);
-      };
-      if (height(a, b, c, d) < height(c, d, a, b)) continue;
-      sum += side(a, b, d) > 0 ? 1 : -1;
-    }
-  return sum;
-}
-
-/// Three times the edges' way through each other: which side of ab the edge cd passes to.
-int sense(const std::vector<Vec3>& x, const Edge& ab, const Edge& cd) {
-  const auto minus = [&](Index i, Index j) {
-    return Vec3{x[at(i)].x - x[at(j)].x, x[at(i)].y - x[at(j)].y, x[at(i)].z - x[at(j)].z};
-  };
-  const Vec3 u = minus(ab[1], ab[0]), v = minus(cd[1], cd[0]), w = minus(cd[0], ab[0]);
-  const double volume = w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) + w.z * (u.x * v.y - u.y * v.x);
-  return volume > 0 ? 1 : -1;
 }
 
 }  // namespace

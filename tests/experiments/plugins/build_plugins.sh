@@ -31,6 +31,9 @@ verdict() {
 
 verdict activation activation 0 'activation: passed'
 verdict tetrahedron tetrahedron 0 'tetrahedron: passed'
+verdict barrier barrier 0 'barrier: passed'
+verdict ccd ccd 0 'ccd: passed'
+verdict volume_force volume_force 0 'volume_force: passed'
 verdict truncate truncate 1 'the stored position is .* from the previous one, bound'
 verdict page1 truncate 1 'your answer equals `rounded_to_nearest`'
 verdict page2 truncate 0 'truncate: passed'

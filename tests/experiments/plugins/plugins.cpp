@@ -32,9 +32,9 @@ ProgramResult compare_broken(const std::string& how, const std::string& argument
 }
 
 /// The same with our own kernels behind the C interface.
-ProgramResult compare_ours(const std::string& how, const std::string& arguments) {
+ProgramResult compare_ours(const std::string& how, const std::string& arguments, const std::string& name = "ours") {
   static const TemporaryFolder scratch;
-  return run_ogc("compare " + arguments + " --plugin " OGC_TEST_PLUGINS "/libplugin_ours.so",
+  return run_ogc("compare " + arguments + " --plugin " OGC_TEST_PLUGINS "/libplugin_" + name + ".so",
                  "cd '" + (scratch / "").string() +
                      "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
@@ -295,4 +295,29 @@ TEST_CASE("a sweep that hangs is ended", "[agreement]") {
   INFO(result.out << result.err);
   CHECK(result.status == 1);
   CHECK(contains(result.out, {"no answer: it hangs"}));
+}
+
+TEST_CASE("our own impacts, barriers, volumes and their forces pass as a plug-in", "[agreement]") {
+  const ProgramResult result = compare_ours("", "--cases 1000 --json", "our_impacts");
+  INFO(result.out << result.err);
+  REQUIRE(result.status == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  REQUIRE(json.at("stages").size() == 4);
+  for (const auto& stage : json.at("stages")) {
+    CHECK(stage.at("mismatches") == 0);
+    CHECK(stage.at("cases") >= 1000);
+  }
+}
+
+TEST_CASE("wrong plug-ins of impacts, barriers and volumes are found", "[agreement]") {
+  const auto [how, stage, what] = GENERATE(table<std::string, std::string, std::string>(
+      {{"late", "ccd", "ccd: mismatch"},
+       {"slope over the distance", "barrier", "slope"},
+       {"never inside", "volume_depth", "volume_depth: mismatch"},
+       {"face of no kind", "volume_depth", "a contact names a face of kind 3"},
+       {"no friction", "volume_force", "volume_force: mismatch"}}));
+  const ProgramResult result = compare_ours(how, stage + " --cases 400", "our_impacts");
+  INFO(how << "\n" << result.out << result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.out, {what}));
 }

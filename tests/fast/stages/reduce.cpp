@@ -1,5 +1,6 @@
 #include "fast/stages/reduce.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "fast/cpu/backend.hpp"
@@ -18,19 +19,32 @@ struct TwoKinds {
   }
 };
 
+/// Counts how often it is called for each index.
+struct Count {
+  std::vector<int>* calls;
+  void operator()(int i) const { ++(*calls)[static_cast<std::size_t>(i)]; }
+};
+
 }  // namespace
 
-TEST_CASE("sums hold every item once, in its column, whatever their number", "[property]") {
+TEST_CASE(
+    "sums hold every item once, in its column, whatever their number and whenever it was added; what stands beside "
+    "them "
+    "runs once",
+    "[property]") {
   CpuBackend backend;
   for (const int n : {0, 1, 31, 1023, 1024, 1025, 2048, 2049, 5000, 32767, 32768, 32769, 70000}) {
-    Reduction<CpuBackend, 3> reduction(backend, n);
-    std::vector<double> total(3, -1);
+    Reduction<CpuBackend, 6> reduction(backend, n);
+    std::vector<double> total(6, -1);
     for (int repeat = 0; repeat < 2; ++repeat) {
-      reduction.sum(total.data(), TwoKinds{n});
+      std::vector<int> early(static_cast<std::size_t>(n)), late(3), first(1), last(40000);
+      reduction.add<0, 3>(TwoKinds{n}, n, Count{&early});
+      reduction.add<3, 3>(TwoKinds{2 * n}, 3, Count{&late});
+      reduction.total(total.data(), 1, Count{&first}, 40000, Count{&last});
+      for (const std::vector<int>& calls : {early, late, first, last})
+        CHECK(std::ranges::count(calls, 1) == std::ssize(calls));
     }
-    const double expected = n * (n + 1.0) / 2;
-    CHECK(total[0] == expected);
-    CHECK(total[1] == 0);
-    CHECK(total[2] == expected);
+    const double early = n * (n + 1.0) / 2, late = n * (2 * n + 1.0);
+    CHECK(total == std::vector<double>{early, 0, early, late, 0, late});
   }
 }

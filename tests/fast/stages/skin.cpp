@@ -2,8 +2,10 @@
 
 #include <random>
 
+#include "compare/problem/error.hpp"
 #include "fast/cpu/backend.hpp"
 #include "fast/probes/contact_engine.hpp"
+#include "fast/stages/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/meshes.hpp"
 
@@ -40,6 +42,48 @@ Positions moved(Positions positions, float length, std::mt19937& random) {
     x = {x.x + scale * d.x, x.y + scale * d.y, x.z + scale * d.z};
   }
   return positions;
+}
+
+/// Curves without triangles, each wound about its own axis, closer to each other than r.
+TestMesh curves() {
+  TestMesh mesh;
+  for (int c = 0; c < 6; ++c) {
+    TestMesh curve;
+    for (int k = 0; k < 80; ++k) {
+      const float t = 0.15F * static_cast<float>(k);
+      curve.positions.push_back({0.4F * std::cos(t) + 0.35F * static_cast<float>(c % 3), 0.1F * t,
+                                 0.4F * std::sin(t) + 0.3F * static_cast<float>(c / 3)});
+      if (k > 0) curve.loose_edges.push_back({k - 1, k});
+    }
+    mesh.add(curve);
+  }
+  return mesh;
+}
+
+/// Two rods that cross and are pressed together, each held at one end.
+compare::Scene crossing_rods(double skin) {
+  compare::Scene scene;
+  scene.name = "rods";
+  for (const bool along_x : {true, false}) {
+    compare::Mesh mesh;
+    for (compare::Index k = 0; k < 60; ++k) {
+      const double s = 1e-3 * (k - 30);
+      mesh.positions.push_back({along_x ? s : 0.2e-3, along_x ? 2.8e-3 : 0, along_x ? 0.1e-3 : s});
+      if (k > 0) mesh.loose_edges.push_back({k - 1, k});
+    }
+    compare::Body body;
+    body.name = along_x ? "upper" : "lower";
+    body.material.rod = compare::RodMaterial{
+        .density = 1e-3, .stretch = 0.1, .bend = 2e-7, .damping = 0, .diameter = 1e-3};
+    append_body(scene, body, mesh);
+  }
+  scene.motions = {{.name = "held", .vertices = {60, 61, 118, 119}, .keyframes = {}}};
+  scene.settings.time_step = 4e-4;
+  scene.settings.iterations = 4;
+  scene.settings.contact_radius = 3e-3;
+  set_setting(scene.settings, "skin", skin);
+  compare::round_to_single(scene);
+  return scene;
 }
 
 ContactSets afresh(const compare::Topology& topology, const Positions& positions, float r_q, float r = radius) {
@@ -130,6 +174,58 @@ TEST_CASE(
   constexpr float largest = 4096 * usual_skin * radius;
   CHECK(looks_again_after({0, 0.97F * largest, 0}, 0.8F));
   CHECK_FALSE(looks_again_after({0, 1.03F * largest, 0}, 0.8F));
+}
+
+TEST_CASE("skin: of curves without triangles detections along a walk are those of a search, too", "[property]") {
+  const TestMesh mesh = curves();
+  const compare::Topology topology = mesh.topology();
+  std::mt19937 random(3);
+  CpuBackend backend;
+  BackendContactEngine<CpuBackend> engine(backend, topology, {});
+  Positions positions = mesh.positions;
+  for (int k = 0; k < 60; ++k) {
+    positions = moved(positions, (k % 15 == 0 ? 0.5F : 0.03F) * radius, random);
+    const ContactSets found = engine.find(positions, {.contact_radius = radius, .query_radius = 1.5F * radius});
+    CHECK(found == afresh(topology, positions, 1.5F * radius));
+    CHECK(found.edge_edge.size() > 100);
+  }
+  CHECK(engine.detection().skin_state().rechecks >= 15);
+}
+
+TEST_CASE("skin: simulations of rods alone look again unless they are told not to, with the same bits", "[property]") {
+  const auto run = [](double skin, SkinState& state) {
+    ResidentSimulation<CpuBackend> simulation(CpuBackend{}, crossing_rods(skin), {}, "");
+    std::vector<compare::StepMetrics> rows;
+    for (int frame = 0; frame < 30; ++frame)
+      for (compare::StepMetrics& row : simulation.advance(5)) rows.push_back(std::move(row));
+    state = simulation.detection().skin_state();
+    return std::tuple(simulation.snapshot().positions, simulation.snapshot().orientations,
+                      rows.back().edge_edge_contacts, rows.back().smallest_distance);
+  };
+  SkinState never, usual, narrow;
+  const auto expected = run(0, never);
+  CHECK(std::get<2>(expected) > 0);
+  CHECK(never.rechecks + never.listings == 0);
+  CHECK(run(-1, usual) == expected);
+  CHECK(usual.rechecks > 10);
+  CHECK(run(0.25, narrow) == expected);
+}
+
+TEST_CASE("skin: a scene with triangles has none by itself, and what searches at each detection is refused", "[unit]") {
+  compare::Scene scene = crossing_rods(-1);
+  CHECK(skin_share(scene) == usual_skin);
+  scene.settings.bounds = compare::Bounds::planes;
+  CHECK(skin_share(scene) == 0);
+  set_setting(scene.settings, "skin", 0.5);
+  CHECK_THROWS_AS(skin_share(scene), compare::InputError);
+  scene.settings.bounds = compare::Bounds::ball;
+  CHECK(skin_share(scene) == 0.5F);
+  scene.settings.guess = compare::Guess::pairs;
+  CHECK_THROWS_AS(skin_share(scene), compare::InputError);
+  compare::Scene cloth;
+  append_body(cloth, {.name = "cloth", .material = {}},
+              {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}});
+  CHECK(skin_share(cloth) == 0);
 }
 
 TEST_CASE("skin: pairs kept for one radius are of no use for another", "[unit]") {

@@ -20,15 +20,17 @@ TEST_CASE("a run that kill -9, SIGINT or SIGTERM cut off again and again ends wi
   const TemporaryFolder folder;
   const std::string scene = GENERATE(
       "cloth_on_sphere --scale smoke --audit every", "twist --scale smoke --steps 40 --audit frame --set frame_steps=4",
-      OGC_SOURCE_DIR "/experiments/examples/solid_on_cloth/solid_on_cloth.json --audit frame");
+      OGC_SOURCE_DIR "/experiments/examples/solid_on_cloth/solid_on_cloth.json --audit frame",
+      "yarn_twist --scale smoke --audit frame --set frame_steps=5");
   check_cut_runs(folder / "runs", scene, {"KILL", "INT", "TERM"});
 }
 
 TEST_CASE("every solver resumes to the same bits, with its rows by iteration", "[property]") {
   const TemporaryFolder folder;
-  const std::string options = GENERATE(
-      "newton --iterations --steps 12", "ipc --iterations --steps 12", "reference_vbd --steps 8",
-      "vbd --iterations --residual --profile --ledger --steps 8", "vbd --ledger --jitter 1e-5 --seed 3 --steps 8");
+  const std::string options = GENERATE("newton --iterations --steps 12", "penalty --iterations --steps 6",
+                                       "ipc --iterations --steps 12", "reference_vbd --steps 8",
+                                       "vbd --iterations --residual --profile --ledger --steps 8",
+                                       "vbd --ledger --jitter 1e-5 --seed 3 --steps 8");
   check_cut_runs(folder / "runs", "cloth_on_sphere --scale smoke --set frame_steps=2 --solver " + options, {"KILL"});
 }
 

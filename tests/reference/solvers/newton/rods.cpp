@@ -1,6 +1,8 @@
 // Newton's method with the frames of rods as unknowns: derivatives against differences, the same minimiser as sweeps
-// reach, and the deflection of a cantilever.
+// reach, the deflection of a cantilever, and the twist at which a ring leaves its plane.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "compare/problem/rods.hpp"
 #include "reference/energies/rest_state.hpp"
@@ -121,4 +123,54 @@ TEST_CASE("rods: a cantilever under its weight sinks as a beam does, in proporti
   CHECK(sunk == Approx(load * std::pow(length, 4) / (8 * bend)).epsilon(0.01));
   CHECK(deflection(density, 2 * bend) == Approx(sunk / 2).epsilon(2e-3));
   CHECK(deflection(density / 2, bend) == Approx(sunk / 2).epsilon(2e-3));
+}
+
+TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a twist of 2 pi sqrt 3 (Michell)",
+          "[property]") {
+  // All but one side of a polygon, its first and last side held: what grows of a ripple in half a second.
+  const auto growth = [](double share_of_critical) {
+    constexpr Index n = 60;
+    const double radius = 0.02, angle = 2 * std::numbers::pi / (n + 1), side = 2 * radius * std::sin(angle / 2);
+    std::vector<Vec3> rest;
+    for (Index k = 0; k <= n; ++k) rest.push_back({side * k, 0, 0});
+    compare::Scene scene = held_rod(rest, {.density = 1e-3, .stretch = 1, .bend = 2e-7});
+    scene.motions.push_back({.name = "other clamp", .vertices = {n - 1, n}, .keyframes = {}});
+    constexpr double ripple = 1e-3;  // of the radius
+    for (Index k = 0; k <= n; ++k) {
+      const bool is_held = k < 2 || k + 1 >= n;
+      scene.mesh.positions[static_cast<std::size_t>(k)] = {radius * std::sin(angle * k), radius * std::cos(angle * k),
+                                                           is_held ? 0 : ripple * radius * std::sin(2 * angle * k)};
+    }
+    // Frames that follow the polygon, each turned about its director by as much as the ring twists up to there: the
+    // director of a side is x turned by -angle (e + 1/2) about z.
+    const double twist = share_of_critical * std::sqrt(3.0) * angle;
+    for (Index e = 0; e < n; ++e) {
+      const double way = -angle * (e + 0.5) / 2, turn = twist * e / 2, half = std::sqrt(0.5);
+      // z turns to x about y, the twist about z comes first: (0, 0, sin way, cos way) (0, s, 0, c) (0, 0, sin, cos)
+      const double x = half * std::sin(turn), y = half * std::cos(turn), z = half * std::sin(turn),
+                   w = half * std::cos(turn);
+      scene.orientations.push_back({static_cast<float>(std::cos(way) * x - std::sin(way) * y),
+                                    static_cast<float>(std::cos(way) * y + std::sin(way) * x),
+                                    static_cast<float>(std::cos(way) * z + std::sin(way) * w),
+                                    static_cast<float>(std::cos(way) * w - std::sin(way) * z)});
+    }
+    for (compare::Quaternion& q : scene.orientations) {
+      const double size = std::sqrt(double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] +
+                                    double{q[3]} * q[3]);
+      for (float& part : q) part = static_cast<float>(part / size);
+    }
+    scene.gravity = {};
+    scene.settings.contact_radius = 1e-5;
+    scene.settings.time_step = 0.01;
+    set_setting(scene.settings, "newton_tolerance", 1e-4);
+    compare::round_to_single(scene);
+    const auto newton = reference::start_newton(scene, {});
+    newton->advance(50);
+    double largest = 0;
+    for (const compare::Vec3f& x : newton->snapshot().positions) largest = std::max(largest, std::abs(double{x.z}));
+    return largest / (ripple * radius);
+  };
+  // The held sides and the one that is missing, 3 of 61, have no say, which makes the ring stiffer by as much.
+  CHECK(growth(1) < 1);
+  CHECK(growth(1.08) > 10);
 }

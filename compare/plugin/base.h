@@ -1,0 +1,79 @@
+/* What all parts of the interface share: versions, what a library says of itself, points, meshes. */
+#ifndef OGC_COMPARE_PLUGIN_BASE_H
+#define OGC_COMPARE_PLUGIN_BASE_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Of this interface. A library built for a newer one is refused by name; so is one that is older than the oldest whose
+ * structures have this layout, and one with a stage of scenes (rest_state, sweep, step) that is older than the oldest
+ * whose scenes have it. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`. 7 has solids.
+ * 8 has ogc_plane, and half-spaces behind the members that ogc_truncate_in had. 9 has ogc_ccd, ogc_barrier,
+ * ogc_volume_depth and ogc_volume_force.) */
+#define OGC_PLUGIN_VERSION 9
+#define OGC_PLUGIN_OLDEST_VERSION 5
+#define OGC_PLUGIN_OLDEST_SCENE_VERSION 7
+
+#define OGC_HOST_MEMORY 0
+#define OGC_DEVICE_MEMORY 1
+
+#if defined(_WIN32)
+#define OGC_PLUGIN_EXPORT __declspec(dllexport)
+#else
+#define OGC_PLUGIN_EXPORT __attribute__((visibility("default")))
+#endif
+
+/* What a library says of itself. `version` stays first in every version of this interface. */
+typedef struct ogc_plugin_info {
+  int32_t version;  /* OGC_PLUGIN_VERSION */
+  int32_t memory;   /* OGC_HOST_MEMORY or OGC_DEVICE_MEMORY */
+  const char* name; /* for the report */
+} ogc_plugin_info;
+
+/* The one function that every library has; the macro defines it. */
+OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void);
+
+#ifdef __cplusplus
+#define OGC_PLUGIN(name, memory)                                                \
+  extern "C" OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void) {        \
+    static const ogc_plugin_info info = {OGC_PLUGIN_VERSION, (memory), (name)}; \
+    return &info;                                                               \
+  }
+#else
+#define OGC_PLUGIN(name, memory)                                                \
+  OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void) {                   \
+    static const ogc_plugin_info info = {OGC_PLUGIN_VERSION, (memory), (name)}; \
+    return &info;                                                               \
+  }
+#endif
+
+typedef struct ogc_vec3 {
+  float x, y, z;
+} ogc_vec3;
+
+/* ---- meshes ------------------------------------------------------------------------------------------------------ */
+
+/* Row i is items[offsets[i]] … items[offsets[i + 1] - 1], ascending. */
+typedef struct ogc_rows {
+  const int32_t* offsets; /* [rows + 1] */
+  const int32_t* items;
+} ogc_rows;
+
+/* Edges are numbered by smaller, then larger vertex. */
+typedef struct ogc_topology {
+  int32_t vertex_count, edge_count, triangle_count;
+  const int32_t (*edges)[2];                                  /* [edge_count] smaller vertex first */
+  const int32_t (*triangles)[3];                              /* [triangle_count] */
+  const int32_t (*triangle_edges)[3];                         /* [triangle_count] from corner k to corner k+1 */
+  ogc_rows vertex_edges, vertex_triangles, vertex_neighbours; /* rows by vertex */
+  ogc_rows edge_triangles, edge_opposite; /* rows by edge; edge_opposite: vertices that share a triangle with it */
+} ogc_topology;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,30 @@
+// Two loops in one launch: a launch of its own costs a device more than the items of a short one.
+#pragma once
+
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+
+namespace ogc::fast {
+
+/// f(i) for i < first, g(i) for i < second; index over count(). Neither reads what the other writes.
+template <class F, class G>
+struct Beside {
+  int first;
+  F f;
+  int second;
+  G g;
+
+  OGC_HD int count() const { return first > second ? first : second; }
+  OGC_HD void operator()(int i) const {
+    if (i < first) f(i);
+    if (i < second) g(i);
+  }
+};
+
+/// One launch of both.
+template <class Backend, class F, class G>
+void for_each_beside(Backend& backend, int first, const F& f, int second, const G& g) {
+  const Beside<F, G> both{first, f, second, g};
+  backend.for_each(both.count(), both);
+}
+
+}  // namespace ogc::fast

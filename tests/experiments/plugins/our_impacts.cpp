@@ -1,0 +1,110 @@
+// Our own kernels of impacts, barriers and volumes behind the C interface: right, so that what the structures carry is
+// known to be enough, and wrong where the environment variable OGC_BROKEN says.
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
+#include "compare/plugin.h"
+#include "fast/contestant.hpp"
+
+OGC_PLUGIN("our impacts", OGC_HOST_MEMORY)
+
+namespace {
+
+using namespace ogc;
+using namespace ogc::compare;
+
+const Contestant& ours() {
+  static const Contestant contestant = fast::contestant(fast::Backend::cpu);
+  return contestant;
+}
+
+bool breaks(std::string_view how) {
+  const char* const wanted = std::getenv("OGC_BROKEN");
+  return wanted && how == wanted;
+}
+
+Vec3f point(const ogc_vec3& p) { return {p.x, p.y, p.z}; }
+
+template <std::size_t n>
+void copy(const ogc_vec3 (&from)[n], std::array<Vec3f, n>& to) {
+  std::transform(from, from + n, to.begin(), point);
+}
+
+Topology topology_of(const ogc_topology& t) {
+  std::vector<Triangle> triangles;
+  for (Index k = 0; k < t.triangle_count; ++k)
+    triangles.push_back({t.triangles[k][0], t.triangles[k][1], t.triangles[k][2]});
+  return build_topology(t.vertex_count, triangles, {});
+}
+
+}  // namespace
+
+int ogc_ccd(const ogc_ccd_in* in, ogc_ccd_out* out) {
+  CcdIn question;
+  for (int64_t i = 0; i < in->n; ++i) {
+    const ogc_ccd_case& c = in->cases[i];
+    CcdCase asked;
+    asked.kind = c.kind == OGC_CCD_EDGE_EDGE ? CcdKind::edge_edge : CcdKind::vertex_triangle;
+    copy(c.from, asked.from), copy(c.to, asked.to);
+    question.cases.push_back(asked);
+  }
+  const std::vector<float> time = ours().ccd(question).time;
+  for (int64_t i = 0; i < in->n; ++i)
+    out->time[i] = breaks("late") && time[static_cast<std::size_t>(i)] > 0 ? 1 : time[static_cast<std::size_t>(i)];
+  return 0;
+}
+
+int ogc_barrier(const ogc_barrier_in* in, ogc_barrier_out* out) {
+  BarrierIn question;
+  for (int64_t i = 0; i < in->n; ++i)
+    question.cases.push_back({in->squared_distance[i], in->activation_distance[i], in->thickness[i]});
+  const BarrierOut answer = ours().barrier(question);
+  std::copy(answer.energy.begin(), answer.energy.end(), out->energy);
+  std::transform(answer.slope.begin(), answer.slope.end(), out->slope,
+                 [](float slope) { return breaks("slope over the distance") ? 2 * slope : slope; });
+  std::copy(answer.curvature.begin(), answer.curvature.end(), out->curvature);
+  return 0;
+}
+
+int ogc_volume_depth(const ogc_volume_depth_in* in, ogc_volume_depth_out* out) {
+  const Topology topology = topology_of(in->topology);
+  std::vector<Vec3f> positions, points;
+  std::transform(in->positions, in->positions + topology.vertex_count, std::back_inserter(positions), point);
+  std::transform(in->points, in->points + in->n, std::back_inserter(points), point);
+  std::vector<VolumeContact> contacts =
+      ours().volume_depth({&topology, positions, in->contact_radius, points}).contacts;
+  std::ranges::reverse(contacts);  // in any order
+  out->count = static_cast<std::int64_t>(contacts.size());
+  if (out->count > out->capacity) return 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const VolumeContact& c = contacts[i];
+    const std::int32_t inside = breaks("never inside") ? 0 : c.inside;
+    out->contacts[i] = {c.point, inside, c.triangle, static_cast<std::int32_t>(c.face.kind), c.face.index};
+    out->numbers[i] = {
+        {c.weights[0], c.weights[1], c.weights[2]}, {c.direction.x, c.direction.y, c.direction.z}, c.depth};
+  }
+  if (breaks("face of no kind") && !contacts.empty()) out->contacts[0].kind = 3;
+  return 0;
+}
+
+int ogc_volume_force(const ogc_volume_force_in* in, ogc_force_out* out) {
+  VolumeForceIn question;
+  for (int64_t i = 0; i < in->n; ++i) {
+    const ogc_volume_force_case& c = in->cases[i];
+    VolumeForceCase asked;
+    asked.own = c.own;
+    copy(c.vertex, asked.vertex), copy(c.start, asked.start);
+    std::copy(c.weights, c.weights + 3, asked.weights.begin());
+    std::copy(c.direction, c.direction + 3, asked.direction.begin());
+    asked.contact_radius = c.contact_radius, asked.stiffness = c.stiffness;
+    asked.friction = breaks("no friction") ? 0 : c.friction, asked.slip_limit = c.slip_limit;
+    question.cases.push_back(asked);
+  }
+  const ForceOut answer = ours().volume_force(question);
+  for (std::size_t i = 0; i < answer.force.size(); ++i) {
+    out->force[i] = {answer.force[i].x, answer.force[i].y, answer.force[i].z};
+    std::ranges::copy(answer.block[i], out->block[i]);
+  }
+  return 0;
+}
