@@ -67,11 +67,10 @@ VolumeDepthOut rounded(const VolumeDepthTruth& truth) {
     c.depth = static_cast<float>(a.depth);
     out.contacts.push_back(c);
   };
-  for (const auto& parts : truth.parts)
-    for (const VolumePartTruth& part : parts) {
-      if (part.inside) add(part.held.front());
-      for (std::size_t k = 0; k < part.touching.size(); ++k)
-        if (part.is_exact[k] != 0) add(part.touching[k]);
+  for (std::size_t i = 0; i < truth.parts.size(); ++i)
+    for (const VolumePartTruth& part : truth.parts[i]) {
+      for (const VolumeAnswer* answer : exact_answers(part)) add(*answer);
+      out.unresolved.insert(out.unresolved.end(), exact_unresolved(part), static_cast<Index>(i));
     }
   return out;
 }
