@@ -160,8 +160,16 @@ CaseData sheets(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Vertices drawn through the sides opposite to them, or into their planes: tetrahedra without positive volume.
+/// Vertices drawn through the sides opposite to them, or into their planes: tetrahedra without positive volume. Where
+/// those inside of a large block are moved far there are sheets without any way.
 VolumeBody crushed(Random& random) {
+  if (random.one_in(3)) {
+    VolumeBody body = block({3, 3, 3});
+    for (Vec3& p : body.x)
+      if (std::min({p.x, p.y, p.z}) > 0 && std::max({p.x, p.y, p.z}) < 3) p = sum(p, in_box(random, -1.4, 1.4));
+    centre(body);
+    return body;
+  }
   VolumeBody body = some_solid(random);
   const int count = random.one_in(2) ? 1 + random.below(4) : 5 + random.below(15);
   for (int i = 0; i < count; ++i) {
