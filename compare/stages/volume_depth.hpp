@@ -20,12 +20,12 @@ namespace ogc::compare {
 /// triangles and tetrahedra; the triangles of one with tetrahedra are their boundary (compare/problem/tetrahedra.hpp)
 /// and no others. Views; the owner must outlive the call.
 struct VolumeDepthIn {
-  const Topology* topology = nullptr;              ///< of the volume's triangles
-  std::span<const Vec3f> positions;                ///< by vertex of the volume [m]
-  float contact_radius = 0;                        ///< r [m]
-  std::span<const Vec3f> points;                   ///< that ask [m]
-  std::span<const Tetrahedron> tetrahedra = {};    ///< those without positive volume are as if they were not there
-  std::span<const Index> own = {};                 ///< by point: the vertex that it is, or −1; empty: none is any
+  const Topology* topology = nullptr;            ///< of the volume's triangles
+  std::span<const Vec3f> positions;              ///< by vertex of the volume [m]
+  float contact_radius = 0;                      ///< r [m]
+  std::span<const Vec3f> points;                 ///< that ask [m]
+  std::span<const Tetrahedron> tetrahedra = {};  ///< those without positive volume are as if they were not there
+  std::span<const Index> own = {};               ///< by point: the vertex that it is, or −1; empty: none is any
 };
 
 /// One contact of a point x with a part; c is the point of `face` closest to x.

@@ -34,8 +34,8 @@ class Curve {
       for (const compare::Index v : vertices) sum += double{positions[static_cast<std::size_t>(v)].*axis};
       return static_cast<std::uint32_t>(std::clamp((sum / N - low) * scale_, 0.0, 0x1p20 - 1));
     };
-    return hilbert_key({{along(&compare::Vec3f::x, low_.x), along(&compare::Vec3f::y, low_.y),
-                         along(&compare::Vec3f::z, low_.z)}});
+    return hilbert_key(
+        {{along(&compare::Vec3f::x, low_.x), along(&compare::Vec3f::y, low_.y), along(&compare::Vec3f::z, low_.z)}});
   }
 
  private:

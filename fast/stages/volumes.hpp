@@ -60,13 +60,13 @@ class VolumeTrees {
   int count() const { return static_cast<int>(parts_.size()); }  ///< parts
   const VolumePart* parts() const { return parts_.data(); }      ///< on the backend
   /// The tetrahedra of the parts, signs as of the last refit.
-  SolidView solids() { return {elements_.data(), is_positive_.data(), {offsets_.data(), around_.data()}, owner_.data()}; }
+  SolidView solids() {
+    return {elements_.data(), is_positive_.data(), {offsets_.data(), around_.data()}, owner_.data()};
+  }
 
   /// At these positions; by vertex, on the backend [m].
   void refit(Backend& backend, const SurfaceView& surface, const Vec* positions) {
-    const RefitVolumes refit{surface,      solids(),
-                             positions,    trees_.data(),
-                             facet_trees_, static_cast<int>(trees_.size()),
+    const RefitVolumes refit{surface, solids(), positions, trees_.data(), facet_trees_, static_cast<int>(trees_.size()),
                              items_};
     backend.for_each(refit.count(), refit);
   }

@@ -393,7 +393,8 @@ VolumePartTruth SolidPart::part(const std::vector<Index>& triangles) {
   for (const VolumeSheetTruth& sheet : truth.sheets)
     for (const compare::VolumeAnswer& answer : sheet.accepted) add_touching(answer.contact.face, truth);
   const MarginAnswer reach = examine(face_gap(mesh_, nearest, x_, radius_));
-  truth.needs_contact = own_ < 0 && truth.sheets.empty() && !is_vague(nearest) && reach.sign < 0 && !reach.grey && !faces_in && !on_surface;
+  truth.needs_contact = own_ < 0 && truth.sheets.empty() && !is_vague(nearest) && reach.sign < 0 && !reach.grey &&
+                        !faces_in && !on_surface;
   near = near || reach.near || truth.may_be_inside;
   return truth;
 }

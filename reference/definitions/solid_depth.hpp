@@ -42,8 +42,8 @@ class Solid {
   std::span<const Tetrahedron> tetrahedra_;
   std::vector<Index> component_;                   ///< by vertex
   std::vector<std::vector<Index>> tetrahedra_of_;  ///< by vertex, ascending
-  std::vector<std::array<Index, 4>> behind_;       ///< by tetrahedron and corner: who shares the opposite triangle, or −1
-  std::vector<Index> owner_;                       ///< by triangle
+  std::vector<std::array<Index, 4>> behind_;  ///< by tetrahedron and corner: who shares the opposite triangle, or −1
+  std::vector<Index> owner_;                  ///< by triangle
   std::vector<int> sign_;
   std::vector<std::uint8_t> doubtful_;
 };

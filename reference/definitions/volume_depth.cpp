@@ -97,8 +97,7 @@ compare::VolumeDepthTruth volume_depth(const compare::VolumeDepthIn& in) {
       part.component = component_of_part;
       truth.parts[i].push_back(std::move(part));
     }
-    for (VolumePartTruth& part : truth.parts[i])
-      set_point(part, static_cast<Index>(i));
+    for (VolumePartTruth& part : truth.parts[i]) set_point(part, static_cast<Index>(i));
     truth.grey[i] = of_triangles.grey || of_tetrahedra.grey;
     truth.near[i] = of_triangles.near || of_tetrahedra.near;
   });

@@ -82,9 +82,8 @@ class PartVerdict {
     for (const VolumeSheetTruth& sheet : truth_.sheets) {
       const std::size_t sheets = sheet.is_certain ? 1 : static_cast<std::size_t>(std::max(1, sheet.exact));
       most += sheets;
-      const bool has_contact = std::ranges::any_of(mine_, [&](const VolumeContact& c) {
-        return c.inside != 0 && accepts(sheet, c);
-      });
+      const bool has_contact = std::ranges::any_of(
+          mine_, [&](const VolumeContact& c) { return c.inside != 0 && accepts(sheet, c); });
       if (sheet.may_be_unresolved) unresolved.most += sheets;
       if (!sheet.is_certain || has_contact) continue;
       ++unresolved.least;
@@ -331,7 +330,7 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
         std::vector{compare::points("positions", "m", c.positions), compare::points("points", "m", c.points)});
   }
 
-  static In question(const Case& c) { 
+  static In question(const Case& c) {
     return {c.topology.get(), c.positions, c.contact_radius, c.points, c.tetrahedra, c.own};
   }
   static constexpr auto judge = judge_volume_depth;

@@ -134,7 +134,8 @@ class SolidQuestion {
     const int* corner = solids_.elements[element].corner;
     unsigned inside = 0;
     for (int k = 0; k < 4; ++k) {
-      const int beyond = exact_sign(Orientation{position(corner[side_corner(k, 0)]), position(corner[side_corner(k, 1)]),
+      const int beyond = exact_sign(Orientation{position(corner[side_corner(k, 0)]),
+                                                position(corner[side_corner(k, 1)]),
                                                 position(corner[side_corner(k, 2)]), x_});
       if (beyond > 0) return 0;
       if (beyond < 0) inside |= 1U << k;
@@ -300,7 +301,8 @@ class SolidQuestion {
         continue;
       }
       int count = 0;
-      for (unsigned corners = stays; corners != 0; corners &= corners - 1) vertex[count++] = at.corner[lowest_bit(corners)];
+      for (unsigned corners = stays; corners != 0; corners &= corners - 1)
+        vertex[count++] = at.corner[lowest_bit(corners)];
       go_on(vertex, count, apart, front);
     }
     return false;

@@ -10,9 +10,9 @@ namespace ogc::fast {
 /// for_each over count() items, which a warp of 32 must call together (RefitTrees).
 struct RefitVolumes {
   SurfaceView surface;
-  SolidView solids;        ///< signs are written
-  const Vec* positions;    ///< by vertex [m]
-  const PartTree* trees;   ///< those of facets, then those of tetrahedra; their boxes are written
+  SolidView solids;                        ///< signs are written
+  const Vec* positions;                    ///< by vertex [m]
+  const PartTree* trees;                   ///< those of facets, then those of tetrahedra; their boxes are written
   int facet_trees, count_of_trees, items;  ///< `items`: places of all trees, each filled up to whole warps
 
   OGC_HD int count() const { return items; }

@@ -98,7 +98,8 @@ struct Row {
   Topology topology;
 
   explicit Row(const std::vector<float>& x) {
-    constexpr std::array<std::array<Index, 3>, 6> ways{{{4, 2, 1}, {2, 1, 4}, {1, 4, 2}, {4, 1, 2}, {2, 4, 1}, {1, 2, 4}}};
+    constexpr std::array<std::array<Index, 3>, 6> ways{
+        {{4, 2, 1}, {2, 1, 4}, {1, 4, 2}, {4, 1, 2}, {2, 4, 1}, {1, 2, 4}}};
     for (std::size_t i = 0; i < x.size(); ++i) {
       for (const float y : {0.0f, 2.0f})
         for (const float z : {0.0f, 2.0f}) positions.push_back({x[i], y, z});
@@ -118,7 +119,8 @@ struct Row {
 
 }  // namespace
 
-TEST_CASE("in a body of tetrahedra the depth is r at the surface, and that of the nearest side plus r inside", "[unit]") {
+TEST_CASE("in a body of tetrahedra the depth is r at the surface, and that of the nearest side plus r inside",
+          "[unit]") {
   const Row row({0, 2, 4});
   for (const float height : {-1e-6f, 1e-6f}) {
     const auto out = row.ask({{1.25f, 0.75f, 2 + height}}, 0.5f);
@@ -160,8 +162,8 @@ TEST_CASE("a vertex of a body asks without its own sheet and faces", "[unit]") {
       const Triangle& corners = row->topology.triangles[static_cast<std::size_t>(contact.triangle)];
       CHECK(std::find(corners.begin(), corners.end(), contact.point) == corners.end());
     }
-    const bool is_in_another =
-        std::any_of(out.contacts.begin(), out.contacts.end(), [](const VolumeContact& c) { return c.inside != 0; });
+    const bool is_in_another = std::any_of(out.contacts.begin(), out.contacts.end(),
+                                           [](const VolumeContact& c) { return c.inside != 0; });
     CHECK(is_in_another == (row == &folded));
   }
 }

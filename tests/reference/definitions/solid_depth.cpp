@@ -112,8 +112,7 @@ TEST_CASE("where the map is locally injective the contacts of tetrahedra are tho
       const std::vector<double> found = depths(part, true);
       REQUIRE(found.size() == wanted.size());
       // the path's length is rounded down, the depth within 2 ulp of double
-      for (std::size_t k = 0; k < found.size(); ++k)
-        CHECK(std::abs(found[k] - r - wanted[k]) <= 0x1p-50 * found[k]);
+      for (std::size_t k = 0; k < found.size(); ++k) CHECK(std::abs(found[k] - r - wanted[k]) <= 0x1p-50 * found[k]);
       several += sheets.size() > 1;
       CHECK(depths(part, false).empty() == (!sheets.empty() || !part.needs_contact));
     }
@@ -171,7 +170,7 @@ TEST_CASE("a way does not lead through tetrahedra that are turned inside out, no
 TEST_CASE("a sheet that nothing but tetrahedra without volume surrounds has no way, and says so", "[unit]") {
   // one tetrahedron, and one of negative volume behind each of its sides, whose apex lies within the first one
   Cells body(1, 1, 1, straight);
-  body.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {1.25f, 1.25f, 1.25f},
+  body.positions = {{0, 0, 0},     {4, 0, 0},     {0, 4, 0},    {0, 0, 4}, {1.25f, 1.25f, 1.25f},
                     {0.25f, 1, 1}, {1, 0.25f, 1}, {1, 1, 0.25f}};
   body.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}, {0, 3, 2, 5}, {0, 1, 3, 6}, {0, 2, 1, 7}};
   std::vector<compare::Triangle> triangles;

@@ -144,8 +144,8 @@ CaseData ray(Random& random) {
   Points points;
   for (int i = 0; i < points_a_volume; ++i) {
     const double on_line = 1.0 + random.below(2), other = random.one_in(2) ? 1.0 + random.below(2) : 1 + random.unit();
-    points.push_back({on_line + random.rung(), other + (random.one_in(2) ? random.rung() : 0),
-                      height * random.between(0.05, 0.95)});
+    points.push_back(
+        {on_line + random.rung(), other + (random.one_in(2) ? random.rung() : 0), height * random.between(0.05, 0.95)});
   }
   for (Vec3& p : body.x) p.z *= 0.3;
   for (Vec3& p : points) p.z *= 0.3;
@@ -206,7 +206,8 @@ CaseData inverted(Random& random) {
 
 /// The vertices of a body that lies in itself, or does not, ask it.
 CaseData own(Random& random) {
-  VolumeBody body = random.one_in(4) ? some_solid(random) : coil(random, random.between(0.9, 2.5), random.between(-1, 1));
+  VolumeBody body = random.one_in(4) ? some_solid(random)
+                                     : coil(random, random.between(0.9, 2.5), random.between(-1, 1));
   if (random.one_in(2)) jitter(random, body, 0.02);
   std::set<Index> outer_vertices;
   for (const Triangle& t : body.triangles) outer_vertices.insert(t.begin(), t.end());
@@ -250,9 +251,8 @@ CaseData mixed(Random& random) {
   shell.tetrahedra.clear();
   body.append(shell, random.between(0.3, 1), in_box(random, -1, 1));
   if (random.one_in(2)) body.append(some_solid(random), random.between(0.3, 1), in_box(random, -1, 1));
-  return beside(random, std::move(body), [](Random& r, const Place&, double radius) {
-    return r.sign() * radius * r.between(0, 1.1);
-  });
+  return beside(random, std::move(body),
+                [](Random& r, const Place&, double radius) { return r.sign() * radius * r.between(0, 1.1); });
 }
 
 constexpr std::array<Generator, 9> table{{{"solid", 12, true, solid},

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "compare/judge/cases/placement.hpp"
 #include "compare/judge/cases/legal.hpp"
+#include "compare/judge/cases/placement.hpp"
 
 namespace ogc::compare::volume_bodies {
 

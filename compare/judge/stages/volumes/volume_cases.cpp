@@ -185,7 +185,7 @@ CaseData bits(Random& random) {
 /// Boxes and points of small integers: every tie is exact.
 CaseData lattice(Random& random) {
   VolumeBody body = box({1 + random.below(2), 1 + random.below(2), 1 + random.below(2)},
-                  {2, 2, random.one_in(2) ? 2.0 : 1.0});
+                        {2, 2, random.one_in(2) ? 2.0 : 1.0});
   if (random.one_in(3)) body.append(box({1, 1, 1}, {1, 1, 1}), 1, on_lattice(random, 1));
   Points points;
   for (int i = 0; i < points_a_volume; ++i) points.push_back(on_lattice(random, 2));
@@ -288,21 +288,21 @@ CaseData boundary(Random& random) {
 }
 
 constexpr std::array<Generator, 16> of_triangles{{{"uniform", 30, true, uniform},
-                                           {"few", 3, true, few},
-                                           {"bits", 8, false, bits},
-                                           {"dust", 6, false, uniform},
-                                           {"lattice", 12, false, lattice},
-                                           {"ladder.surface", 10, false, surface},
-                                           {"ladder.edge", 12, false, edge},
-                                           {"ladder.vertex", 12, false, vertex},
-                                           {"ladder.radius", 10, false, radius},
-                                           {"ladder.rim", 10, false, rim},
-                                           {"ladder.plate", 10, false, plate},
-                                           {"ladder.medial", 8, false, medial},
-                                           {"ladder.parts", 10, false, parts},
-                                           {"ladder.deep", 6, false, deep},
-                                           {"ladder.units", 8, false, units},
-                                           {"ladder.boundary", 260, false, boundary}}};
+                                                  {"few", 3, true, few},
+                                                  {"bits", 8, false, bits},
+                                                  {"dust", 6, false, uniform},
+                                                  {"lattice", 12, false, lattice},
+                                                  {"ladder.surface", 10, false, surface},
+                                                  {"ladder.edge", 12, false, edge},
+                                                  {"ladder.vertex", 12, false, vertex},
+                                                  {"ladder.radius", 10, false, radius},
+                                                  {"ladder.rim", 10, false, rim},
+                                                  {"ladder.plate", 10, false, plate},
+                                                  {"ladder.medial", 8, false, medial},
+                                                  {"ladder.parts", 10, false, parts},
+                                                  {"ladder.deep", 6, false, deep},
+                                                  {"ladder.units", 8, false, units},
+                                                  {"ladder.boundary", 260, false, boundary}}};
 
 }  // namespace
 
