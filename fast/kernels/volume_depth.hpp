@@ -18,7 +18,6 @@
 #include "fast/kernels/bvh.hpp"
 #include "fast/kernels/closest_face.hpp"
 #include "fast/kernels/separation.hpp"
-#include "fast/kernels/volumes/solid_element.hpp"
 
 namespace ogc::fast {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compare/problem/scene.hpp"
-#include "fast/kernels/volumes/solid_element.hpp"
+#include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
 
