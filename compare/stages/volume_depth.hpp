@@ -104,7 +104,11 @@ inline std::vector<const VolumeAnswer*> exact_answers(const VolumePartTruth& par
   for (const VolumeSheetTruth& sheet : part.sheets) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(sheet.exact_contacts); ++k) {
       const VolumeAnswer& answer = sheet.accepted[k];
-      const auto is_there = [&](const VolumeAnswer* other) { return other->contact.face == answer.contact.face; };
+      const Face& face = answer.contact.face;
+      // by its members: nvcc leaves out a comparison that a header alone uses
+      const auto is_there = [&](const VolumeAnswer* other) {
+        return other->contact.face.kind == face.kind && other->contact.face.index == face.index;
+      };
       if (std::none_of(all.begin(), all.end(), is_there)) all.push_back(&answer);
     }
   }
