@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "compare/problem/expansion.hpp"
@@ -62,6 +63,26 @@ std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra
   for (const auto& [t, k] : alone)
     triangles.push_back(opposite_face(tetrahedra[static_cast<std::size_t>(t)], static_cast<std::size_t>(k)));
   return triangles;
+}
+
+std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra) {
+  std::vector<Index> lowest(topology.component.size());  // by component: one of its set that is not above it
+  std::iota(lowest.begin(), lowest.end(), 0);
+  const auto root = [&](Index v) {
+    Index c = topology.component[static_cast<std::size_t>(v)];
+    while (lowest[static_cast<std::size_t>(c)] != c) c = lowest[static_cast<std::size_t>(c)];
+    return c;
+  };
+  for (const Tetrahedron& t : tetrahedra) {
+    for (std::size_t k = 1; k < 4; ++k) {
+      const auto [low, high] = std::minmax({root(t[0]), root(t[k])});
+      lowest[static_cast<std::size_t>(high)] = low;
+    }
+  }
+  std::vector<Index> joined;
+  joined.reserve(topology.component.size());
+  for (Index v = 0; v < topology.vertex_count; ++v) joined.push_back(root(v));
+  return joined;
 }
 
 // The filter: differences (1), a product (1), their difference (1), the third factor (1 + 1), two sums (2) round by at

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "compare/problem/vector.hpp"
+#include "compare/problem/mesh.hpp"
 
 namespace ogc::compare {
 
@@ -28,6 +28,9 @@ std::vector<TetrahedronFace> sorted_faces(std::span<const Tetrahedron> tetrahedr
 /// The surface: faces of exactly one tetrahedron, oriented outward, numbered by tetrahedron, then by the corner left
 /// out.
 std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra);
+
+/// By vertex: Topology::component, those that tetrahedra connect joined under the lowest of their numbers.
+std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra);
 
 /// The sign of det(b − a, c − a, d − a), without rounding: 1 where the volume is positive, 0 where the points lie in a
 /// plane. Coordinates are numbers of single precision.

@@ -21,6 +21,12 @@ struct alignas(8) EdgeEnds {
   int a, b;
 };
 
+/// A tetrahedron and who lies behind its sides.
+struct alignas(16) SolidElement {
+  int corner[4];  ///< vertices
+  int behind[4];  ///< by corner: the tetrahedron across the opposite side, or −1
+};
+
 /// Row i is items[offsets[i] … offsets[i + 1]).
 struct Rows {
   const int* offsets = nullptr;  ///< rows + 1

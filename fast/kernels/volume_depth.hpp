@@ -21,11 +21,27 @@
 
 namespace ogc::fast {
 
-/// A part of a volume with a tree of its own: then the search of one meets no facet of others.
-struct VolumePart {
-  TreeView tree;            ///< of its facets, refitted at these positions
+/// A tree with what a refit needs beside it.
+struct PartTree {
+  TreeView tree;            ///< refitted at these positions
   int* arrivals = nullptr;  ///< as in RefitTrees
-  int first_item = 0;       ///< of its places among those of all parts, each filled up to whole warps
+  int first_item = 0;       ///< of its places among those of all trees, each filled up to whole warps
+};
+
+/// A part of a volume with trees of its own: then the search of one meets no facet of others.
+struct VolumePart {
+  PartTree facets;      ///< of its facets
+  PartTree tetrahedra;  ///< of its tetrahedra, if it has any
+
+  OGC_HD bool is_solid() const { return tetrahedra.tree.count > 0; }
+};
+
+/// The tetrahedra of volumes on the backend.
+struct SolidView {
+  const SolidElement* elements = nullptr;  ///< by tetrahedron
+  std::uint8_t* is_positive = nullptr;     ///< by tetrahedron: whether it has positive volume, found by the refit
+  Rows vertex_elements;                    ///< by vertex: tetrahedra that contain it, ascending
+  const int* owner = nullptr;              ///< by facet: the tetrahedron whose boundary it is
 };
 
 /// A volume, or all of a scene, on the backend.
@@ -35,6 +51,7 @@ struct VolumeView {
   const VolumePart* parts = nullptr;  ///< by part
   int part_count = 0;
   float contact_radius = 0;  ///< r [m]
+  SolidView solids{};        ///< of the parts of tetrahedra
 };
 
 /// What a part is to a point.
@@ -54,6 +71,8 @@ struct FoundVolumeContact {
   Vec direction;          ///< n, out of the part [1]
   float depth = 0;        ///< [m]
 };
+
+class SolidQuestion;
 
 /// A point before a volume.
 class VolumeQuestion {
@@ -83,13 +102,15 @@ class VolumeQuestion {
     // beyond the box of a part that would hold it
     if (is_outside(nearest_face)) visit(contact_at(nearest_face, false));
     const float limit = gap_limit(volume_.contact_radius);
-    for_each_near(volume_.parts[part].tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+    for_each_near(volume_.parts[part].facets.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
       const int face = touched_face(offer.primitive);
       if (face >= 0 && face != nearest_face && is_outside(face)) visit(contact_at(face, false));
     });
   }
 
  private:
+  friend class SolidQuestion;  ///< asks the same of faces (fast/kernels/volumes/solids.hpp)
+
   struct Nearest {
     Distance distance;
     int face = -1, facet = -1;
@@ -129,7 +150,7 @@ class VolumeQuestion {
       limit = gap_limit(round_up(add(d.value, d.slack)));
     };
     meet(first);
-    for_each_near(volume_.parts[part].tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+    for_each_near(volume_.parts[part].facets.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
       if (offer.gap > limit || offer.primitive == first) return;
       if (!is_beyond(separation(x_, corners(offer.primitive)), limit)) meet(offer.primitive);
     });
@@ -139,7 +160,7 @@ class VolumeQuestion {
 
   /// The box of a part, which no rounding moves.
   OGC_HD Box box_of(int part) const {
-    const TreeView& tree = volume_.parts[part].tree;
+    const TreeView& tree = volume_.parts[part].facets.tree;
     return tree.node(tree.levels - 1, 0).whole();
   }
   OGC_HD bool is_in(const Box& box) const {

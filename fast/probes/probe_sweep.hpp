@@ -162,7 +162,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   const Colouring colouring = colouring_of(in.colour);
   ProbeRods<Backend> rods(backend, in, rest);
   Sweep<Backend> sweep(backend, rest, colouring, *in.topology, *in.scene, colouring_of(in.segment_colour));
-  Volumes<Backend> volumes({}, volume_parts(*in.scene, *in.topology), sweep.slots());
+  Volumes<Backend> volumes({}, volume_parts(*in.scene, *in.topology), {}, sweep.slots());
   StepControl control;
   control.active = 1;
   typename Backend::template Buffer<StepControl> control_buffer;

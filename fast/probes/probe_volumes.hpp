@@ -60,40 +60,63 @@ compare::ForceOut probe_volume_force(Backend& backend, const compare::VolumeForc
   return out;
 }
 
+/// Who asks a volume.
+struct VolumeAsker {
+  Vec position;  ///< [m]
+  int own;       ///< the vertex that it is, or −1
+};
+
 /// How many contacts each point has, and where its next search begins.
 struct CountAtPoint {
   VolumeView volume;
-  const Vec* points;       ///< who asks [m]
+  const VolumeAsker* askers;
   const int* first_facet;  ///< by part: any of its facets
   int* nearest;            ///< by point, part by part, written: as AskVolumes has it
   int* count;              ///< by point, written
+  int* unresolved;         ///< by point, written: sheets without a way
 
   OGC_HD void operator()(int i) const {
-    const VolumeQuestion question(volume, points[i]);
-    int found = 0;
+    const VolumeQuestion question(volume, askers[i].position);
+    const SolidQuestion of_solids(volume, askers[i].position, askers[i].own);
+    int found = 0, lost = 0;
+    const auto add = [&](const FoundVolumeContact&) { ++found; };
     for (int part = 0; part < volume.part_count; ++part) {
-      const NearestFacet answer = question.nearest_of(part, first_facet[part]);
-      nearest[i * volume.part_count + part] = answer_of(answer);
-      question.visit_contacts(part, answer, [&](const FoundVolumeContact&) { ++found; });
+      int& answer = nearest[i * volume.part_count + part];
+      if (volume.parts[part].is_solid()) {
+        const SolidAnswer of_part = of_solids.visit_contacts(part, -1, add);
+        lost += of_part.unresolved;
+        answer = of_part.facet;
+      } else {
+        const NearestFacet facet = question.nearest_of(part, first_facet[part]);
+        answer = answer_of(facet);
+        question.visit_contacts(part, facet, add);
+      }
     }
     count[i] = found;
+    unresolved[i] = lost;
   }
 };
 
 /// The contacts of each point, part after part.
 struct FindAtPoint {
   VolumeView volume;
-  const Vec* points;          ///< who asks [m]
+  const VolumeAsker* askers;
   const int* nearest;         ///< of CountAtPoint
   const int* first;           ///< by point: place of its first contact
   FoundVolumeContact* found;  ///< written
 
   OGC_HD void operator()(int i) const {
-    const VolumeQuestion question(volume, points[i]);
+    const VolumeQuestion question(volume, askers[i].position);
+    const SolidQuestion of_solids(volume, askers[i].position, askers[i].own);
     int at = first[i];
-    for (int part = 0; part < volume.part_count; ++part)
-      question.visit_contacts(part, nearest_in(nearest[i * volume.part_count + part]),
-                              [&](const FoundVolumeContact& contact) { found[at++] = contact; });
+    const auto add = [&](const FoundVolumeContact& contact) { found[at++] = contact; };
+    for (int part = 0; part < volume.part_count; ++part) {
+      const int answer = nearest[i * volume.part_count + part];
+      if (volume.parts[part].is_solid())
+        of_solids.visit_contacts(part, answer, add);
+      else
+        question.visit_contacts(part, nearest_in(answer), add);
+    }
   }
 };
 
@@ -119,33 +142,41 @@ inline void sort_contacts(std::vector<compare::VolumeContact>& contacts) {
 template <class Backend>
 compare::VolumeDepthOut probe_volume_depth(Backend& backend, const compare::VolumeDepthIn& in) {
   const Surface<Backend> surface(*in.topology, {});
-  const VolumeParts parts = volume_parts(*in.topology, in.positions);
-  VolumeTrees<Backend> trees(parts);
+  const VolumeParts parts = volume_parts(*in.topology, in.tetrahedra, in.positions);
+  VolumeTrees<Backend> trees(parts, solid_tables(*in.topology, in.tetrahedra));
   ProbeMemory<Backend> memory(backend);
-  const auto copied = [](std::span<const compare::Vec3f> x) { return std::vector<compare::Vec3f>(x.begin(), x.end()); };
-  trees.refit(backend, surface.view(), memory.template in<Vec>(copied(in.positions)));
-  const VolumeView volume{
-      surface.view(), {memory.padded(copied(in.positions))}, trees.parts(), trees.count(), in.contact_radius};
-  const Vec* points = memory.template in<Vec>(copied(in.points));
+  const std::vector<compare::Vec3f> positions(in.positions.begin(), in.positions.end());
+  trees.refit(backend, surface.view(), memory.template in<Vec>(positions));
+  const VolumeView volume{surface.view(), {memory.padded(positions)}, trees.parts(),
+                          trees.count(),  in.contact_radius,          trees.solids()};
+  std::vector<VolumeAsker> askers;
+  for (std::size_t i = 0; i < in.points.size(); ++i) {
+    const compare::Vec3f& x = in.points[i];
+    askers.push_back({{x.x, x.y, x.z}, in.own.empty() ? -1 : in.own[i]});
+  }
+  const VolumeAsker* const asking = memory.template in<VolumeAsker>(askers);
   const int n = static_cast<int>(in.points.size());
-  std::vector<int> first_facet, count, nearest;
-  for (const std::vector<int>& facets : parts) first_facet.push_back(facets.front());
+  std::vector<int> first_facet, count, nearest, unresolved;
+  for (const PartOrder& part : parts) first_facet.push_back(part.facets.front());
   int* const counted = memory.template out<int>(count, in.points.size());
+  int* const lost = memory.template out<int>(unresolved, in.points.size());
   int* const answers = memory.template out<int>(nearest, in.points.size() * parts.size());
-  backend.for_each(n, CountAtPoint{volume, points, memory.template in<int>(first_facet), answers, counted});
+  backend.for_each(n, CountAtPoint{volume, asking, memory.template in<int>(first_facet), answers, counted, lost});
   memory.fetch();
   std::vector<int> first(count.size() + 1);
   for (std::size_t i = 0; i < count.size(); ++i) first[i + 1] = first[i] + count[i];
   ProbeMemory<Backend> lists(backend);
   std::vector<FoundVolumeContact> found;
   FoundVolumeContact* const to = lists.template out<FoundVolumeContact>(found, static_cast<std::size_t>(first.back()));
-  backend.for_each(n, FindAtPoint{volume, points, answers, lists.template in<int>(first), to});
+  backend.for_each(n, FindAtPoint{volume, asking, answers, lists.template in<int>(first), to});
   lists.fetch();
   compare::VolumeDepthOut out;
-  for (std::size_t i = 0; i < count.size(); ++i)
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    const auto point = static_cast<compare::Index>(i);
     for (int k = first[i]; k < first[i + 1]; ++k)
-      out.contacts.push_back(
-          contact_of(static_cast<compare::Index>(i), found[static_cast<std::size_t>(k)], *in.topology));
+      out.contacts.push_back(contact_of(point, found[static_cast<std::size_t>(k)], *in.topology));
+    out.unresolved.insert(out.unresolved.end(), static_cast<std::size_t>(unresolved[i]), point);
+  }
   sort_contacts(out.contacts);
   return out;
 }

@@ -2,9 +2,11 @@
 #include "fast/stages/volume_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
+#include "compare/problem/tetrahedra.hpp"
 #include "fast/kernels/bvh.hpp"
 
 namespace ogc::fast {
@@ -23,12 +25,17 @@ class Curve {
     if (extent > 0) scale_ = (0x1p20 - 1) / static_cast<double>(extent);
   }
 
-  std::uint64_t operator()(const compare::Vec3f& a, const compare::Vec3f& b, const compare::Vec3f& c) const {
-    const auto along = [this](float p, float q, float r, float low) {
-      const double mean = (double{p} + q + r) / 3 - low;
-      return static_cast<std::uint32_t>(std::clamp(mean * scale_, 0.0, 0x1p20 - 1));
+  /// Of the mean of these vertices.
+  template <std::size_t N>
+  std::uint64_t operator()(const std::array<compare::Index, N>& vertices,
+                           std::span<const compare::Vec3f> positions) const {
+    const auto along = [&](float compare::Vec3f::*axis, float low) {
+      double sum = 0;
+      for (const compare::Index v : vertices) sum += double{positions[static_cast<std::size_t>(v)].*axis};
+      return static_cast<std::uint32_t>(std::clamp((sum / N - low) * scale_, 0.0, 0x1p20 - 1));
     };
-    return hilbert_key({{along(a.x, b.x, c.x, low_.x), along(a.y, b.y, c.y, low_.y), along(a.z, b.z, c.z, low_.z)}});
+    return hilbert_key(
+        {{along(&compare::Vec3f::x, low_.x), along(&compare::Vec3f::y, low_.y), along(&compare::Vec3f::z, low_.z)}});
   }
 
  private:
@@ -36,24 +43,34 @@ class Curve {
   double scale_ = 0;
 };
 
+/// Numbers with their places on a curve.
+using Places = std::vector<std::pair<std::uint64_t, int>>;
+
+std::vector<int> in_order(Places& places) {
+  std::ranges::sort(places);
+  std::vector<int> order;
+  for (const auto& [key, number] : places) order.push_back(number);
+  return order;
+}
+
 VolumeParts parts_of(const compare::Topology& topology, const std::vector<int>& triangles,
-                     std::span<const compare::Vec3f> positions) {
+                     std::span<const compare::Tetrahedron> tetrahedra, std::span<const compare::Vec3f> positions) {
   const Curve curve(positions);
+  const std::vector<compare::Index> component = compare::joined_components(topology, tetrahedra);
   std::map<compare::Index, std::size_t> place;  // of a component's part
-  std::vector<std::vector<std::pair<std::uint64_t, int>>> sorted;
+  std::vector<std::pair<Places, Places>> sorted;
   for (const int t : triangles) {
     const compare::Triangle& corners = topology.triangles[static_cast<std::size_t>(t)];
-    const auto at = [&](std::size_t k) { return static_cast<std::size_t>(corners[k]); };
-    const auto [entry, is_new] = place.try_emplace(topology.component[at(0)], sorted.size());
+    const auto [entry, is_new] = place.try_emplace(component[static_cast<std::size_t>(corners[0])], sorted.size());
     if (is_new) sorted.emplace_back();
-    sorted[entry->second].emplace_back(curve(positions[at(0)], positions[at(1)], positions[at(2)]), t);
+    sorted[entry->second].first.emplace_back(curve(corners, positions), t);
+  }
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    const std::size_t part = place.at(component[static_cast<std::size_t>(tetrahedra[t][0])]);
+    sorted[part].second.emplace_back(curve(tetrahedra[t], positions), static_cast<int>(t));
   }
   VolumeParts parts;
-  for (auto& part : sorted) {
-    std::ranges::sort(part);
-    std::vector<int>& facets = parts.emplace_back();
-    for (const auto& [key, t] : part) facets.push_back(t);
-  }
+  for (auto& [facets, solids] : sorted) parts.push_back({in_order(facets), in_order(solids)});
   return parts;
 }
 
@@ -64,13 +81,60 @@ VolumeParts volume_parts(const compare::Scene& scene, const compare::Topology& t
   for (const compare::Body& body : scene.bodies) {
     for (int k = 0; body.is_volume() && k < body.triangle_count; ++k) triangles.push_back(body.first_triangle + k);
   }
-  return parts_of(topology, triangles, compare::to_single(scene.mesh.positions));
+  return parts_of(topology, triangles, volume_tetrahedra(scene), compare::to_single(scene.mesh.positions));
 }
 
-VolumeParts volume_parts(const compare::Topology& topology, std::span<const compare::Vec3f> positions) {
+VolumeParts volume_parts(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra,
+                         std::span<const compare::Vec3f> positions) {
   std::vector<int> triangles(topology.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) triangles[t] = static_cast<int>(t);
-  return parts_of(topology, triangles, positions);
+  return parts_of(topology, triangles, tetrahedra, positions);
+}
+
+std::vector<compare::Tetrahedron> volume_tetrahedra(const compare::Scene& scene) {
+  std::vector<compare::Tetrahedron> all;
+  for (const compare::Body& body : scene.bodies) {
+    const auto first = scene.mesh.tetrahedra.begin() + body.first_tetrahedron;
+    if (body.is_volume()) all.insert(all.end(), first, first + body.tetrahedron_count);
+  }
+  return all;
+}
+
+SolidTables solid_tables(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra) {
+  SolidTables tables;
+  if (tetrahedra.empty()) return tables;
+  std::vector<std::vector<int>> of_vertex(static_cast<std::size_t>(topology.vertex_count));
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    SolidElement element{{}, {-1, -1, -1, -1}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      element.corner[k] = tetrahedra[t][k];
+      of_vertex[static_cast<std::size_t>(tetrahedra[t][k])].push_back(static_cast<int>(t));
+    }
+    tables.elements.push_back(element);
+  }
+  tables.offsets.push_back(0);
+  for (const std::vector<int>& row : of_vertex) {
+    tables.items.insert(tables.items.end(), row.begin(), row.end());
+    tables.offsets.push_back(static_cast<int>(tables.items.size()));
+  }
+  std::map<compare::Triangle, int> alone;
+  const std::vector<compare::TetrahedronFace> faces = compare::sorted_faces(tetrahedra);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const compare::TetrahedronFace& face = faces[i];
+    if (i + 1 < faces.size() && faces[i + 1].vertices == face.vertices) {
+      const compare::TetrahedronFace& other = faces[++i];
+      tables.elements[static_cast<std::size_t>(face.tetrahedron)].behind[face.corner] = other.tetrahedron;
+      tables.elements[static_cast<std::size_t>(other.tetrahedron)].behind[other.corner] = face.tetrahedron;
+    } else {
+      alone.emplace(face.vertices, face.tetrahedron);
+    }
+  }
+  for (compare::Triangle corners : topology.triangles) {
+    std::ranges::sort(corners);
+    const auto found = alone.find(corners);
+    tables.owner.push_back(found == alone.end() ? -1 : found->second);
+  }
+  return tables;
 }
 
 }  // namespace ogc::fast

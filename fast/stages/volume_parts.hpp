@@ -5,17 +5,36 @@
 #include <vector>
 
 #include "compare/problem/scene.hpp"
+#include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
 
-/// The parts of volumes: facets by part, in the order of their trees.
-using VolumeParts = std::vector<std::vector<int>>;
+/// A part: its facets and its tetrahedra, if it has any, each in the order of a tree.
+struct PartOrder {
+  std::vector<int> facets, tetrahedra;
+};
+/// The parts of volumes.
+using VolumeParts = std::vector<PartOrder>;
 
-/// Those of a scene, in the order of their lowest-numbered triangles; facets along a Hilbert curve at the scene's
-/// start.
+/// Those of a scene, in the order of their lowest-numbered triangles; facets and tetrahedra along a Hilbert curve at
+/// the scene's start. Tetrahedra are numbered as volume_tetrahedra lists them.
 VolumeParts volume_parts(const compare::Scene& scene, const compare::Topology& topology);
 
 /// Those of a topology whose triangles are all of one volume, at `positions`.
-VolumeParts volume_parts(const compare::Topology& topology, std::span<const compare::Vec3f> positions);
+VolumeParts volume_parts(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra,
+                         std::span<const compare::Vec3f> positions);
+
+/// The tetrahedra of a scene's volumes, body by body.
+std::vector<compare::Tetrahedron> volume_tetrahedra(const compare::Scene& scene);
+
+/// What SolidView looks at, on the host.
+struct SolidTables {
+  std::vector<SolidElement> elements;
+  std::vector<int> offsets, items;  ///< by vertex: tetrahedra that contain it
+  std::vector<int> owner;           ///< by triangle; −1 where it is of no tetrahedron
+};
+
+/// Of these tetrahedra; none: all empty.
+SolidTables solid_tables(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra);
 
 }  // namespace ogc::fast

@@ -14,20 +14,23 @@
 
 namespace ogc::fast {
 
-/// Trees of parts.
+/// Trees of parts, and what is known of their tetrahedra.
 template <class Backend>
 class VolumeTrees {
  public:
-  explicit VolumeTrees(const VolumeParts& parts) {
-    std::vector<VolumePart> views;
+  VolumeTrees(const VolumeParts& parts, const SolidTables& solids) : facet_trees_(static_cast<int>(parts.size())) {
+    std::vector<PartTree> trees;
     std::vector<int> order;
     std::size_t nodes = 0;
-    for (const std::vector<int>& facets : parts) {
-      views.push_back({shape_of_tree(static_cast<int>(facets.size())), nullptr, items_});
-      items_ += RefitTrees::filled_up(static_cast<int>(facets.size()));
-      nodes += static_cast<std::size_t>(node_count(views.back().tree));
-      order.insert(order.end(), facets.begin(), facets.end());
-    }
+    const auto plant = [&](const std::vector<int>& items) {
+      trees.push_back({shape_of_tree(static_cast<int>(items.size())), nullptr, items_});
+      items_ += RefitTrees::filled_up(static_cast<int>(items.size()));
+      nodes += static_cast<std::size_t>(node_count(trees.back().tree));
+      order.insert(order.end(), items.begin(), items.end());
+    };
+    for (const PartOrder& part : parts) plant(part.facets);
+    for (const PartOrder& part : parts)
+      if (!part.tetrahedra.empty()) plant(part.tetrahedra);
     const std::vector<Quad> empty(nodes);
     nodes_.upload(empty.data(), nodes);
     arrivals_.resize(nodes);
@@ -36,28 +39,49 @@ class VolumeTrees {
     Quad* node = nodes_.data();
     int* arrival = arrivals_.data();
     const int* first = order_.data();
-    for (VolumePart& part : views) {
-      part.tree.nodes = node, part.arrivals = arrival, part.tree.order = first;
-      const int own = node_count(part.tree);
-      node += own, arrival += own, first += part.tree.count;
+    for (PartTree& tree : trees) {
+      tree.tree.nodes = node, tree.arrivals = arrival, tree.tree.order = first;
+      const int own = node_count(tree.tree);
+      node += own, arrival += own, first += tree.tree.count;
     }
+    std::vector<VolumePart> views;
+    std::size_t solid = parts.size();
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      views.push_back({trees[k], parts[k].tetrahedra.empty() ? PartTree{} : trees[solid++]});
+    trees_.upload(trees.data(), trees.size());
     parts_.upload(views.data(), views.size());
+    elements_.upload(solids.elements.data(), solids.elements.size());
+    is_positive_.resize(solids.elements.size());
+    offsets_.upload(solids.offsets.data(), solids.offsets.size());
+    around_.upload(solids.items.data(), solids.items.size());
+    owner_.upload(solids.owner.data(), solids.owner.size());
   }
 
   int count() const { return static_cast<int>(parts_.size()); }  ///< parts
   const VolumePart* parts() const { return parts_.data(); }      ///< on the backend
+  /// The tetrahedra of the parts, signs as of the last refit.
+  SolidView solids() {
+    return {elements_.data(), is_positive_.data(), {offsets_.data(), around_.data()}, owner_.data()};
+  }
 
   /// At these positions; by vertex, on the backend [m].
   void refit(Backend& backend, const SurfaceView& surface, const Vec* positions) {
-    const RefitVolumes refit{surface, positions, parts_.data(), count(), items_};
+    const RefitVolumes refit{surface, solids(), positions, trees_.data(), facet_trees_, static_cast<int>(trees_.size()),
+                             items_};
     backend.for_each(refit.count(), refit);
   }
 
  private:
-  typename Backend::template Buffer<Quad> nodes_;
-  typename Backend::template Buffer<int> arrivals_, order_;
-  typename Backend::template Buffer<VolumePart> parts_;
-  int items_ = 0;
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+
+  int facet_trees_, items_ = 0;
+  Buffer<Quad> nodes_;
+  Buffer<int> arrivals_, order_, offsets_, around_, owner_;
+  Buffer<PartTree> trees_;
+  Buffer<VolumePart> parts_;
+  Buffer<SolidElement> elements_;
+  Buffer<std::uint8_t> is_positive_;
 };
 
 /// Who asks volumes at a detection, and what of the detection they need; all on the backend.
@@ -75,12 +99,12 @@ template <class Backend>
 class Volumes {
  public:
   /// `slots`: free vertices. No parts: there are no volumes, and nothing below does anything.
-  Volumes(const SurfaceView& surface, const VolumeParts& parts, int slots)
-      : surface_(surface), trees_(parts), slots_(slots) {
+  Volumes(const SurfaceView& surface, const VolumeParts& parts, const SolidTables& solids, int slots)
+      : surface_(surface), trees_(parts, solids), slots_(slots) {
     if (!is_used()) return;
     std::vector<int> answers;
-    for (const std::vector<int>& facets : parts)
-      answers.insert(answers.end(), static_cast<std::size_t>(slots), answer_of({facets.front(), VolumeSide::far}));
+    for (const PartOrder& part : parts)
+      answers.insert(answers.end(), static_cast<std::size_t>(slots), answer_of({part.facets.front(), VolumeSide::far}));
     answers_.upload(answers.data(), answers.size());
     counts_.resize(static_cast<std::size_t>(slots));
     counts_.fill_zero();
@@ -99,7 +123,8 @@ class Volumes {
   /// The contacts of all free vertices. *overflow (on the backend) is set where a row was too short.
   void find(Backend& backend, const VolumeAskers& askers, int* overflow) {
     if (!is_used()) return;
-    const VolumeView view{surface_, askers.volumes, trees_.parts(), trees_.count(), askers.contact_radius};
+    const VolumeView view{surface_,       askers.volumes,        trees_.parts(),
+                          trees_.count(), askers.contact_radius, trees_.solids()};
     backend.for_each(slots_ * trees_.count(),
                      AskVolumes{view, askers.vertices, slots_, askers.position, askers.control, answers_.data()});
     backend.for_each(slots_, ListVolumeContacts{.volume = view,

@@ -13,9 +13,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include "compare/problem/tetrahedra.hpp"
 #include "reference/definitions/closed_surface.hpp"
 #include "reference/definitions/part_contacts.hpp"
-#include "reference/geometry/closest_face.hpp"
+#include "reference/definitions/solid_depth.hpp"
+#include "reference/definitions/volume_faces.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -25,31 +27,13 @@ using compare::VolumePartTruth;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// What a grey distance is off at most, over the moduli of its coordinates.
-constexpr double doubt_factor = compare::grey_factor;
-
-double norm_1(const Vec3f& a, const Vec3f& b) {
-  return std::abs(double{a.x} - b.x) + std::abs(double{a.y} - b.y) + std::abs(double{a.z} - b.z);
-}
-double length(const Vec3f& a, const Vec3f& b) {
-  return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
-}
-
-/// One point before a volume: distances of all triangles.
-class Asking {
+/// One point before a part of triangles.
+class TrianglePart : public VolumeFaces {
  public:
-  Asking(const Complex& mesh, const Vec3f& x, float radius) : mesh_(mesh), x_(x), radius_(radius) {
-    compare::ClosestFaceIn in;
-    for (const auto& [a, b, c] : mesh.topology.triangles) {
-      in.point.push_back(x);
-      in.triangle.push_back({mesh.at(a), mesh.at(b), mesh.at(c)});
-    }
-    faces_ = closest_face(in);
-  }
+  using VolumeFaces::VolumeFaces;
 
   VolumePartTruth part(const std::vector<Index>& triangles) {
     VolumePartTruth truth;
-    truth.component = mesh_.topology.component[at(mesh_.triangle(triangles[0])[0])];
     double least = INFINITY, below = INFINITY;  // the smallest distance, and an upper bound of it
     for (const Index t : triangles) {
       least = std::min(least, faces_.distance[at(t)]);
@@ -81,196 +65,41 @@ class Asking {
     grey = grey || possible.size() > 1 || on_surface;
     return truth;
   }
-
-  bool grey = false, near = false;  ///< of any part so far
-
- private:
-  double doubt(Index t) const { return doubt_factor * std::max(faces_.distance[at(t)], spread(t)); }
-
-  /// Σ|δ| of the case that triangle t and x are.
-  double spread(Index t) const {
-    const auto [a, b, c] = mesh_.triangle(t);
-    const Vec3f& origin = mesh_.at(a);
-    return norm_1(x_, origin) + norm_1(mesh_.at(b), origin) + norm_1(mesh_.at(c), origin);
-  }
-
-  bool is_on_surface(const std::vector<Index>& candidates) const {
-    return std::ranges::any_of(candidates, [&](Index t) { return faces_.distance[at(t)] <= doubt(t); });
-  }
-
-  Face exactly_nearest(const std::vector<Index>& triangles) const {
-    Face nearest;
-    Margin least;
-    bool any = false;
-    for (const Index t : triangles) {
-      const Face face = closest_face_of(mesh_, t, x_);
-      const Margin gap = face_gap(mesh_, face, x_, 0);
-      const int order = any ? compare_distances(gap, least) : -1;
-      if (order < 0 || (order == 0 && face < nearest)) nearest = face, least = gap;
-      any = true;
-    }
-    return nearest;
-  }
-
-  Face face_of(Index t, int feature) const {
-    if (feature < 3) return vertex_face(mesh_.triangle(t)[at(feature)]);
-    if (feature < 6) return edge_face(mesh_.topology.triangle_edges[at(t)][at(feature - 3)]);
-    return triangle_face(t);
-  }
-
-  /// The exact one first. A face is possible if every triangle around it says so: where the foot on one of them lies
-  /// off the face for certain, that triangle is nearer, by however little. But a foot that is off by 16 u moves a
-  /// distance that it is the smallest of by (16 u)² at most, and by less nobody need tell them apart: four times that,
-  /// as the distances here are known to half of it.
-  std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest, double least) const {
-    std::vector<Face> faces{nearest};
-    for (const Index t : candidates) {
-      const double further = faces_.distance[at(t)] - least;
-      const bool is_as_near = further <= 4 * doubt_factor * doubt(t);
-      for (int f = 0; f < 7; ++f) {
-        const Face face = face_of(t, f);
-        if (accepts(t, face) && std::ranges::find(faces, face) == faces.end() &&
-            (is_as_near || std::ranges::all_of(around(face), [&](Index other) { return accepts(other, face); })))
-          faces.push_back(face);
-      }
-    }
-    return faces;
-  }
-
-  /// Whether the point of t that is closest to x may lie on the face, which is one of t's.
-  bool accepts(Index t, Face face) const {
-    for (int f = 0; f < 7; ++f)
-      if (face_of(t, f) == face) return (faces_.accepted[at(t)] >> f & 1) != 0;
-    return false;
-  }
-
-  std::vector<Index> around(Face face) const {
-    if (face.kind == FaceKind::triangle) return {face.index};
-    const auto all = face.kind == FaceKind::edge ? mesh_.triangles_of(face.index)
-                                                 : mesh_.topology.vertex_triangles[at(face.index)];
-    return {all.begin(), all.end()};
-  }
-
-  bool is_rim(Face face) const {
-    if (face.kind == FaceKind::edge) return mesh_.triangles_of(face.index).size() == 1;
-    return face.kind == FaceKind::vertex &&
-           std::ranges::any_of(mesh_.edges_of(face.index), [&](Index e) { return mesh_.triangles_of(e).size() == 1; });
-  }
-
-  bool share_vertex(Face a, Face b) const {
-    const auto first = mesh_.vertices(a), second = mesh_.vertices(b);
-    return std::ranges::any_of(first.span(),
-                               [&](Index v) { return std::ranges::find(second.span(), v) != second.span().end(); });
-  }
-
-  /// `nearest_inside`: what the exactly nearest face says.
-  bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const {
-    if (is_rim(face)) return false;
-    if (!is_rim(nearest) && share_vertex(face, nearest)) return nearest_inside;
-    std::vector<Index> star;
-    for (const Index t : around(face))
-      if (std::ranges::find(candidates, t) != candidates.end()) star.push_back(t);
-    return !begins_outside(mesh_, exactly_nearest(star), x_);
-  }
-
-  /// Outside: faces in whose outward block x lies nearer than r, for certain or perhaps.
-  /// `faces_in`: what the nearest face says.
-  void touch(const std::vector<Index>& triangles, Face nearest, bool faces_in, VolumePartTruth& truth) {
-    std::vector<Face> faces;
-    for (const Index t : triangles) {
-      if (faces_.distance[at(t)] - doubt(t) > radius_) continue;
-      for (int f = 0; f < 7; ++f) faces.push_back(face_of(t, f));
-    }
-    std::ranges::sort(faces);
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    for (const Face face : faces) {
-      Membership block;
-      Nearness nearness;
-      visit_block(mesh_, face, x_, [&](const Boundary& boundary) {
-        require(block, boundary.condition);
-        nearness.add(boundary.condition);
-        return nearness.within_reach();
-      });
-      const MarginAnswer gap = examine(face_gap(mesh_, face, x_, radius_));
-      require(block, gap.sign < 0, gap.grey);
-      nearness.add(gap.sign < 0, gap.near);
-      near = near || nearness.is_near();
-      if (!block.possible) continue;
-      const std::vector<Index> star = around(face);
-      const bool outward = block.exact ? begins_outside(mesh_, face, x_) : !is_inside(face, nearest, faces_in, star);
-      const bool touches = std::ranges::any_of(star, [&](Index t) { return faces_.distance[at(t)] <= doubt(t); });
-      if (!outward && !touches && !is_rim(face)) continue;
-      truth.touching.push_back(answer(face, false));
-      truth.is_certain.push_back(block.certain && outward && !touches);
-      truth.is_exact.push_back(block.exact && outward && !truth.inside);
-      grey = grey || !block.certain;
-    }
-  }
-
-  /// Unless it is there already, or x lies farther than r for certain.
-  void add_touching(Face face, VolumePartTruth& truth) const {
-    const auto is_there = [&](const VolumeAnswer& a) { return a.contact.face == face; };
-    const MarginAnswer gap = examine(face_gap(mesh_, face, x_, radius_));
-    if ((gap.sign >= 0 && !gap.grey) || std::ranges::any_of(truth.touching, is_there)) return;
-    truth.touching.push_back(answer(face, false));
-    truth.is_certain.push_back(0);
-    truth.is_exact.push_back(0);
-  }
-
-  VolumeAnswer answer(Face face, bool inside) const {
-    const PartContact exact = part_contact(mesh_, face, x_, radius_, inside);
-    VolumeAnswer result;
-    result.contact.inside = inside;
-    result.contact.triangle = exact.triangle;
-    result.contact.face = face;
-    // where the foot lies perhaps beyond the face, a kernel takes its end
-    for (std::size_t k = 0; k < 3; ++k) result.weights[k] = std::clamp(exact.weights[k], 0.0, 1.0);
-    result.direction = exact.direction;
-    result.depth = exact.depth;
-    const double d = std::abs(exact.depth - radius_), size = spread(exact.triangle);
-    result.depth_scale = std::max(d, size) + radius_;
-    result.weight_scale = 1;
-    for (const Index t : around(face))
-      result.weight_scale = std::max(result.weight_scale, faces_.weight_condition[at(t)]);
-    result.direction_scale = face.kind == FaceKind::triangle ? normal_scale(face.index) : std::max(1.0, size / d);
-    return result;
-  }
-
-  /// Of a normal: Σ‖∂n̂/∂δ‖‖δ‖, δ two sides: ‖e₁‖‖e₂‖/‖e₁ × e₂‖ for each.
-  double normal_scale(Index t) const {
-    const auto [a, b, c] = mesh_.triangle(t);
-    const double first = length(mesh_.at(a), mesh_.at(b)), second = length(mesh_.at(a), mesh_.at(c)),
-                 third = length(mesh_.at(b), mesh_.at(c)), half = (first + second + third) / 2;
-    // Heron's product, of the differences as they are
-    const double area = std::sqrt(std::max(0.0, half * (half - first) * (half - second) * (half - third)));
-    const double longest = std::max({first, second, third});
-    return std::max(1.0, longest * longest / area);
-  }
-
-  const Complex& mesh_;
-  const Vec3f& x_;
-  float radius_;
-  compare::ClosestFaceTruth faces_;
 };
+
+void set_point(VolumePartTruth& part, Index point) {
+  const auto set = [point](std::vector<VolumeAnswer>& answers) {
+    for (VolumeAnswer& answer : answers) answer.contact.point = point;
+  };
+  set(part.held), set(part.touching);
+  for (compare::VolumeSheetTruth& sheet : part.sheets) set(sheet.accepted);
+}
 
 }  // namespace
 
 compare::VolumeDepthTruth volume_depth(const compare::VolumeDepthIn& in) {
   const Complex mesh{*in.topology, in.positions};
+  const std::vector<Index> component = compare::joined_components(*in.topology, in.tetrahedra);
   std::map<Index, std::vector<Index>> parts;  // by component, which no edge leaves
   for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t)
-    parts[mesh.topology.component[at(mesh.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
+    parts[component[at(mesh.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
+  const Solid solid(mesh, in.tetrahedra);
   const std::size_t n = in.points.size();
   compare::VolumeDepthTruth truth{std::vector<std::vector<VolumePartTruth>>(n), std::vector<std::uint8_t>(n),
                                   std::vector<std::uint8_t>(n)};
   tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-    Asking asking(mesh, in.points[i], in.contact_radius);
-    for (const auto& [component, triangles] : parts) truth.parts[i].push_back(asking.part(triangles));
-    for (VolumePartTruth& part : truth.parts[i])
-      for (auto* answers : {&part.held, &part.touching})
-        for (VolumeAnswer& answer : *answers) answer.contact.point = static_cast<Index>(i);
-    truth.grey[i] = asking.grey;
-    truth.near[i] = asking.near;
+    const Index own = in.own.empty() ? -1 : in.own[i];
+    TrianglePart of_triangles(mesh, in.points[i], in.contact_radius, own);
+    SolidPart of_tetrahedra(of_triangles, solid);
+    for (const auto& [component_of_part, triangles] : parts) {
+      const bool is_solid = solid.is_boundary(triangles.front());
+      VolumePartTruth part = is_solid ? of_tetrahedra.part(triangles) : of_triangles.part(triangles);
+      part.component = component_of_part;
+      truth.parts[i].push_back(std::move(part));
+    }
+    for (VolumePartTruth& part : truth.parts[i]) set_point(part, static_cast<Index>(i));
+    truth.grey[i] = of_triangles.grey || of_tetrahedra.grey;
+    truth.near[i] = of_triangles.near || of_tetrahedra.near;
   });
   return truth;
 }

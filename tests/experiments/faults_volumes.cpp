@@ -1,5 +1,6 @@
 // Faults of volume_depth and volume_force.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -67,11 +68,10 @@ VolumeDepthOut rounded(const VolumeDepthTruth& truth) {
     c.depth = static_cast<float>(a.depth);
     out.contacts.push_back(c);
   };
-  for (const auto& parts : truth.parts)
-    for (const VolumePartTruth& part : parts) {
-      if (part.inside) add(part.held.front());
-      for (std::size_t k = 0; k < part.touching.size(); ++k)
-        if (part.is_exact[k] != 0) add(part.touching[k]);
+  for (std::size_t i = 0; i < truth.parts.size(); ++i)
+    for (const VolumePartTruth& part : truth.parts[i]) {
+      for (const VolumeAnswer* answer : exact_answers(part)) add(*answer);
+      out.unresolved.insert(out.unresolved.end(), exact_unresolved(part), static_cast<Index>(i));
     }
   return out;
 }
@@ -126,6 +126,100 @@ void turn_over(VolumeContact& c, float radius) {
   c.depth = 2 * radius - c.depth;
   c.direction = {-c.direction.x, -c.direction.y, -c.direction.z};
   c.inside = c.inside == 0;
+}
+
+/// `change(in)` before the right answer is given.
+Fault depth_asked(const std::string& name, const std::function<void(VolumeDepthIn&)>& change) {
+  return {"volume_depth: " + name, Stage::volume_depth, [change](Contestant& contestant, const Authority&) {
+            contestant.volume_depth = [right = contestant.volume_depth, change](const VolumeDepthIn& in) {
+              VolumeDepthIn other = in;
+              change(other);
+              return right(other);
+            };
+          }};
+}
+
+Vec3 from_to(const Vec3f& a, const Vec3f& b) { return {double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z}; }
+double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3 minus(const Vec3& a, const Vec3& b, double factor) {
+  return {a.x - factor * b.x, a.y - factor * b.y, a.z - factor * b.z};
+}
+
+/// Whether the way from the point to its contact meets an edge of a tetrahedron before its end: whether the plane
+/// through the edge and the point, and the distance of both lines, say so within 10⁻⁶ of the way.
+bool meets_edge(const VolumeContact& c, const VolumeDepthIn& in) {
+  const Vec3f& x = in.points[static_cast<std::size_t>(c.point)];
+  const Triangle& corners = in.topology->triangles[static_cast<std::size_t>(c.triangle)];
+  Vec3 way;
+  for (std::size_t k = 0; k < 3; ++k)
+    way = minus(way, from_to(x, in.positions[static_cast<std::size_t>(corners[k])]), -double{c.weights[k]});
+  const double length = std::sqrt(inner(way, way));
+  for (const Tetrahedron& t : in.tetrahedra) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+      const Vec3f& a = in.positions[static_cast<std::size_t>(t[edges[k][0]])];
+      const Vec3 e = from_to(a, in.positions[static_cast<std::size_t>(t[edges[k][1]])]), u = from_to(a, x);
+      // the parameters of the closest points of x + s way and a + r e
+      const double ee = inner(e, e), ew = inner(e, way), ww = inner(way, way), det = ee * ww - ew * ew;
+      if (!(det > 1e-6 * ee * ww)) continue;
+      const double s = (ew * inner(u, e) - ee * inner(u, way)) / det, r = (inner(u, e) + s * ew) / ee;
+      if (s < 0.01 || s > 0.99 || r < 0 || r > 1) continue;
+      const Vec3 apart = minus(minus(u, way, -s), e, r);
+      if (std::sqrt(inner(apart, apart)) < 1e-6 * length) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<Fault> solid_faults() {
+  return {
+      depth_asked("own sheet kept", [](VolumeDepthIn& in) { in.own = {}; }),
+      {"volume_depth: tetrahedra that are turned inside out hold points, and are a way", Stage::volume_depth,
+       [](Contestant& contestant, const Authority&) {
+         contestant.volume_depth = [right = contestant.volume_depth](const VolumeDepthIn& in) {
+           std::vector<Tetrahedron> turned(in.tetrahedra.begin(), in.tetrahedra.end());
+           for (Tetrahedron& t : turned) {
+             const auto at = [&](std::size_t k) { return in.positions[static_cast<std::size_t>(t[k])]; };
+             const Vec3 a = from_to(at(0), at(1)), b = from_to(at(0), at(2)), c = from_to(at(0), at(3));
+             const Vec3 n{b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x};
+             if (inner(a, n) < 0) std::swap(t[2], t[3]);
+           }
+           VolumeDepthIn other = in;
+           other.tetrahedra = turned;
+           return right(other);
+         };
+       }},
+      depth_spoiled("a ray lost at an edge",
+                    [](const VolumeDepthIn& in, VolumeDepthOut& out) {
+                      const auto is_lost = [&](const VolumeContact& c) { return c.inside != 0 && meets_edge(c, in); };
+                      for (const VolumeContact& c : out.contacts)
+                        if (is_lost(c)) out.unresolved.push_back(c.point);
+                      std::ranges::sort(out.unresolved);
+                      std::erase_if(out.contacts, is_lost);
+                    }),
+      depth_asked("the nearest boundary, through whatever sheet", [](VolumeDepthIn& in) { in.tetrahedra = {}; }),
+      depth_spoiled("one sheet for all",
+                    [](const VolumeDepthIn& in, VolumeDepthOut& out) {
+                      if (in.tetrahedra.empty()) return;
+                      const auto repeated = [](const VolumeContact& a, const VolumeContact& b) {
+                        return a.point == b.point && a.inside != 0 && b.inside != 0;
+                      };
+                      out.contacts.erase(std::unique(out.contacts.begin(), out.contacts.end(), repeated),
+                                         out.contacts.end());
+                    }),
+      depth_spoiled("sheets without a way not told",
+                    [](const VolumeDepthIn&, VolumeDepthOut& out) { out.unresolved.clear(); }),
+      depth_spoiled("sheets without a way at the nearest triangle",
+                    [](const VolumeDepthIn& in, VolumeDepthOut& out) {
+                      for (const Index point : out.unresolved) {
+                        VolumeContact c;
+                        c.point = point, c.inside = 1, c.triangle = 0, c.face = {FaceKind::triangle, 0};
+                        c.weights = {1, 0, 0}, c.direction = {0, 0, 1}, c.depth = in.contact_radius;
+                        out.contacts.push_back(c);
+                      }
+                      out.unresolved.clear();
+                    }),
+  };
 }
 
 std::vector<Fault> depth_faults() {
@@ -305,8 +399,8 @@ std::vector<Fault> force_faults_of_volumes() {
 
 std::vector<Fault> volume_faults() {
   std::vector<Fault> all = depth_faults();
-  const std::vector<Fault> of_forces = force_faults_of_volumes();
-  all.insert(all.end(), of_forces.begin(), of_forces.end());
+  for (const std::vector<Fault>& more : {solid_faults(), force_faults_of_volumes()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 

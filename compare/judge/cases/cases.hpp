@@ -103,6 +103,8 @@ struct VolumeDepthCase {
   std::vector<Vec3f> positions;              ///< by vertex [m]
   float contact_radius = 0;                  ///< r [m]
   std::vector<Vec3f> points;                 ///< each counts as a case [m]
+  std::vector<Tetrahedron> tetrahedra{};     ///< of parts that have any
+  std::vector<Index> own{};                  ///< by point: the vertex that it is, or −1; empty: none is any
 };
 
 /// A mesh and what is asked about it.

@@ -54,11 +54,8 @@ std::vector<VolumeContact> VolumeQuestion::exact(const VolumeDepthCase& asked, c
     contacts.push_back(contact);
   };
   for (std::size_t i = 0; i < truth.parts.size(); ++i) {
-    for (const VolumePartTruth& part : truth.parts[i]) {
-      if (part.inside) take(part.held.front(), i);
-      for (std::size_t k = 0; k < part.touching.size() && !part.inside; ++k)
-        if (part.is_exact[k] != 0) take(part.touching[k], i);
-    }
+    for (const VolumePartTruth& part : truth.parts[i])
+      for (const VolumeAnswer* answer : exact_answers(part)) take(*answer, i);
   }
   std::ranges::sort(contacts, {},
                     [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });

@@ -14,7 +14,9 @@
 #include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/parameter_ranges.hpp"
 #include "compare/judge/stages/stage_of.hpp"
-#include "compare/judge/stages/volume_cases.hpp"
+#include "compare/judge/stages/volumes/solid_cases.hpp"
+#include "compare/judge/stages/volumes/volume_cases.hpp"
+#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 
@@ -39,7 +41,14 @@ class PartVerdict {
               const Topology& topology, Tally& tally)
       : point_(point), truth_(truth), mine_(std::move(mine)), topology_(topology), tally_(tally) {}
 
+  /// Sheets without a way that the contestant may, and must, report.
+  struct Unresolved {
+    std::size_t least = 0, most = 0;
+  };
+  Unresolved unresolved;
+
   void judge() {
+    if (truth_.is_solid) return judge_solid();
     const bool inside = std::ranges::any_of(mine_, [](const VolumeContact& c) { return c.inside != 0; });
     if (inside)
       judge_inside();
@@ -58,6 +67,52 @@ class PartVerdict {
 
   std::string exactly() const {
     return truth_.inside ? "exact " + print(truth_.held.front().contact, topology_) : "exact outside";
+  }
+
+  static bool accepts(const VolumeSheetTruth& sheet, const VolumeContact& c) {
+    return find(sheet.accepted, c) != nullptr;
+  }
+
+  /// Each contact is that of a sheet; each sheet that is certain has one, if it has a way, and there are no more
+  /// contacts than sheets.
+  void judge_solid() {
+    const bool inside = std::ranges::any_of(mine_, [](const VolumeContact& c) { return c.inside != 0; });
+    if (inside != truth_.inside) tally_.answered_not_exactly();
+    std::size_t most = 0;
+    for (const VolumeSheetTruth& sheet : truth_.sheets) {
+      const std::size_t sheets = sheet.is_certain ? 1 : static_cast<std::size_t>(std::max(1, sheet.exact));
+      most += sheets;
+      const bool has_contact = std::ranges::any_of(
+          mine_, [&](const VolumeContact& c) { return c.inside != 0 && accepts(sheet, c); });
+      if (sheet.may_be_unresolved) unresolved.most += sheets;
+      if (!sheet.is_certain || has_contact) continue;
+      ++unresolved.least;
+      if (sheet.may_be_unresolved) continue;
+      return mismatch("a sheet that holds it has no contact, or none that is accepted; exact " +
+                      print(sheet.accepted.front().contact, topology_));
+    }
+    std::size_t held = 0;
+    for (const VolumeContact& c : mine_) {
+      if (c.inside == 0) {
+        if (inside || !truth_.may_be_outside)
+          return mismatch(print(c, topology_) + ", and some sheet of this part holds it");
+        continue;
+      }
+      ++held;
+      const VolumeAnswer* accepted = nullptr;
+      bool is_exact = false;
+      for (const VolumeSheetTruth& sheet : truth_.sheets) {
+        const VolumeAnswer* found = find(sheet.accepted, c);
+        if (found == nullptr) continue;
+        accepted = found;
+        is_exact = is_exact || found - sheet.accepted.data() < sheet.exact_contacts;
+      }
+      if (accepted == nullptr) return mismatch(print(c, topology_) + " is the contact of no sheet");
+      if (!is_exact) tally_.answered_not_exactly();
+      judge_numbers(c, *accepted);
+    }
+    if (held > most) return mismatch("has more contacts than sheets hold it");
+    if (!inside && truth_.may_be_outside) judge_outside();
   }
 
   void judge_inside() {
@@ -133,9 +188,12 @@ WrongForm depth_told(std::string name, std::string meaning, void (*change)(Volum
   return told(std::move(name), std::move(meaning), &Authority::volume_depth,
               [change](const VolumeDepthIn& in, VolumeDepthTruth& truth) {
                 for (auto& parts : truth.parts)
-                  for (VolumePartTruth& part : parts)
-                    for (auto* answers : {&part.held, &part.touching})
+                  for (VolumePartTruth& part : parts) {
+                    std::vector<std::vector<VolumeAnswer>*> all{&part.held, &part.touching};
+                    for (VolumeSheetTruth& sheet : part.sheets) all.push_back(&sheet.accepted);
+                    for (auto* answers : all)
                       for (VolumeAnswer& answer : *answers) change(answer, in.contact_radius);
+                  }
               });
 }
 
@@ -165,19 +223,28 @@ void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, con
   const std::size_t points = asked.points.size();
   tally.count(points, points * topology.triangles.size(), marked(truth.grey), marked(truth.near));
   if (!is_list(out.contacts, points, topology, tally)) return;
-  const auto part_of = [&](const VolumeContact& c) {
-    return topology.component[at(topology.triangles[at(c.triangle)][0])];
-  };
+  if (!std::ranges::is_sorted(out.unresolved) ||
+      (!out.unresolved.empty() && (out.unresolved.front() < 0 || at(out.unresolved.back()) >= points)))
+    return tally.mismatch("sheets without a way are of points that do not exist, or out of order");
+  const std::vector<Index> component = joined_components(topology, asked.tetrahedra);
+  const auto part_of = [&](const VolumeContact& c) { return component[at(topology.triangles[at(c.triangle)][0])]; };
   std::size_t next = 0;
   for (std::size_t i = 0; i < points; ++i) {
     const std::size_t first = next;
+    std::size_t least = 0, most = 0;  // sheets without a way
     while (next < out.contacts.size() && at(out.contacts[next].point) == i) ++next;
     for (const VolumePartTruth& part : truth.parts[i]) {
       std::vector<VolumeContact> mine;
       for (std::size_t k = first; k < next; ++k)
         if (part_of(out.contacts[k]) == part.component) mine.push_back(out.contacts[k]);
-      PartVerdict(i, part, std::move(mine), topology, tally).judge();
+      PartVerdict verdict(i, part, std::move(mine), topology, tally);
+      verdict.judge();
+      least += verdict.unresolved.least, most += verdict.unresolved.most;
     }
+    const auto lost = static_cast<std::size_t>(std::ranges::count(out.unresolved, static_cast<Index>(i)));
+    if (lost < least || lost > most)
+      tally.mismatch(point_name(i) + std::to_string(lost) + " sheets without a way; accepted " + std::to_string(least) +
+                     " to " + std::to_string(most));
   }
 }
 
@@ -212,10 +279,23 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     problem.require(c.positions.size() == at(c.topology->vertex_count), "positions need one entry a vertex");
     const std::string why = volume_problem(*c.topology, c.positions);
     problem.require(why.empty(), why.c_str());
+    const std::string solid = solid_problem(c);
+    problem.require(solid.empty(), solid.c_str());
   }
-  /// Points alone: a volume whose vertices are moved may fold.
-  static void mutate(Random& random, Case& c) { mutate_points(random, c.points); }
-  static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.points}); }
+  /// Points alone: a volume whose vertices are moved may fold. Those that are its vertices are so no longer.
+  static void mutate(Random& random, Case& c) {
+    mutate_points(random, c.points);
+    c.own.clear();
+  }
+  /// Of points that are vertices none moves.
+  static std::vector<float*> coordinates(Case& c) {
+    std::vector<float*> all;
+    for (std::size_t i = 0; i < c.points.size(); ++i) {
+      if (!c.own.empty() && c.own[i] >= 0) continue;
+      for (float* x : {&c.points[i].x, &c.points[i].y, &c.points[i].z}) all.push_back(x);
+    }
+    return all;
+  }
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
     return volume_of_state(states.whole(states.frame(index), random), random);
   }
@@ -224,12 +304,16 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     return {{"mesh", topology_to_json(*c.topology)},
             {"positions", points_to_json(c.positions)},
             {"contact_radius", hexadecimal(c.contact_radius)},
-            {"points", points_to_json(c.points)}};
+            {"points", points_to_json(c.points)},
+            {"tetrahedra", c.tetrahedra},
+            {"own", c.own}};
   }
   static Case read(const Json& data) {
     Case c{to_topology(data.at("mesh")), {}, number(data.at("contact_radius")), {}};
     for (const Json& p : data.at("positions")) c.positions.push_back(to_point(p));
     for (const Json& p : data.at("points")) c.points.push_back(to_point(p));
+    if (data.contains("tetrahedra")) data.at("tetrahedra").get_to(c.tetrahedra);
+    if (data.contains("own")) data.at("own").get_to(c.own);
     if (c.positions.size() != at(c.topology->vertex_count)) throw InputError("positions need one entry a vertex");
     return c;
   }
@@ -246,9 +330,14 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
         std::vector{compare::points("positions", "m", c.positions), compare::points("points", "m", c.points)});
   }
 
-  static In question(const Case& c) { return {c.topology.get(), c.positions, c.contact_radius, c.points}; }
+  static In question(const Case& c) {
+    return {c.topology.get(), c.positions, c.contact_radius, c.points, c.tetrahedra, c.own};
+  }
   static constexpr auto judge = judge_volume_depth;
-  static void add(Bits& bits, const Out& out) { bits.add(out.contacts); }
+  static void add(Bits& bits, const Out& out) {
+    bits.add(out.contacts);
+    bits.add(out.unresolved);
+  }
   static std::int64_t items(const Case& c) { return static_cast<std::int64_t>(c.points.size()); }
 
   static std::vector<Quantity> outputs(const In& in, const Out& out) {
@@ -264,9 +353,8 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     std::vector<const VolumeAnswer*> all;
     for (const std::vector<VolumePartTruth>& parts : truth.parts)
       for (const VolumePartTruth& part : parts) {
-        if (part.inside) all.push_back(&part.held.front());
-        for (std::size_t k = 0; k < part.touching.size(); ++k)
-          if (part.is_exact[k] != 0) all.push_back(&part.touching[k]);
+        const std::vector<const VolumeAnswer*> exact = exact_answers(part);
+        all.insert(all.end(), exact.begin(), exact.end());
       }
     std::ranges::sort(all, {}, [](const VolumeAnswer* a) { return key_of(a->contact); });
     std::vector<std::string> names;

@@ -2,37 +2,51 @@
 // however it moves.
 #pragma once
 
-#include "fast/kernels/volume_depth.hpp"
+#include "fast/kernels/volumes/solids.hpp"
 
 namespace ogc::fast {
 
-/// Boxes of all facets and of the nodes above them. For for_each over count() items, which a warp of 32 must call
-/// together (RefitTrees).
+/// Boxes of all facets and tetrahedra and of the nodes above them; of tetrahedra whether they have positive volume. For
+/// for_each over count() items, which a warp of 32 must call together (RefitTrees).
 struct RefitVolumes {
   SurfaceView surface;
-  const Vec* positions;     ///< by vertex [m]
-  const VolumePart* parts;  ///< by part; the boxes of their trees are written
-  int part_count, items;    ///< `items`: places of all parts, each part filled up to whole warps
+  SolidView solids;                        ///< signs are written
+  const Vec* positions;                    ///< by vertex [m]
+  const PartTree* trees;                   ///< those of facets, then those of tetrahedra; their boxes are written
+  int facet_trees, count_of_trees, items;  ///< `items`: places of all trees, each filled up to whole warps
 
   OGC_HD int count() const { return items; }
 
   OGC_HD void operator()(int i) const {
-    int part = 0;  // the last one that begins at i or before
-    for (int end = part_count; end - part > 1;) {
-      const int middle = (part + end) / 2;
-      if (parts[middle].first_item <= i)
-        part = middle;
+    int tree = 0;  // the last one that begins at i or before
+    for (int end = count_of_trees; end - tree > 1;) {
+      const int middle = (tree + end) / 2;
+      if (trees[middle].first_item <= i)
+        tree = middle;
       else
         end = middle;
     }
-    RefitTrees::place(parts[part].tree, parts[part].arrivals, i - parts[part].first_item,
-                      [this](int t) { return child_of(t); });
+    const PartTree& own = trees[tree];
+    if (tree < facet_trees)
+      RefitTrees::place(own.tree, own.arrivals, i - own.first_item, [this](int t) { return facet_child(t); });
+    else
+      RefitTrees::place(own.tree, own.arrivals, i - own.first_item, [this](int t) { return element_child(t); });
   }
 
  private:
-  OGC_HD Child child_of(int t) const {
+  OGC_HD Child facet_child(int t) const {
     Box box;
     for (const int corner : surface.facets[t].corner) box.include(positions[corner]);
+    return {box.lower, 0, box.upper, t};
+  }
+  OGC_HD Child element_child(int t) const {
+    const int* corner = solids.elements[t].corner;
+    Box box;
+    for (int k = 0; k < 4; ++k) box.include(positions[corner[k]]);
+    solids.is_positive[t] = exact_sign(Orientation{positions[corner[0]], positions[corner[1]], positions[corner[2]],
+                                                   positions[corner[3]]}) > 0
+                                ? 1
+                                : 0;
     return {box.lower, 0, box.upper, t};
   }
 };

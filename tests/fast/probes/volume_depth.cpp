@@ -1,7 +1,11 @@
 // The search of volumes on the CPU, against what can be written down by hand.
 #include "compare/stages/volume_depth.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "compare/contestant.hpp"
+#include "compare/problem/tetrahedra.hpp"
 #include "fast/cpu/cpu.hpp"
 #include "tests/catch.hpp"
 
@@ -83,4 +87,83 @@ TEST_CASE("each part answers by itself: one holds the point, the other is near",
   CHECK(contacts[1].inside == 1);
   CHECK(contacts[1].depth == Approx(0.5 + 0.125));
   CHECK(contacts[1].direction.x == 1);
+}
+
+namespace {
+
+/// A row of cubes of six tetrahedra each, 2 m wide, high and deep; the layer between two of them stands at `x`.
+struct Row {
+  std::vector<Vec3f> positions;
+  std::vector<Tetrahedron> tetrahedra;
+  Topology topology;
+
+  explicit Row(const std::vector<float>& x) {
+    constexpr std::array<std::array<Index, 3>, 6> ways{
+        {{4, 2, 1}, {2, 1, 4}, {1, 4, 2}, {4, 1, 2}, {2, 4, 1}, {1, 2, 4}}};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      for (const float y : {0.0f, 2.0f})
+        for (const float z : {0.0f, 2.0f}) positions.push_back({x[i], y, z});
+      if (i + 1 == x.size()) continue;
+      for (std::size_t w = 0; w < ways.size(); ++w) {
+        const Index a = 4 * static_cast<Index>(i), b = a + ways[w][0], c = b + ways[w][1], d = c + ways[w][2];
+        tetrahedra.push_back(w < 3 ? Tetrahedron{a, b, c, d} : Tetrahedron{a, c, b, d});
+      }
+    }
+    topology = build_topology(static_cast<Index>(positions.size()), boundary_triangles(tetrahedra));
+  }
+
+  VolumeDepthOut ask(const std::vector<Vec3f>& points, float r, const std::vector<Index>& own = {}) const {
+    return ogc::fast::cpu_contestant().volume_depth({&topology, positions, r, points, tetrahedra, own});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("in a body of tetrahedra the depth is r at the surface, and that of the nearest side plus r inside",
+          "[unit]") {
+  const Row row({0, 2, 4});
+  for (const float height : {-1e-6f, 1e-6f}) {
+    const auto out = row.ask({{1.25f, 0.75f, 2 + height}}, 0.5f);
+    REQUIRE(out.contacts.size() == 1);
+    CHECK(out.contacts[0].inside == (height < 0 ? 1 : 0));
+    CHECK(out.contacts[0].depth == Approx(0.5).margin(2e-6));
+    CHECK(out.contacts[0].direction.z == 1);
+  }
+  // through the edges and vertices between the cells, as well
+  for (const Vec3f x : {Vec3f{2, 1, 1.25f}, Vec3f{2, 1.5f, 1.75f}, Vec3f{1, 1, 1.125f}, Vec3f{3, 1, 1.125f}}) {
+    const auto out = row.ask({x}, 0.125f);
+    REQUIRE(out.contacts.size() == 1);
+    CHECK(out.contacts[0].depth == 2 - x.z + 0.125f);
+    CHECK(out.unresolved.empty());
+  }
+}
+
+TEST_CASE("each sheet of a body that lies in itself has its own contact, and none a way through what is inside out",
+          "[unit]") {
+  // the middle cell is inside out; both others hold x = 2.5, whose nearest layers, at 3 and at 2, are no boundary
+  const Row row({0, 3, 2, 5});
+  const auto out = row.ask({{2.5f, 1, 0.75f}, {1, 1, 0.75f}}, 0.25f);
+  REQUIRE(out.contacts.size() == 3);
+  for (const VolumeContact& contact : out.contacts) {
+    CHECK(contact.inside == 1);
+    CHECK(contact.depth == 0.75f + 0.25f);
+    CHECK(contact.direction.z == -1);
+  }
+  CHECK(out.contacts[1].point == 0);
+}
+
+TEST_CASE("a vertex of a body asks without its own sheet and faces", "[unit]") {
+  const Row apart({0, 2, 4}), folded({0, 3, 2, 5});
+  for (const Row* row : {&apart, &folded}) {
+    std::vector<Index> own;
+    for (std::size_t v = 0; v < row->positions.size(); ++v) own.push_back(static_cast<Index>(v));
+    const auto out = row->ask(row->positions, 0.25f, own);
+    for (const VolumeContact& contact : out.contacts) {
+      const Triangle& corners = row->topology.triangles[static_cast<std::size_t>(contact.triangle)];
+      CHECK(std::find(corners.begin(), corners.end(), contact.point) == corners.end());
+    }
+    const bool is_in_another = std::any_of(out.contacts.begin(), out.contacts.end(),
+                                           [](const VolumeContact& c) { return c.inside != 0; });
+    CHECK(is_in_another == (row == &folded));
+  }
 }

@@ -8,57 +8,22 @@
 #include <tuple>
 
 #include "compare/judge/cases/placement.hpp"
-#include "compare/judge/stages/volume_cases.hpp"
+#include "compare/judge/stages/volumes/solid_cases.hpp"
+#include "compare/judge/stages/volumes/volume_bodies.hpp"
+#include "compare/judge/stages/volumes/volume_cases.hpp"
 
 namespace ogc::compare {
 
 namespace {
 
 using namespace placement;
-
-constexpr int points_a_volume = 24;
+using namespace volume_bodies;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-Vec3 minus(const Vec3& a, const Vec3& b) { return sum(a, scaled(b, -1)); }
-Vec3 outer(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-double norm(const Vec3& a) { return std::sqrt(inner(a, a)); }
-Vec3 unit(const Vec3& a) { return norm(a) > 0 ? scaled(a, 1 / norm(a)) : Vec3{0, 0, 1}; }
-
-/// A volume in its canonical frame, about as large as 1, its triangles counterclockwise as seen from outside.
-struct Body {
-  std::vector<Vec3> x;
-  std::vector<Triangle> triangles;
-
-  void append(const Body& other, double scale, const Vec3& shift) {
-    const auto base = static_cast<Index>(x.size());
-    for (const Vec3& p : other.x) x.push_back(sum(scaled(p, scale), shift));
-    for (const auto& [a, b, c] : other.triangles) triangles.push_back({a + base, b + base, c + base});
-  }
-  Vec3 normal(Index t) const {
-    const auto [a, b, c] = triangles[at(t)];
-    return unit(outer(minus(x[at(b)], x[at(a)]), minus(x[at(c)], x[at(a)])));
-  }
-  std::vector<Index> around(Index vertex) const {
-    std::vector<Index> all;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      if (std::ranges::find(triangles[t], vertex) != triangles[t].end()) all.push_back(static_cast<Index>(t));
-    return all;
-  }
-  /// The other triangle at the edge from corner k of t; t where there is none.
-  Index across(Index t, std::size_t k) const {
-    const Index a = triangles[at(t)][k], b = triangles[at(t)][(k + 1) % 3];
-    for (const Index other : around(a))
-      if (other != t && std::ranges::find(triangles[at(other)], b) != triangles[at(other)].end()) return other;
-    return t;
-  }
-};
 
 /// A box of n × m × l cells of this size about the origin, its quads cut along one diagonal.
-Body box(const std::array<int, 3>& cells, const Vec3& size) {
-  Body body;
+VolumeBody box(const std::array<int, 3>& cells, const Vec3& size) {
+  VolumeBody body;
   std::map<std::array<int, 3>, Index> numbers;
   const auto vertex = [&](const std::array<int, 3>& p) {
     const auto [entry, is_new] = numbers.try_emplace(p, static_cast<Index>(body.x.size()));
@@ -93,15 +58,15 @@ Body box(const std::array<int, 3>& cells, const Vec3& size) {
 }
 
 /// A cube's surface, each vertex drawn out to a radius of its own: ridges, valleys, saddles and reentrant vertices.
-Body star(Random& random, int cells, double roughness) {
-  Body body = box({cells, cells, cells}, {2, 2, 2});
+VolumeBody star(Random& random, int cells, double roughness) {
+  VolumeBody body = box({cells, cells, cells}, {2, 2, 2});
   for (Vec3& p : body.x) p = scaled(unit(p), 1 + roughness * random.between(-1, 1));
   return body;
 }
 
 /// A torus of m × n quads: saddles inside.
-Body torus(int m, int n) {
-  Body body;
+VolumeBody torus(int m, int n) {
+  VolumeBody body;
   constexpr double turn = 6.283185307179586;
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < n; ++j) {
@@ -117,15 +82,15 @@ Body torus(int m, int n) {
   return body;
 }
 
-Body tetrahedron(Random& random) {
-  Body body;
+VolumeBody tetrahedron(Random& random) {
+  VolumeBody body;
   body.x = {Vec3{1, 1, 1}, Vec3{1, -1, -1}, Vec3{-1, 1, -1}, Vec3{-1, -1, 1}};
   for (Vec3& p : body.x) p = sum(p, in_box(random, -0.4, 0.4));
   body.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
   return body;
 }
 
-Body some_body(Random& random) {
+VolumeBody some_body(Random& random) {
   switch (random.below(5)) {
     case 0: return box({1 + random.below(2), 1 + random.below(2), 1 + random.below(2)}, {1, 1, random.between(0.3, 1)});
     case 1: return star(random, 2, random.between(0, 0.3));
@@ -136,7 +101,7 @@ Body some_body(Random& random) {
 }
 
 /// One triangle less, or two that share an edge.
-void open(Random& random, Body& body) {
+void open(Random& random, VolumeBody& body) {
   const Index t = random.below(static_cast<int>(body.triangles.size()));
   const Index other = random.one_in(2) ? t : body.across(t, at(random.below(3)));
   if (body.triangles.size() < 5) return;
@@ -144,90 +109,9 @@ void open(Random& random, Body& body) {
   if (other != t) body.triangles.erase(body.triangles.begin() + std::min(t, other));
 }
 
-/// Where a point stands: at a foot, and outward from there.
-struct Place {
-  Vec3 foot, outward;
-  double edge = 1;  ///< about the length of an edge there
-};
-
-/// Over the interior of a triangle.
-Place over_triangle(Random& random, const Body& body) {
-  const Index t = random.below(static_cast<int>(body.triangles.size()));
-  const auto [a, b, c] = body.triangles[at(t)];
-  const double s = random.unit(), u = random.unit();
-  const Vec3 foot = sum(sum(scaled(body.x[at(a)], 1 - s), scaled(body.x[at(b)], s * (1 - u))),
-                        scaled(body.x[at(c)], s * u));
-  return {foot, body.normal(t), norm(minus(body.x[at(b)], body.x[at(a)]))};
-}
-
-/// At an edge, between the normals of its triangles or a rung off one of them.
-Place over_edge(Random& random, const Body& body) {
-  const Index t = random.below(static_cast<int>(body.triangles.size()));
-  const auto k = at(random.below(3));
-  const Vec3 &a = body.x[at(body.triangles[at(t)][k])], &b = body.x[at(body.triangles[at(t)][(k + 1) % 3])];
-  const double s = random.one_in(4) ? 0.5 : random.one_in(2) ? random.rung() : random.unit();
-  const double share = random.one_in(2) ? random.rung() : random.unit();
-  const Vec3 outward = sum(scaled(body.normal(t), 1 - share), scaled(body.normal(body.across(t, k)), share));
-  return {sum(scaled(a, 1 - s), scaled(b, s)), unit(outward), norm(minus(b, a))};
-}
-
-/// At a vertex, within the cone of its triangles' normals or a rung off one of them.
-Place over_vertex(Random& random, const Body& body) {
-  const Index t = random.below(static_cast<int>(body.triangles.size()));
-  const Index v = body.triangles[at(t)][at(random.below(3))];
-  Vec3 outward = body.normal(t);
-  const bool beside = random.one_in(2);
-  for (const Index other : body.around(v))
-    outward = sum(outward, scaled(body.normal(other), beside ? std::abs(random.rung()) : random.unit()));
-  return {body.x[at(v)], unit(outward), norm(minus(body.x[at(v)], body.x[at(body.triangles[at(t)][0])])) + 0.1};
-}
-
-Place any_place(Random& random, const Body& body) {
-  switch (random.below(3)) {
-    case 0: return over_triangle(random, body);
-    case 1: return over_edge(random, body);
-    default: return over_vertex(random, body);
-  }
-}
-
-using Points = std::vector<Vec3>;
-
-/// Turned by a symmetry of the cube, in half of the cases rotated, and scaled; triangles stay counterclockwise. Numbers
-/// mean nothing: triangles are shuffled.
-VolumeDepthCase placed(Random& random, Body body, Points points, double radius, bool may_turn, double scale) {
-  std::vector<Vec3> all = body.x;
-  all.insert(all.end(), points.begin(), points.end());
-  const std::size_t frame = all.size();
-  all.insert(all.end(), {Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
-  permute(random, all);
-  if (may_turn && random.one_in(2)) rotate(random, all);
-  const Vec3 x = minus(all[frame + 1], all[frame]), y = minus(all[frame + 2], all[frame]),
-             z = minus(all[frame + 3], all[frame]);
-  const bool mirrored = inner(outer(x, y), z) < 0;
-  for (std::size_t i = body.triangles.size(); i > 1; --i)
-    std::swap(body.triangles[i - 1], body.triangles[at(random.below(static_cast<int>(i)))]);
-  for (Triangle& t : body.triangles) {
-    if (mirrored) std::swap(t[1], t[2]);
-    std::rotate(t.begin(), t.begin() + random.below(3), t.end());
-  }
-  VolumeDepthCase c;
-  c.topology = std::make_shared<const Topology>(build_topology(static_cast<Index>(body.x.size()), body.triangles));
-  for (std::size_t i = 0; i < frame; ++i)
-    (i < body.x.size() ? c.positions : c.points).push_back(single(scaled(all[i], scale)));
-  c.contact_radius = std::clamp(static_cast<float>(radius * scale), least_length, most_length);
-  return c;
-}
-
-double some_scale(Random& random) {
-  constexpr std::array<double, 8> scales{1, 1, 1, 1, 0x1p10, 0x1p-10, 0x1p14, 1000};
-  return random.pick(std::span<const double>(scales));
-}
-
-double some_radius(Random& random) { return random.magnitude(-1.5, 0.2); }
-
 /// Anywhere about a body, of one part or two, with a rim or none.
 CaseData uniform(Random& random) {
-  Body body = some_body(random);
+  VolumeBody body = some_body(random);
   if (random.one_in(3)) body.append(some_body(random), random.between(0.3, 1), in_box(random, -1, 1));
   for (Vec3& p : body.x) p = sum(p, in_box(random, -0.02, 0.02));
   if (random.one_in(4)) open(random, body);
@@ -240,8 +124,8 @@ CaseData uniform(Random& random) {
 }
 
 /// A bipyramid about the z axis; of three vertices a triangle, of fewer nothing that has an inside.
-Body of_vertices(int count) {
-  Body body;
+VolumeBody of_vertices(int count) {
+  VolumeBody body;
   const int ring = count < 5 ? count : count - 2;
   for (int k = 0; k < ring; ++k) {
     const double angle = 6.283185307179586 * k / ring;
@@ -261,22 +145,16 @@ Body of_vertices(int count) {
 /// Few vertices, and none.
 CaseData few(Random& random) {
   constexpr std::array<int, 8> counts{0, 1, 2, 3, 5, 6, 10, 50};
-  Body body = of_vertices(random.pick(std::span<const int>(counts)));
+  VolumeBody body = of_vertices(random.pick(std::span<const int>(counts)));
   for (Vec3& p : body.x) p = sum(p, in_box(random, -0.02, 0.02));
   Points points;
   for (int i = random.below(points_a_volume); i > 0; --i) points.push_back(in_box(random, -1.5, 1.5));
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Whether a triangle has an area: none lower than 2⁻²⁰ of its longest side is legal, whose foot and normal single
-/// precision does not know.
-bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double longest = std::max({norm(minus(b, a)), norm(minus(c, a)), norm(minus(c, b))});
-  return norm(outer(minus(b, a), minus(c, a))) >= 0x1p-20 * longest * longest && longest > 0;
-}
 bool has_area(const std::vector<Vec3f>& x, const Triangle& t) {
   const auto wide = [&](Index v) { return Vec3{x[at(v)].x, x[at(v)].y, x[at(v)].z}; };
-  return has_area(wide(t[0]), wide(t[1]), wide(t[2]));
+  return volume_bodies::has_area(wide(t[0]), wide(t[1]), wide(t[2]));
 }
 
 /// Coordinates of any bits over eight octaves, at any scale: a tetrahedron, in the sense that has positive volume.
@@ -287,10 +165,10 @@ CaseData bits(Random& random) {
     const double x = one(), y = one();
     return Vec3{x, y, one()};
   };
-  Body body;
+  VolumeBody body;
   body.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
   const auto is_legal = [&](const Triangle& t) {
-    return has_area(body.x[at(t[0])], body.x[at(t[1])], body.x[at(t[2])]);
+    return volume_bodies::has_area(body.x[at(t[0])], body.x[at(t[1])], body.x[at(t[2])]);
   };
   do {
     body.x.clear();
@@ -306,8 +184,8 @@ CaseData bits(Random& random) {
 
 /// Boxes and points of small integers: every tie is exact.
 CaseData lattice(Random& random) {
-  Body body = box({1 + random.below(2), 1 + random.below(2), 1 + random.below(2)},
-                  {2, 2, random.one_in(2) ? 2.0 : 1.0});
+  VolumeBody body = box({1 + random.below(2), 1 + random.below(2), 1 + random.below(2)},
+                        {2, 2, random.one_in(2) ? 2.0 : 1.0});
   if (random.one_in(3)) body.append(box({1, 1, 1}, {1, 1, 1}), 1, on_lattice(random, 1));
   Points points;
   for (int i = 0; i < points_a_volume; ++i) points.push_back(on_lattice(random, 2));
@@ -317,7 +195,7 @@ CaseData lattice(Random& random) {
 
 /// Points at these heights over places of a body.
 template <class PlaceOf, class HeightOf>
-CaseData beside(Random& random, Body body, PlaceOf place_of, HeightOf height_of) {
+CaseData beside(Random& random, VolumeBody body, PlaceOf place_of, HeightOf height_of) {
   const double radius = some_radius(random);
   Points points;
   for (int i = 0; i < points_a_volume; ++i) {
@@ -347,7 +225,7 @@ CaseData radius(Random& random) {
 }
 /// Rims.
 CaseData rim(Random& random) {
-  Body body = some_body(random);
+  VolumeBody body = some_body(random);
   open(random, body);
   return beside(random, std::move(body), any_place, any_height);
 }
@@ -361,7 +239,7 @@ CaseData plate(Random& random) {
 }
 /// The medial axis of a box: two or more faces equally near.
 CaseData medial(Random& random) {
-  Body body = box({1, 1, 1}, {1, 1, 1});
+  VolumeBody body = box({1, 1, 1}, {1, 1, 1});
   Points points;
   for (int i = 0; i < points_a_volume; ++i) {
     const double depth = random.between(0.05, 0.5), other = random.between(-0.4, 0.4);
@@ -371,7 +249,7 @@ CaseData medial(Random& random) {
 }
 /// Parts that overlap, touch, hold each other; points at faces of either.
 CaseData parts(Random& random) {
-  Body body = some_body(random);
+  VolumeBody body = some_body(random);
   const int more = 1 + random.below(3);
   for (int i = 0; i < more; ++i)
     body.append(some_body(random), random.one_in(3) ? random.between(0.2, 0.5) : random.between(0.5, 1),
@@ -380,14 +258,14 @@ CaseData parts(Random& random) {
 }
 /// Many radii deep, in the middle of fine meshes: whoever looks no farther than r finds nothing.
 CaseData deep(Random& random) {
-  Body body = star(random, 3 + random.below(3), random.between(0, 0.1));
+  VolumeBody body = star(random, 3 + random.below(3), random.between(0, 0.1));
   Points points;
   for (int i = 0; i < points_a_volume; ++i) points.push_back(scaled(in_box(random, -1, 1), 0.55));
   return placed(random, std::move(body), std::move(points), random.magnitude(-3, -1), true, some_scale(random));
 }
 /// Units of 2^±20, as far as r stays legal.
 CaseData units(Random& random) {
-  Body body = some_body(random);
+  VolumeBody body = some_body(random);
   const double small = 0x1p-18, large = 0x1p18, radius = random.between(0.3, 1.2);
   Points points;
   for (int i = 0; i < points_a_volume; ++i) {
@@ -409,26 +287,34 @@ CaseData boundary(Random& random) {
   }
 }
 
-constexpr std::array<Generator, 16> table{{{"uniform", 30, true, uniform},
-                                           {"few", 3, true, few},
-                                           {"bits", 8, false, bits},
-                                           {"dust", 6, false, uniform},
-                                           {"lattice", 12, false, lattice},
-                                           {"ladder.surface", 10, false, surface},
-                                           {"ladder.edge", 12, false, edge},
-                                           {"ladder.vertex", 12, false, vertex},
-                                           {"ladder.radius", 10, false, radius},
-                                           {"ladder.rim", 10, false, rim},
-                                           {"ladder.plate", 10, false, plate},
-                                           {"ladder.medial", 8, false, medial},
-                                           {"ladder.parts", 10, false, parts},
-                                           {"ladder.deep", 6, false, deep},
-                                           {"ladder.units", 8, false, units},
-                                           {"ladder.boundary", 260, false, boundary}}};
+constexpr std::array<Generator, 16> of_triangles{{{"uniform", 30, true, uniform},
+                                                  {"few", 3, true, few},
+                                                  {"bits", 8, false, bits},
+                                                  {"dust", 6, false, uniform},
+                                                  {"lattice", 12, false, lattice},
+                                                  {"ladder.surface", 10, false, surface},
+                                                  {"ladder.edge", 12, false, edge},
+                                                  {"ladder.vertex", 12, false, vertex},
+                                                  {"ladder.radius", 10, false, radius},
+                                                  {"ladder.rim", 10, false, rim},
+                                                  {"ladder.plate", 10, false, plate},
+                                                  {"ladder.medial", 8, false, medial},
+                                                  {"ladder.parts", 10, false, parts},
+                                                  {"ladder.deep", 6, false, deep},
+                                                  {"ladder.units", 8, false, units},
+                                                  {"ladder.boundary", 260, false, boundary}}};
 
 }  // namespace
 
-std::span<const Generator> volume_depth_generators() { return table; }
+std::span<const Generator> volume_depth_generators() {
+  static const std::vector<Generator> table = [] {
+    std::vector<Generator> all(of_triangles.begin(), of_triangles.end());
+    const std::span<const Generator> of_tetrahedra = solid_depth_generators();
+    all.insert(all.end(), of_tetrahedra.begin(), of_tetrahedra.end());
+    return all;
+  }();
+  return table;
+}
 
 std::string volume_problem(const Topology& topology, const std::vector<Vec3f>& positions) {
   std::map<std::array<Index, 2>, int> directed;
