@@ -35,7 +35,7 @@ DISPATCHES = (
      ("reference/energies/membrane.cpp", "reference/energies/bending.cpp", "reference/energies/spring.cpp",
       "reference/solvers/potential.cpp", FAST_KERNELS)),
     ("Bounds", "compare/problem/settings.hpp",
-     ("reference/solvers/feasible_regions.cpp", "fast/cpu/simulation.cpp", "experiments/program/audits/auditor.cpp")),
+     ("reference/solvers/feasible_regions.cpp", "fast/cpu/probes.cpp", "experiments/program/audits/auditor.cpp")),
     ("Solver", "experiments/program/runs/solvers.hpp", ("experiments/program/runs/solvers.cpp",)),
 )
 UNHANDLED = r"enumeration value .planted_{}. not handled in switch"

@@ -1,13 +1,16 @@
-// The stages instantiated for the host's threads.
+// The stages and the resident simulation instantiated for the host's threads: in one source, because a trace runs the
+// simulation's own kernels.
 #include <string>
 #include <utility>
 
 #include <tbb/info.h>
+#include <tbb/task_arena.h>
 
 #include "fast/cpu/backend.hpp"
 #include "fast/cpu/cpu.hpp"
 #include "fast/cpu/simulation.hpp"
 #include "fast/probes/probes.hpp"
+#include "fast/stages/simulation.hpp"
 
 namespace ogc::fast {
 
@@ -19,6 +22,13 @@ compare::Contestant cpu_contestant() {
     return start_cpu(scene, options);
   };
   return contestant;
+}
+
+std::unique_ptr<compare::Simulation> start_cpu(const compare::Scene& scene, const compare::SimulationOptions& options,
+                                               int list_capacity) {
+  const int threads = tbb::this_task_arena::max_concurrency();
+  const std::string device = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+  return std::make_unique<ResidentSimulation<CpuBackend>>(CpuBackend{}, scene, options, device, list_capacity);
 }
 
 std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,
