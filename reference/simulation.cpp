@@ -93,7 +93,7 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
     throw compare::InputError(
         "setting 'contact_weights' can't be 'iteration' with Newton's method, whose energy is that of the closest "
         "points; give contact_weights=update or --solver vbd");
-  refuse_volumes(scene, "newton", "leave the body a surface");
+  refuse_solid_volumes(scene, "newton");
   if (has_rods(scene) && newton_settings(scene.settings).truncation == Truncation::pair)
     throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
