@@ -2,7 +2,10 @@
 // driven, so that nothing else moves.
 #pragma once
 
+#include <algorithm>
+
 #include "reference/energies/stencil_terms.hpp"
+#include "reference/energies/stencils/stencil_derivatives.hpp"
 
 namespace ogc::reference {
 
@@ -20,9 +23,14 @@ struct VolumeTerm {
     return T(contact_radius) - (normal[0] * apart[0] + normal[1] * apart[1] + normal[2] * apart[2]);
   }
   /// k/2 max(0, r − φ)² by the vertices [J].
-  double energy(const std::array<Triple<double>, 4>& x) const {
-    const double depth = std::max(0.0, overlap(separation(weight, x)));
-    return 0.5 * stiffness * depth * depth;
+  template <class T>
+  T energy(const std::array<Triple<T>, 4>& x) const {
+    const T depth = overlap(separation(weight, x));
+    return plain(depth) > 0 ? 0.5 * stiffness * depth * depth : T(0.0);
+  }
+  /// Of the energy, over all four vertices.
+  StencilDerivatives derivatives(const std::array<Triple<double>, 4>& x, HessianProjection projection) const {
+    return stencil_derivatives<4>(x, projection, [this](const auto& corners) { return energy(corners); });
   }
   /// With λ of these positions.
   FrictionTerm friction_at(const std::array<Triple<double>, 4>& x) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/problem/volumes.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/measure.hpp"
 
@@ -127,7 +128,8 @@ bool ContactStep::detection_due(std::size_t cut) {
 }
 
 bool ContactStep::in_contact() const {
-  return !detected_.active.vertex_facet.empty() || !detected_.active.edge_edge.empty();
+  return !detected_.active.vertex_facet.empty() || !detected_.active.edge_edge.empty() ||
+         !detected_.sets.volumes.empty();
 }
 
 void ContactStep::guess(GuessEnd end) {
@@ -173,7 +175,9 @@ void ContactStep::guess_by_pairs() {
 }
 
 /// Two vertices that were d apart and moved by at most m each are now at least d − 2m apart, and so are all faces.
+/// Smallest distances are those of surfaces, so that of volumes nothing is known.
 bool ContactStep::nothing_near() const {
+  if (compare::has_volumes(scene_)) return false;
   double largest = 0;
   for (const std::size_t v : movable_) {
     const Vec3f& p = detected_.previous[v];

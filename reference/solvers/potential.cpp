@@ -200,7 +200,9 @@ void Potential::add_contact(const compare::VolumeContact& contact) {
   const compare::Vec3f& n = contact.direction;
   VolumeTerm term;
   term.vertex = {contact.point, corners[0], corners[1], corners[2]};
-  for (std::size_t k = 0; k < 3; ++k) term.weight[k + 1] = -double{contact.weights[k]};
+  // As stored they add up to 1 but for rounding; the rest would react to a translation.
+  const double sum = double{contact.weights[0]} + double{contact.weights[1]} + double{contact.weights[2]};
+  for (std::size_t k = 0; k < 3; ++k) term.weight[k + 1] = -double{contact.weights[k]} / sum;
   term.normal = {double{n.x}, double{n.y}, double{n.z}};
   term.start = separation(term.weight, gathered<4>(term.vertex, start_));
   term.contact_radius = scene_.settings.contact_radius;
@@ -234,6 +236,10 @@ void Potential::lag_friction(const State& x) {
   for (const ContactTerm& term : contacts_)
     if (const auto friction = friction_at(term, contact_corners(term.sides, term.vertex, x)))
       frictions_.push_back(*friction);
+  for (const VolumeTerm& term : volumes_) {
+    const FrictionTerm friction = term.friction_at(gathered<4>(term.vertex, x));
+    if (friction.force > 0) frictions_.push_back(friction);
+  }
 }
 
 std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
@@ -248,7 +254,9 @@ std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
   stencil -= tetrahedra_.size();
   if (stencil < rods_.stencil_count()) return rods_.vertices(stencil);
   stencil -= rods_.stencil_count();
-  return stencil < contacts_.size() ? contacts_[stencil].vertex : frictions_[stencil - contacts_.size()].vertex;
+  if (stencil < contacts_.size()) return contacts_[stencil].vertex;
+  stencil -= contacts_.size();
+  return stencil < volumes_.size() ? volumes_[stencil].vertex : frictions_[stencil - volumes_.size()].vertex;
 }
 
 std::vector<std::array<Index, 4>> Potential::vertices() const {
@@ -279,7 +287,9 @@ double Potential::stencil_energy(std::size_t stencil, const State& x) const {
   if (stencil < rods_.stencil_count()) return rods_.energy(stencil, x);
   stencil -= rods_.stencil_count();
   if (stencil < contacts_.size()) return contact_term_energy(contacts_[stencil], x);
-  const FrictionTerm& term = frictions_[stencil - contacts_.size()];
+  stencil -= contacts_.size();
+  if (stencil < volumes_.size()) return volumes_[stencil].energy(gathered<4>(volumes_[stencil].vertex, x));
+  const FrictionTerm& term = frictions_[stencil - volumes_.size()];
   return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
 }
 
@@ -289,7 +299,6 @@ PotentialTerms Potential::terms(const State& x) const {
   result.inertia.resize(mobility_.size());
   tbb::parallel_for(std::size_t{0}, result.stencil.size(),
                     [&](std::size_t i) { result.stencil[i] = stencil_energy(i, x); });
-  for (const VolumeTerm& term : volumes_) result.stencil.push_back(term.energy(gathered<4>(term.vertex, x)));
   for (std::size_t v = 0; v < mobility_.size(); ++v) {
     if (mobility_[v] != Mobility::free) continue;
     const Triple<double> away = x[v] - target_[v];
@@ -333,6 +342,7 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   });
   first += rods_.stencil_count();
   add(contacts_);
+  add(volumes_);
   add(frictions_);
   sum_gradient(x, result);
   return result;

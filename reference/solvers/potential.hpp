@@ -29,7 +29,7 @@ std::vector<Mobility> mobility_of(const compare::Scene& scene);
 /// Energies at one state, by term, so that two states are compared term by term: their difference is small beside their
 /// sum.
 struct PotentialTerms {
-  std::vector<double> stencil;  ///< of all stencils, then of the contacts with volumes [J]
+  std::vector<double> stencil;  ///< of all stencils [J]
   std::vector<double> inertia;  ///< by vertex; 0 where not free [J]
 };
 
@@ -52,7 +52,6 @@ class Potential {
   /// xᵗ and y of the step; strains and angles at xᵗ. Contacts and friction of the step before are gone.
   void begin_step(const State& start, const State& target);
   /// Contacts found at `previous`, where e_k is evaluated. Those without a free vertex act on nothing and are left out.
-  /// Newton's derivatives have none of those with volumes.
   void set_contacts(const ContactSets& sets, const State& previous);
   /// λ, n and w of the present contacts that act at x (method.md §4.4), until the next call.
   void lag_friction(const State& x);
@@ -66,11 +65,13 @@ class Potential {
   PotentialDerivatives derivatives(const State& x, HessianProjection projection, PotentialDerivatives room = {}) const;
 
   /// The number of stencils of all kinds.
-  std::size_t stencil_count() const { return elastic_count() + contacts_.size() + frictions_.size(); }
+  std::size_t stencil_count() const { return frictionless_count() + frictions_.size(); }
   /// the first stencils: those that never change
   std::size_t elastic_count() const {
     return membranes_.size() + hinges_.size() + springs_.size() + tetrahedra_.size() + rods_.stencil_count();
   }
+  /// the stencils before those of friction
+  std::size_t frictionless_count() const { return elastic_count() + contacts_.size() + volumes_.size(); }
   /// By vertex, then by segment of a rod, whether Newton's method moves it (rods/rod_system.hpp).
   std::vector<Mobility> unknowns() const;
   /// The stencil's unknowns in the order of its derivatives; those that it lacks are −1.

@@ -131,6 +131,15 @@ void differentiate(std::span<const ContactTerm> terms, const State& x, HessianPr
   });
 }
 
+/// One by one: they are few beside the contacts among surfaces.
+void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished) {
+  tbb::parallel_for(std::size_t{0}, terms.size(), [&](std::size_t i) {
+    to[i] = terms[i].derivatives(gathered<4>(terms[i].vertex, x), projection);
+    finished(i);
+  });
+}
+
 void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished) {
   std::vector<std::uint8_t> group(terms.size());

@@ -35,6 +35,8 @@ void differentiate(std::span<const TetrahedronTerm> terms, const State& x, Hessi
                    StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
+void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianProjection projection,
+                   StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 

@@ -24,7 +24,10 @@ class Minimiser::Problem {
     potential_.begin_step(single(in.start), target_);
     const auto facets = in.vertex_facet;
     const auto edges = in.edge_edge;
-    potential_.set_contacts({{facets.begin(), facets.end()}, {edges.begin(), edges.end()}}, single(in.previous));
+    const auto volumes = in.volumes;
+    potential_.set_contacts(
+        {{facets.begin(), facets.end()}, {edges.begin(), edges.end()}, {volumes.begin(), volumes.end()}},
+        single(in.previous));
   }
 
   void lag_friction(const State& x) {

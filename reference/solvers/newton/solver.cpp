@@ -199,7 +199,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
 void NewtonSolver::measure_condition(compare::IterationMetrics& row) {
   row.condition_number = condition_number(matrix_, factor_);
   const PotentialDerivatives projected = potential_.derivatives(x_, newton_.projection);
-  const std::size_t elastic = potential_.elastic_count(), normal = elastic + potential_.contacts().size();
+  const std::size_t elastic = potential_.elastic_count(), normal = potential_.frictionless_count();
   row.condition_without_friction = condition_of_first(potential_, normal, derivatives_, projected);
   row.condition_without_contact = condition_of_first(potential_, elastic, derivatives_, projected);
 }
