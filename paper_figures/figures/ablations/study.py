@@ -2,10 +2,11 @@
 paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
 
 NAME.yaml beside this file says all: `study` has `jitter` [m], `repeat`, `audit`, and `scenes`, each with `points` (of
-`ogc ablate --point`; the others are held against the first), and by scale `set` (settings of all points) and
-`options` (further options of `ogc ablate`); `scales` names those that the scene is run at, where it is not at all.
-FOLDER then holds a folder of `ogc ablate` for each scene, NAME.csv (a row a scene, metric and point), NAME.txt
-(findings), NAME.png and NAME.pdf. Cut off and called again, it goes on with the run that was cut off."""
+`ogc ablate --point`; the others are held against the first; where they differ by scale, one list a scale), and by
+scale `set` (settings of all points) and `options` (further options of `ogc ablate`); `scales` names those that the
+scene is run at, where it is not at all. FOLDER then holds a folder of `ogc ablate` for each scene, NAME.csv (a row a
+scene, metric and point), NAME.txt (findings), NAME.png and NAME.pdf. Cut off and called again, it goes on with the
+run that was cut off."""
 
 import argparse
 import csv
@@ -52,10 +53,15 @@ def scenes_at(study, scale):
     return [name for name, body in study["scenes"].items() if scale in body.get("scales", [scale])]
 
 
+def points_at(body, scale):
+    """Points of a scene at this scale."""
+    return body["points"][scale] if isinstance(body["points"], dict) else body["points"]
+
+
 def command(study, scene, scale, backend):
     """Words of `ogc ablate` behind the program, without --out."""
     body = study["scenes"][scene]
-    points = [word for point in body["points"] for word in ("--point", point)]
+    points = [word for point in points_at(body, scale) for word in ("--point", point)]
     settings = [word for setting in body.get("set", {}).get(scale, []) for word in ("--set", setting)]
     return ["ablate", scene, "--scale", scale, "--backend", backend, *settings, "--audit", study["audit"], *points,
             "--repeat", str(study["repeat"]), "--jitter", str(study["jitter"]),

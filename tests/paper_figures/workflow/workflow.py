@@ -166,10 +166,12 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
             body = study.load(name)
             self.assertEqual(body["repeat"], 10)
             for scene, of_scene in body["scenes"].items():
-                self.assertGreater(len(set(of_scene["points"])), 1, (name, scene))
-                words = study.command(body, scene, "smoke", "cuda")
-                self.assertEqual(words[words.index("--backend") + 1], "cuda")
-                self.assertEqual(words.count("--point"), len(of_scene["points"]))
+                for scale in of_scene.get("scales", ("smoke", "small", "paper")):
+                    points = study.points_at(of_scene, scale)
+                    self.assertGreater(len(set(points)), 1, (name, scene))
+                    words = study.command(body, scene, scale, "cuda")
+                    self.assertEqual(words[words.index("--backend") + 1], "cuda")
+                    self.assertEqual(words.count("--point"), len(points))
                 self.assertIn(words[words.index("--audit") + 1], ("off", "end"))
 
     def test_a_study_that_was_stopped_goes_on_and_ends_in_a_table_findings_and_a_picture(self):
