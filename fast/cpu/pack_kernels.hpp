@@ -106,6 +106,13 @@ struct GatherPackedModels {
                                       std::is_same_v<Gather, GatherEverythingAndVolumes>;
   const PackKernels& kernels = pack_kernels();  ///< those of this machine
 
+  /// As Gather has it, where it has volumes.
+  static bool lies_deep(const SweepView& view, int slot, const Vec& x)
+    requires gathers_volumes<Gather>
+  {
+    return Gather::lies_deep(view, slot, x);
+  }
+
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                            const SerialTeam<W>& team) const {

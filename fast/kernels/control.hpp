@@ -36,6 +36,7 @@ OGC_HD inline float float_from_bits(int bits) {
 /// Settings of the control, the same in each step.
 struct ControlSettings {
   int redetect_count = 1;          ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
+  int pair_guess_count = 1;        ///< least number that asks for a guess by pairs: that, or 1 where there are volumes
   int redetect_every = 0;          ///< iterations after which a detection is due in any case; 0: none ever is
   int iterations = 1 << 30;        ///< of a step; after the last no detection is made
   int guess_rounds = 16;           ///< of a step, at most
@@ -62,6 +63,7 @@ struct StepControl {
   float smallest_bound = 0;               ///< [m]
   /// vertices cut in this round or iteration; cut_last: in the one before, lagging ones included
   int cut = 0, cut_last = 0;
+  int deep_inside = 0;  ///< with volumes: vertices that this iteration left deep inside one
   /// With planes: prescribed vertices behind their targets, whether one has moved since the last detection, and whether
   /// one has asked for a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
@@ -78,6 +80,7 @@ struct StepControl {
 
   /// Threads of one launch call these together; sums and maxima do not depend on their order.
   OGC_HD void count_cut() { atomic_add(&cut, 1); }
+  OGC_HD void count_deep_inside() { atomic_add(&deep_inside, 1); }
   OGC_HD void count_lag(bool has_advanced) {
     atomic_add(&lagging, 1);
     if (has_advanced) atomic_max(&advanced, 1);
@@ -87,12 +90,14 @@ struct StepControl {
 };
 
 /// Whether the vertices that were cut ask for a detection; their counts begin anew. A prescribed vertex behind its
-/// target asks alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut.
+/// target asks alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut, or
+/// one where a vertex is deep inside a volume.
 OGC_HD inline bool take_request(StepControl& c, int redetect_count) {
-  const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0), asks = c.cut >= redetect_count;
+  const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
+             asks = c.cut >= redetect_count || (c.cut > 0 && c.deep_inside > 0);
   if (lag_asks) c.lag_asked = 1;
   c.cut_last = c.cut + c.lagging;
-  c.cut = c.lagging = c.advanced = 0;
+  c.cut = c.lagging = c.advanced = c.deep_inside = 0;
   return asks || lag_asks;
 }
 
@@ -117,7 +122,7 @@ struct BeginStep {
     c.largest_move = c.largest_lag = 0;
     c.smallest_bound = 3.40282347e38f;
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
-    c.lagging = c.advanced = c.lag_asked = 0;
+    c.lagging = c.advanced = c.lag_asked = c.deep_inside = 0;
     c.pairs = c.unsafe = c.left = c.unsafe_seen = 0;
     c.volume_contacts = c.vertices_inside = c.deepest = 0;
     c.longest_segment = 0;

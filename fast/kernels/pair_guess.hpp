@@ -69,7 +69,7 @@ struct BeginPairGuess {
     *state = {};
     if (c.attempted == 0) return;
     ++c.rounds;
-    c.pairs = take_request(c, settings.redetect_count) && c.active != 0 ? 1 : 0;
+    c.pairs = take_request(c, settings.pair_guess_count) && c.active != 0 ? 1 : 0;
   }
 };
 

@@ -341,18 +341,25 @@ struct GatherSurfaces {
 /// As the paper has it.
 using GatherDefault = GatherSurfaces<WeightsOfUpdate>;
 
-/// The leader writes a position of the vertex's region and counts where the proposal was changed. One that is not
-/// finite is not written: the vertex stays and the step fails. All threads that hold the team's total call it together.
+/// The leader writes a position of the vertex's region, counts where the proposal was changed, and gets it; others get
+/// `stay`. One that is not finite is not written: the vertex stays and the step fails. All threads that hold the team's
+/// total call it together.
 template <class Metric, class Team>
-OGC_HD void write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
-                       const Metric& metric, const Team& team) {
+OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
+                      const Metric& metric, const Team& team) {
   const bool may_be_written = is_finite(proposal);
   const Truncated kept = may_be_written ? held(region, stay, proposal, metric, team) : Truncated{stay, false};
-  if (!team.leader()) return;
+  if (!team.leader()) return stay;
   view.write(v, kept.position);
   if (!may_be_written) view.control->count_not_finite();
   if (kept.cut) view.control->count_cut();
+  return kept.position;
 }
+
+/// Whether what a vertex gathers may have contacts with volumes: then Gather::lies_deep tells who is deep inside one.
+template <class Gather>
+inline constexpr bool gathers_volumes =
+    requires(const SweepView& view, const Vec& x) { Gather::lies_deep(view, 0, x); };
 
 /// for_each_team over the slots of one colour.
 template <class Gather>
@@ -373,8 +380,11 @@ struct UpdateVertex {
     if (!team.holds_total() || (asks_late && view.is_off())) return;
     add_inertia(vertex.inertia, own, target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
-    write_held(view, v, own + change, own, view.regions.region(v, ball),
-               BlockMetric{total.block, 1.0f / vertex.inertia}, team);
+    const Vec x = write_held(view, v, own + change, own, view.regions.region(v, ball),
+                             BlockMetric{total.block, 1.0f / vertex.inertia}, team);
+    if constexpr (gathers_volumes<Gather>) {
+      if (team.leader() && Gather::lies_deep(view, first_slot + i, x)) view.control->count_deep_inside();
+    }
   }
 };
 

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/problem/volumes.hpp"
 #include "compare/stages/step.hpp"
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/metrics.hpp"
@@ -80,6 +81,7 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
                                              to.detection_radius);
   to.control.redetect_count = std::max(
       1, static_cast<int>(std::ceil(from.redetect_fraction * static_cast<double>(moving))));
+  to.control.pair_guess_count = compare::has_volumes(scene) ? 1 : to.control.redetect_count;
   to.control.redetect_every = static_cast<int>(from.redetect_every);
   to.control.guess_rounds = static_cast<int>(from.guess_rounds);
   to.control.sort_every = steps_between_sorts;

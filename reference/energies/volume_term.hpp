@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "reference/energies/stencil_terms.hpp"
-#include "reference/energies/stencils/stencil_derivatives.hpp"
 
 namespace ogc::reference {
 
@@ -27,10 +26,6 @@ struct VolumeTerm {
   T energy(const std::array<Triple<T>, 4>& x) const {
     const T depth = overlap(separation(weight, x));
     return plain(depth) > 0 ? 0.5 * stiffness * depth * depth : T(0.0);
-  }
-  /// Of the energy, over all four vertices.
-  StencilDerivatives derivatives(const std::array<Triple<double>, 4>& x, HessianProjection projection) const {
-    return stencil_derivatives<4>(x, projection, [this](const auto& corners) { return energy(corners); });
   }
   /// With λ of these positions.
   FrictionTerm friction_at(const std::array<Triple<double>, 4>& x) const {

@@ -145,11 +145,12 @@ void ContactStep::guess(GuessEnd end) {
       move_towards_target(v, cut);
     }
     metrics_.guess_rounds = round;
-    if (!asks(cut)) break;
+    const bool many = asks(cut);
     if (settings_.guess == compare::Guess::pairs) {
-      guess_by_pairs();
+      if (many || (cut > 0 && compare::has_volumes(scene_))) guess_by_pairs();
       break;
     }
+    if (!many) break;
     if (round >= settings_.guess_rounds) break;
     detect_here();
   }

@@ -135,7 +135,8 @@ void differentiate(std::span<const ContactTerm> terms, const State& x, HessianPr
 void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished) {
   tbb::parallel_for(std::size_t{0}, terms.size(), [&](std::size_t i) {
-    to[i] = terms[i].derivatives(gathered<4>(terms[i].vertex, x), projection);
+    to[i] = stencil_derivatives<4>(gathered<4>(terms[i].vertex, x), projection,
+                                   [&](const auto& corners) { return terms[i].energy(corners); });
     finished(i);
   });
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "compare/problem/rods.hpp"
+#include "compare/problem/volumes.hpp"
 #include "reference/definitions/scene_volumes.hpp"
 #include "reference/energies/rest_state.hpp"
 #include "reference/geometry/bound.hpp"
@@ -55,7 +56,8 @@ class ReferenceStep {
     for (std::size_t v = 0; v < x_.size(); ++v)
       if (is_volume_[v]) x_[v] = out_.target[v];
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
-    StepOrder order(settings_, compare::bounded_count(*in_.topology, exclusions_.groups));
+    StepOrder order(settings_, compare::bounded_count(*in_.topology, exclusions_.groups),
+                    compare::has_volumes(*in_.scene));
     for (auto kind = order.next(); kind; kind = order.next()) {
       StepEvent event;
       event.kind = *kind;
@@ -66,7 +68,9 @@ class ReferenceStep {
         guess(event, order);
       else
         sweep(event);
-      order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_, held_));
+      const bool is_deep = *kind == StepEventKind::sweep &&
+                           depth_of(volume_contacts_, *in_.topology, x_, settings_.contact_radius) == Depth::deep;
+      order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_, held_), is_deep);
       if (std::exchange(is_by_pairs_, false)) order.left_regions();
       event.position = x_;
       out_.events.push_back(std::move(event));
@@ -146,7 +150,7 @@ class ReferenceStep {
     held_ = order.holds_contacts() ? touched_vertices(contacts_, *in_.topology) : std::vector<bool>(x_.size(), false);
     for (std::size_t v = 0; v < x_.size(); ++v)
       if (!held_[v]) x_[v] = truncated(v, event.cut);
-    if (settings_.guess == compare::Guess::pairs && order.are_many(event.cut)) guess_by_pairs(event);
+    if (settings_.guess == compare::Guess::pairs && order.asks_for_pairs(event.cut)) guess_by_pairs(event);
   }
 
   /// In place of the round whose balls cut many.

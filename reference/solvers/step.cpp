@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/problem/volumes.hpp"
+#include "compare/stages/volume_force.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/step_order.hpp"
 
@@ -70,6 +72,31 @@ StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, 
   return lag;
 }
 
+Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compare::Topology& topology,
+               const std::vector<Vec3f>& x, double contact_radius) {
+  Depth deepest = Depth::shallow;
+  for (const compare::VolumeContact& contact : contacts) {
+    if (contact.point < 0 || static_cast<std::size_t>(contact.point) >= x.size() || contact.triangle < 0 ||
+        static_cast<std::size_t>(contact.triangle) >= topology.triangles.size())
+      continue;
+    const Vec3f point = x[static_cast<std::size_t>(contact.point)], n = contact.direction;
+    const compare::Triangle& corners = topology.triangles[static_cast<std::size_t>(contact.triangle)];
+    double above = deep_share * contact_radius, size = above;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 apart = difference(point, x[static_cast<std::size_t>(corners[k])]);
+      const double w = double{contact.weights[k]};
+      above += w * (n.x * apart.x + n.y * apart.y + n.z * apart.z);
+      size += std::abs(w) * (std::abs(n.x * apart.x) + std::abs(n.y * apart.y) + std::abs(n.z * apart.z));
+    }
+    // φ + r/2 has no more terms than r − φ, whose rounding compare/stages/volume_force.hpp counts.
+    if (std::abs(above) <= compare::volume_force_grey * compare::unit_roundoff * size)
+      deepest = std::max(deepest, Depth::doubtful);
+    else if (above < 0)
+      deepest = Depth::deep;
+  }
+  return deepest;
+}
+
 compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answer) {
   const compare::Scene& scene = *in.scene;
   const compare::Settings& settings = scene.settings;
@@ -92,8 +119,9 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
   }
   truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest,
                                                            settings.query_radius_cap * settings.contact_radius);
-  StepOrder order(settings, compare::bounded_count(*in.topology, groups));
+  StepOrder order(settings, compare::bounded_count(*in.topology, groups), compare::has_volumes(scene));
   const std::vector<Vec3f>* previous = &start;
+  const std::vector<compare::VolumeContact>* volumes = nullptr;
   std::vector<bool> touched(start.size(), false);
   for (auto kind = order.next(); kind; kind = order.next()) {
     const std::size_t i = truth.events.size();
@@ -102,15 +130,24 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     const Index cut = is_there ? answer.events[i].cut : 0;
     if (is_there && *kind == compare::StepEventKind::detection) {
       previous = &answer.events[i].position;
+      volumes = &answer.events[i].volumes.contacts;
       touched = touched_in(answer.events[i], *in.topology);
     }
     StepLag lag;
     if (is_there)
       lag = lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings,
                    *kind == compare::StepEventKind::guess && order.holds_contacts() ? touched : std::vector<bool>{});
-    order.took_place(cut, lag);
+    bool is_deep = false;
+    if (is_there && *kind == compare::StepEventKind::sweep && volumes != nullptr) {
+      const Depth depth = depth_of(*volumes, *in.topology, answer.events[i].position, settings.contact_radius);
+      // In doubt both are right, and the answer says which.
+      const bool detects_next = i + 1 < answer.events.size() &&
+                                answer.events[i + 1].kind == compare::StepEventKind::detection;
+      is_deep = depth == Depth::deep || (depth == Depth::doubtful && detects_next);
+    }
+    order.took_place(cut, lag, is_deep);
     if (settings.guess == compare::Guess::pairs && *kind == compare::StepEventKind::guess &&
-        (order.are_many(cut) || leaves_balls(in, answer, i)))
+        (order.asks_for_pairs(cut) || leaves_balls(in, answer, i)))
       order.left_regions();
   }
   return truth;

@@ -16,6 +16,13 @@ StepLag lag_of(const std::vector<compare::Vec3f>& x, const std::vector<compare::
                const std::vector<compare::Vec3f>& target, const std::vector<compare::Index>& groups,
                const compare::Settings& settings, const std::vector<bool>& held = {});
 
+/// Whether a vertex lies deep inside a volume; doubtful where rounding to single precision decides.
+enum class Depth { shallow, doubtful, deep };
+/// Of the deepest of these contacts at x, by what their detection froze: φ < −r/2. Contacts may be any: those of what
+/// is not there say nothing.
+Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compare::Topology& topology,
+               const std::vector<compare::Vec3f>& x, double contact_radius);
+
 /// r_q, prescribed targets, the order of events, velocities. The answer's target, position and velocity must have one
 /// entry a vertex, its events may be any.
 compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answer);

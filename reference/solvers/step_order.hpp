@@ -16,11 +16,16 @@ struct StepLag {
   bool has_advanced = false;   ///< whether one of them did
 };
 
+/// From this share of r on a vertex is deep inside a volume (compare/volumes.md, The step).
+inline constexpr double deep_share = 0.5;
+
 /// Says what comes next, given how many vertices each event cut. K, of bounded_count, is `moving`.
 class StepOrder {
  public:
-  StepOrder(const compare::Settings& settings, compare::Index moving)
-      : settings_(settings), redetect_count_(std::max(1.0, std::ceil(settings.redetect_fraction * moving))) {}
+  StepOrder(const compare::Settings& settings, compare::Index moving, bool has_volumes = false)
+      : settings_(settings),
+        redetect_count_(std::max(1.0, std::ceil(settings.redetect_fraction * moving))),
+        pair_guess_count_(has_volumes ? 1 : redetect_count_) {}
 
   /// Empty after the last iteration.
   std::optional<compare::StepEventKind> next() const {
@@ -29,8 +34,9 @@ class StepOrder {
     return found_ ? compare::StepEventKind::sweep : compare::StepEventKind::detection;
   }
 
-  /// The event that was next took place; `cut`: of a round or an iteration, all that were cut.
-  void took_place(compare::Index cut, const StepLag& lag = {}) {
+  /// The event that was next took place; `cut`: of a round or an iteration, all that were cut; `is_deep`: of an
+  /// iteration, whether it left a vertex deep inside a volume.
+  void took_place(compare::Index cut, const StepLag& lag = {}, bool is_deep = false) {
     switch (*next()) {
       case compare::StepEventKind::detection:
         found_ = true;
@@ -43,13 +49,14 @@ class StepOrder {
       case compare::StepEventKind::sweep:
         ++iterations_;
         ++since_detection_;
-        found_ = !asks(cut, lag) && (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
+        found_ = !asks(cut, lag) && !(is_deep && cut > lag.lagging) &&
+                 (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
         break;
     }
   }
 
-  /// So many cut vertices ask for a detection.
-  bool are_many(compare::Index cut) const { return cut >= redetect_count_; }
+  /// So many cut vertices ask for a guess by pairs; with volumes each does, as a body leaves behind whoever stays.
+  bool asks_for_pairs(compare::Index cut) const { return cut >= pair_guess_count_; }
   /// The guess that took place was by pairs and may have left the regions of its detection: another comes before the
   /// first iteration.
   void left_regions() { found_ = false; }
@@ -66,6 +73,7 @@ class StepOrder {
 
   const compare::Settings& settings_;
   double redetect_count_;   ///< max(1, ⌈γ_e K⌉)
+  double pair_guess_count_;
   bool guessing_ = true;    ///< in the guess loop
   bool lag_asked_ = false;  ///< a lag has asked for a detection in this step
   bool found_ = false;      ///< contacts and bounds hold for what comes next

@@ -8,6 +8,8 @@
 #include <tbb/parallel_for.h>
 
 #include "reference/solvers/colouring.hpp"
+#include "reference/solvers/potential_batches.hpp"
+#include "reference/solvers/step_order.hpp"
 
 namespace ogc::reference {
 
@@ -68,7 +70,14 @@ void VbdSolver::iterate() {
   if (meter_) rows_.back().vertices_cut = static_cast<std::int64_t>(cut_);
   ++metrics_.iterations;
   ++iterations_since_;
-  detect_next_ = detection_due(cut_);
+  const bool is_due = detection_due(cut_);
+  detect_next_ = is_due || (cut_ > 0 && is_deep_inside());
+}
+
+bool VbdSolver::is_deep_inside() const {
+  return std::ranges::any_of(potential_.volumes(), [&](const VolumeTerm& term) {
+    return term.overlap(separation(term.weight, gathered<4>(term.vertex, x_))) > (1 + deep_share) * term.contact_radius;
+  });
 }
 
 std::size_t VbdSolver::sweep() {

@@ -31,6 +31,7 @@ class VbdSolver : public StepSolver, private ContactStep {
   enum Stage : std::size_t { detection = detection_stage, sweeping, stage_count };
   void iterate();
   std::size_t sweep();
+  bool is_deep_inside() const;  ///< whether a vertex is, by what the last detection froze
   /// Work that needs the meter and costs the step no time; none without one.
   template <class Work>
   void measured(Work work);

@@ -183,6 +183,19 @@ void let_volumes_lag(const StepIn& in, StepOut& out) {
     if (is_volume[v]) out.events.front().position[v] = start[v];
 }
 
+/// A vertex left inside asks nothing: no detection follows an iteration that left one.
+void ask_nothing_inside(const StepIn& in, StepOut& out) {
+  const std::vector<VolumeContact>* contacts = nullptr;
+  for (std::size_t i = 0; i + 1 < out.events.size(); ++i) {
+    const StepEvent& event = out.events[i];
+    if (is_detection(event)) contacts = &event.volumes.contacts;
+    if (event.kind != StepEventKind::sweep || event.cut == 0 || !is_detection(out.events[i + 1])) continue;
+    if (reference::depth_of(*contacts, *in.topology, event.position, in.scene->settings.contact_radius) ==
+        reference::Depth::deep)
+      out.events.erase(out.events.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  }
+}
+
 /// The right step, with what only volumes show.
 Fault about_volumes(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
   return shown_by("volume", spoiled(name, spoil));
@@ -257,6 +270,7 @@ std::vector<Fault> step_faults() {
       about_volumes("contacts with volumes found at y", ask_volumes_at_targets),
       about_volumes("contacts with volumes of the first detection kept", keep_contacts_with_volumes),
       about_volumes("volumes that lag", let_volumes_lag),
+      about_volumes("a vertex left inside asks nothing", ask_nothing_inside),
       bounded_volumes(),
   };
   for (Fault& fault : pair_guess_faults()) faults.push_back(std::move(fault));

@@ -91,7 +91,7 @@ OGC_HD inline Part<LoadRod, AddRod> rods_if_any(const SweepView& view, int slot,
 /// As GatherEveryModel, with tetrahedra, volumes and segments, where there are any, as parts between springs and
 /// contacts. `Weights`: of contacts, as ContactParts has them.
 template <class Weights>
-struct GatherAnything {
+struct GatherAnything : KnowsVolumes {
   static constexpr int parts = GatherEveryModel::parts + 3;  ///< of the sum
 
   template <class Team>

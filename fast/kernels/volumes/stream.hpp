@@ -45,8 +45,34 @@ OGC_HD inline Part<LoadVolumeContact, AddVolumeContact> volume_part(const SweepV
               AddVolumeContact{view, own, view.start[v]});
 }
 
+/// From this share of r on a vertex is deep inside a volume (compare/volumes.md, The step).
+inline constexpr float deep_share = 0.5F;
+
+/// Whether x, of the vertex of a slot, lies deep inside a volume by what one of its contacts froze: φ < −r/2. Corners
+/// stand still while others are solved.
+OGC_HD inline bool lies_deep_in_volume(const SweepView& view, int slot, const Vec& x) {
+  const VolumeStream& volumes = view.volumes;
+  if (volumes.counts == nullptr) return false;
+  const float deep = -deep_share * view.contact_radius;
+  for (int k = 0; k < volumes.counts[slot]; ++k) {
+    const VolumeIncidence& incidence = volumes.contacts[slot * volumes.capacity + k];
+    Vec at[4] = {x};
+    for (int i = 0; i < 3; ++i) at[i + 1] = view.read(~incidence.corner[i]);
+    if (dot(incidence.contact.normal, volume_separation(incidence.contact, at)) < deep) return true;
+  }
+  return false;
+}
+
+/// A sum over the stencils of a vertex that may have contacts with volumes.
+struct KnowsVolumes {
+  /// As lies_deep_in_volume.
+  OGC_HD static bool lies_deep(const SweepView& view, int slot, const Vec& x) {
+    return lies_deep_in_volume(view, slot, x);
+  }
+};
+
 /// As GatherEveryModel, with volumes as a part between springs and contacts.
-struct GatherVolumes {
+struct GatherVolumes : KnowsVolumes {
   static constexpr int parts = GatherEveryModel::parts + 1;  ///< of the sum
 
   template <class Team>
@@ -58,7 +84,7 @@ struct GatherVolumes {
 };
 
 /// As GatherEverything, with volumes as a part between tetrahedra and contacts.
-struct GatherEverythingAndVolumes {
+struct GatherEverythingAndVolumes : KnowsVolumes {
   static constexpr int parts = GatherEverything::parts + 1;  ///< of the sum
 
   template <class Team>

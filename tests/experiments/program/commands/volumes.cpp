@@ -37,6 +37,19 @@ TEST_CASE("ipc refuses a driven volume by name", "[unit]") {
   CHECK(contains(result.err, {"body 'body' is a volume", "ipc", "leave the body a surface"}));
 }
 
+TEST_CASE("newton: a dress on a volume does not lag, and no panel intersects another", "[unit]") {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_ogc(
+      "run dress --scale smoke --set contact=volume --solver newton --steps 4 --audit every --json --out " +
+      (folder / "run").string());
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  CHECK(json.at("guarantee_kept") == true);
+  CHECK(json.at("largest_lag_m") == 0);
+  CHECK(json.at("volumes").at("most_inside") == 0);
+}
+
 TEST_CASE("a dress on a volume: no lag, no intersection among its panels, and the summary says what is inside",
           "[unit]") {
   const TemporaryFolder folder;
