@@ -108,11 +108,12 @@ TEST_CASE("the row of a step holds what was counted; one that a list stopped or 
   const int contacts[2] = {11, 12};
   ContactView view{};
   view.vertex_facet_count = &contacts[0], view.edge_edge_count = &contacts[1];
-  Sums guess{}, end{};
+  std::array<double, guess_columns + sum_columns> sums{};
+  double *const guess = sums.data(), *const end = guess + guess_columns;
   guess[sum_lost] = 1, guess[sum_moved] = 4;
   end[sum_lost] = 1, end[sum_moved] = 2;
-  for (std::size_t k = 0; k < 2; ++k) end[sum_kinetic + k] = 20.0 + static_cast<double>(k);
-  for (std::size_t k = 0; k < 4; ++k) end[sum_membrane + k] = 30 * std::pow(2.0, static_cast<double>(k));
+  for (int k = 0; k < 2; ++k) end[sum_kinetic + k] = 20.0 + k;
+  for (int k = 0; k < 4; ++k) end[sum_membrane + k] = 30 * std::pow(2.0, k);
   StepControl control;
   control.active = control.attempted = 1;
   control.steps_done = 1;
@@ -120,7 +121,7 @@ TEST_CASE("the row of a step holds what was counted; one that a list stopped or 
   control.query_radius = 7, control.smallest_bound = 8;
   control.largest_lag = float_bits(9.0f);
   StepRow rows[3];
-  FinishStep{&control, view, guess.data(), end.data(), rows}(0);
+  FinishStep{&control, view, sums.data(), rows}(0);
   CHECK(control.steps_done == 2);
   const StepRow& row = rows[1];
   CHECK(row.status == 0);
@@ -130,13 +131,29 @@ TEST_CASE("the row of a step holds what was counted; one that a list stopped or 
   CHECK(std::array{row.lost_guess, row.lost_end, row.kinetic, row.gravity, row.elastic, row.contact} ==
         std::array{0.25, 0.5, 20.0, 21.0, 90.0, 360.0});
   control.status = compare::step_list_grew;
-  FinishStep{&control, view, guess.data(), end.data(), rows}(0);
+  FinishStep{&control, view, sums.data(), rows}(0);
   control.status = 0, control.attempted = 0;
-  FinishStep{&control, view, guess.data(), end.data(), rows}(0);
+  FinishStep{&control, view, sums.data(), rows}(0);
   CHECK(control.steps_done == 2);
   CHECK(rows[2].detections == 0);
   control.active = 0, control.attempted = 1;  // a step that failed: its row stays where it is
-  FinishStep{&control, view, guess.data(), end.data(), rows}(0);
+  FinishStep{&control, view, sums.data(), rows}(0);
   CHECK(control.steps_done == 2);
   CHECK(rows[2].detections == 3);
+}
+
+TEST_CASE("the row of a step with rods has their energy, mean and largest stretch, and nearest contact", "[unit]") {
+  const int contacts[2] = {};
+  ContactView view{};
+  view.vertex_facet_count = &contacts[0], view.edge_edge_count = &contacts[1];
+  std::array<double, guess_columns + sum_columns> sums{};
+  double* const end = sums.data() + guess_columns;
+  end[sum_membrane] = 1, end[sum_rod] = 2, end[sum_stretch] = 6;
+  StepControl control;
+  control.active = control.attempted = 1;
+  control.longest_segment = float_bits(1.75f), control.nearest_contact = 0.25f;
+  StepRow row;
+  FinishStep{&control, view, sums.data(), &row, 4}(0);
+  CHECK(std::array{row.elastic, row.mean_stretch} == std::array{3.0, 1.5});
+  CHECK(std::array{row.largest_stretch, row.smallest_contact} == std::array{0.75f, 0.25f});
 }

@@ -71,6 +71,12 @@ class GuardedBuffer {
   std::size_t size_ = 0, capacity_ = 0;
 };
 
+/// Whether a launch has a step's certificate beside its sums.
+template <class F>
+constexpr bool is_check = false;
+template <class F>
+constexpr bool is_check<Beside<F, CheckVertex>> = true;
+
 class WatchedBackend : public CpuBackend {
  public:
   template <class T>
@@ -89,8 +95,8 @@ class WatchedBackend : public CpuBackend {
   void for_each(int n, F f) {
     note_launch<F>();
     if constexpr (std::is_same_v<F, BeginTriangle>) ++strains_begun;
-    if constexpr (std::is_same_v<F, CheckVertex>) {
-      if (before_check_) before_check_(const_cast<Vec*>(f.position));
+    if constexpr (is_check<F>) {
+      if (before_check_) before_check_(const_cast<Vec*>(f.g.position));
     }
     CpuBackend::for_each(n, f);
   }
