@@ -186,7 +186,7 @@ TEST_CASE(
   refuses("nowhere.so", "", "there is no such file");
   refuses(OGC_SOURCE_DIR "/README.md", "", "it can't be loaded");
   refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
-  refuses(folder + "/libplugin_newer.so", "", "built for version 9");
+  refuses(folder + "/libplugin_newer.so", "", "built for version 10");
   refuses(folder + "/libplugin_older.so", "", "built for version 4");
   refuses(folder + "/libplugin_old_scenes.so", "",
           "built for version 6 of compare/plugin.h, and ogc_sweep takes what version 7 gives");
