@@ -1,5 +1,5 @@
-// A point before the triangles of a volume: how far it is from each, what of that is grey, and what the contact at a face
-// of theirs would be. For volume_depth.cpp and solid_depth.cpp.
+// A point before the triangles of a volume: how far it is from each, what of that is grey, and what the contact at a
+// face of theirs would be. For volume_depth.cpp and solid_depth.cpp.
 #pragma once
 
 #include <vector>
