@@ -204,6 +204,34 @@ CaseData inverted(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
+/// A tetrahedron with one behind each of its sides, most of them turned inside out: where all are, nobody in the first
+/// one has a way, else all ways lead through those that are not.
+CaseData lost(Random& random) {
+  VolumeBody body;
+  body.x = {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}};
+  jitter(random, body, 0.2);
+  const Tetrahedron first{0, 1, 2, 3};
+  body.tetrahedra = {first};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto [a, b, c] = opposite_face(first, k);
+    const Vec3 middle = scaled(sum(sum(body.x[at(a)], body.x[at(b)]), body.x[at(c)]), 1.0 / 3);
+    const double outward = random.one_in(5) ? random.between(0.2, 1) : -random.between(0.05, 0.9);
+    body.x.push_back(sum(middle, scaled(minus(middle, body.x[k]), outward)));
+    body.tetrahedra.push_back({a, b, c, static_cast<Index>(body.x.size()) - 1});
+  }
+  body.triangles = boundary_triangles(body.tetrahedra);
+  Points points;
+  for (int i = 0; i < points_a_volume; ++i) {
+    Vec3 x;
+    double whole = 0;
+    std::array<double, 4> w{};
+    for (double& share : w) whole += share = random.between(0.02, 1);
+    for (std::size_t k = 0; k < 4; ++k) x = sum(x, scaled(body.x[k], w[k] / whole));
+    points.push_back(x);
+  }
+  return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
+}
+
 /// The vertices of a body that lies in itself, or does not, ask it.
 CaseData own(Random& random) {
   VolumeBody body = random.one_in(4) ? some_solid(random)
@@ -255,15 +283,16 @@ CaseData mixed(Random& random) {
                 [](Random& r, const Place&, double radius) { return r.sign() * radius * r.between(0, 1.1); });
 }
 
-constexpr std::array<Generator, 9> table{{{"solid", 12, true, solid},
-                                          {"solid.grid", 8, false, grid},
-                                          {"ladder.ray", 8, false, ray},
-                                          {"ladder.sheets", 8, false, sheets},
-                                          {"ladder.inverted", 8, false, inverted},
-                                          {"ladder.own", 8, false, own},
-                                          {"ladder.solid_surface", 8, false, surface},
-                                          {"ladder.solid_medial", 6, false, medial},
-                                          {"ladder.solids", 6, false, mixed}}};
+constexpr std::array<Generator, 10> table{{{"solid", 12, true, solid},
+                                           {"solid.grid", 8, false, grid},
+                                           {"ladder.ray", 8, false, ray},
+                                           {"ladder.sheets", 8, false, sheets},
+                                           {"ladder.inverted", 8, false, inverted},
+                                           {"ladder.lost", 6, false, lost},
+                                           {"ladder.own", 8, false, own},
+                                           {"ladder.solid_surface", 8, false, surface},
+                                           {"ladder.solid_medial", 6, false, medial},
+                                           {"ladder.solids", 6, false, mixed}}};
 
 }  // namespace
 
