@@ -82,6 +82,14 @@ def beside(run, average, maximum):
     return row
 
 
+def penetration(run):
+    """Share of vertices that end a step cut, how far prescribed ones lag, and of bodies that are entered who is inside,
+    as the solver counts it."""
+    columns = {"at bound, most [1]": "share_cut", "largest lag [m]": "largest_lag",
+               "vertices inside, most": "vertices_inside", "deepest [m]": "deepest"}
+    return {name: max(run.column(column)) if run and column in run.columns else "" for name, column in columns.items()}
+
+
 def sizes(run):
     scene = run.manifest["scene"]
     return {"vertices": scene["vertices"], "triangles": scene["triangles"],
@@ -101,7 +109,7 @@ def device_row(scene, runs, memory="", left=None):
             **beside(run, statistics.median(averages), statistics.median(maxima)), "steps": steps, "of steps": wanted,
             "runs": len(runs), "windows [ms]": "",
             "repeated steps": max(repeats), "contacts, average": statistics.fmean(found),
-            "contacts, maximum": max(found),
+            "contacts, maximum": max(found), **penetration(run),
             "audited states": f"{run.audited_states}, {audit}", "audit [s]": run.afterwards.get("seconds", ""),
             **(left or {STALE: "", FRESH: ""}), "device memory [MiB]": memory}
 
@@ -121,7 +129,7 @@ def cpu_row(scene, windows, wanted):
             "steps": sum(len(run.column("step")) for run in windows), "of steps": wanted, "runs": len(windows),
             "windows [ms]": each,
             "repeated steps": sum(repeats), "contacts, average": statistics.fmean(found),
-            "contacts, maximum": max(found),
+            "contacts, maximum": max(found), **dict.fromkeys(penetration(None), ""),
             "audited states": "windows: not audited", "audit [s]": "", STALE: "", FRESH: "",
             "device memory [MiB]": ""}
 

@@ -182,20 +182,24 @@ def activations(scale, backend):
 MAT, MAT_PLANES = "mat_twist", "mat_twist_planes"
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
                "robot_shirt": 10, MAT: 4, "yarn_stretch": 41, "yarn_twist": 41}
-WITH_PLANES = "_planes"  # ends a row's name
-ROWS = tuple(scene + end for scene in FRAME_STEPS for end in ("", WITH_PLANES))
+WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # end a row's name
+# Bodies that are entered and push out; layers of the dress that move with its dancer keep their motion by pairs alone.
+VOLUMES = {"dress": ("--set", "contact=volume", "--set", "guess=pairs"), "robot_shirt": ("--set", "contact=volume")}
+ROWS = tuple(scene + end for scene in FRAME_STEPS
+             for end in ("", WITH_PLANES, *([WITH_VOLUMES] if scene in VOLUMES else [])))
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
 
 
 def scene_of(row):
-    """Each scene has a row with the paper's bounds, called as it is, and one with planes."""
-    return row.removesuffix(WITH_PLANES)
+    """Each scene has a row with the paper's bounds, called as it is, and one with planes; where a body moves, one with
+    that body as a volume, too."""
+    return row.removesuffix(WITH_PLANES).removesuffix(WITH_VOLUMES)
 
 
 def of_row(row, data):
     """The dress is a stand-in without the data of Codimensional IPC."""
-    bounds = PLANES if row.endswith(WITH_PLANES) else ()
-    return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *bounds)
+    own = PLANES if row.endswith(WITH_PLANES) else VOLUMES[scene_of(row)] if row.endswith(WITH_VOLUMES) else ()
+    return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *own)
 
 
 def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data="", folder=""):
