@@ -1,6 +1,6 @@
 // Stage volume_depth: which parts of a volume hold a point, or are nearer than r to it: face, weights, direction and
-// depth of each contact (§3.9; method.md §9). A part is of triangles, or of tetrahedra: then it may hold a point several
-// times over, once in each *sheet*.
+// depth of each contact (§3.9; method.md §9). A part is of triangles, or of tetrahedra: then it may hold a point
+// several times over, once in each *sheet*.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct VolumeContact {
 /// simplex whose interior holds it; closed tetrahedra hold it. Its contact is at the end of its shortest way: of all
 /// segments from x to the closest point of a boundary triangle whose tetrahedron is positive, along which the complex
 /// can be traversed, from one tetrahedron to another that shares the point of the segment with it, the shortest one; of
-/// equals that to the lowest-dimensional, then the lowest-numbered face. Ways of two sheets to one face are one contact.
+/// equals that to the lowest-dimensional, then the lowest-numbered face. Ways of two sheets to a face are one contact.
 /// A sheet without any way has no contact. Where there is no sheet, x is outside. Sheets of tetrahedra that contain the
 /// vertex that asks, and faces that do, do not count. Outside a face around which some triangle is of a tetrahedron
 /// without positive volume either side is right: the surface is folded there.

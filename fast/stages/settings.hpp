@@ -6,8 +6,8 @@
 namespace ogc::fast {
 
 /// Largest margin of the pairs that detections of a simulation keep and look at again (fast/stages/skin.hpp), as a
-/// share of r; 0: each searches. Where the scene leaves `skin` out it is usual_skin for rods without triangles. It
-/// changes the time alone. Throws compare::InputError where the trees are needed at each detection.
+/// share of r; 0: each searches. It changes the time alone. Throws compare::InputError where the trees are needed at
+/// each detection.
 float skin_share(const compare::Scene& scene);
 
 }  // namespace ogc::fast

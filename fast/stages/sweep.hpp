@@ -22,8 +22,11 @@
 namespace ogc::fast {
 
 /// W by number of vertices where Settings::lanes is 0: the same on every backend, because W decides bits. Small meshes
-/// cannot fill a device otherwise.
-inline int default_lanes(std::size_t vertices) { return vertices <= 20000 ? 16 : (vertices <= 300000 ? 8 : 4); }
+/// cannot fill a device otherwise. `curves`: nothing but rods, whose vertices have two segments and few contacts each.
+inline int default_lanes(std::size_t vertices, bool curves = false) {
+  if (curves) return 2;
+  return vertices <= 20000 ? 16 : (vertices <= 300000 ? 8 : 4);
+}
 
 /// The streams on the host, slot by slot in the order of the colouring.
 struct SweepStreams {
@@ -265,7 +268,10 @@ class Sweep {
         colour_begin_(colouring.begin),
         colours_(colouring.count),
         vertex_count_(static_cast<int>(rest.mass.size())),
-        lanes_(scene.settings.lanes > 0 ? static_cast<int>(scene.settings.lanes) : default_lanes(rest.mass.size())),
+        lanes_(scene.settings.lanes > 0
+                   ? static_cast<int>(scene.settings.lanes)
+                   : default_lanes(rest.mass.size(),
+                                   !rest.rods.empty() && rest.triangles.empty() && rest.tetrahedra.empty())),
         sum_(needed_sum(rest, scene)),
         activation_(rest.activation),
         rods_(rest, colouring, segments, scene.settings) {

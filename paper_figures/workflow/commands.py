@@ -183,8 +183,7 @@ MAT, MAT_PLANES = "mat_twist", "mat_twist_planes"
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
                "robot_shirt": 10, MAT: 4, "yarn_stretch": 41, "yarn_twist": 41}
 WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # end a row's name
-# Bodies that are entered and push out; layers of the dress that move with its dancer keep their motion by pairs alone.
-VOLUMES = {"dress": ("--set", "contact=volume", "--set", "guess=pairs"), "robot_shirt": ("--set", "contact=volume")}
+VOLUMES = ("dress", "robot_shirt")  # scenes whose body may be entered and pushes out
 ROWS = tuple(scene + end for scene in FRAME_STEPS
              for end in ("", WITH_PLANES, *([WITH_VOLUMES] if scene in VOLUMES else [])))
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
@@ -198,7 +197,7 @@ def scene_of(row):
 
 def of_row(row, data):
     """The dress is a stand-in without the data of Codimensional IPC."""
-    own = PLANES if row.endswith(WITH_PLANES) else VOLUMES[scene_of(row)] if row.endswith(WITH_VOLUMES) else ()
+    own = PLANES if row.endswith(WITH_PLANES) else ("--set", "contact=volume") if row.endswith(WITH_VOLUMES) else ()
     return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *own)
 
 
@@ -463,7 +462,8 @@ def yarn_twisted(scale, backend):
         audit = ("--audit", "frame" if kind == "ogc" else "off")
         released = Job(f"{kind}_released", (*let_go, *audit, *options), (kind, -1), steps, scene=scene,
                        may_fail=kind == "baseline")
-        yield *yarn(YARN_TWIST, kind, scale, backend, kind), released
+        twisted, *asked = yarn(YARN_TWIST, kind, scale, backend, kind)
+        yield twisted, released, *asked
     yield (Job("hanging", (*let_go, "--audit", "frame", "--steps", steps), scene=scene),)
 
 

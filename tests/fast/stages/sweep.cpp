@@ -493,6 +493,7 @@ TEST_CASE("sums have as many lanes as a scene asks for, or else as its size does
   CHECK(default_lanes(20001) == 8);
   CHECK(default_lanes(300000) == 8);
   CHECK(default_lanes(300001) == 4);
+  CHECK(default_lanes(1, true) == 2);
   CHECK(Fixture(false, 0).sweep->lanes() == 16);
   for (const int lanes : {1, 2, 4, 8, 16, 32}) CHECK(Fixture(false, lanes).sweep->lanes() == lanes);
 }

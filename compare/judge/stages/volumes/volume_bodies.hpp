@@ -48,7 +48,7 @@ Place any_place(Random& random, const VolumeBody& body);
 using Points = std::vector<Vec3>;
 
 /// Turned by a symmetry of the cube, in half of the cases rotated, and scaled; triangles stay counterclockwise and
-/// volumes positive. Numbers mean nothing: triangles are shuffled. `own`: by point, the vertex that it is, or −1; empty:
+/// volumes positive. Numbers mean nothing: triangles are shuffled. `own`: by point, the vertex that it is or −1; empty:
 /// none is any.
 VolumeDepthCase placed(Random& random, VolumeBody body, Points points, double radius, bool may_turn, double scale,
                        std::vector<Index> own = {});
