@@ -28,7 +28,7 @@ TOP = {"compare", "reference", "fast", "experiments", "plots", "paper_figures", 
 
 PROBLEM = ("compare/problem/", "compare/stages/")
 FILES = PROBLEM + ("compare/files/", "compare/record/")
-CONTESTANT = ("compare/contestant.hpp",)
+CONTESTANT = ("compare/contestant.hpp", "compare/way.hpp")
 CASES = FILES + CONTESTANT + ("compare/judge/cases/",)
 ENGINE = CASES + ("compare/judge/engine/",)
 REPORT = ENGINE + ("compare/judge/report/",)
@@ -38,6 +38,7 @@ PROJECT = {
     "compare/problem": PROBLEM,
     "compare/stages": PROBLEM,
     "compare/contestant.hpp": PROBLEM,
+    "compare/way.hpp": CONTESTANT,
     "compare/files": FILES,
     "compare/record": FILES + CONTESTANT,
     # Each may include those before it; nobody includes a stage, which the list in cases/ points to.

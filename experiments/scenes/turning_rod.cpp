@@ -26,6 +26,7 @@ compare::Scene turning_rod(const TurningRodSizes& sizes) {
   scene.settings.time_step = 4e-4;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 4;
+  scene.settings.frame_steps = 20;
   scene.settings.contact_radius = 3e-3;
   return scene;
 }

@@ -240,7 +240,8 @@ QUALITY_ITERATIONS = {"twist": 40, "cloth_on_sphere": 160, "knot": 100, "fifty_l
                       "robot_shirt": 40, MAT: 80}
 QUALITY_TIMED_STEPS = 5  # without a look at each iteration, which takes time of its own
 CONTACT_RULES = {"update": (), "iteration": ("--set", "contact_weights=iteration")}
-QUALITY_ROWS = tuple(row for row in ROWS if scene_of(row) in QUALITY_ITERATIONS)
+QUALITY_ROWS = tuple(row for row in ROWS
+                     if scene_of(row) in QUALITY_ITERATIONS and not row.endswith(WITH_VOLUMES))
 
 
 def quality_kind(rule):

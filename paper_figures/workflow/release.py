@@ -1,12 +1,35 @@
 """`yarn_twist` without the motion that turns it, as a scene file: what was twisted is let go, or hangs as it is from
-the start. Python's own library is enough.
+the start. The bights that the motion held are cast on, that is joined by springs, each to the next: nothing else holds
+the first row of a knit, and it runs out under its own weight, twisted or not. Python's own library is enough.
 """
 
 import json
 import subprocess
 from dataclasses import dataclass
 
-SCENE, TURNED = "yarn_twist", "lower"
+SCENE, TURNED, YARN = "yarn_twist", "lower", "yarn"
+BIGHT = 0.4 / 33  # [m] between two bights of a row (experiments/scenes/yarn.cpp)
+STIFFNESS = 10  # N/m: 33 of them side by side bear the cloth, 0.7 N, and lengthen by 2 mm each
+
+
+def bights(vertices):
+    """The middle vertex of each bight of the first row, in order: of each run of consecutive vertices but short ones
+    between bights, where the next row reaches down to the edge."""
+    runs, run = [], []
+    for v in sorted(vertices):
+        if run and v != run[-1] + 1:
+            runs.append(run)
+            run = []
+        run.append(v)
+    runs.append(run)
+    return [run[len(run) // 2] for run in runs if 2 * len(run) > max(map(len, runs))]
+
+
+def cast_on(motion):
+    """Springs between the bights that the motion held."""
+    held = bights(v for part in motion["vertices"] for v in part["indices"])
+    return [{"first": {"body": YARN, "index": a}, "second": {"body": YARN, "index": b}, "stiffness": STIFFNESS,
+             "rest_length": BIGHT, "damping": 0} for a, b in zip(held, held[1:])]
 
 
 @dataclass(frozen=True)
@@ -27,6 +50,8 @@ class Release:
         subprocess.run([str(program), "scenes", SCENE, "--scale", self.scale, "--write", str(path.parent)], check=True,
                        stdout=subprocess.DEVNULL)
         scene = json.loads(path.read_text())
+        turned = next(motion for motion in scene["motions"] if motion["name"] == TURNED)
+        scene["springs"] = [*scene.get("springs", []), *cast_on(turned)]
         scene["motions"] = [motion for motion in scene["motions"] if motion["name"] != TURNED]
         scene["name"] = f"{SCENE}_released"
         path.write_text(json.dumps(scene, indent=1))

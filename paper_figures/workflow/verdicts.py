@@ -110,12 +110,17 @@ def within(value, printed, band):
     return (low is None or value >= low) and (high is None or value <= high)
 
 
+def _is_empty(measure, measured):
+    """Whether it is a cell of a table that says nothing."""
+    return "table" in measure and math.isnan(measured.value)
+
+
 def judge(claim, evidence):
     if "measure" not in claim:
         return Judgement(claim, "not comparable", None, claim["why"])
     wanted = {"scene": claim["scene"], **claim.get("run", {})}
     measured = evidence.measure(claim["measure"], wanted)
-    if measured is None:
+    if measured is None or _is_empty(claim["measure"], measured):
         return Judgement(claim, "not yet run", None, _elsewhere(claim, evidence))
     if "band" not in claim:
         return Judgement(claim, "not comparable", measured,

@@ -127,8 +127,8 @@ TEST_CASE("a setting that a scene can't have is refused by name with its range a
                 {"stvk", "did you mean 'st_venant_kirchhoff'?", "none", "stable_neo_hookean"});
   check_refused("run yarn_stretch --scale smoke --set orientation=published", {"orientation", "exact", "as_published"});
   check_refused("run yarn_stretch --scale smoke --set start_frames=0", {"start_frames", "turned", "kept"});
-  check_refused("run twist --scale smoke --solver penalty", {"--solver", "penalty", "vbd", "newton", "ipc"});
-  CHECK(!contains(run_ogc("run --help").out, {"penalty"}));
+  check_refused("run twist --scale smoke --solver admm", {"--solver", "admm", "vbd", "newton", "ipc", "penalty"});
+  CHECK(!contains(run_ogc("run --help").out, {"admm"}));
   const ProgramResult unknown = run_ogc("run twist --scale smoke --set h=0.01");
   CHECK(unknown.status == 2);
   const std::string first =

@@ -174,7 +174,7 @@ TEST_CASE("wrong settings, files and options of a run exit 2 and say what to do"
   fails("twist --scale smoke --set iterations", {"key=value"});
   fails("twist --scale huge", {"huge", "smoke"});
   fails("twist --scale smoke --steps 0", {"--steps"});
-  fails("twist --scale smoke --solver penalty", {"penalty", "vbd", "newton", "ipc"});
+  fails("twist --scale smoke --solver admm", {"admm", "vbd", "newton", "ipc"});
   fails("twist --scale smoke --solver newton --backend cuda", {"newton", "CPU"});
   fails("twist --scale smoke --condition", {"--condition", "newton"});
   fails("twist --scale smoke --solver reference_vbd --backend cuda", {"reference_vbd", "CPU"});

@@ -188,10 +188,10 @@ def main():
         for job in jobs(options.scale, options.backend):
             job.make(options.ogc, options.folder, shown=True)
     except RunFailure as error:
-        sys.exit(f"ablation_friction: {error}")
+        sys.exit(f"creep: {error}")
     runs = finished(options.folder)
-    write_table(options.folder / "ablation_friction.csv", [row_of(*item) for item in runs.items()])
-    draw(runs, options.folder / "ablation_friction.png")
+    write_table(options.folder / "creep.csv", [row_of(*item) for item in runs.items()])
+    draw(runs, options.folder / "creep.png")
 
 
 if __name__ == "__main__":
