@@ -158,8 +158,8 @@ def far(runs):
 
 
 def table(runs, how_far):
-    """A row a run, its windows in it; empty cells where nothing was asked or found. A distance from the cloth that hangs
-    counts where both are at rest."""
+    """A row a run, its windows in it; empty cells where nothing was asked or found. A distance from the cloth that
+    hangs counts where both are at rest."""
     shares = {"median": 50, "nine vertices in ten within": 90, "largest": 100}
     rows, speeds = [], {name: speed(runs[name]) for name in how_far.keys() | ({"hanging"} & runs.keys())}
     for name, run in runs.items():

@@ -176,7 +176,7 @@ class Drawn(unittest.TestCase):
         rows = ["ogc", "ogc_released", "baseline", "baseline_released", "hanging"]
         found = self.drawn(commands.YARN_TWIST, rows)
         self.assertEqual((found["ogc_released"]["first step"], found["ogc_released"]["last step"]), ("101", "160"))
-        self.assertGreater(float(found["ogc_released"]["distance, largest [m]"]), 0)
+        self.assertGreater(float(found["ogc_released"]["distance while it moves, largest [m]"]), 0)
         self.assertEqual(found["hanging"]["distance, largest [m]"], "")
 
 

@@ -71,9 +71,10 @@ TEST_CASE("the smoke runs of all scenes keep the guarantee and leave a readable 
     CHECK(last.step == reader.scene().settings.steps);
     CHECK(experiments::state_hash(last.positions) == json.at("final_hash"));
     CHECK(reader.frame(0).positions == compare::to_single(reader.scene().mesh.positions));
-    // A scene about contact that has none shows nothing.
-    CHECK(std::ranges::any_of(compare::read_steps(folder / "run").rows,
-                              [](const auto& row) { return row.vertex_facet_contacts + row.edge_edge_contacts > 0; }));
+    // A scene about contact that has none shows nothing; one is about frames of rods.
+    CHECK((name == "turning_rod" || std::ranges::any_of(compare::read_steps(folder / "run").rows, [](const auto& row) {
+             return row.vertex_facet_contacts + row.edge_edge_contacts > 0;
+           })));
     const ProgramResult audit = run_ogc("audit --json " + (folder / "run").string());
     CHECK(audit.status == 0);
     CHECK(nlohmann::json::parse(audit.out).at("states").size() == reader.frame_count());
@@ -130,8 +131,8 @@ TEST_CASE("the option --set reaches the run and its folder", "[unit]") {
 TEST_CASE("an activation, a model or a form of damping that is set is the one that runs", "[property]") {
   const TemporaryFolder folder;
   const std::vector<std::string> choices{
-      "activation=ogc",   "activation=ogc_as_printed",   "activation=quadratic",        "activation=ipc_log",
-      "activation=cubic", "membrane=stable_neo_hookean", "bending=isometric_quadratic", "damping=per_vertex",
+      "activation=ogc",           "activation=ogc_as_printed",   "activation=quadratic",        "activation=ipc_log",
+      "activation=cubic",         "membrane=stable_neo_hookean", "bending=isometric_quadratic", "damping=per_vertex",
       "contact_weights=iteration"};
   std::set<nlohmann::json> hashes;
   for (const std::string& choice : choices)
