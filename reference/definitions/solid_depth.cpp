@@ -377,14 +377,7 @@ VolumePartTruth SolidPart::part(const std::vector<Index>& triangles) {
     truth.sheets.push_back(sheets_of(group, triangles));
   }
   if (!truth.may_be_outside) return truth;
-  double least = INFINITY, below = INFINITY;  // the smallest distance, and an upper bound of it
-  for (const Index t : triangles) {
-    least = std::min(least, faces_.distance[at(t)]);
-    below = std::min(below, faces_.distance[at(t)] + doubt(t));
-  }
-  std::vector<Index> candidates;
-  for (const Index t : triangles)
-    if (faces_.distance[at(t)] - doubt(t) <= below) candidates.push_back(t);
+  const auto [least, candidates] = nearest_of(triangles);
   const Face nearest = exactly_nearest(candidates);
   const bool faces_in = !begins_outside(mesh_, nearest, x_), on_surface = is_on_surface(candidates);
   touch(triangles, nearest, faces_in, truth);

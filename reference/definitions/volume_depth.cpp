@@ -34,14 +34,7 @@ class TrianglePart : public VolumeFaces {
 
   VolumePartTruth part(const std::vector<Index>& triangles) {
     VolumePartTruth truth;
-    double least = INFINITY, below = INFINITY;  // the smallest distance, and an upper bound of it
-    for (const Index t : triangles) {
-      least = std::min(least, faces_.distance[at(t)]);
-      below = std::min(below, faces_.distance[at(t)] + doubt(t));
-    }
-    std::vector<Index> candidates;
-    for (const Index t : triangles)
-      if (faces_.distance[at(t)] - doubt(t) <= below) candidates.push_back(t);
+    const auto [least, candidates] = nearest_of(triangles);
     const Face nearest = exactly_nearest(candidates);
     const bool on_surface = is_on_surface(candidates);
     const bool in_box = in_box_of(mesh_, triangles, x_), faces_in = !begins_outside(mesh_, nearest, x_);

@@ -52,6 +52,18 @@ double VolumeFaces::spread(Index t) const {
   return norm_1(x_, origin) + norm_1(mesh_.at(b), origin) + norm_1(mesh_.at(c), origin);
 }
 
+VolumeFaces::Candidates VolumeFaces::nearest_of(const std::vector<Index>& triangles) const {
+  Candidates nearest{INFINITY, {}};
+  double below = INFINITY;  // an upper bound of the smallest distance
+  for (const Index t : triangles) {
+    nearest.least = std::min(nearest.least, faces_.distance[at(t)]);
+    below = std::min(below, faces_.distance[at(t)] + doubt(t));
+  }
+  for (const Index t : triangles)
+    if (faces_.distance[at(t)] - doubt(t) <= below) nearest.triangles.push_back(t);
+  return nearest;
+}
+
 bool VolumeFaces::is_on_surface(const std::vector<Index>& candidates) const {
   return std::ranges::any_of(candidates, [&](Index t) { return faces_.distance[at(t)] <= doubt(t); });
 }

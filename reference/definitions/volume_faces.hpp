@@ -23,6 +23,12 @@ class VolumeFaces {
  protected:
   /// What a distance is off at most where it is grey: 16 u of the coordinates relative to the triangle's first corner.
   double doubt(Index t) const;
+  /// The smallest distance to triangles, and those that may have it.
+  struct Candidates {
+    double least;
+    std::vector<Index> triangles;
+  };
+  Candidates nearest_of(const std::vector<Index>& triangles) const;
   bool is_on_surface(const std::vector<Index>& candidates) const;
   Face exactly_nearest(const std::vector<Index>& triangles) const;
   Face face_of(Index t, int feature) const;

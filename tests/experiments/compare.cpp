@@ -1,10 +1,12 @@
 // The judge with both sides at hand: it passes the exact contestant, catches every planted fault, and `ogc compare`
 // says so.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -38,6 +40,26 @@ std::string first_mismatch(const StageReport& report) {
   return print_problem(report.tally.mismatches[0].name) + ": " + report.tally.mismatches[0].message;
 }
 
+/// All faults that are planted in these stages.
+void check_caught(const std::vector<Stage>& stages) {
+  const Authority authority = reference::authority();
+  for (const tests::Fault& fault : tests::faults()) {
+    if (std::ranges::find(stages, fault.stage) == stages.end()) continue;
+    Contestant wrong = tests::exact_contestant(authority);
+    fault.plant(wrong, authority);
+    JudgeOptions options = few_cases(fault.stage);
+    options.generator = fault.generator;
+    // A fault that one generator alone can show needs scenes enough of it.
+    const std::uint64_t most = (fault.generator.empty() ? 1 : 20) * options.cases;
+    std::uint64_t found = 0;
+    // Most are found in a few cases; all are asked for the others alone.
+    for (options.cases /= 20; found == 0 && options.cases <= most; options.cases *= 20)
+      found = judge_stage(fault.stage, wrong, authority, options).tally.mismatched;
+    INFO(fault.name);
+    CHECK(found > 0);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("the exact answers pass their own judge", "[agreement]") {
@@ -63,22 +85,14 @@ TEST_CASE("a right guess by pairs of another make passes the judge", "[agreement
   }
 }
 
-TEST_CASE("the judge catches every planted fault", "[agreement]") {
-  const Authority authority = reference::authority();
-  for (const tests::Fault& fault : tests::faults()) {
-    Contestant wrong = tests::exact_contestant(authority);
-    fault.plant(wrong, authority);
-    JudgeOptions options = few_cases(fault.stage);
-    options.generator = fault.generator;
-    // A fault that one generator alone can show needs scenes enough of it.
-    const std::uint64_t most = (fault.generator.empty() ? 1 : 20) * options.cases;
-    std::uint64_t found = 0;
-    // Most are found in a few cases; all are asked for the others alone.
-    for (options.cases /= 20; found == 0 && options.cases <= most; options.cases *= 20)
-      found = judge_stage(fault.stage, wrong, authority, options).tally.mismatched;
-    INFO(fault.name);
-    CHECK(found > 0);
-  }
+TEST_CASE("the judge catches every planted fault of a step", "[agreement]") { check_caught({Stage::step}); }
+
+TEST_CASE("the judge catches every planted fault of a sweep", "[agreement]") { check_caught({Stage::sweep}); }
+
+TEST_CASE("the judge catches every planted fault of all other stages", "[agreement]") {
+  std::vector<Stage> others(std::begin(all_stages), std::end(all_stages));
+  std::erase_if(others, [](Stage stage) { return stage == Stage::step || stage == Stage::sweep; });
+  check_caught(others);
 }
 
 TEST_CASE("a report does not depend on the number of threads", "[agreement]") {

@@ -169,7 +169,7 @@ def draw(runs, out):
         axes.set(xscale="log", yscale="log", xlabel="predicted [m/s]", ylabel="speed in the second half [m/s]",
                  title=title)
     for axes in (over_time, creep, other):
-        axes.legend(fontsize=5)
+        axes.legend(fontsize=5, loc="lower right")
     style.save(figure, out)
 
 

@@ -1,11 +1,8 @@
 // Our own kernels of impacts, barriers and volumes behind the C interface: right, so that what the structures carry is
 // known to be enough, and wrong where the environment variable OGC_BROKEN says.
 #include <algorithm>
-#include <cstdlib>
-#include <string_view>
 
-#include "compare/plugin.h"
-#include "fast/contestant.hpp"
+#include "tests/experiments/plugins/ours.hpp"
 
 OGC_PLUGIN("our impacts", OGC_HOST_MEMORY)
 
@@ -13,18 +10,7 @@ namespace {
 
 using namespace ogc;
 using namespace ogc::compare;
-
-const Contestant& ours() {
-  static const Contestant contestant = fast::contestant(fast::Backend::cpu);
-  return contestant;
-}
-
-bool breaks(std::string_view how) {
-  const char* const wanted = std::getenv("OGC_BROKEN");
-  return wanted && how == wanted;
-}
-
-Vec3f point(const ogc_vec3& p) { return {p.x, p.y, p.z}; }
+using namespace ogc::tests;
 
 template <std::size_t n>
 void copy(const ogc_vec3 (&from)[n], std::array<Vec3f, n>& to) {

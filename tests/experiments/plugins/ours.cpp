@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <string_view>
 
-#include "compare/plugin.h"
-#include "fast/contestant.hpp"
+#include "tests/experiments/plugins/ours.hpp"
 
 OGC_PLUGIN("ours", OGC_HOST_MEMORY)
 
@@ -18,18 +15,8 @@ namespace {
 
 using namespace ogc;
 using namespace ogc::compare;
+using namespace ogc::tests;
 
-const Contestant& ours() {
-  static const Contestant contestant = fast::contestant(fast::Backend::cpu);
-  return contestant;
-}
-
-bool breaks(std::string_view how) {
-  const char* const wanted = std::getenv("OGC_BROKEN");
-  return wanted && how == wanted;
-}
-
-Vec3f point(const ogc_vec3& p) { return {p.x, p.y, p.z}; }
 ogc_vec3 plain(const Vec3f& p) { return {p.x, p.y, p.z}; }
 std::vector<Vec3f> points(const ogc_vec3* p, std::size_t n) {
   std::vector<Vec3f> all;
