@@ -241,7 +241,7 @@ def draw_distances(axes, how_far):
         words = "let go, from the cloth that hangs" if released else "twisted, from its start"
         axes.plot(np.sort(of), 100 * np.arange(1, len(of) + 1) / len(of), style.DASHES[number % 4],
                   label=f"{KINDS[kind]}, {words}")
-    axes.set(xlabel="distance [m]", ylabel="vertices within [%]", title="Distance at the end")
+    axes.set(xlabel="distance [m]", xscale="log", ylabel="vertices within [%]", title="Distance at the end")
     axes.legend(fontsize=6)
 
 
