@@ -91,6 +91,7 @@ void refuse_for_newton(const compare::Scene& scene, const char* solver) {
     throw compare::InputError(
         "setting 'contact_weights' can't be 'iteration' with Newton's method, whose energy is that of the closest "
         "points; give contact_weights=update or --solver vbd");
+  refuse_sweep_variants(scene.settings, solver);
   refuse_solid_volumes(scene, solver);
 }
 

@@ -1,5 +1,5 @@
-"""The report: index.html with every figure, table and claim, and a page a scene with its curves; each file holds its
-pictures and style itself and needs no network.
+"""The report: index.html with every figure, table and claim, a page a scene with its curves, and one of the ablations;
+each file holds its pictures and style itself and needs no network.
 
 It is made of claims, accepted results and recipes, and never edited: the verdicts in it are those of verdicts.py, which
 a test holds it to. Runs that were just made stand beside the accepted ones: their numbers, judged where they are of the
@@ -17,7 +17,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from paper_figures.workflow import recipes, verdicts
+from paper_figures.workflow import ablation_page, recipes, verdicts
 from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError
 
 DEVIATIONS = recipes.ROOT / "compare/deviations.md"
@@ -282,7 +282,8 @@ def write(out, evidence=None, fresh=None):
     figures = [f for f in PAPER_ORDER if any(numbered(n) == f for n in book)
                or any(j.claim["figures"][0] == f for j in judgements)]
     figures += [name for name, recipe in book.items() if "vary" in recipe.body]
-    contents = " · ".join(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"])
+    contents = " · ".join([*(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"]),
+                           f'<a href="{ablation_page.NAME}">ablations</a>'])
     sections = [figure_section(figure, book, judgements, evidence, fresh) for figure in figures]
     beside = (f'<p id="fresh">Beside the accepted results stand {len(fresh.evidence.runs)} finished runs of '
               f"{escape(fresh.folder)}, asked for at scale {escape(fresh.scale)} on {escape(fresh.backend)}.</p>"
@@ -298,7 +299,8 @@ def write(out, evidence=None, fresh=None):
     out.parent.mkdir(parents=True, exist_ok=True)
     scenes = sorted({j.claim["scene"] for j in judgements} | {recipe.scene for recipe in book.values()} - {""})
     pages = {out.with_name(f"{scene}.html"): scene_page(scene, judgements, evidence, fresh) for scene in scenes}
-    written = {out: page("OGC Testbed: report", body), **pages}
+    written = {out: page("OGC Testbed: report", body), **pages,
+               out.with_name(ablation_page.NAME): page("Two settings over each other", ablation_page.body())}
     for path, text in written.items():
         path.write_text(text)
     return list(written)
@@ -319,7 +321,7 @@ def main():
         paths = write(options.out, fresh=fresh)
     except (EvidenceError, recipes.RecipeError) as error:
         sys.exit(f"report: {error}")
-    print(f"{paths[0]} and {len(paths) - 1} pages of scenes, {sum(path.stat().st_size for path in paths) / 2**20:.1f} "
+    print(f"{paths[0]} and {len(paths) - 1} pages beside it, {sum(path.stat().st_size for path in paths) / 2**20:.1f} "
           "MiB")
 
 

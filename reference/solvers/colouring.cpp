@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <random>
 
 namespace ogc::reference {
 
@@ -43,10 +44,29 @@ void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
   }
 }
 
+/// Free vertices in the order in which they are coloured.
+std::vector<Index> order_of(const std::vector<Index>& groups, Colouring rule, std::int64_t seed) {
+  std::vector<Index> order;
+  for (std::size_t v = 0; v < groups.size(); ++v)
+    if (groups[v] == -1) order.push_back(static_cast<Index>(v));
+  if (rule != Colouring::random) return order;
+  // Not std::shuffle: what it draws differs from library to library.
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  for (std::size_t n = order.size(); n > 1; --n) std::swap(order[n - 1], order[random() % n]);
+  return order;
+}
+
 }  // namespace
 
 std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
-                              const std::vector<Index>& groups) {
+                              const std::vector<Index>& groups, Colouring rule) {
+  const std::vector<Index> order = order_of(groups, rule, scene.settings.seed);
+  std::vector<Index> colour(groups.size(), -1);
+  if (rule == Colouring::vertex || rule == Colouring::together) {
+    for (std::size_t k = 0; k < order.size(); ++k)
+      colour[static_cast<std::size_t>(order[k])] = rule == Colouring::vertex ? static_cast<Index>(k) : 0;
+    return colour;
+  }
   std::vector<std::vector<Index>> near(groups.size());
   const auto is_free = [&](Index v) { return groups[static_cast<std::size_t>(v)] == -1; };
   const auto meet = [&](const auto& vertices) {
@@ -62,16 +82,15 @@ std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestSt
     meet(std::array{s.first, s.second});
     if (s.third >= 0) meet(std::array{s.first, s.second, s.third});
   }
-  std::vector<Index> colour(groups.size(), -1);
-  for (std::size_t v = 0; v < groups.size(); ++v) {
-    if (groups[v] != -1) continue;
+  for (const Index own : order) {
+    const auto v = static_cast<std::size_t>(own);
     const auto taken = [&](Index c) {
       return std::any_of(near[v].begin(), near[v].end(),
                          [&](Index w) { return colour[static_cast<std::size_t>(w)] == c; });
     };
     for (colour[v] = 0; taken(colour[v]);) ++colour[v];
   }
-  if (!colour.empty()) rotate(components(near), colour);
+  if (rule == Colouring::turned && !colour.empty()) rotate(components(near), colour);
   return colour;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "compare/problem/volumes.hpp"
+#include "reference/solvers/variants/contact_sets.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/measure.hpp"
 
@@ -48,6 +49,7 @@ ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& t
       exclusions_(exclusions(scene)),
       potential_(scene, topology),
       volumes_(scene, topology),
+      contact_set_(variants_of(settings_).contact_set),
       stage_ms_(stages, 0) {
   bounded_ = static_cast<std::size_t>(compare::bounded_count(topology, exclusions_.groups));
   const std::vector<bool> is_volume = compare::volume_flags(scene);
@@ -91,6 +93,7 @@ void ContactStep::detect_here() {
     const std::vector<Vec3f> displacement = displacements_at(here);
     return detect(scene_, topology_, exclusions_, std::move(here), query_radius, displacement);
   });
+  if (contact_set_ != ContactSet::ogc) timed(detection_stage, [&] { replace_contacts(); });
   regions_ = FeasibleRegions(detected_, settings_.bounds);
   const State centre = widened(detected_.previous);
   for (const std::size_t v : movable_) x_[v] = regions_.inside(v, centre[v], x_[v]).x;
@@ -101,6 +104,17 @@ void ContactStep::detect_here() {
   detect_next_ = false;
   fresh_ = true;
   iterations_since_ = 0;
+}
+
+void ContactStep::replace_contacts() {
+  const std::vector<compare::Index> body = compare::body_of_vertex(scene_);
+  const auto within = [&](double radius) {
+    const compare::DetectIn in{&topology_, exclusions_, detected_.previous, static_cast<float>(radius),
+                               static_cast<float>(radius)};
+    return contact_variant(contact_set_, in, body);
+  };
+  detected_.sets = within(detection_radius(settings_));
+  detected_.active = settings_.contact_margin > 0 ? within(settings_.contact_radius) : detected_.sets;
 }
 
 std::vector<Vec3f> ContactStep::displacements_at(const std::vector<Vec3f>& here) const {

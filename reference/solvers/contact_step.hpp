@@ -10,6 +10,7 @@
 #include "compare/contestant.hpp"
 #include "reference/definitions/scene_volumes.hpp"
 #include "reference/solvers/feasible_regions.hpp"
+#include "reference/solvers/variants/settings.hpp"
 
 namespace ogc::reference {
 
@@ -115,11 +116,14 @@ class ContactStep {
 
   /// What divides gaps at `here` with bounds=dat; else empty.
   std::vector<compare::Vec3f> displacements_at(const std::vector<compare::Vec3f>& here) const;
+  /// In place of the method's contacts, where `contact_set` names others.
+  void replace_contacts();
   bool many(std::size_t cut) const;
   void move_towards_target(std::size_t vertex, std::size_t& cut);
   /// In place of a round that cut many vertices (guess=pairs).
   void guess_by_pairs();
 
+  ContactSet contact_set_;
   /// Prescribed vertices behind their targets, since the last question; whether one has moved since the last
   /// detection; whether one has asked in this step.
   std::size_t lagging_ = 0;

@@ -18,8 +18,13 @@ using compare::Vec3f;
 
 VbdSolver::VbdSolver(const compare::Scene& scene, const compare::Topology& topology,
                      const compare::SimulationOptions& options, std::vector<Index> colour)
-    : ContactStep(scene, topology, options, stage_count), systems_(potential_), colour_(std::move(colour)) {
-  if (colour_.empty()) colour_ = colours_of(scene, potential_.rest(), exclusions_.groups);
+    : ContactStep(scene, topology, options, stage_count),
+      cut_after_(variants_of(settings_).cut_after),
+      systems_(potential_, variants_of(settings_).contact_blocks),
+      colour_(std::move(colour)) {
+  const Colouring rule = variants_of(settings_).colours;
+  if (colour_.empty() || rule != Colouring::turned)
+    colour_ = colours_of(scene, potential_.rest(), exclusions_.groups, rule);
   for (std::size_t v = 0; v < exclusions_.groups.size(); ++v) {
     if ((exclusions_.groups[v] == -1) != (colour_.at(v) >= 0))
       throw std::invalid_argument("reference VBD: a colour for each free vertex, and for no other");
@@ -91,13 +96,27 @@ std::size_t VbdSolver::sweep() {
       const auto v = static_cast<std::size_t>(members[k]);
       const VertexSystem system = systems_.at(members[k], view);
       const auto metric = [&](const Triple<double>& n) { return solved(system, n); };
-      moved[k] = regions_.inside(v, old[v], old[v] + metric(system.force), metric);
+      const Triple<double> wanted = old[v] + metric(system.force);
+      moved[k] = cut_after_ == CutAfter::update ? regions_.inside(v, old[v], wanted, metric)
+                                                : FeasibleRegions::Inside{wanted};
     });
     for (std::size_t k = 0; k < members.size(); ++k) {
       x_[static_cast<std::size_t>(members[k])] = moved[k].x;
       cut += moved[k].cut;
     }
   }
+  return cut_after_ == CutAfter::update ? cut : cut + cut_all(old);
+}
+
+std::size_t VbdSolver::cut_all(const State& old) {
+  std::size_t cut = 0;
+  for (const std::vector<Index>& members : classes_)
+    for (const Index vertex : members) {
+      const auto v = static_cast<std::size_t>(vertex);
+      const FeasibleRegions::Inside inside = regions_.inside(v, old[v], x_[v]);
+      x_[v] = inside.x;
+      cut += inside.cut;
+    }
   return cut;
 }
 

@@ -17,7 +17,7 @@ class VbdSolver : public StepSolver, private ContactStep {
  public:
   /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free, −1 elsewhere; no two
   /// vertices of a membrane, hinge or spring may share one. Empty: colours of its own (colouring.hpp). Throws
-  /// std::invalid_argument where they do not fit the scene.
+  /// std::invalid_argument where they do not fit the scene. The settings of variants/settings.hpp are read.
   VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options,
             std::vector<compare::Index> colour = {});
 
@@ -31,6 +31,7 @@ class VbdSolver : public StepSolver, private ContactStep {
   enum Stage : std::size_t { detection = detection_stage, sweeping, stage_count };
   void iterate();
   std::size_t sweep();
+  std::size_t cut_all(const State& old);  ///< free vertices to their bounds
   bool is_deep_inside() const;  ///< whether a vertex is, by what the last detection froze
   /// Work that needs the meter and costs the step no time; none without one.
   template <class Work>
@@ -38,6 +39,7 @@ class VbdSolver : public StepSolver, private ContactStep {
   void add_row(bool detects);
   bool finite() const;
 
+  CutAfter cut_after_;
   VertexSystems systems_;
   std::vector<compare::Index> colour_;
   std::vector<std::vector<compare::Index>> classes_;  ///< vertices by colour

@@ -115,7 +115,8 @@ void VertexSystems::list(const Terms& terms, Incidences& incidences) const {
     }
 }
 
-VertexSystems::VertexSystems(const Potential& potential) : potential_(potential) {
+VertexSystems::VertexSystems(const Potential& potential, ContactBlocks blocks)
+    : potential_(potential), blocks_(blocks) {
   list(potential.membranes(), membranes_);
   list(potential.hinges(), hinges_);
   list(potential.springs(), springs_);
@@ -160,7 +161,8 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
     Updated updated{};
     for (std::size_t k = 0; k < 4; ++k) {
       const Index u = term.vertex[k];
-      updated[k] = u == vertex || (u >= 0 && x.colour[static_cast<std::size_t>(u)] == x.colour[v]);
+      updated[k] = u == vertex || (blocks_ == ContactBlocks::majorised && u >= 0 &&
+                                   x.colour[static_cast<std::size_t>(u)] == x.colour[v]);
     }
     add_contact(potential_, term, updated, incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }

@@ -11,6 +11,7 @@
 
 #include "reference/energies/vertex_block.hpp"
 #include "reference/solvers/potential.hpp"
+#include "reference/solvers/variants/settings.hpp"
 
 namespace ogc::reference {
 
@@ -37,7 +38,7 @@ struct SweepView {
 class VertexSystems {
  public:
   /// The potential must outlive it.
-  explicit VertexSystems(const Potential& potential);
+  explicit VertexSystems(const Potential& potential, ContactBlocks blocks = ContactBlocks::majorised);
   /// After the potential's contacts have changed.
   void read_contacts();
   /// The system of a free vertex. Friction takes λ, n and w from the positions that are read.
@@ -56,6 +57,7 @@ class VertexSystems {
   void list(const Terms& terms, Incidences& incidences) const;
 
   const Potential& potential_;
+  ContactBlocks blocks_;
   Incidences membranes_, hinges_, springs_, tetrahedra_, contacts_, volumes_;
 };
 

@@ -7,6 +7,7 @@
 #include "compare/problem/error.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
+#include "reference/solvers/variants/settings.hpp"
 
 namespace ogc::experiments {
 namespace {
@@ -49,6 +50,8 @@ SolverOptions options_of(Solver solver) {
 }
 
 void require_settings(Solver solver, std::span<const std::string> assigned, compare::Settings& settings) {
+  if (solver == Solver::vbd || solver == Solver::ipc)
+    reference::refuse_variants(settings, names[static_cast<std::size_t>(solver)]);
   if (!options_of(solver).is_penalty) return;
   for (const auto& [key, value] : {std::pair<std::string, std::string>{"bounds", "off"}, {"activation", "quadratic"}}) {
     for (const std::string& assignment : assigned)

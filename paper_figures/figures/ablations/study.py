@@ -4,7 +4,7 @@ paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCAL
 NAME.yaml beside this file says all: `study` has `jitter` [m], `repeat`, `audit`, and `scenes`, each with `points` (of
 `ogc ablate --point`; the others are held against the first; where they differ by scale, one list a scale), and by
 scale `set` (settings of all points) and `options` (further options of `ogc ablate`); `scales` names those that the
-scene is run at, where it is not at all. FOLDER then holds a folder of `ogc ablate` for each scene, NAME.csv (a row a
+scene is run at, where it is not at all. With `solver` in `study` that one runs it, on the CPU. FOLDER then holds a folder of `ogc ablate` for each scene, NAME.csv (a row a
 scene, metric and point), NAME.txt (findings), NAME.png and NAME.pdf. Cut off and called again, it goes on with the
 run that was cut off."""
 
@@ -23,7 +23,7 @@ from paper_figures.workflow.runs import write_table
 from plots import ablation, style
 
 HERE = Path(__file__).parent
-KEYS = {"jitter", "repeat", "audit", "scenes", "panels"}
+KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver"}
 SCENE_KEYS = {"points", "set", "options", "scales"}
 CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
 PANELS = ("median_step", "detections_a_step", "contacts_a_step", "largest_momentum_lost_end", "smallest_distance",
@@ -63,7 +63,8 @@ def command(study, scene, scale, backend):
     body = study["scenes"][scene]
     points = [word for point in points_at(body, scale) for word in ("--point", point)]
     settings = [word for setting in body.get("set", {}).get(scale, []) for word in ("--set", setting)]
-    return ["ablate", scene, "--scale", scale, "--backend", backend, *settings, "--audit", study["audit"], *points,
+    who = ["--solver", study["solver"]] if "solver" in study else ["--backend", backend]
+    return ["ablate", scene, "--scale", scale, *who, *settings, "--audit", study["audit"], *points,
             "--repeat", str(study["repeat"]), "--jitter", str(study["jitter"]),
             *map(str, body.get("options", {}).get(scale, []))]
 

@@ -1,0 +1,203 @@
+// What ablations put in the place of the method's choices does what it says, and nothing at its defaults.
+#include "reference/solvers/variants/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "compare/problem/error.hpp"
+#include "reference/energies/rest_state.hpp"
+#include "reference/simulation.hpp"
+#include "reference/solvers/colouring.hpp"
+#include "reference/solvers/variants/contact_sets.hpp"
+#include "tests/catch.hpp"
+#include "tests/reference/solvers/runs.hpp"
+
+using namespace ogc;
+using namespace ogc::tests;
+using reference::operator-;
+
+namespace {
+
+/// A level sheet 2 mm above a larger one, whose vertices no two lie above each other.
+compare::Scene level_sheets() {
+  compare::Scene scene;
+  scene.name = "level_sheets";
+  add_sheet(scene, 6, 0.05, 2e-3, false);
+  add_sheet(scene, 9, 0.13, 0, true);
+  for (std::size_t v = 0; v < 36; ++v) {
+    const compare::Vec3 x = scene.mesh.positions[v];
+    scene.mesh.positions[v] = {0.9 * x.x - 0.4 * x.z + 1e-3, x.y, 0.4 * x.x + 0.9 * x.z + 2e-3};
+  }
+  round_to_single(scene);
+  return scene;
+}
+
+compare::DetectIn question(const compare::Scene& scene, const compare::Topology& topology,
+                           const compare::Exclusions& exclusions, const std::vector<compare::Vec3f>& positions) {
+  const auto radius = static_cast<float>(scene.settings.contact_radius);
+  return {&topology, exclusions, positions, radius, radius};
+}
+
+/// Σ‖f_t‖ / Σ‖f‖ of the contact forces on the level sheet's inner vertices: at its rim what lies beside it is pushed
+/// outwards, rightly.
+double tangential_share(const compare::Scene& scene, reference::ContactSet set) {
+  const compare::Topology topology = build_topology(scene);
+  const compare::Exclusions exclusions = compare::exclusions(scene);
+  const std::vector<compare::Vec3f> positions = compare::to_single(scene.mesh.positions);
+  const compare::DetectIn in = question(scene, topology, exclusions, positions);
+  const reference::State x = reference::widened(positions);
+  reference::Potential potential(scene, topology);
+  potential.begin_step(x, x);
+  const auto forces = [&](const reference::ContactSets& sets) {
+    potential.set_contacts(sets, x);
+    return potential.derivatives(x, reference::HessianProjection::none).gradient;
+  };
+  const auto rest = forces({});
+  const auto pushed = forces(
+      set == reference::ContactSet::ogc
+          ? reference::ContactSets{reference::detect(scene, topology, exclusions, positions, in.query_radius).sets}
+          : reference::contact_variant(set, in, body_of_vertex(scene)));
+  double along = 0, all = 0;
+  for (const std::size_t v : {7, 8, 9, 10, 13, 14, 15, 16, 19, 20, 21, 22, 25, 26, 27, 28}) {
+    const auto f = pushed[v] - rest[v];
+    along += std::hypot(f[0], f[2]);
+    all += std::hypot(f[0], f[1], f[2]);
+  }
+  REQUIRE(all > 0);
+  return along / all;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "contact_set: a level sheet above a level one is pushed straight up by the method's contacts and by a distance "
+    "field, and sideways by one contact of each pair of primitives",
+    "[property]") {
+  const compare::Scene scene = level_sheets();
+  // Directions are differences of double closest points, of coordinates below 0.1 m, over a distance of 2 mm.
+  const double rounding = 64 * 0x1p-53 * 0.1 / 2e-3;
+  CHECK(tangential_share(scene, reference::ContactSet::ogc) < rounding);
+  CHECK(tangential_share(scene, reference::ContactSet::distance) < rounding);
+  CHECK(tangential_share(scene, reference::ContactSet::pairs) > 0.01);
+}
+
+TEST_CASE(
+    "contact_set=pairs has every contact of the method but those that the rule for nearly parallel edges adds, and "
+    "lists a face as often as pairs have it closest",
+    "[property]") {
+  compare::Scene scene = two_sheets();
+  scene.settings.contact_radius = 8e-3;
+  round_to_single(scene);
+  const compare::Topology topology = build_topology(scene);
+  const compare::Exclusions exclusions = compare::exclusions(scene);
+  const std::vector<compare::Vec3f> positions = compare::to_single(scene.mesh.positions);
+  const compare::DetectIn in = question(scene, topology, exclusions, positions);
+  const auto ours = reference::detect(scene, topology, exclusions, positions, in.query_radius).sets;
+  const auto all = reference::contact_variant(reference::ContactSet::pairs, in, body_of_vertex(scene));
+  std::multiset<std::pair<compare::Index, compare::Face>> facets;
+  std::multiset<std::pair<compare::Face, compare::Face>> edges;
+  for (const auto& c : all.vertex_facet) facets.insert({c.vertex, c.face});
+  for (const auto& c : all.edge_edge) {
+    CHECK(c.first < c.second);
+    edges.insert({c.first, c.second});
+  }
+  CHECK(ours.vertex_facet.size() > 20);
+  CHECK(ours.edge_edge.size() > 20);
+  for (const auto& c : ours.vertex_facet) CHECK(facets.count({c.vertex, c.face}) > 0);
+  for (const auto& c : ours.edge_edge) CHECK(edges.count({c.first, c.second}) > 0);
+  CHECK(all.vertex_facet.size() > ours.vertex_facet.size());
+  CHECK(std::ranges::any_of(facets, [&](const auto& c) { return facets.count(c) > 1; }));
+}
+
+TEST_CASE("contact_set=distance has for each vertex one contact with each other body, no farther than any pair",
+          "[property]") {
+  compare::Scene scene = two_sheets();
+  scene.settings.contact_radius = 8e-3;
+  round_to_single(scene);
+  const compare::Topology topology = build_topology(scene);
+  const compare::Exclusions exclusions = compare::exclusions(scene);
+  const std::vector<compare::Vec3f> positions = compare::to_single(scene.mesh.positions);
+  const compare::DetectIn in = question(scene, topology, exclusions, positions);
+  const std::vector<compare::Index> body = body_of_vertex(scene);
+  const auto found = reference::contact_variant(reference::ContactSet::distance, in, body);
+  const auto pairs = reference::contact_variant(reference::ContactSet::pairs, in, body);
+  CHECK(found.edge_edge.empty());
+  const reference::State x = reference::widened(positions);
+  const auto distance = [&](const compare::VertexFacetContact& c) {
+    const auto stencil = reference::stencil_of(topology, c);
+    const auto corners = reference::contact_corners(stencil.sides, stencil.vertex, x);
+    const auto apart = separation(reference::closest_form(stencil.sides, corners).weight, corners);
+    return std::hypot(apart[0], apart[1], apart[2]);
+  };
+  std::set<compare::Index> seen;
+  for (const auto& c : found.vertex_facet) {
+    CHECK(seen.insert(c.vertex).second);
+    for (const auto& other : pairs.vertex_facet)
+      if (other.vertex == c.vertex) CHECK(distance(c) <= distance(other) * (1 + 0x1p-22));
+  }
+  for (const auto& c : pairs.vertex_facet) CHECK(seen.count(c.vertex) == 1);
+}
+
+TEST_CASE("colours: greedy and random ones separate stencils, a vertex alone has its own, all together one",
+          "[property]") {
+  compare::Scene scene = two_sheets();
+  scene.bodies[1].fixed = false;
+  round_to_single(scene);
+  const compare::Topology topology = build_topology(scene);
+  const compare::RestStateOut rest = reference::rest_state({&scene, &topology}).exact;
+  const std::vector<compare::Index> groups = rigid_groups(scene);
+  const auto colours = [&](reference::Colouring rule) { return colours_of(scene, rest, groups, rule); };
+  using enum reference::Colouring;
+  for (const auto rule : {greedy, reference::Colouring::random, vertex, turned}) {
+    const auto colour = colours(rule);
+    const auto at = [&](compare::Index v) { return colour[static_cast<std::size_t>(v)]; };
+    for (const compare::Triangle& t : topology.triangles) CHECK(std::set{at(t[0]), at(t[1]), at(t[2])}.size() == 3);
+  }
+  const auto alone = colours(vertex), together = colours(reference::Colouring::together);
+  CHECK(std::set(alone.begin(), alone.end()).size() == alone.size());
+  CHECK(std::ranges::all_of(together, [](compare::Index c) { return c == 0; }));
+  const auto once = colours(reference::Colouring::random);
+  CHECK(once == colours(reference::Colouring::random));
+  scene.settings.seed = 1;
+  CHECK(once != colours(reference::Colouring::random));
+}
+
+TEST_CASE("cut_after=iteration and other contact sets keep vertices in their bounds, and change the step",
+          "[property]") {
+  compare::Scene scene = drop_scene();
+  scene.settings.time_step = 1.0 / 200;
+  const auto end_of = [&](const std::string& name, const std::string& value) {
+    compare::Scene changed = scene;
+    if (!name.empty()) set_setting(changed.settings, name, value);
+    const auto simulation = reference::start_vbd(changed, {});
+    for (int step = 0; step < 12; ++step) {
+      REQUIRE(simulation->advance(1).at(0).status == compare::step_clean);
+      const compare::Snapshot now = simulation->snapshot();
+      for (std::size_t v = 0; v < now.positions.size(); ++v) {
+        const auto &p = now.positions[v], &q = now.previous[v];
+        CHECK(std::hypot(double{p.x} - q.x, double{p.y} - q.y, double{p.z} - q.z) <= double{now.bounds[v]});
+      }
+    }
+    return simulation->snapshot().positions;
+  };
+  const auto plain = end_of("", "");
+  CHECK(end_of("cut_after", "iteration") != plain);
+  CHECK(end_of("contact_set", "pairs") != plain);
+  CHECK(end_of("contact_set", "distance") != plain);
+  CHECK(end_of("contact_blocks", "majorised") == plain);
+}
+
+TEST_CASE("a setting that changes nothing with a solver is refused by name", "[unit]") {
+  compare::Settings settings;
+  reference::refuse_variants(settings, "vbd");
+  set_setting(settings, "contact_set", "pairs");
+  CHECK_THROWS_WITH(reference::refuse_variants(settings, "vbd"), Catch::Matchers::ContainsSubstring("contact_set"));
+  reference::refuse_sweep_variants(settings, "newton");
+  set_setting(settings, "colours", "random");
+  CHECK_THROWS_WITH(reference::refuse_sweep_variants(settings, "newton"),
+                    Catch::Matchers::ContainsSubstring("colours"));
+  compare::Scene scene = two_sheets();
+  scene.settings = settings;
+  CHECK_THROWS_AS(reference::start_newton(scene, {}), compare::InputError);
+}
