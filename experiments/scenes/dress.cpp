@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "compare/problem/error.hpp"
+#include "experiments/scenes/driven_contact.hpp"
 #include "experiments/scenes/mannequin.hpp"
 #include "experiments/scenes/materials.hpp"
 #include "experiments/scenes/shapes.hpp"
@@ -48,7 +49,6 @@ void set_up(Scene& scene, double contact_radius, std::int64_t steps) {
   scene.settings.steps = steps;
   scene.settings.iterations = 20;
   scene.settings.contact_radius = contact_radius;
-  scene.settings.redetect_fraction = 0;
 }
 
 /// A panel on the body's surface and on the table; returns its first vertex.
@@ -282,6 +282,7 @@ Scene dress(const DressSizes& sizes) {
                     .pelvis_radius = inside_hips - 1.5 * radius,
                     .spacing = sizes.body_spacing},
                    driven_surface());
+  set_driven_contact(scene, compare::BodyContact::volume);
   return scene;
 }
 
@@ -299,6 +300,7 @@ Scene dress(const DressData& data, std::int64_t steps) {
     scene.excluded_pairs.push_back({first, s.ratio < 0.5 ? third : second});
   }
   exclude_junctions(scene, scene.settings.contact_radius);
+  set_driven_contact(scene, compare::BodyContact::volume);
   return scene;
 }
 

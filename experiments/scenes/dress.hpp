@@ -30,10 +30,11 @@ struct DressSizes {
 /// the garment script's [D]. Bending as in that script, 0.1 of 76 kPa: k_b = 0.1 · 76 kPa t³/(12 (1 − ν²)) = 2.25e-8 J.
 /// Damping as in `fifty_layers` [D].
 ///
-/// Detection comes again as soon as one vertex is cut (γ_e = 0, not the paper's 0.01) [D]: the body is a surface that
-/// obeys bounds here, which the paper's is not. With 0.01 the few vertices between it and the cloth are too few to ask
-/// for a detection; distances fall to 10 nm, nothing moves there any more, and the body lags: by 0.21 m after 200 steps
-/// at scale small. With γ_e = 0 nothing lags there in all 968 steps, and distances stay above 0.45 r.
+/// The body is a volume with the paper's γ_e = 0.01: it stands where its animation says, and pushes out who is inside.
+/// As a surface (`--set contact=surface`) it obeys bounds, and one cut vertex asks for a detection (γ_e = 0) [D]: with
+/// 0.01 the few vertices between it and the cloth are too few to ask; distances fall to 10 nm, nothing moves there any
+/// more, and the body lags: by 0.21 m after 200 steps at scale small. With γ_e = 0 nothing lags there in all 968 steps,
+/// and distances stay above 0.45 r.
 ///
 /// Stitches: 1000 N/m, the scripts' `k_stitch`: a seam that carries 3 N/m (12 % of strain, more than all but the worst
 /// percent of the published start), with a stitch every 7.5 mm, opens by 22 µm, a hundredth of r.

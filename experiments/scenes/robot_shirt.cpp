@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "experiments/scenes/driven_contact.hpp"
 #include "experiments/scenes/materials.hpp"
 #include "experiments/scenes/shapes.hpp"
 
@@ -199,7 +200,7 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 10;
   scene.settings.contact_radius = radius;
-  scene.settings.redetect_fraction = 0;
+  set_driven_contact(scene, compare::BodyContact::volume);
   return scene;
 }
 

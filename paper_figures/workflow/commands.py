@@ -183,21 +183,23 @@ MAT, MAT_PLANES = "mat_twist", "mat_twist_planes"
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
                "robot_shirt": 10, MAT: 4, "yarn_stretch": 41, "yarn_twist": 41}
 WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # end a row's name
-VOLUMES = ("dress", "robot_shirt")  # scenes whose body may be entered and pushes out
+VOLUMES = ("dress", "robot_shirt")  # scenes whose body, as a default, may be entered and pushes out
 ROWS = tuple(scene + end for scene in FRAME_STEPS
              for end in ("", WITH_PLANES, *([WITH_VOLUMES] if scene in VOLUMES else [])))
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
 
 
 def scene_of(row):
-    """Each scene has a row with the paper's bounds, called as it is, and one with planes; where a body moves, one with
-    that body as a volume, too."""
+    """Each scene has a row with the paper's bounds, called as it is, and one with planes; where a body moves it is a
+    surface in both, and a volume in a third."""
     return row.removesuffix(WITH_PLANES).removesuffix(WITH_VOLUMES)
 
 
 def of_row(row, data):
     """The dress is a stand-in without the data of Codimensional IPC."""
-    own = PLANES if row.endswith(WITH_PLANES) else ("--set", "contact=volume") if row.endswith(WITH_VOLUMES) else ()
+    own = PLANES if row.endswith(WITH_PLANES) else ()
+    if scene_of(row) in VOLUMES:
+        own += ("--set", "contact=" + ("volume" if row.endswith(WITH_VOLUMES) else "surface"))
     return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *own)
 
 
