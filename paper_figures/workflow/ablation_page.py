@@ -1,6 +1,6 @@
-"""The page of the report where two settings of an ablation are laid over each other: of every metric both ranges on one
-axis, the ratio of medians, and whether the ranges are apart. Its script reads the tables that stand in the page and asks
-the network nothing."""
+"""The page of the report where two settings of an ablation are laid over each other: of every metric both ranges on
+one axis, the ratio of medians, and whether the ranges are apart. Its script reads the tables that stand in the page and
+asks the network nothing."""
 
 import csv
 import html

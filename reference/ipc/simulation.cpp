@@ -106,7 +106,8 @@ std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, cons
   if (scene.settings.contact_weights == compare::ContactWeightsRule::iteration)
     throw compare::InputError(
         "setting 'contact_weights' can't be 'iteration' with IPC; give contact_weights=update or --solver vbd");
-  refuse_volumes(scene, "ipc", "whose barrier lets nothing enter a body: leave the body a surface");
+  refuse_volumes(scene, "ipc",
+                 "whose barrier lets nothing enter a body: leave the body a surface (--set contact=surface)");
   refuse_rods(scene, "ipc");
   return std::make_unique<IpcSimulation>(scene, options);
 }

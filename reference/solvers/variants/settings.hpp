@@ -1,5 +1,5 @@
-// What an ablation changes in the reference's solvers: choices that the method has made, and others in their place. They
-// are no part of the method; reference_vbd at their defaults is the method.
+// What an ablation changes in the reference's solvers: choices that the method has made, and others in their place.
+// They are no part of the method; reference_vbd at their defaults is the method.
 #pragma once
 
 #include <string_view>
