@@ -4,9 +4,9 @@ paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCAL
 NAME.yaml beside this file says all: `study` has `jitter` [m], `repeat`, `audit`, and `scenes`, each with `points` (of
 `ogc ablate --point`; the others are held against the first; where they differ by scale, one list a scale), and by
 scale `set` (settings of all points) and `options` (further options of `ogc ablate`); `scales` names those that the
-scene is run at, where it is not at all. With `solver` in `study` that one runs it, on the CPU. FOLDER then holds a folder of `ogc ablate` for each scene, NAME.csv (a row a
-scene, metric and point), NAME.txt (findings), NAME.png and NAME.pdf. Cut off and called again, it goes on with the
-run that was cut off."""
+scene is run at, where it is not at all. With `solver` in `study` that one runs it, on the CPU. FOLDER then holds a
+folder of `ogc ablate` for each scene, NAME.csv (a row a scene, metric and point), NAME.txt (findings), NAME.png and
+NAME.pdf. Cut off and called again, it goes on with the run that was cut off."""
 
 import argparse
 import csv

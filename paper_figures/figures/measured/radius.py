@@ -5,9 +5,9 @@ and how many contacts it takes. Runs, table and picture.
 All sets have one activation and one k_c, with which a vertex that bears its own weight by one contact rests at 0.9 r.
 Tangential share: Σ‖f_t‖ / Σ‖f‖ over the sheet's vertices at the start, 0.95 r above the plate, of the sum of the
 contact forces on each, computed here of closest points; the method's contacts are those of `ogc contacts`. At the
-sheet's rim the method pushes outwards what lies beside it, so that the share is said of inner vertices, too. Roughness: the root mean
-square of the Laplacian of heights (four neighbours) over r at the end. Oscillation: standard deviation over mean of the
-force on the sheet in the last twenty steps, which follows from its centre's acceleration.
+sheet's rim the method pushes outwards what lies beside it, so that the share is said of inner vertices, too.
+Roughness: the root mean square of the Laplacian of heights (four neighbours) over r at the end. Oscillation: standard
+deviation over mean of the force on the sheet in the last twenty steps, which follows from its centre's acceleration.
 """
 
 import argparse
