@@ -24,14 +24,14 @@ struct RobotShirtSizes {
 /// The table ends 6 cm before the shoulders, under which the lower jaws are at y = 0. Jaws are closed boxes, each
 /// gripper one motion with keyframes 1/60 s apart: approach and pinch (0.5 s) to 2.2 r, so that two layers, between
 /// them and beside each r at rest, are pressed; lift; shake; back, lay down, fold over; open and withdraw (6 s). While
-/// they hold the shirt jaws move no faster than 0.35 m/s, 0.3 r a step. Jaws are volumes with the paper's γ_e = 0.01, the
-/// table is a surface. As surfaces (`--set contact=surface`) jaws obey bounds, which allow up to γ_p r_q = 3.6 mm in one
-/// detection, but a jaw that carries cloth has it at a distance below r, and both move by less than half of that: with
-/// a lift at 1 m/s and γ_e = 0.01 the few vertices between jaws and shirt ask for no detection, distances fall below
-/// what single precision can move by, and the lower jaws stay behind for good (by 0.83 m at paper scale). So one cut
-/// vertex asks for a detection then (γ_e = 0) [D], as in `dress`. Material: that of `fifty_layers`, with Table
-/// 1's friction. Stitches of 100 N/m open by 0.2 mm, a tenth of r, where a seam carries 2.6 N/m, half of the shirt's
-/// weight on each shoulder's 0.3 m [D]. All of the trajectory is decided here.
+/// they hold the shirt jaws move no faster than 0.35 m/s, 0.3 r a step. Jaws are volumes with the paper's γ_e = 0.01,
+/// the table is a surface. As surfaces (`--set contact=surface`) jaws obey bounds, up to γ_p r_q = 3.6 mm in
+/// one detection, but a jaw that carries cloth has it at a distance below r, and both move by less than half of that:
+/// with a lift at 1 m/s and γ_e = 0.01 the few vertices between jaws and shirt ask for no detection, distances fall
+/// below what single precision can move by, and the lower jaws stay behind for good (by 0.83 m at paper scale). So one
+/// cut vertex asks for a detection then (γ_e = 0) [D], as in `dress`. Material: that of `fifty_layers`, with Table 1's
+/// friction. Stitches of 100 N/m open by 0.2 mm, a tenth of r, where a seam carries 2.6 N/m, half of the shirt's weight
+/// on each shoulder's 0.3 m [D]. All of the trajectory is decided here.
 compare::Scene robot_shirt(const RobotShirtSizes& sizes = {});
 
 }  // namespace ogc::experiments

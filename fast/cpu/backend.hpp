@@ -188,6 +188,13 @@ class CpuBackend {
     });
   }
 
+  /// One after the other.
+  template <class Beside, class Body>
+  void at_once(Beside beside, Body body) {
+    beside();
+    body();
+  }
+
   /// The flag is read at once.
   template <class F, class Body>
   void when(F decide, const int* flag, Body body) {

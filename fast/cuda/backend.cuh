@@ -199,6 +199,21 @@ class CudaBackend {
     follows_ = true;
   }
 
+  /// In a recording two branches of the graph, elsewhere one after the other. Scratch memory is the second one's.
+  template <class Beside, class Body>
+  void at_once(Beside beside, Body body) {
+    if (!recording_) {
+      beside();
+      body();
+      return;
+    }
+    const cudaStream_t trunk = begin_branch();
+    beside();
+    const cudaStream_t branch = end_branch(trunk);
+    body();
+    join(branch);
+  }
+
   /// One launch by warps (fast/cuda/search.cuh). Throws compare::ResourceError for a tree of more than
   /// largest_searched_count primitives.
   template <class First, class Second>
@@ -315,6 +330,9 @@ class CudaBackend {
   }
   cudaStream_t begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type);
   void end_condition(cudaStream_t outer);
+  cudaStream_t begin_branch();
+  cudaStream_t end_branch(cudaStream_t trunk);
+  void join(cudaStream_t branch);
   void begin_recording();
   void end_recording(Recording& recording);
   void abandon_recording() noexcept;
