@@ -3,6 +3,7 @@
 #include <array>
 #include <random>
 
+#include "fast/kernels/rods/contact_distance.hpp"
 #include "fast/kernels/rods/metrics.hpp"
 #include "fast/kernels/rods/sweep.hpp"
 #include "fast/kernels/rods/turn.hpp"
@@ -110,6 +111,20 @@ TEST_CASE("at the start of a step a segment turns as what holds it does", "[unit
     CHECK(size(one.turned(0, turns_free) - one.turns[2] * one.before) <= 20 * u);
     CHECK(size(one.turned(1, turns_free) - one.along()) == 0);
   }
+  one.turns[2] = {0, 0, 0, 1};  // a motion that says that it does not turn
+  CHECK(size(one.turned(0, true) - one.before) <= 4 * u);
+}
+
+TEST_CASE("a frame that is turned in every step stays of unit length", "[property]") {
+  Drawn drawn{std::mt19937(96)};
+  Quat q = drawn.orientation();
+  Vec from = drawn.vector();
+  for (int step = 0; step < 100000; ++step) {
+    const Vec to = drawn.vector();
+    q = turned_along(from, to, q);
+    from = to;
+  }
+  CHECK(std::abs(size(q) - 1) <= 4 * u);  // as `unit` leaves it, however often
 }
 
 TEST_CASE("frames of a step count where the step does", "[unit]") {
@@ -184,6 +199,26 @@ TEST_CASE("of a segment that is not finite a row has no length", "[unit]") {
     const std::array<Vec, 2> x{Vec{0, 0, 0}, Vec{far, 0, 0}};
     CHECK(SegmentTerm{&rest, &none, x.data(), &q}(0, sums.data()) == 0);
   }
+}
+
+TEST_CASE("a contact has a distance where it acts, at the positions of the row", "[unit]") {
+  const std::array<Vec, 4> previous{Vec{-1, 0, 0}, Vec{1, 0, 0}, Vec{0, 0.5f, -1}, Vec{0, 0.5f, 1}};
+  std::array<Vec, 4> position = previous;
+  position[2].y = position[3].y = 0.25f;
+  const std::array<int, 4> body{0, 0, 0, 0};
+  const std::array<float, 2> rest_squared{0, 0};
+  ContactMaterial material{};
+  EdgeEdgeRecord record{};
+  record.first[0] = 0, record.first[1] = 1, record.second[0] = 2, record.second[1] = 3;
+  record.first_edge = 0, record.second_edge = 1;
+  const auto distance = [&](float stiffness, float radius) {
+    material.stiffness = stiffness;
+    const ContactTables tables{body.data(), &material, 1, rest_squared.data(), previous.data()};
+    return ActiveDistance<EdgeEdgeRecord>{&record, tables, position.data(), radius}(0);
+  };
+  CHECK(distance(222, 0.3f) == Approx(0.25).epsilon(8 * u));
+  CHECK(distance(222, 0.2f) > 1e38f);  // beyond r
+  CHECK(distance(0, 0.3f) > 1e38f);    // of no stiffness
 }
 
 TEST_CASE("the published frame is (μ + M) b with μ = σ + ‖b‖, of unit length", "[property]") {
