@@ -470,12 +470,12 @@ def yarn_twisted(scale, backend):
 
 # Whether the twisted cloth returns: let go as in Fig. 16, then braked until it hangs still, beside the cloth that hangs
 # as it is. With the scene's 4 iterations it never does, braked or not: sweeps of so few do not follow friction, whose
-# block is a thousand times m/h², and go round in circles of a centimetre. Friction holds threads where they are, so
-# that there are many states at rest; in the next runs, of both cloths, there is none, and the least energy alone
-# decides.
-REST_STEPS = {"smoke": 60, "small": 50000, "paper": 75000}
+# block is a thousand times m/h², and go round in circles of a centimetre (results/two_cores/yarn_rest_iterations.csv).
+# Friction holds threads where they are, so that there are many states at rest; in the next runs, of both cloths, there
+# is none, and the energy alone decides.
+REST_STEPS = {"smoke": 60, "small": 25000, "paper": 50000}
 REST_FRAME_STEPS = {"smoke": 30, "small": 1250, "paper": 1250}
-BRAKED, FRICTIONLESS = ("--set", "damping=per_vertex", "--set", "iterations=16"), "_frictionless"
+BRAKED, FRICTIONLESS = ("--set", "damping=per_vertex", "--set", "iterations=64"), "_frictionless"
 AT_REST = {"released": "hanging", f"released{FRICTIONLESS}": f"hanging{FRICTIONLESS}"}  # beside which it is held
 
 

@@ -12,8 +12,8 @@ BIGHT = 0.4 / 33  # [m] between two bights of a row (experiments/scenes/yarn.cpp
 STIFFNESS = 10  # N/m: 33 of them side by side bear the cloth, 0.7 N, and lengthen by 2 mm each
 # Damping by vertex resists with k_d times the stiffness of the segments at the vertex, 2 k_s/l, against a mass of ρ l:
 # velocities decay at 2 k_s k_d/(ρ l²). Twice the frequency of the slowest swing, 1.2 √(g/L) of a rope as long as the
-# cloth, L = 0.8 m once its own weight has stretched it, is 8.4 1/s, which brings it to rest soonest. Steps of 16
-# iterations, which are not solved, brake a free rod at 5.5 1/s.
+# cloth, L = 0.8 m once its own weight has stretched it, is 8.4 1/s, which brings it to rest soonest. Steps
+# that are solved brake so; those of few iterations less.
 BRAKE_RATE = 8.4  # 1/s
 SEGMENT = 1.04e-3  # l [m] (experiments/scenes/yarn.cpp: 51.03 mm a loop of 49)
 

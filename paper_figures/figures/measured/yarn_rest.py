@@ -5,7 +5,7 @@ A cloth is at rest where in the last second no vertex has come farther than ε_v
 with their speed up to ε_v and holds them below it, so that what still moves creeps. Speeds of one step do not tell:
 contacts that come and go every few steps shake threads by micrometres. No damping decides where a cloth rests, but
 friction does: it holds threads that slip along each other, and the way there decides where. So both cloths go on
-without friction, and their distance then is that of two states of least energy.
+without friction, and their distance then is that of two states that sweeps leave as they are.
 """
 
 import argparse

@@ -153,8 +153,9 @@ class Search(unittest.TestCase):
 class Braked(unittest.TestCase):
     def test_a_rod_in_free_flight_slows_down_at_the_rate_that_brakes_a_cloth(self):
         rod, speed, steps, step = {"density": 1e-3, "stretch": 0.1, "bend": 2e-7}, 0.5, 100, 4e-4
+        iterations = next(int(word.partition("=")[2]) for word in commands.BRAKED if word.startswith("iterations="))
         scene = {"format_version": 2, "gravity": [0, 0, 0],
-                 "settings": {"contact_radius": 0.003, "time_step": step, "iterations": 200, "steps": steps,
+                 "settings": {"contact_radius": 0.003, "time_step": step, "iterations": iterations, "steps": steps,
                               "damping": "per_vertex"},
                  "bodies": [{"mesh": "rod.obj", "velocity": [0, speed, 0],
                              "material": {"rod": {**rod, "damping": release.brake(rod)}}}]}
@@ -167,11 +168,11 @@ class Braked(unittest.TestCase):
             subprocess.run([OGC, "run", folder / "rod.json", "--out", folder / "run"], check=True,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             velocities = yarn_rest.last_frame(Run(folder / "run")).velocities
-        # Backward Euler in steps that are solved: sweeps of few iterations brake less. A sweep ends where updates are
-        # below half an ulp of 2 cm, 1e-9 m; neighbours share it until m/h² takes it up, a thirtieth of a vertex's
-        # block in each iteration: 1.5e-8 m of the 7e-7 m that a step is braked by.
+        # Backward Euler. Of the 7e-7 m that a step is braked by two shares are left. m/h², a thirtieth of a vertex's
+        # block, decides how fast sweeps come to the common motion of all: (1 − 1/15)^64 = 1.2 %. And updates below half
+        # an ulp of 2 cm, 1e-9 m, are lost, which fifteen iterations would have made: 1 %.
         left = speed / (1 + step * release.BRAKE_RATE) ** steps
-        self.assertLess(np.abs(velocities - (0, left, 0)).max(), 0.02 * (speed - left))
+        self.assertLess(np.abs(velocities - (0, left, 0)).max(), 0.03 * (speed - left))
 
     def test_a_distance_counts_where_both_cloths_are_at_rest(self):
         """Of each cloth frames half a second apart, of which the last second counts: 1 mm/s is ε_v."""
