@@ -484,8 +484,10 @@ def yarn_at_rest(scale, backend):
     words = ("--backend", backend, "--audit", "frame", "--audit-meetings", "off", "--set",
              f"frame_steps={REST_FRAME_STEPS[scale]}")
     braked, steps = release.Release(scale, braked=True), REST_STEPS[scale]
-    twisted = Job("twisted", (YARN_TWIST, "--scale", scale, *words, "--steps", YARN_STEPS[YARN_TWIST][scale]))
-    let_go = Job("let_go", words, (twisted.name, -1), RELEASE_STEPS[scale], scene=release.Release(scale))
+    twisted = Job("twisted", (YARN_TWIST, "--scale", scale, *words, "--steps", YARN_STEPS[YARN_TWIST][scale]),
+                  pictured=False)
+    let_go = Job("let_go", words, (twisted.name, -1), RELEASE_STEPS[scale], scene=release.Release(scale),
+                 pictured=False)
 
     def without_friction(of):
         return Job(f"{of}{FRICTIONLESS}", (*words, *BRAKED, "--set", "friction=0"), (of, -1), steps, scene=braked)

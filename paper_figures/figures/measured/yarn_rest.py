@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.figures.measured.yarn import distances, seconds, speed
+from paper_figures.figures.measured.yarn import distances, seconds
 from paper_figures.workflow import commands
 from paper_figures.workflow.jobs import Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
@@ -28,7 +28,7 @@ SHARES = {"median": 50, "nine vertices in ten within": 90, "largest": 100}  # of
 
 
 def runs_of(options):
-    """name -> finished Run, made where it is not there yet; with --made those that there are."""
+    """name -> finished Run of those at the end, made where it is not there yet; with --made those that there are."""
     folder = Path(options.folder)
     jobs = list(chain.from_iterable(commands.yarn_at_rest(options.scale, options.backend)))
     try:
@@ -36,12 +36,13 @@ def runs_of(options):
             job.make(options.ogc, folder, Limit(), True)
     except RunFailure as error:
         raise RunError(str(error)) from error
-    found = {job.name: Run(folder / job.name) for job in jobs if (folder / job.name / "run.json").is_file()}
-    missing = [name for pair in commands.AT_REST.items() for name in pair if name not in found]
+    names = list(chain(*commands.AT_REST.items()))
+    missing = [name for name in names if not (folder / name / "run.json").is_file()]
     if missing:
         raise RunError(f"{folder} lacks {', '.join(missing)}; leave --made out, and they are made")
-    for name in chain(*commands.AT_REST.items()):
-        found[name].require_finished()
+    found = {name: Run(folder / name) for name in names}
+    for run in found.values():
+        run.require_finished()
     return found
 
 
@@ -56,6 +57,11 @@ def way(run):
     late = [frame for frame in map(run.frame, run.frames[:-1]) if frame.time > last.time - LAST - step]
     apart = [np.linalg.norm(frame.positions.astype(float) - last.positions, axis=1).max() for frame in late]
     return max(apart, default=0.0), max((last.time - frame.time for frame in late), default=0.0)
+
+
+def speed(run):
+    """Of the vertices at the end, in the root mean square [m/s]."""
+    return float(np.sqrt(np.mean(np.sum(last_frame(run).velocities.astype(float)**2, axis=1))))
 
 
 def at_rest(run):
@@ -84,8 +90,7 @@ def row_of(name, runs):
 def draw(runs, out):
     plt = style.use()
     figure, (over_time, spread) = plt.subplots(1, 2, figsize=(9, 3.4))
-    for number, name in enumerate(chain(*commands.AT_REST.items())):
-        run = runs[name]
+    for number, (name, run) in enumerate(runs.items()):
         begun = run.setting("time_step") * (run.column("step")[0] - 1)
         over_time.plot(seconds(run) - begun, run.column("kinetic_energy"), style.DASHES[number % 2],
                        color=style.COLOURS[number // 2], linewidth=1, label=name.replace("_", ", "))

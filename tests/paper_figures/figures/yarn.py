@@ -189,8 +189,7 @@ class Braked(unittest.TestCase):
                 run.setting.return_value = 1e-3
                 run.frame.side_effect = lambda frame: frame
                 run.column.return_value = np.array([1.0])
-            with mock.patch.object(yarn_rest, "provenance", return_value={}), \
-                    mock.patch.object(yarn_rest, "speed", return_value=0.0):
+            with mock.patch.object(yarn_rest, "provenance", return_value={}):
                 return yarn_rest.row_of("released", runs)
 
         words = ("distance, largest [m]", "distance while it moves, largest [m]")
@@ -251,7 +250,7 @@ class Drawn(unittest.TestCase):
             damping = {row: json.loads((Path(name) / row / "run.json").read_text())["settings"]["damping"]["value"]
                        for row in rows}
         self.assertEqual({name: row["beside"] for name, row in rows.items() if row["beside"]}, commands.AT_REST)
-        self.assertEqual((rows["let_go"]["first step"], rows["released"]["first step"]), ("101", "161"))
+        self.assertEqual((rows["released"]["first step"], rows["hanging"]["first step"]), ("161", "1"))
         self.assertEqual({name for name, form in damping.items() if form == "per_vertex"},
                          {name for pair in commands.AT_REST.items() for name in pair})
 
