@@ -103,6 +103,8 @@ def of_figures(wanted):
         "ledger": Part(folder("ledger"), (tuple(commands.ledgers(scale, backend)),), "ledger", frames=0),
         "fig15": Part(folder("fig15"), tuple(commands.yarn_stretched(scale, backend)), "fig15", frames=13, last=1),
         "fig16": Part(folder("fig16"), tuple(commands.yarn_twisted(scale, backend)), "fig16", frames=13, last=1),
+        "fig16_rest": Part(folder("fig16_rest"), tuple(commands.yarn_at_rest(scale, backend)), "fig16_rest", frames=0,
+                           last=3),  # of the last second
     }
 
 

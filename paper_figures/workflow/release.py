@@ -10,6 +10,12 @@ from dataclasses import dataclass
 SCENE, TURNED, YARN = "yarn_twist", "lower", "yarn"
 BIGHT = 0.4 / 33  # [m] between two bights of a row (experiments/scenes/yarn.cpp)
 STIFFNESS = 10  # N/m: 33 of them side by side bear the cloth, 0.7 N, and lengthen by 2 mm each
+# Damping by vertex resists with k_d times the stiffness of the segments at the vertex, 2 k_s/l, against a mass of ρ l:
+# velocities decay at 2 k_s k_d/(ρ l²). Twice the frequency of the slowest swing, 1.2 √(g/L) of a rope as long as the
+# cloth, L = 0.8 m once its own weight has stretched it, is 8.4 1/s, which brings it to rest soonest. Steps
+# that are solved brake so; those of few iterations less.
+BRAKE_RATE = 8.4  # 1/s
+SEGMENT = 1.04e-3  # l [m] (experiments/scenes/yarn.cpp: 51.03 mm a loop of 49)
 
 
 def bights(vertices):
@@ -32,15 +38,22 @@ def cast_on(motion):
              "rest_length": BIGHT, "damping": 0} for a, b in zip(held, held[1:])]
 
 
+def brake(rod):
+    """k_d of this material [s] with which, in runs with `damping=per_vertex`, velocities decay at BRAKE_RATE."""
+    return BRAKE_RATE * rod["density"] * SEGMENT**2 / (2 * rod["stretch"])
+
+
 @dataclass(frozen=True)
 class Release:
-    """The scene of a scale as a file below the folder of the runs (jobs.Job)."""
+    """The scene of a scale as a file below the folder of the runs (jobs.Job). `braked`: its motion is damped, for runs
+    with `damping=per_vertex`; where it comes to rest no damping decides."""
 
     scale: str
+    braked: bool = False
 
     @property
     def path(self):
-        return f"scenes/released_{self.scale}/{SCENE}.json"
+        return f"scenes/{'braked' if self.braked else 'released'}_{self.scale}/{SCENE}.json"
 
     def write(self, program, root):
         """Where it is missing."""
@@ -53,5 +66,8 @@ class Release:
         turned = next(motion for motion in scene["motions"] if motion["name"] == TURNED)
         scene["springs"] = [*scene.get("springs", []), *cast_on(turned)]
         scene["motions"] = [motion for motion in scene["motions"] if motion["name"] != TURNED]
+        if self.braked:
+            rod = next(body for body in scene["bodies"] if body["name"] == YARN)["material"]["rod"]
+            rod["damping"] = brake(rod)
         scene["name"] = f"{SCENE}_released"
         path.write_text(json.dumps(scene, indent=1))

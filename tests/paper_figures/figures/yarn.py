@@ -1,12 +1,13 @@
 """Fig. 15 and 16: the tension at the first meeting, over k_c r, is the one counted by hand; steps that were not asked
-count for nothing; both figures are drawn from the smallest runs, and nothing is
-made twice.
+count for nothing; both figures are drawn from the smallest runs, and nothing is made twice. Of cloths that were let go
+a distance counts where both are at rest, and what brakes them does so at the rate that it says.
 
 Usage: yarn.py SOURCE_DIR OGC. Exit status 77: skipped, matplotlib or h5py is missing.
 """
 
 import csv
 import json
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -20,11 +21,11 @@ sys.path.insert(0, str(SOURCE))
 try:
     import numpy as np
 
-    from paper_figures.figures.measured import yarn
-    from paper_figures.workflow import commands
+    from paper_figures.figures.measured import yarn, yarn_rest
+    from paper_figures.workflow import commands, release
     from paper_figures.workflow.first_meeting import FirstMeeting, met_at
     from paper_figures.workflow.jobs import FINISHED, KEPT
-    from plots.run_folder import Run
+    from plots.run_folder import Frame, Run
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
@@ -149,6 +150,61 @@ class Search(unittest.TestCase):
                 self.assertEqual(len(found), 0 if known is None else -(-known // length))
 
 
+class Braked(unittest.TestCase):
+    def test_a_rod_in_free_flight_slows_down_at_the_rate_that_brakes_a_cloth(self):
+        rod, speed, steps, step = {"density": 1e-3, "stretch": 0.1, "bend": 2e-7}, 0.5, 100, 4e-4
+        iterations = next(int(word.partition("=")[2]) for word in commands.BRAKED if word.startswith("iterations="))
+        scene = {"format_version": 2, "gravity": [0, 0, 0],
+                 "settings": {"contact_radius": 0.003, "time_step": step, "iterations": iterations, "steps": steps,
+                              "damping": "per_vertex"},
+                 "bodies": [{"mesh": "rod.obj", "velocity": [0, speed, 0],
+                             "material": {"rod": {**rod, "damping": release.brake(rod)}}}]}
+        with tempfile.TemporaryDirectory() as name:
+            folder, count = Path(name), 20
+            points = [f"v {k * release.SEGMENT:.9f} 0 0" for k in range(count)]
+            line = f"l {' '.join(str(k + 1) for k in range(count))}"
+            (folder / "rod.obj").write_text("\n".join([*points, line]) + "\n")
+            (folder / "rod.json").write_text(json.dumps(scene))
+            subprocess.run([OGC, "run", folder / "rod.json", "--out", folder / "run"], check=True,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            velocities = yarn_rest.last_frame(Run(folder / "run")).velocities
+        # Backward Euler. Of the 7e-7 m that a step is braked by two shares are left. m/h², a thirtieth of a vertex's
+        # block, decides how fast sweeps come to the common motion of all: (1 − 1/15)^64 = 1.2 %. And updates below half
+        # an ulp of 2 cm, 1e-9 m, are lost, which fifteen iterations would have made: 1 %.
+        left = speed / (1 + step * release.BRAKE_RATE) ** steps
+        self.assertLess(np.abs(velocities - (0, left, 0)).max(), 0.03 * (speed - left))
+
+    def test_a_distance_counts_where_both_cloths_are_at_rest(self):
+        """Of each cloth frames half a second apart, of which the last second counts: 1 mm/s is ε_v."""
+        ends = {"released": np.eye(3), "hanging": np.eye(3) + (0, 3e-3, 4e-3)}
+
+        def row(ways):
+            """`ways`: of one vertex until the end, from the frames before [m]."""
+            runs = {}
+            for name, end in ends.items():
+                apart = [0.1, *ways[name], 0]
+                frames = [Frame(k, 0.5 * k, end + np.outer((0, 1, 0), (far, 0, 0)), np.zeros((3, 3)), np.zeros(3))
+                          for k, far in enumerate(apart)]
+                run = runs[name] = mock.MagicMock(frames=frames)
+                run.setting.return_value = 1e-3
+                run.frame.side_effect = lambda frame: frame
+                run.column.return_value = np.array([1.0])
+            with mock.patch.object(yarn_rest, "provenance", return_value={}):
+                return yarn_rest.row_of("released", runs)
+
+        words = ("distance, largest [m]", "distance while it moves, largest [m]")
+        still, swings = (9e-4, 1e-4), (1e-4, 2e-3)
+        self.assertEqual([row({"released": still, "hanging": still})[name] for name in words], ["0.005", ""])
+        for ways in ({"released": swings, "hanging": still}, {"released": still, "hanging": swings}):
+            self.assertEqual([row(ways)[name] for name in words], ["", "0.005"])
+
+    def test_the_claim_reads_what_the_figure_writes(self):
+        claims = json.loads((SOURCE / "paper_figures/claims/yarn_twist.json").read_text())["claims"]
+        measure = next(claim for claim in claims if claim["id"] == "yarn_twist.returns")["measure"]
+        self.assertEqual((measure["table"], measure["where"]), (yarn_rest.NAME, {"run": "released"}))
+        self.assertIn(measure["column"], [f"distance, {words} [m]" for words in yarn_rest.SHARES])
+
+
 class Drawn(unittest.TestCase):
     def drawn(self, scene, rows):
         with tempfile.TemporaryDirectory() as name:
@@ -178,6 +234,25 @@ class Drawn(unittest.TestCase):
         self.assertEqual((found["ogc_released"]["first step"], found["ogc_released"]["last step"]), ("101", "160"))
         self.assertGreater(float(found["ogc_released"]["distance while it moves, largest [m]"]), 0)
         self.assertEqual(found["hanging"]["distance, largest [m]"], "")
+
+    def test_fig_16_at_rest_from_the_smallest_runs(self):
+        with tempfile.TemporaryDirectory() as name:
+            words = ["yarn_rest", name, "--ogc", str(OGC), "--scale", "smoke"]
+            with mock.patch.object(sys, "argv", words):
+                options = yarn_rest.arguments()
+            yarn_rest.make(options)
+            written = {path: path.stat().st_mtime_ns for path in Path(name).glob("*/steps.csv")}
+            yarn_rest.make(options)
+            self.assertEqual(written, {path: path.stat().st_mtime_ns for path in Path(name).glob("*/steps.csv")})
+            self.assertTrue((Path(name) / f"{yarn_rest.NAME}.png").is_file())
+            with (Path(name) / f"{yarn_rest.NAME}.csv").open(newline="") as file:
+                rows = {row["run"]: row for row in csv.DictReader(file)}
+            damping = {row: json.loads((Path(name) / row / "run.json").read_text())["settings"]["damping"]["value"]
+                       for row in rows}
+        self.assertEqual({name: row["beside"] for name, row in rows.items() if row["beside"]}, commands.AT_REST)
+        self.assertEqual((rows["released"]["first step"], rows["hanging"]["first step"]), ("161", "1"))
+        self.assertEqual({name for name, form in damping.items() if form == "per_vertex"},
+                         {name for pair in commands.AT_REST.items() for name in pair})
 
 
 if __name__ == "__main__":

@@ -17,7 +17,8 @@ from pathlib import Path
 SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
-from paper_figures.figures import growth, table1  # noqa: E402
+from paper_figures.figures import table1  # noqa: E402
+from paper_figures.figures.measured import growth  # noqa: E402
 from paper_figures.workflow import commands, device_memory, jobs, judge_counts, layers, packing, parts  # noqa: E402
 from paper_figures.workflow.evidence import run_at  # noqa: E402
 from paper_figures.workflow.jobs import FINISHED, KEPT, PROCESSOR_TIME, STOPPED, Command, Job, Limit, Step  # noqa: E402

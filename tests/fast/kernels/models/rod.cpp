@@ -72,6 +72,59 @@ TEST_CASE("both ends of a segment feel opposite forces, nothing at rest", "[prop
   }
 }
 
+TEST_CASE("the force of a segment is the slope of its energy, its block the slope of the force", "[property]") {
+  std::mt19937 random(86);
+  for (int i = 0; i < 1000; ++i) {
+    const Quat q = some_orientation(random), start = some_orientation(random);
+    const SegmentRest segment{{0, 1}, 0.5f, 3, 0.25f};
+    const Vec before = some_vector(random);
+    const std::vector<D3> x{wide(some_vector(random)), wide(some_vector(random))};
+    // Turned back by their frames: where the segment points now and pointed then.
+    const auto seen = [](const Quat& frame, const D3& v) { return wide(turned_back(frame, narrow(v))); };
+    const D3 strain_then = 2.0 * seen(start, wide(before));
+    const auto energy = [&](const std::vector<D3>& at) {
+      const D3 strain = 2.0 * (at[1] - at[0]), elastic = strain - wide(director(q)),
+               changed = strain - wide(turned(q, narrow(strain_then)));
+      return 0.5 * 3 * 0.5 * (dot(elastic, elastic) + 0.25 * dot(changed, changed));
+    };
+    const Vec direction = rod_rest_direction(segment, 0.25f, start, before);
+    for (std::size_t end = 0; end < 2; ++end) {
+      ForceAndBlock sum;
+      add_rod(segment, 0.25f, static_cast<int>(end), narrow(x[1] - x[0]), q, direction, sum);
+      // of a quadratic form central differences err by rounding alone, 2⁻⁵³ of E over the step
+      const D3 slope = force_by_differences(energy, x, end, 1e-3);
+      REQUIRE(length(wide(sum.force) - slope) <= 3 * 100 * u * (1 + length(x[1] - x[0]) + length(before)));
+      REQUIRE(sum.block.xx == Approx(3 * 1.25 / 0.5));
+      REQUIRE(std::abs(sum.block.xy) + std::abs(sum.block.xz) + std::abs(sum.block.yz) == 0);
+    }
+  }
+}
+
+TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its damped twin as at the start",
+          "[property]") {
+  std::mt19937 random(87);
+  const float weight = 2, damping = 0.5f;
+  for (int i = 0; i < 1000; ++i) {
+    // Relative to the segment the neighbour stands as at rest, and as at the start: both ask for what is there.
+    const Quat now = some_orientation(random), own_start = some_orientation(random),
+               relative = some_orientation(random), elsewhere = some_orientation(random);
+    for (const bool is_ahead : {false, true}) {
+      const auto beside = [&](const Quat& q) { return is_ahead ? q * relative : q * conjugate(relative); };
+      const auto sum = [&](float k, const Quat& rest, const Quat& other_start) {
+        Quat b{0, 0, 0, 0};
+        add_neighbour({weight, rest}, is_ahead, k, beside(now), other_start, own_start, now, b);
+        return b;
+      };
+      // Each product errs by 8 u, units by 4 u.
+      CHECK(size(sum(0, relative, elsewhere) - weight * now) <= 20 * u * weight);
+      CHECK(size(sum(damping, relative, beside(own_start)) - weight * (1 + damping) * now) <= 80 * u * weight);
+      // The twin alone: what the neighbour asks for at rest is left out.
+      const Quat twin = sum(damping, elsewhere, beside(own_start)) - sum(0, elsewhere, elsewhere);
+      CHECK(size(twin - weight * damping * now) <= 80 * u * weight);
+    }
+  }
+}
+
 TEST_CASE("the secular root is that of bisection, wherever the parts lie", "[property]") {
   std::mt19937 random(83);
   std::uniform_real_distribution<float> power(-6, 6);

@@ -1,0 +1,133 @@
+"""Fig. 16's last claim: how far each vertex of the cloth that was twisted and let go is from the cloth that hangs as it
+is, both at rest. Runs, table and picture.
+
+A cloth is at rest where in the last second no vertex has come farther than ε_v takes it: friction of two threads grows
+with their speed up to ε_v and holds them below it, so that what still moves creeps. Speeds of one step do not tell:
+contacts that come and go every few steps shake threads by micrometres. No damping decides where a cloth rests, but
+friction does: it holds threads that slip along each other, and the way there decides where. So both cloths go on
+without friction, and their distance then is that of two states that sweeps leave as they are.
+"""
+
+import argparse
+import sys
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from paper_figures.figures.measured.yarn import distances, seconds
+from paper_figures.workflow import commands
+from paper_figures.workflow.jobs import Limit, RunFailure
+from paper_figures.workflow.runs import provenance, write_table
+from plots import style
+from plots.run_folder import Run, RunError, commits_in_words
+
+NAME, PICTURE = "fig16_rest", "fig16_rest.png"
+LAST = 1.0  # s
+SHARES = {"median": 50, "nine vertices in ten within": 90, "largest": 100}  # of the vertices [%]
+
+
+def runs_of(options):
+    """name -> finished Run of those at the end, made where it is not there yet; with --made those that there are."""
+    folder = Path(options.folder)
+    jobs = list(chain.from_iterable(commands.yarn_at_rest(options.scale, options.backend)))
+    try:
+        for job in () if options.made else jobs:
+            job.make(options.ogc, folder, Limit(), True)
+    except RunFailure as error:
+        raise RunError(str(error)) from error
+    names = list(chain(*commands.AT_REST.items()))
+    missing = [name for name in names if not (folder / name / "run.json").is_file()]
+    if missing:
+        raise RunError(f"{folder} lacks {', '.join(missing)}; leave --made out, and they are made")
+    found = {name: Run(folder / name) for name in names}
+    for run in found.values():
+        run.require_finished()
+    return found
+
+
+def last_frame(run):
+    return run.frame(run.frames[-1])
+
+
+def way(run):
+    """(how far the farthest vertex has been from where it ends [m], for how long [s]), of the frames of the last
+    second."""
+    last, step = last_frame(run), run.setting("time_step")
+    late = [frame for frame in map(run.frame, run.frames[:-1]) if frame.time > last.time - LAST - step]
+    apart = [np.linalg.norm(frame.positions.astype(float) - last.positions, axis=1).max() for frame in late]
+    return max(apart, default=0.0), max((last.time - frame.time for frame in late), default=0.0)
+
+
+def speed(run):
+    """Of the vertices at the end, in the root mean square [m/s]."""
+    return float(np.sqrt(np.mean(np.sum(last_frame(run).velocities.astype(float)**2, axis=1))))
+
+
+def at_rest(run):
+    farthest, time = way(run)
+    return 0 < time and farthest <= run.setting("friction_velocity") * time
+
+
+def row_of(name, runs):
+    """Empty cells of distances where there is nothing to compare with, or not both are at rest."""
+    run, beside = runs[name], commands.AT_REST.get(name, "")
+    counts = bool(beside) and at_rest(run) and at_rest(runs[beside])
+    of = distances(run, last_frame(runs[beside]).positions) if beside else None
+    cells = {words: "" if of is None else f"{np.percentile(of, share):.6g}" for words, share in SHARES.items()}
+    return {"run": name, "beside": beside, "first step": int(run.column("step")[0]),
+            "last step": int(run.column("step")[-1]), "at rest": "yes" if at_rest(run) else "no",
+            "way in the last second, largest [m]": f"{way(run)[0]:.6g}",
+            "speed at the end [m/s]": f"{speed(run):.6g}",
+            **{f"distance, {words} [m]": cell if counts else "" for words, cell in cells.items()},
+            **{f"distance while it moves, {words} [m]": "" if counts else cell for words, cell in cells.items()},
+            "smallest contact distance [m]": f"{np.nanmin(run.column('smallest_contact_distance')):.6g}",
+            "mean [ms]": f"{np.mean(run.column('wall')):.6g}", "status": run.manifest["status"].splitlines()[0],
+            "audited states": run.manifest.get("audited_states", 0), "ended": run.manifest["ended"],
+            **provenance(run)}
+
+
+def draw(runs, out):
+    plt = style.use()
+    figure, (over_time, spread) = plt.subplots(1, 2, figsize=(9, 3.4))
+    for number, (name, run) in enumerate(runs.items()):
+        begun = run.setting("time_step") * (run.column("step")[0] - 1)
+        over_time.plot(seconds(run) - begun, run.column("kinetic_energy"), style.DASHES[number % 2],
+                       color=style.COLOURS[number // 2], linewidth=1, label=name.replace("_", ", "))
+    over_time.set(xlabel="time since it is braked [s]", ylabel="kinetic energy [J]", yscale="log",
+                  title="Until they are at rest")
+    for number, (name, beside) in enumerate(commands.AT_REST.items()):
+        of = np.sort(distances(runs[name], last_frame(runs[beside]).positions))
+        spread.plot(of, 100 * np.arange(1, len(of) + 1) / len(of), color=style.COLOURS[number],
+                    label=name.replace("_", ", "))
+    spread.set(xlabel="distance from the cloth that was never twisted [m]", xscale="log", ylabel="vertices within [%]",
+               title="At the end")
+    for axes in (over_time, spread):
+        axes.legend(fontsize=7)
+    about = runs["released"].manifest
+    figure.suptitle(f"yarn_twist, let go: {about['backend']} ({about['device']}), "
+                    f"{commits_in_words(list(runs.values()))}", fontsize=8)
+    style.save(figure, out)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
+    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
+    parser.add_argument("--scale", default="small", choices=("smoke", "small", "paper"))
+    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of all runs")
+    parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
+    return parser.parse_args()
+
+
+def make(options):
+    runs = runs_of(options)
+    write_table(options.folder / f"{NAME}.csv", [row_of(name, runs) for name in runs])
+    draw(runs, options.folder / PICTURE)
+
+
+if __name__ == "__main__":
+    try:
+        make(arguments())
+    except RunError as error:
+        sys.exit(f"{NAME}: {error}")
