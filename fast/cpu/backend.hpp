@@ -171,6 +171,9 @@ class CpuBackend {
     });
   }
 
+  /// A thread searches from the start as well: nothing is sought before.
+  static constexpr bool seeks = false;
+
   /// In the calling thread.
   void exclusive_scans(const Scan& first, const Scan& second) {
     exclusive_scan(first);

@@ -229,6 +229,18 @@ class CudaBackend {
            second, second_groups);
   }
 
+  /// One launch by warps, too; of trees no larger than `search` takes.
+  template <class Query>
+  void seek(int parts, const Query& query) {
+    const int warps = std::min(search_warps, block_threads_ / 32);
+    const SearchGroups groups(query.rows, search_group(query.rows));
+    const int part_blocks = groups.blocks(warps);
+    if (parts * part_blocks == 0) return;
+    follow(typeid(Query), run_part_searches<Query>, parts * part_blocks, 32 * warps, query, groups, part_blocks);
+  }
+  /// Whether searches by warps beside those of single threads save time.
+  static constexpr bool seeks = true;
+
   /// One launch where both are short, else CUB's; temporary memory may be allocated.
   void exclusive_scans(const Scan& first, const Scan& second) {
     fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);

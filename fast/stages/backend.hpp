@@ -29,6 +29,8 @@
 //                                    in a recording, two branches of the graph. `beside` enqueues for_each alone
 //   search(Searches first, Searches second)
 //                                    two kinds of searches (fast/kernels/search.hpp) side by side
+//   seeks                            whether the backend has seek(parts, query): the searches of fast/kernels/volumes/
+//                                    seek.hpp in so many parts, which decide the time alone
 //   exclusive_scans(const Scan& first, const Scan& second)
 //                                    of n numbers n + 1 sums each, the last is the total; neither reads what the
 //                                    other writes

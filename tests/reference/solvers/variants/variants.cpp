@@ -9,6 +9,8 @@
 #include "reference/energies/rest_state.hpp"
 #include "reference/simulation.hpp"
 #include "reference/solvers/colouring.hpp"
+#include "reference/solvers/detection.hpp"
+#include "reference/solvers/potential_batches.hpp"
 #include "reference/solvers/variants/contact_sets.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/runs.hpp"
@@ -104,8 +106,8 @@ TEST_CASE(
   }
   CHECK(ours.vertex_facet.size() > 20);
   CHECK(ours.edge_edge.size() > 20);
-  for (const auto& c : ours.vertex_facet) CHECK(facets.count({c.vertex, c.face}) > 0);
-  for (const auto& c : ours.edge_edge) CHECK(edges.count({c.first, c.second}) > 0);
+  for (const auto& c : ours.vertex_facet) CHECK(facets.count(std::pair(c.vertex, c.face)) > 0);
+  for (const auto& c : ours.edge_edge) CHECK(edges.count(std::pair(c.first, c.second)) > 0);
   CHECK(all.vertex_facet.size() > ours.vertex_facet.size());
   CHECK(std::ranges::any_of(facets, [&](const auto& c) { return facets.count(c) > 1; }));
 }
