@@ -6,7 +6,6 @@
 
 #include "compare/problem/error.hpp"
 #include "compare/problem/rods.hpp"
-#include "compare/problem/volumes.hpp"
 #include "reference/solvers/newton/solver.hpp"
 #include "reference/solvers/vbd_solver.hpp"
 
@@ -92,7 +91,6 @@ void refuse_for_newton(const compare::Scene& scene, const char* solver) {
         "setting 'contact_weights' can't be 'iteration' with Newton's method, whose energy is that of the closest "
         "points; give contact_weights=update or --solver vbd");
   refuse_sweep_variants(scene.settings, solver);
-  refuse_solid_volumes(scene, solver);
 }
 
 }  // namespace
@@ -120,7 +118,6 @@ std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
 
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour) {
-  refuse_solid_volumes(scene, "reference_vbd");
   return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
 }
 
