@@ -190,8 +190,8 @@ __global__ void __launch_bounds__(32 * search_warps, 8)
 
 /// The searches of a query in each part, `part_blocks` blocks each.
 template <class Query>
-__global__ void __launch_bounds__(32 * search_warps, 8) run_part_searches(Query query, SearchGroups groups,
-                                                                          int part_blocks) {
+__global__ void __launch_bounds__(32 * search_warps, 8)
+    run_part_searches(Query query, SearchGroups groups, int part_blocks) {
   follow_launch();
   __shared__ SearchMemory memory[search_warps];
   const int warps = static_cast<int>(blockDim.x) / 32, warp = static_cast<int>(threadIdx.x) / 32,

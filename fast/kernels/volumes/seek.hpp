@@ -55,8 +55,9 @@ struct SeekNearest {
   }
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     return offer.gap <= search.limit &&
-           !fast::is_beyond(separation(search.box.lower, VolumeQuestion(volume, search.box.lower).corners(offer.primitive)),
-                      search.limit);
+           !fast::is_beyond(
+               separation(search.box.lower, VolumeQuestion(volume, search.box.lower).corners(offer.primitive)),
+               search.limit);
   }
   OGC_HD float meet(const Search& search, int facet, float) const {
     const Distance distance = VolumeQuestion(volume, search.box.lower).distance_to(facet);
