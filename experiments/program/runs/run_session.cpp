@@ -351,7 +351,9 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
     summary_.largest_momentum_lost = std::max(summary_.largest_momentum_lost, row.momentum_lost_guess);
     summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
     summary_.most_unresolved = std::max(summary_.most_unresolved, row.depth_unresolved);
-    summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
+    // beyond all floats where no vertex has a bound, as in scenes of nothing but volumes
+    if (row.smallest_distance < double{std::numeric_limits<float>::max()})
+      summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
     if (row.status & (compare::step_bound_violated | compare::step_met)) summary_.guarantee_kept = false;
     if (!(row.meetings > 0)) continue;
     if (summary_.first_meeting < 0) summary_.first_meeting = row.step;

@@ -39,6 +39,7 @@ TEST_CASE("a mat of tetrahedra that is twisted as a free volume runs to its end,
   CHECK(json.at("largest_lag_m") == 0);
   CHECK(json.at("volumes").at("inside_at_start") == 0);
   CHECK(json.at("volumes").at("most_unresolved") == 0);
+  CHECK(json.at("smallest_distance_m").is_null());  // no vertex has a bound
   const auto manifest = nlohmann::json::parse(compare::read_bytes(run / "run.json"));
   CHECK(manifest.at("most_depth_unresolved") == "0");
   CHECK(contains(compare::read_bytes(run / "steps.csv"), {",deepest [m],depth_unresolved [1]"}));
