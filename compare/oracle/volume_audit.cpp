@@ -82,12 +82,17 @@ std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   return closed;
 }
 
-/// The triangles of a part and of the fans that close it, where the positions put them.
+/// The triangles of a part and of the fans that close it, and its tetrahedra, where the positions put them.
 class PlacedPart {
  public:
   PlacedPart(std::span<const Triangle> triangles, std::span<const std::vector<Edge>> rims,
-             std::span<const Vec3> positions)
-      : own_(triangles.size()), all_(placed(triangles, rims, positions)), tree_(boxes(all_)) {}
+             std::span<const Tetrahedron> tetrahedra, std::span<const Vec3> positions)
+      : triangles_(triangles),
+        tetrahedra_(tetrahedra),
+        positions_(positions),
+        all_(placed(triangles, rims, positions)),
+        tree_(boxes(all_)),
+        tetrahedron_tree_(boxes(tetrahedra, positions)) {}
 
   bool holds(const Vec3& x) const {
     Box ray = box_of({x});
@@ -97,15 +102,41 @@ class PlacedPart {
     tree_.for_each_meeting(ray, [&](Index i) {
       const Corners& t = all_[at(i)];
       winding += crossing(t, x);
-      is_on = is_on || (at(i) < own_ && lies_on(t, x));
+      is_on = is_on || (at(i) < triangles_.size() && lies_on(t, x));
     });
     return winding != 0 && !is_on;
   }
 
   double distance(const Vec3& x) const {
     double least = infinity;
-    for (std::size_t i = 0; i < own_; ++i) least = std::min(least, to_triangle(x, all_[i]));
+    for (std::size_t i = 0; i < triangles_.size(); ++i) least = std::min(least, to_triangle(x, all_[i]));
     return least;
+  }
+
+  /// Whether the part's own vertex lies in the part.
+  bool holds_own(Index vertex) const {
+    const Vec3& x = positions_[at(vertex)];
+    bool is_inside = false;
+    tetrahedron_tree_.for_each_meeting(box_of({x}), [&](Index i) {
+      const Tetrahedron& t = tetrahedra_[at(i)];
+      is_inside = is_inside || (std::ranges::find(t, vertex) == t.end() && holds(t, x));
+    });
+    return is_inside;
+  }
+
+  /// From the part's own vertex to its triangles without a vertex of the triangles around it; 0 where there are none.
+  double distance_of_own(Index vertex) const {
+    std::vector<Index> around;
+    for (const Triangle& t : triangles_)
+      if (std::ranges::find(t, vertex) != t.end()) around.insert(around.end(), t.begin(), t.end());
+    std::ranges::sort(around);
+    double least = infinity;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const auto is_around = [&](Index v) { return std::ranges::binary_search(around, v); };
+      if (std::ranges::none_of(triangles_[i], is_around))
+        least = std::min(least, to_triangle(positions_[at(vertex)], all_[i]));
+    }
+    return std::isfinite(least) ? least : 0;
   }
 
  private:
@@ -130,13 +161,33 @@ class PlacedPart {
     for (const auto& [a, b, c] : all) result.push_back(box_of({a, b, c}));
     return result;
   }
+  static std::vector<Box> boxes(std::span<const Tetrahedron> all, std::span<const Vec3> positions) {
+    std::vector<Box> result;
+    for (const auto& [a, b, c, d] : all)
+      result.push_back(box_of({positions[at(a)], positions[at(b)], positions[at(c)], positions[at(d)]}));
+    return result;
+  }
 
-  std::size_t own_;
+  /// Closed, of positive volume.
+  bool holds(const Tetrahedron& t, const Vec3& x) const {
+    const auto sign = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+      const auto point = [](const Vec3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
+      return static_cast<int>(CGAL::orientation(point(a), point(b), point(c), point(d)));
+    };
+    const Vec3 &a = positions_[at(t[0])], &b = positions_[at(t[1])], &c = positions_[at(t[2])],
+               &d = positions_[at(t[3])];
+    return sign(a, b, c, d) > 0 && sign(x, b, c, d) >= 0 && sign(a, x, c, d) >= 0 && sign(a, b, x, d) >= 0 &&
+           sign(a, b, c, x) >= 0;
+  }
+
+  std::span<const Triangle> triangles_;
+  std::span<const Tetrahedron> tetrahedra_;
+  std::span<const Vec3> positions_;
   std::vector<Corners> all_;
-  BoxTree tree_;
+  BoxTree tree_, tetrahedron_tree_;
 };
 
-/// How many of the edges meet one of the triangles.
+/// How many of the edges meet one of the triangles with which they have no vertex in common.
 std::size_t count_meeting(const Topology& topology, std::span<const Index> edges, std::span<const Index> triangles,
                           std::span<const Vec3> positions) {
   std::vector<Box> boxes;
@@ -156,7 +207,10 @@ std::size_t count_meeting(const Topology& topology, std::span<const Index> edges
                         const auto& [a, b] = topology.edges[at(edges[i])];
                         const std::array<Vec3, 2> segment{positions[at(a)], positions[at(b)]};
                         tree.for_each_meeting(box_of({segment[0], segment[1]}), [&](Index k) {
-                          if (!meets[i]) meets[i] = segment_meets_triangle(segment, corners(triangles[at(k)]));
+                          const Triangle& own = topology.triangles[at(triangles[at(k)])];
+                          const bool is_apart = std::ranges::none_of(own, [&](Index v) { return v == a || v == b; });
+                          if (!meets[i] && is_apart)
+                            meets[i] = segment_meets_triangle(segment, corners(triangles[at(k)]));
                         });
                       }
                     });
@@ -166,30 +220,54 @@ std::size_t count_meeting(const Topology& topology, std::span<const Index> edges
 }  // namespace
 
 VolumeAuditor::VolumeAuditor(const Scene& scene) : topology_(build_topology(scene)) {
+  std::vector<Index> part_of(scene.bodies.size(), -1);  // of a body of tetrahedra
   for (const VolumePart& part : volume_parts(scene)) {
-    std::vector<Triangle> triangles;
+    const Body& body = scene.bodies[part.body];
+    if (part_of[part.body] < 0) {
+      if (body.is_solid()) part_of[part.body] = static_cast<Index>(parts_.size());
+      const auto first = scene.mesh.tetrahedra.begin() + body.first_tetrahedron;
+      parts_.push_back({{}, closed_rims(part.rims), {first, first + body.tetrahedron_count}});
+    }
+    std::vector<Triangle>& triangles =
+        (part_of[part.body] < 0 ? parts_.back() : parts_[at(part_of[part.body])]).triangles;
     for (const Index t : part.triangles) triangles.push_back(scene.mesh.triangles[at(t)]);
-    parts_.push_back({std::move(triangles), closed_rims(part.rims)});
   }
   if (parts_.empty()) return;
-  const std::vector<bool> is_volume = volume_flags(scene);
-  const std::vector<Index> groups = rigid_groups(scene);
-  for (Index v = 0; v < topology_.vertex_count; ++v)
-    if (!is_volume[at(v)] && groups[at(v)] != 0 && !topology_.vertex_edges[at(v)].empty()) asking_.push_back(v);
+  const std::vector<bool> is_free = free_volumes(scene);
+  const std::vector<Index> groups = rigid_groups(scene), body_of = body_of_vertex(scene);
+  const auto is_fixed = [&](Index v) { return groups[at(v)] == 0; };
+  const auto body = [&](Index v) -> const Body& { return scene.bodies[at(body_of[at(v)])]; };
+  for (Index v = 0; v < topology_.vertex_count; ++v) {
+    const bool is_asking = !body(v).is_volume() || is_free[at(body_of[at(v)])];
+    if (is_asking && !is_fixed(v) && !topology_.vertex_edges[at(v)].empty())
+      asking_.push_back({v, part_of[at(body_of[at(v)])]});
+  }
+  enum class Kind { surface, driven, free };
+  const auto kind_of = [&](Index v) {
+    return !body(v).is_volume() ? Kind::surface : is_free[at(body_of[at(v)])] ? Kind::free : Kind::driven;
+  };
+  auto& [onto_volumes, onto_surfaces, onto_all_volumes, onto_free] = meetings_;
   for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
     const auto& [a, b] = topology_.edges[e];
-    if (is_volume[at(a)])
-      volume_edges_.push_back(static_cast<Index>(e));
-    else if (groups[at(a)] != 0 || groups[at(b)] != 0)
-      surface_edges_.push_back(static_cast<Index>(e));
+    const auto number = static_cast<Index>(e);
+    switch (kind_of(a)) {
+      case Kind::surface:
+        if (!is_fixed(a) || !is_fixed(b)) onto_volumes.edges.push_back(number);
+        break;
+      case Kind::driven: onto_surfaces.edges.push_back(number), onto_free.edges.push_back(number); break;
+      case Kind::free: onto_surfaces.edges.push_back(number), onto_all_volumes.edges.push_back(number); break;
+    }
   }
   for (std::size_t t = 0; t < topology_.triangles.size(); ++t) {
     const Triangle& corners = topology_.triangles[t];
-    const bool is_fixed = std::ranges::all_of(corners, [&](Index v) { return groups[at(v)] == 0; });
-    if (is_volume[at(corners[0])])
-      volume_triangles_.push_back(static_cast<Index>(t));
-    else if (!is_fixed)
-      surface_triangles_.push_back(static_cast<Index>(t));
+    const auto number = static_cast<Index>(t);
+    switch (kind_of(corners[0])) {
+      case Kind::surface:
+        if (!std::ranges::all_of(corners, is_fixed)) onto_surfaces.triangles.push_back(number);
+        break;
+      case Kind::free: onto_free.triangles.push_back(number); [[fallthrough]];
+      case Kind::driven: onto_volumes.triangles.push_back(number), onto_all_volumes.triangles.push_back(number); break;
+    }
   }
 }
 
@@ -198,25 +276,33 @@ VolumePenetration VolumeAuditor::audit(std::span<const Vec3> positions) const {
   if (!has_volumes()) return found;
   check_state("volumes", topology_, positions, {});
   std::vector<PlacedPart> parts;
-  for (const Part& part : parts_) parts.emplace_back(part.triangles, part.rims, positions);
+  for (const Part& part : parts_) parts.emplace_back(part.triangles, part.rims, part.tetrahedra, positions);
   std::vector<double> depth(asking_.size(), -1);
+  const auto depth_of = [&](const Asker& asker) {
+    double deepest = -1;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const Vec3& x = positions[at(asker.vertex)];
+      if (asker.part == static_cast<Index>(k)) {
+        if (parts[k].holds_own(asker.vertex)) deepest = std::max(deepest, parts[k].distance_of_own(asker.vertex));
+      } else if (parts[k].holds(x)) {
+        deepest = std::max(deepest, parts[k].distance(x));
+      }
+    }
+    return deepest;
+  };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, depth.size(), 16),
                     [&](const tbb::blocked_range<std::size_t>& r) {
-                      for (std::size_t i = r.begin(); i < r.end(); ++i) {
-                        const Vec3& x = positions[at(asking_[i])];
-                        for (const PlacedPart& part : parts)
-                          if (part.holds(x)) depth[i] = std::max(depth[i], part.distance(x));
-                      }
+                      for (std::size_t i = r.begin(); i < r.end(); ++i) depth[i] = depth_of(asking_[i]);
                     });
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (depth[i] < 0) continue;
     ++found.vertices_inside;
     if (found.deepest_vertex >= 0 && depth[i] <= found.deepest) continue;
-    found.deepest_vertex = asking_[i];
+    found.deepest_vertex = asking_[i].vertex;
     found.deepest = depth[i];
   }
-  found.edges_meeting = count_meeting(topology_, surface_edges_, volume_triangles_, positions) +
-                        count_meeting(topology_, volume_edges_, surface_triangles_, positions);
+  for (const auto& [edges, triangles] : meetings_)
+    found.edges_meeting += count_meeting(topology_, edges, triangles, positions);
   return found;
 }
 

@@ -266,6 +266,8 @@ VolumeSurface volume_surface(const Scene& scene) {
       volumes.triangles.push_back(t);
       triangles.push_back(scene.mesh.triangles[at(t)]);
     }
+    const auto first = scene.mesh.tetrahedra.begin() + body.first_tetrahedron;
+    if (body.is_volume()) volumes.tetrahedra.insert(volumes.tetrahedra.end(), first, first + body.tetrahedron_count);
   }
   volumes.topology = build_topology(static_cast<Index>(scene.mesh.positions.size()), triangles);
   return volumes;
@@ -294,11 +296,31 @@ std::vector<bool> volume_flags(const Scene& scene) {
   return flags;
 }
 
-void refuse_solid_volumes(const Scene& scene, std::string_view solver) {
-  const auto found = std::ranges::find_if(scene.bodies, [](const Body& b) { return b.is_volume() && b.is_solid(); });
-  if (found == scene.bodies.end()) return;
-  throw InputError("body '" + found->name + "' is a volume of tetrahedra, which " + std::string(solver) +
-                   " does not simulate; leave the body a surface");
+std::vector<bool> free_volumes(const Scene& scene) {
+  const std::vector<Index> groups = rigid_groups(scene);
+  std::vector<bool> is_free;
+  for (const Body& body : scene.bodies) {
+    const auto first = groups.begin() + body.first_vertex;
+    is_free.push_back(body.is_volume() && std::find(first, first + body.vertex_count, -1) != first + body.vertex_count);
+  }
+  return is_free;
+}
+
+std::vector<Index> volume_askers(const Scene& scene, const Topology& topology) {
+  std::vector<Index> asking;
+  if (!has_volumes(scene)) return asking;
+  const std::vector<Index> groups = rigid_groups(scene);
+  const std::vector<bool> is_free = free_volumes(scene);
+  const bool has_free = std::ranges::find(is_free, true) != is_free.end();
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    for (Index v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v) {
+      const bool moves = groups[at(v)] == -1 || (has_free && groups[at(v)] > 0);
+      const bool has_say = body.is_volume() ? is_free[b] && !topology.vertex_triangles[at(v)].empty() : true;
+      if (moves && has_say) asking.push_back(v);
+    }
+  }
+  return asking;
 }
 
 void refuse_volumes(const Scene& scene, std::string_view solver, std::string_view remedy) {

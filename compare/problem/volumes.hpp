@@ -31,8 +31,9 @@ std::vector<VolumePart> volume_parts(const Scene& scene);
 
 /// The surfaces of all volumes of a scene as one question of the stage volume_depth: vertices keep their numbers.
 struct VolumeSurface {
-  Topology topology;             ///< of their triangles alone
-  std::vector<Index> triangles;  ///< by triangle there: its number in the scene, ascending
+  Topology topology;                    ///< of their triangles alone
+  std::vector<Index> triangles;         ///< by triangle there: its number in the scene, ascending
+  std::vector<Tetrahedron> tetrahedra;  ///< of those volumes that have any, body by body
 };
 
 /// Of a scene without volumes: no triangle. Indices are valid, and bodies cover the scene.
@@ -47,6 +48,13 @@ bool has_volumes(const Scene& scene);
 /// By vertex: whether its body is a volume.
 std::vector<bool> volume_flags(const Scene& scene);
 
+/// By body: whether it is a *free* volume, some of whose vertices no motion moves; those of tetrahedra may be.
+std::vector<bool> free_volumes(const Scene& scene);
+
+/// Who asks all volumes at each detection, ascending: the free vertices of surfaces and those on the boundary of free
+/// volumes. Where there is a free volume, prescribed ones ask as well, as they may push it. `topology`: of the scene.
+std::vector<Index> volume_askers(const Scene& scene, const Topology& topology);
+
 /// What is wrong with the scene's volumes, body by body: loose edges, none or free triangles without tetrahedra, edges
 /// of three triangles or of two that run through it in one sense, parts that are inside out or enclose nothing.
 /// Indices are valid, and bodies cover the scene; coordinates may be bad.
@@ -56,8 +64,5 @@ void check_volume_bodies(std::vector<Problem>& problems, const Scene& scene, con
 /// Throws InputError that names the scene's first volume, if it has any: `solver` does not simulate them, and
 /// `remedy` says what to do.
 void refuse_volumes(const Scene& scene, std::string_view solver, std::string_view remedy);
-
-/// The same of volumes of tetrahedra alone.
-void refuse_solid_volumes(const Scene& scene, std::string_view solver);
 
 }  // namespace ogc::compare

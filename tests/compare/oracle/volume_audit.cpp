@@ -3,6 +3,7 @@
 
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/problem/solid_scene.hpp"
 
 using namespace ogc::compare;
 
@@ -87,4 +88,53 @@ TEST_CASE("a scene without volumes lets nothing in, and positions must be the sc
   CHECK(audited(scene).vertices_inside == 0);
   const VolumeAuditor auditor(scene_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {cube({})}));
   CHECK_THROWS_AS(auditor.audit(scene.mesh.positions), InputError);
+}
+
+namespace {
+
+/// Two cubes of 1 m, six tetrahedra each, as one free volume or, `apart`, as two; the second reaches `back` into the
+/// first.
+Scene free_cubes(double back, bool apart) {
+  Mesh mesh = ogc::tests::block_mesh(2, 1);
+  const Mesh other = ogc::tests::block_mesh(2, 1, {1 - back, 0.25, 0.25});
+  Scene scene;
+  scene.name = "cubes";
+  Body body{.name = "cubes", .material = {}, .contact = BodyContact::volume};
+  if (apart) {
+    append_body(scene, body, mesh);
+    append_body(scene, body, other);
+    return scene;
+  }
+  for (const Tetrahedron& t : other.tetrahedra) mesh.tetrahedra.push_back({t[0] + 8, t[1] + 8, t[2] + 8, t[3] + 8});
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  append_body(scene, body, mesh);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("vertices of free volumes inside each other, and inside their own body, are counted", "[unit]") {
+  for (const bool apart : {true, false}) {
+    const VolumePenetration found = audited(free_cubes(0.125, apart));
+    // of the second cube (0.875, 0.25, 0.25), of the first (1, 1, 1): 0.125 from x = 1 and from x = 0.875
+    CHECK(found.vertices_inside == 2);
+    CHECK(found.deepest == 0.125);
+    CHECK(found.edges_meeting > 0);
+  }
+  CHECK(audited(free_cubes(-0.125, false)).vertices_inside == 0);
+  CHECK(audited(free_cubes(-0.125, false)).edges_meeting == 0);
+  // one that touches is outside of another body; of its own it lies on a tetrahedron
+  CHECK(audited(free_cubes(0, true)).vertices_inside == 0);
+  CHECK(audited(free_cubes(0, false)).vertices_inside == 2);
+}
+
+TEST_CASE("a surface's vertices in a body of tetrahedra are counted, and a body at rest lies in none of itself",
+          "[unit]") {
+  Scene scene = free_cubes(-0.5, false);
+  CHECK(audited(scene).vertices_inside == 0);
+  CHECK(audited(scene).edges_meeting == 0);
+  append_body(scene, {.name = "cloth", .material = {}},
+              {{{0.5, 0.5, 0.25}, {0.5, 0.25, 0.5}, {0.5, 5, 5}}, {{0, 1, 2}}, {}});
+  CHECK(audited(scene).vertices_inside == 2);
+  CHECK(audited(scene).deepest == 0.25);
 }
