@@ -107,10 +107,11 @@ struct StepMetrics {
   double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
   double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q where nothing is near) [m]
   std::int64_t inverted_tetrahedra = 0;  ///< with J ≤ 0 at the end of the step
-  /// at the last detection: contacts with volumes, free vertices inside of some, and how far the deepest of them is
-  /// from the surface [m]
+  /// at the last detection: contacts with volumes, vertices that ask and have one inside, and how far the deepest of
+  /// them is from the surface [m]; sheets of tetrahedra around them without any way out
   std::int64_t volume_contacts = 0, vertices_inside = 0;
   double deepest = 0;
+  std::int64_t depth_unresolved = 0;
   /// pairs of faces that shared a point on the way (compare/meetings.md)
   double meetings = std::numeric_limits<double>::quiet_NaN();
   /// of scenes with rods, at the end: smallest distance of contacts that act (not-a-number: none does) [m], mean and

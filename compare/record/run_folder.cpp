@@ -107,6 +107,7 @@ bool has_ledger(const Manifest& manifest) {
 StepGroups groups_of(const Scene& scene, const Manifest& manifest) {
   return {.solids = !scene.mesh.tetrahedra.empty(),
           .volumes = has_volumes(scene),
+          .sheets = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.is_volume() && b.is_solid(); }),
           .rods = has_rods(scene),
           .meetings = manifest.provenance.extra.contains("meetings"),
           .ledger = has_ledger(manifest)};

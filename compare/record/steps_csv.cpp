@@ -37,7 +37,8 @@ constexpr std::array<StepColumn, 23> columns{{
     {"status", "bits", &StepMetrics::status},
 }};
 
-/// Behind those: of scenes with tetrahedra, of scenes with volumes, of scenes with rods, of runs that were asked.
+/// Behind those: of scenes with tetrahedra, of scenes with volumes, with such of tetrahedra, of scenes with rods, of
+/// runs that were asked.
 constexpr std::array<StepColumn, 1> solid_columns{{
     {"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra},
 }};
@@ -45,6 +46,9 @@ constexpr std::array<StepColumn, 3> volume_columns{{
     {"volume_contacts", "1", &StepMetrics::volume_contacts},
     {"vertices_inside", "1", &StepMetrics::vertices_inside},
     {"deepest", "m", &StepMetrics::deepest},
+}};
+constexpr std::array<StepColumn, 1> sheet_columns{{
+    {"depth_unresolved", "1", &StepMetrics::depth_unresolved},
 }};
 constexpr std::array<StepColumn, 3> rod_columns{{
     {"smallest_contact_distance", "m", &StepMetrics::smallest_contact_distance},
@@ -60,6 +64,7 @@ std::vector<StepColumn> common_columns(const StepGroups& groups) {
   std::vector<StepColumn> all(columns.begin(), columns.end());
   if (groups.solids) all.insert(all.end(), solid_columns.begin(), solid_columns.end());
   if (groups.volumes) all.insert(all.end(), volume_columns.begin(), volume_columns.end());
+  if (groups.sheets) all.insert(all.end(), sheet_columns.begin(), sheet_columns.end());
   if (groups.rods) all.insert(all.end(), rod_columns.begin(), rod_columns.end());
   if (groups.meetings) all.insert(all.end(), meeting_columns.begin(), meeting_columns.end());
   return all;
@@ -164,6 +169,7 @@ StepTable parse_header(const std::string& file, std::string_view line) {
       if (!begins(common + i, column_title(group[i]))) refuse(common + i, column_title(group[i]));
   };
   find_group(table.groups.volumes, volume_columns);
+  find_group(table.groups.sheets, sheet_columns);
   find_group(table.groups.rods, rod_columns);
   common = common_columns(table.groups).size();
   table.groups.meetings = begins(common, column_title(meeting_columns.front()));

@@ -19,12 +19,20 @@ std::vector<std::size_t> driven_bodies(const compare::Scene& scene) {
   return driven;
 }
 
-void set_driven_contact(compare::Scene& scene, compare::BodyContact contact) {
+void set_body_contact(compare::Scene& scene, compare::BodyContact contact) {
   const std::vector<std::size_t> driven = driven_bodies(scene);
-  if (driven.empty())
-    throw compare::InputError("contact: no body of '" + scene.name +
-                              "' is moved whole by a motion; leave it out, or give a body of a scene file its contact");
+  bool is_any = !driven.empty();
   for (const std::size_t b : driven) scene.bodies[b].contact = contact;
+  for (compare::Body& body : scene.bodies) {
+    if (!body.is_solid()) continue;
+    body.contact = contact;
+    is_any = true;
+  }
+  if (!is_any)
+    throw compare::InputError("contact: no body of '" + scene.name +
+                              "' is moved whole by a motion, and none has tetrahedra; leave it out, or give a body of "
+                              "a scene file its contact");
+  if (driven.empty()) return;
   switch (contact) {
     case compare::BodyContact::surface: scene.settings.redetect_fraction = 0; break;
     case compare::BodyContact::volume: scene.settings.redetect_fraction = 0.01; break;

@@ -97,7 +97,7 @@ void apply_contact(compare::Scene& scene, const std::string& value) {
   const auto names = compare::body_contact_names();
   const auto found = std::ranges::find(names, value);
   if (found == names.end()) throw compare::InputError("contact: " + compare::unknown_name("contact", value, names));
-  set_driven_contact(scene, static_cast<compare::BodyContact>(found - names.begin()));
+  set_body_contact(scene, static_cast<compare::BodyContact>(found - names.begin()));
 }
 
 void apply_settings(compare::Scene& scene, const RunOptions& options) {

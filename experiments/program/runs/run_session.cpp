@@ -350,7 +350,10 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
     summary_.largest_share_cut = std::max(summary_.largest_share_cut, row.share_cut);
     summary_.largest_momentum_lost = std::max(summary_.largest_momentum_lost, row.momentum_lost_guess);
     summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
-    summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
+    summary_.most_unresolved = std::max(summary_.most_unresolved, row.depth_unresolved);
+    // beyond all floats where no vertex has a bound, as in scenes of nothing but volumes
+    if (row.smallest_distance < double{std::numeric_limits<float>::max()})
+      summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
     if (row.status & (compare::step_bound_violated | compare::step_met)) summary_.guarantee_kept = false;
     if (!(row.meetings > 0)) continue;
     if (summary_.first_meeting < 0) summary_.first_meeting = row.step;
@@ -478,6 +481,7 @@ void RunSession::finish() {
     writer_->set_extra("most_vertices_inside", checked(std::to_string(summary_.most_inside)));
     writer_->set_extra("deepest_m", checked(number(summary_.deepest, 6)));
     writer_->set_extra("most_edges_meeting_volumes", checked(std::to_string(summary_.most_edges_meeting)));
+    writer_->set_extra("most_depth_unresolved", std::to_string(summary_.most_unresolved));
   }
   writer_->close();
   take_times();

@@ -82,6 +82,7 @@ struct RunSummary {
   std::size_t most_inside = 0, most_edges_meeting = 0, inside_at_start = 0;  ///< vertices, edges, vertices
   double deepest = 0;                                                        ///< inside a volume [m]
   std::int64_t deepest_step = 0;                                             ///< of the state
+  std::int64_t most_unresolved = 0;               ///< StepMetrics::depth_unresolved, of all steps
   bool asks_meetings = false;                     ///< the following of the steps that were asked
   std::int64_t meetings = 0, first_meeting = -1;  ///< pairs that met on the way; the step of the first
   std::optional<bool> guarantee_kept;             ///< empty where nothing was audited and nothing is known to be wrong

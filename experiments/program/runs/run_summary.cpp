@@ -77,7 +77,8 @@ Json to_json(const RunSummary& summary) {
                        {"most_inside", checked(summary.most_inside)},
                        {"deepest_m", checked(summary.deepest)},
                        {"deepest_step", checked(summary.deepest_step)},
-                       {"most_edges_meeting", checked(summary.most_edges_meeting)}};
+                       {"most_edges_meeting", checked(summary.most_edges_meeting)},
+                       {"most_unresolved", summary.most_unresolved}};
   }
   if (!summary.left_out_of_audits.empty()) json["audit"]["left_out"] = summary.left_out_of_audits;
   if (!summary.failure.empty()) json["failure"] = summary.failure;

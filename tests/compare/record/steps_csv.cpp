@@ -72,7 +72,8 @@ TEST_CASE("rows come back as the same numbers, whatever they are", "[unit]") {
 TEST_CASE("a ledger's columns come back, each in a field of its own, behind all others but stages", "[unit]") {
   const Scratch folder;
   const std::vector<std::string> stages{"sweep"};
-  const StepGroups all{.solids = true, .volumes = true, .ledger = true}, common{.solids = true, .volumes = true};
+  const StepGroups all{.solids = true, .volumes = true, .sheets = true, .ledger = true},
+      common{.solids = true, .volumes = true, .sheets = true};
   const std::string header = step_header(stages, all);
   CHECK(
       header.starts_with(step_header({}, common).substr(0, step_header({}, common).size() - 1) + ",energy_start [J],"));
@@ -88,9 +89,10 @@ TEST_CASE("a ledger's columns come back, each in a field of its own, behind all 
   CHECK(table.rows[0].volume_contacts == 25);
   CHECK(table.rows[0].vertices_inside == 26);
   CHECK(table.rows[0].deepest == 27);
-  CHECK(table.rows[0].ledger->energy_start == 28);
-  CHECK(table.rows[0].ledger->vertices_held == 52);
-  CHECK(table.rows[0].stage_ms == std::vector<double>{53});
+  CHECK(table.rows[0].depth_unresolved == 28);
+  CHECK(table.rows[0].ledger->energy_start == 29);
+  CHECK(table.rows[0].ledger->vertices_held == 53);
+  CHECK(table.rows[0].stage_ms == std::vector<double>{54});
   CHECK(step_lines(table.rows, 1, all) == line + "\n");
   CHECK(read_text(folder, step_header(stages, common)).groups == common);
   CHECK(read_text(folder, step_header(stages, {.volumes = true})).groups == StepGroups{.volumes = true});
