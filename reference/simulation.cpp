@@ -6,7 +6,6 @@
 
 #include "compare/problem/error.hpp"
 #include "compare/problem/rods.hpp"
-#include "compare/problem/volumes.hpp"
 #include "reference/solvers/newton/solver.hpp"
 #include "reference/solvers/vbd_solver.hpp"
 
@@ -79,7 +78,7 @@ class ReferenceSimulation : public compare::Simulation {
 };
 
 /// What neither of Newton's solvers takes.
-void refuse_for_newton(const compare::Scene& scene, const char* solver) {
+void refuse_for_newton(const compare::Scene& scene) {
   if (scene.settings.guess == compare::Guess::pairs)
     throw compare::InputError(
         "setting 'guess' can't be 'pairs' with Newton's method; give guess=rounds or --solver vbd");
@@ -91,14 +90,13 @@ void refuse_for_newton(const compare::Scene& scene, const char* solver) {
     throw compare::InputError(
         "setting 'contact_weights' can't be 'iteration' with Newton's method, whose energy is that of the closest "
         "points; give contact_weights=update or --solver vbd");
-  refuse_solid_volumes(scene, solver);
 }
 
 }  // namespace
 
 std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
                                                   const compare::SimulationOptions& options) {
-  refuse_for_newton(scene, "newton");
+  refuse_for_newton(scene);
   if (has_rods(scene) && newton_settings(scene.settings).truncation == Truncation::pair)
     throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
@@ -113,13 +111,12 @@ std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
   if (newton_settings(settings).truncation == Truncation::pair)
     throw compare::InputError(
         "setting 'truncation' can't be 'pair' with penalty, which truncates nothing; leave it out");
-  refuse_for_newton(scene, "penalty");
+  refuse_for_newton(scene);
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options, NewtonSteps::whole);
 }
 
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour) {
-  refuse_solid_volumes(scene, "reference_vbd");
   return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
 }
 

@@ -26,8 +26,8 @@ struct StepEvent {
   DetectEdgeEdgeOut edge_edge;        ///< of a detection
   std::vector<float> bound;           ///< b_v [m]
   VertexPlanes planes{};              ///< where bounds are planes; smallest distances are then not asked for
-  /// The stage volume_depth, asked by the free vertices of surfaces at X_prev of all volumes: `point` is the vertex,
-  /// `triangle` and `face` are numbers of the scene.
+  /// The stage volume_depth, asked by volume_askers (compare/problem/volumes.hpp) at X_prev of all volumes: `point` is
+  /// the vertex, `triangle` and `face` are numbers of the scene; `unresolved` are vertices.
   VolumeDepthOut volumes{};
   std::vector<Quaternion> orientation{};  ///< of a sweep: q of the segments of rods after it
 };

@@ -20,7 +20,7 @@ namespace ogc::compare {
 
 /// x ← truncated(x + H⁻¹ f) for free vertices, with f and H of inertia, membrane, bending, springs (the scene's),
 /// tetrahedra, rods, contact and friction, and volumes as in the stages of these names. Prescribed vertices
-/// (`is_prescribed`) go to y, truncated; all others stay, and those of volumes: they are where the step has them.
+/// (`is_prescribed`) go to y, truncated; all others stay, those of volumes too: they are where the step has them.
 /// While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at its old one; own
 /// position: old. With contact_weights=iteration the closest points of all contacts, and with them n's and d's weights,
 /// are those of the old positions; Σ w x is formed where positions are read, Σ w xᵗ once. Prescribed vertices come
@@ -42,8 +42,8 @@ struct SweepIn {
   std::span<const EdgeEdgeContact> edge_edge;
   /// Half-spaces that the vertices bear since that detection; null: they have balls alone
   const VertexPlanes* planes = nullptr;
-  /// Of free vertices: `point` is the vertex, `triangle` and `face` are numbers of the scene; canonical order. What was
-  /// frozen acts, and `inside`, `face` and `depth` are not read.
+  /// `point` is the vertex, `triangle` and `face` are numbers of the scene; canonical order. What was frozen acts, on
+  /// the point and on the corners, as far as they are free; `inside`, `face` and `depth` are not read.
   std::span<const VolumeContact> volumes{};
   /// By segment, in the order of RestStateOut::segments. From 0; −1: held. No two neighbours share one
   std::span<const Index> segment_colour{};

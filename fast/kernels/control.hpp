@@ -71,8 +71,9 @@ struct StepControl {
   /// detection, so that another detection is due; whether an unsafe pair was seen in this pass.
   int pairs = 0, unsafe = 0, left = 0, unsafe_seen = 0;
   int not_finite = 0, violations = 0;
-  /// With volumes, at the end: contacts, vertices inside; how deep the deepest was at the last detection, bits [m].
-  int volume_contacts = 0, vertices_inside = 0, deepest = 0;
+  /// With volumes, at the end: contacts, vertices inside; how deep the deepest was at the last detection, bits [m];
+  /// sheets without any way.
+  int volume_contacts = 0, vertices_inside = 0, deepest = 0, depth_unresolved = 0;
   /// With rods, at the end: bits of the largest ‖D‖/l [1]; smallest distance of contacts that act [m].
   int longest_segment = 0;
   float nearest_contact = 0;
@@ -124,7 +125,7 @@ struct BeginStep {
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
     c.lagging = c.advanced = c.lag_asked = c.deep_inside = 0;
     c.pairs = c.unsafe = c.left = c.unsafe_seen = 0;
-    c.volume_contacts = c.vertices_inside = c.deepest = 0;
+    c.volume_contacts = c.vertices_inside = c.deepest = c.depth_unresolved = 0;
     c.longest_segment = 0;
     c.nearest_contact = 3.40282347e38f;
     c.rounds = c.detections = c.since_detection = c.iterations = c.turn = 0;

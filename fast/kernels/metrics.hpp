@@ -46,8 +46,8 @@ struct StepRow {
   /// at the end [J]; without StepSettings::energies elastic is that of tetrahedra alone, and contact is 0
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
   int inverted = 0;  ///< tetrahedra with J ≤ 0
-  /// at the last detection: contacts with volumes, vertices inside, the deepest [m]
-  int volume_contacts = 0, vertices_inside = 0;
+  /// at the last detection: contacts with volumes, vertices inside, sheets without any way, the deepest vertex [m]
+  int volume_contacts = 0, vertices_inside = 0, depth_unresolved = 0;
   float deepest = 0;
   /// with rods: smallest distance of contacts that act [m], mean and largest ‖D‖/l − 1 of segments
   float smallest_contact = 0, largest_stretch = 0;
@@ -263,6 +263,7 @@ struct FinishStep {
     row.contact = sums_end[sum_vertex_facet] + sums_end[sum_edge_edge];
     row.volume_contacts = c.volume_contacts;
     row.vertices_inside = c.vertices_inside;
+    row.depth_unresolved = c.depth_unresolved;
     row.deepest = float_from_bits(c.deepest);
     if (segments > 0) {
       row.elastic += sums_end[sum_rod];

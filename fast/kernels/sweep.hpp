@@ -82,11 +82,18 @@ struct RodRow;
 struct RodIncidence;
 struct SegmentSlot;
 
-/// The contacts of all slots with volumes: rows of fixed length (fast/kernels/volumes/).
+/// The contacts of all slots with volumes: rows of fixed length (fast/kernels/volumes/). Behind those of the slots are
+/// rows of prescribed vertices.
 struct VolumeStream {
-  const VolumeIncidence* contacts = nullptr;  ///< row of a slot: from slot · capacity
+  const VolumeIncidence* contacts = nullptr;  ///< row of a slot, as the point: from slot · capacity
   const int* counts = nullptr;                ///< by slot: how many of its row there are
   int capacity = 0;                           ///< of a row
+  // Where volumes are free; else null.
+  const int* colour = nullptr;  ///< by vertex; −1: not free
+  /// row of a slot, as a corner, from slot · corner_capacity, ascending: (place in `contacts`) · 4 + role
+  const int* corner_codes = nullptr;
+  const int* corner_counts = nullptr;  ///< by slot: how many of that row there are
+  int corner_capacity = 0;             ///< of such a row
 };
 
 /// What the sweep reads and writes of rods (fast/kernels/rods/); null where there is none.
@@ -142,7 +149,7 @@ struct SweepView {
   VolumeStream volumes;                              ///< read where there are volumes
   /// by pair; read by sums with WeightsOfIteration alone
   const FrozenContact* frozen = nullptr;
-  RodStream rods;                                    ///< read where there are rods
+  RodStream rods;  ///< read where there are rods
 
   /// Whether it is another iteration's turn.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
@@ -358,8 +365,9 @@ OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const V
 
 /// Whether what a vertex gathers may have contacts with volumes: then Gather::lies_deep tells who is deep inside one.
 template <class Gather>
-inline constexpr bool gathers_volumes =
-    requires(const SweepView& view, const Vec& x) { Gather::lies_deep(view, 0, x); };
+inline constexpr bool gathers_volumes = requires(const SweepView& view, const Vec& x) {
+  Gather::lies_deep(view, 0, x);
+};
 
 /// for_each_team over the slots of one colour.
 template <class Gather>

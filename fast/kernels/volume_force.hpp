@@ -30,13 +30,17 @@ OGC_HD inline Vec volume_motion(const VolumeContact& contact, const Vec* x, cons
          contact.weights[2] * (x[3] - start[3]);
 }
 
-/// Adds normal force, friction and block of the vertex of this role; nothing where φ ≥ r. `slip_limit` ε_v h [m].
-/// Returns λ = k (r − φ), 0 where it does not act [N].
+/// Adds normal force, friction and block of the vertex of this role; nothing where φ ≥ r. `slip_limit` ε_v h [m];
+/// `together`: bit k: the vertex of role k, another one than the own, is solved at the same time, and blocks have |w|
+/// Σ |w_u| in place of w² (method.md §7.4). Returns λ = k (r − φ), 0 where it does not act [N].
 OGC_HD inline float add_volume_contact(const VolumeContact& contact, const Vec* x, const Vec* start, int role,
-                                       float contact_radius, float slip_limit, ForceAndBlock& sum) {
+                                       float contact_radius, float slip_limit, ForceAndBlock& sum, int together = 0) {
   const float depth = contact_radius - dot(contact.normal, volume_separation(contact, x));
   if (!(depth > 0)) return 0.0f;
-  const float weight = contact.weight(role), square = weight * weight, normal_force = contact.stiffness * depth;
+  const float weight = contact.weight(role), normal_force = contact.stiffness * depth;
+  float weights = fabsf(weight);
+  for (int k = 0; k < 4; ++k) weights += (together >> k & 1) != 0 ? fabsf(contact.weight(k)) : 0.0f;
+  const float square = fabsf(weight) * weights;
   sum.add_force(normal_force * weight, contact.normal);
   sum.add_outer(contact.stiffness * square, contact.normal);
   add_friction<float>(contact.normal, volume_motion(contact, x, start), weight, square, contact.friction, normal_force,

@@ -15,7 +15,7 @@ template <class Backend>
 compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
   StepState<Backend>& state = simulation.state();
   StepTrace<Backend> trace(simulation.backend(), simulation.step(), state, simulation.detection(), simulation.volumes(),
-                           simulation.rods(), simulation.sweep().vertices(), simulation.topology());
+                           simulation.rods(), simulation.topology());
   compare::StepOut out;
   out.orientation_start = simulation.rods().start();
   simulation.observe(&trace);

@@ -162,7 +162,8 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   const Colouring colouring = colouring_of(in.colour);
   ProbeRods<Backend> rods(backend, in, rest);
   Sweep<Backend> sweep(backend, rest, colouring, *in.topology, *in.scene, colouring_of(in.segment_colour));
-  Volumes<Backend> volumes({}, volume_parts(*in.scene, *in.topology), {}, sweep.slots());
+  const AskerRows rows = asker_rows(*in.scene, *in.topology, colouring.order);
+  Volumes<Backend> volumes({}, volume_parts(*in.scene, *in.topology), {}, rows, sweep.slots(), sweep.colour());
   StepControl control;
   control.active = 1;
   typename Backend::template Buffer<StepControl> control_buffer;
@@ -191,7 +192,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   sweep.complete(view);
   rods.complete(view.rods);
   if (volumes.is_used()) {
-    volumes.put(volume_rows(in, rest, colouring));
+    volumes.put(volume_rows(in, rest, rows));
     view.volumes = volumes.stream();
   }
   if (sweep.freezes()) sweep.freeze(view, contacts.view(), contacts.count(), nullptr);

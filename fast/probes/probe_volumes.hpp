@@ -181,20 +181,26 @@ compare::VolumeDepthOut probe_volume_depth(Backend& backend, const compare::Volu
   return out;
 }
 
-/// The contacts of a simulation's last search, by the vertices of its slots; waits for what is enqueued.
+/// The answers of a simulation's last search; waits for what is enqueued.
 template <class Backend>
 compare::VolumeDepthOut download_volume_contacts(Backend& backend, const Volumes<Backend>& volumes,
-                                                 const SweepVertex* vertices, const compare::Topology& topology) {
+                                                 const compare::Topology& topology) {
   compare::VolumeDepthOut out;
   if (!volumes.is_used()) return out;
-  const auto slots = static_cast<std::size_t>(volumes.slots()), capacity = static_cast<std::size_t>(volumes.capacity());
-  const std::vector<int> counts = download_items(backend, volumes.stream().counts, slots);
-  const std::vector<FoundVolumeContact> found = download_items(backend, volumes.found(), slots * capacity);
-  const std::vector<SweepVertex> of_slot = download_items(backend, vertices, slots);
-  for (std::size_t slot = 0; slot < slots; ++slot)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(counts[slot]); ++k)
-      out.contacts.push_back(contact_of(of_slot[slot].vertex, found[slot * capacity + k], topology));
+  const auto rows = static_cast<std::size_t>(volumes.rows()),
+             capacity = static_cast<std::size_t>(volumes.stream().capacity);
+  const std::vector<int> counts = download_items(backend, volumes.stream().counts, rows),
+                         askers = download_items(backend, volumes.askers(), rows);
+  const std::vector<FoundVolumeContact> found = download_items(backend, volumes.found(), rows * capacity);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(counts[row]); ++k)
+      out.contacts.push_back(contact_of(askers[row], found[row * capacity + k], topology));
   sort_contacts(out.contacts);
+  if (volumes.unresolved() == nullptr) return out;
+  const std::vector<int> unresolved = download_items(backend, volumes.unresolved(), rows);
+  for (std::size_t row = 0; row < rows; ++row)
+    out.unresolved.insert(out.unresolved.end(), static_cast<std::size_t>(unresolved[row]), askers[row]);
+  std::ranges::sort(out.unresolved);
   return out;
 }
 

@@ -55,7 +55,7 @@ ContactRecords contact_records(const compare::SweepIn& in) {
 }
 
 std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,
-                                                      const Colouring& colouring) {
+                                                      const AskerRows& asked) {
   const auto body = [&](int v) { return static_cast<std::size_t>(rest.body[static_cast<std::size_t>(v)]); };
   std::vector<std::vector<VolumeIncidence>> of_vertex(in.old.size()), rows;
   for (const compare::VolumeContact& contact : in.volumes) {
@@ -66,12 +66,14 @@ std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in
       incidence.corner[k] = corners[k];
       incidence.contact.weights[k] = contact.weights[k];
     }
+    incidence.point = contact.point;
     incidence.contact.normal = {contact.direction.x, contact.direction.y, contact.direction.z};
     incidence.contact.stiffness = material.stiffness;
     incidence.contact.friction = material.friction;
     of_vertex[static_cast<std::size_t>(contact.point)].push_back(incidence);
   }
-  for (const int v : colouring.order) rows.push_back(std::move(of_vertex[static_cast<std::size_t>(v)]));
+  for (const int v : asked.askers)
+    rows.push_back(v < 0 ? std::vector<VolumeIncidence>{} : std::move(of_vertex[static_cast<std::size_t>(v)]));
   return rows;
 }
 

@@ -9,6 +9,7 @@
 #include "fast/kernels/volumes/stream.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
+#include "fast/stages/volume_parts.hpp"
 
 namespace ogc::fast {
 
@@ -22,9 +23,9 @@ struct ContactRecords {
 /// Those of a question.
 ContactRecords contact_records(const compare::SweepIn& in);
 
-/// The contacts with volumes of a question by slot, with the materials of `rest`.
+/// The contacts with volumes of a question by row, with the materials of `rest`.
 std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,
-                                                      const Colouring& colouring);
+                                                      const AskerRows& asked);
 
 /// The order of a sweep whose colours are given; −1: not free.
 Colouring colouring_of(std::span<const compare::Index> colour);

@@ -18,17 +18,14 @@ namespace ogc::fast {
 template <class Backend>
 class StepTrace : public StepObserver {
  public:
-  /// `vertices`: of the slots, on the backend.
   StepTrace(Backend& backend, Step<Backend>& step, StepState<Backend>& state, Detection<Backend>& detection,
-            const Volumes<Backend>& volumes, const Rods<Backend>& rods, const SweepVertex* vertices,
-            const compare::Topology& topology)
+            const Volumes<Backend>& volumes, const Rods<Backend>& rods, const compare::Topology& topology)
       : backend_(backend),
         step_(step),
         state_(state),
         detection_(detection),
         volumes_(volumes),
         rods_(rods),
-        vertices_(vertices),
         topology_(topology) {}
 
   void begin() override {
@@ -103,7 +100,7 @@ class StepTrace : public StepObserver {
     event.edge_edge = {std::move(sets.edge_edge), std::move(sets.d_min_edge)};
     event.bound = std::move(sets.bound);
     event.planes = detection_.download_planes();
-    event.volumes = download_volume_contacts(backend_, volumes_, vertices_, topology_);
+    event.volumes = download_volume_contacts(backend_, volumes_, topology_);
   }
 
   Backend& backend_;
@@ -112,7 +109,6 @@ class StepTrace : public StepObserver {
   Detection<Backend>& detection_;
   const Volumes<Backend>& volumes_;
   const Rods<Backend>& rods_;
-  const SweepVertex* vertices_;
   const compare::Topology& topology_;
   std::array<int, 3> seen_{};  ///< by kind: events counted at the last look
   std::vector<compare::StepEvent> events_;

@@ -7,7 +7,6 @@
 
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
-#include "compare/problem/volumes.hpp"
 #include "fast/kernels/models/bending_models.hpp"
 #include "fast/kernels/rest_state.hpp"
 
@@ -163,7 +162,6 @@ void add_contact_materials(const compare::Scene& scene, RestState& rest) {
 }  // namespace
 
 RestState build_rest_state(const compare::Scene& scene, const compare::Topology& topology) {
-  refuse_solid_volumes(scene, "vbd");
   RestState rest = without_shape(scene);
   add_masses(scene, rest);
   add_hinges(scene, topology, rest);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -40,7 +41,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
         segment_colouring_(colour_segments(rest_.rods)),
         sweep_(backend_, rest_, colouring_, topology_, scene_, segment_colouring_),
         volumes_(detection_.surface(), volume_parts(scene_, topology_),
-                 solid_tables(topology_, volume_tetrahedra(scene_)), sweep_.slots()),
+                 solid_tables(topology_, volume_tetrahedra(scene_)), asker_rows(scene_, topology_, colouring_.order),
+                 sweep_.slots(), sweep_.colour()),
         rods_(scene_, rest_, longest_frame),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
@@ -90,7 +92,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     result.bounds = last_bounds();
     result.query_radius = query_radius_;
     result.capacities = detection_.capacities();
-    if (volumes_.is_used()) result.capacities.push_back(volumes_.capacity());
+    for (const std::int64_t capacity : volumes_.capacities()) result.capacities.push_back(capacity);
     result.planes = detection_.download_planes();
     result.orientations = rods_.start();
     return result;
@@ -102,10 +104,10 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     rods_.put(orientations_of(snapshot));
     if (snapshot.capacities.empty()) return;
     std::vector<std::int64_t> capacities = snapshot.capacities;
-    if (volumes_.is_used()) {
-      volumes_.reserve(row_of_volumes(capacities.back()));
-      capacities.pop_back();
-    }
+    const std::size_t of_volumes = volumes_.capacities().size();
+    if (capacities.size() < of_volumes) throw std::invalid_argument("capacities of other lists");
+    volumes_.reserve(std::span(capacities).last(of_volumes));
+    capacities.resize(capacities.size() - of_volumes);
     detection_.reserve(capacities);
     lists_moved();
   }
@@ -313,6 +315,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     result.volume_contacts = row.volume_contacts;
     result.vertices_inside = row.vertices_inside;
     result.deepest = static_cast<double>(row.deepest);
+    result.depth_unresolved = row.depth_unresolved;
     result.smallest_distance = compare::has_planes(scene_.settings.bounds)
                                    ? row.smallest_bound
                                    : row.smallest_bound / scene_.settings.bound_relaxation;
@@ -333,13 +336,6 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     if (snapshot.orientations.size() != rest_.rods.segments.size())
       throw std::invalid_argument("orientations of other rods");
     return quats(snapshot.orientations);
-  }
-
-  /// Of a snapshot, where it is one. Throws std::invalid_argument.
-  int row_of_volumes(std::int64_t capacity) const {
-    if (capacity > 0 && capacity <= std::numeric_limits<int>::max() / std::max(1, sweep_.slots()))
-      return static_cast<int>(capacity);
-    throw std::invalid_argument("capacities of other lists");
   }
 
   void grow() {

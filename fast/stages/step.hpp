@@ -176,14 +176,13 @@ class Step {
     clock_.time(StepStage::metrics, [&] { finish(); });
   }
 
-  /// The contacts with volumes of who is at `position` (on the backend). The volumes are where the step has them
+  /// The contacts with volumes of who is at `position` (on the backend). Driven volumes are where the step has them
   /// since its first detection.
   void find_in_volumes(const Vec* position) {
     clock_.time(StepStage::volumes, [&] {
       volumes_.find(backend_,
                     {.volumes = detection_.positions(),
                      .position = position,
-                     .vertices = sweep_.vertices(),
                      .tables = sweep_.tables(state_.previous.data()),
                      .contact_radius = settings_.contact_radius,
                      .control = control()},
@@ -379,14 +378,17 @@ class Step {
       start = Start::after_previous;
     }
     sweep_.iterate(view, start);
+    if (volumes_.has_free())
+      backend_.for_each(volumes_.rows(), CountDeepInside{view.volumes, s.position.data(), settings_.contact_radius,
+                                                         turn, iteration, control()});
   }
 
   void finish() {
     StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
     if (settings_.energies && volumes_.is_used())
-      check_and_add(VolumeSums{
-          energy_sums(), {volumes_.stream(), sweep_.vertices(), position, settings_.contact_radius}, volumes_.slots()});
+      check_and_add(
+          VolumeSums{energy_sums(), {volumes_.stream(), position, settings_.contact_radius}, volumes_.rows()});
     else if (settings_.energies)
       check_and_add(energy_sums());
     else

@@ -313,6 +313,7 @@ class Sweep {
   const SurfaceModels* models() const { return models_.data(); }
   const SolidMaterial* solids() const { return solids_.data(); }
   ContactActivation activation() const { return activation_; }
+  const int* colour() const { return colour_.data(); }  ///< by vertex; −1: not free. On the backend
 
   /// What a record does not say itself; `previous`: X_prev, the positions of the last detection.
   ContactTables tables(const Vec* previous) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compare/problem/tetrahedra.hpp"
+#include "compare/problem/volumes.hpp"
 #include "fast/kernels/bvh.hpp"
 
 namespace ogc::fast {
@@ -98,6 +99,26 @@ std::vector<compare::Tetrahedron> volume_tetrahedra(const compare::Scene& scene)
     if (body.is_volume()) all.insert(all.end(), first, first + body.tetrahedron_count);
   }
   return all;
+}
+
+AskerRows asker_rows(const compare::Scene& scene, const compare::Topology& topology, const std::vector<int>& order) {
+  AskerRows rows;
+  if (!compare::has_volumes(scene)) return rows;
+  const std::size_t count = scene.mesh.positions.size();
+  std::vector<int> slot_of(count, -1);
+  for (std::size_t slot = 0; slot < order.size(); ++slot)
+    slot_of[static_cast<std::size_t>(order[slot])] = static_cast<int>(slot);
+  rows.askers.assign(order.size(), -1);
+  for (const compare::Index v : compare::volume_askers(scene, topology)) {
+    const int slot = slot_of[static_cast<std::size_t>(v)];
+    if (slot >= 0)
+      rows.askers[static_cast<std::size_t>(slot)] = v;
+    else
+      rows.askers.push_back(v);
+  }
+  const std::vector<bool> is_free = compare::free_volumes(scene);
+  if (std::ranges::find(is_free, true) != is_free.end()) rows.slot_of = std::move(slot_of);
+  return rows;
 }
 
 SolidTables solid_tables(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra) {

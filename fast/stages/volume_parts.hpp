@@ -27,6 +27,15 @@ VolumeParts volume_parts(const compare::Topology& topology, std::span<const comp
 /// The tetrahedra of a scene's volumes, body by body.
 std::vector<compare::Tetrahedron> volume_tetrahedra(const compare::Scene& scene);
 
+/// Who asks volumes, by row (fast/kernels/volumes/contacts.hpp).
+struct AskerRows {
+  std::vector<int> askers;   ///< by row: the vertex; −1: nobody
+  std::vector<int> slot_of;  ///< by vertex: its slot, or −1; empty where no volume is free
+};
+
+/// Of a scene; `order`: its free vertices by slot. Without volumes: no row.
+AskerRows asker_rows(const compare::Scene& scene, const compare::Topology& topology, const std::vector<int>& order);
+
 /// What SolidView looks at, on the host.
 struct SolidTables {
   std::vector<SolidElement> elements;

@@ -1,9 +1,11 @@
-// The volumes of a scene (§3.9; fast/kernels/volumes/): memory and launches of their trees and of their contacts with
-// free vertices. A scene without volumes has none of it.
+// The volumes of a scene (§3.9; fast/kernels/volumes/): memory and launches of their trees and of their contacts. A
+// scene without volumes has none of it.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "fast/kernels/volumes/contacts.hpp"
@@ -84,92 +86,130 @@ class VolumeTrees {
   Buffer<std::uint8_t> is_positive_;
 };
 
-/// Who asks volumes at a detection, and what of the detection they need; all on the backend.
+/// What volumes are asked at a detection; all on the backend.
 struct VolumeAskers {
-  PaddedVecs volumes;           ///< positions of the volumes' vertices, by vertex [m]
-  const Vec* position;          ///< of those who ask, by vertex [m]
-  const SweepVertex* vertices;  ///< by slot: who asks
-  ContactTables tables;         ///< k and μ
-  float contact_radius;         ///< r [m]
-  const StepControl* control;   ///< where it is not active nobody asks
+  PaddedVecs volumes;          ///< positions of driven volumes' vertices, by vertex [m]
+  const Vec* position;         ///< of those who ask, and of free volumes, by vertex [m]
+  ContactTables tables;        ///< k and μ
+  float contact_radius;        ///< r [m]
+  const StepControl* control;  ///< where it is not active nobody asks
 };
 
 /// The resident volumes of one scene.
 template <class Backend>
 class Volumes {
  public:
-  /// `slots`: free vertices. No parts: there are no volumes, and nothing below does anything.
-  Volumes(const SurfaceView& surface, const VolumeParts& parts, const SolidTables& solids, int slots)
-      : surface_(surface), trees_(parts, solids), slots_(slots) {
+  /// `rows`: of the scene; `slots`: free vertices; `colour`: of the sweep, by vertex, on the backend. No parts: there
+  /// are no volumes, and nothing below does anything.
+  Volumes(const SurfaceView& surface, const VolumeParts& parts, const SolidTables& solids, const AskerRows& rows,
+          int slots, const int* colour)
+      : surface_(surface),
+        trees_(parts, solids),
+        rows_(static_cast<int>(rows.askers.size())),
+        slots_(slots),
+        has_solids_(!solids.elements.empty()),
+        slot_of_host_(rows.slot_of),
+        colour_(colour) {
     if (!is_used()) return;
     std::vector<int> answers;
     for (const PartOrder& part : parts)
-      answers.insert(answers.end(), static_cast<std::size_t>(slots), answer_of({part.facets.front(), VolumeSide::far}));
+      answers.insert(answers.end(), rows.askers.size(), answer_of({part.facets.front(), VolumeSide::far}));
     answers_.upload(answers.data(), answers.size());
-    counts_.resize(static_cast<std::size_t>(slots));
+    askers_.upload(rows.askers.data(), rows.askers.size());
+    counts_.resize(rows.askers.size());
     counts_.fill_zero();
-    longest_.resize(1);
+    longest_.resize(2);
+    if (has_solids_) unresolved_.resize(rows.askers.size());
+    if (has_free()) {
+      slot_of_.upload(rows.slot_of.data(), rows.slot_of.size());
+      padded_.resize(rows.slot_of.size());
+      corner_counts_.resize(static_cast<std::size_t>(slots));
+      corner_counts_.fill_zero();
+    }
     reserve(usual_capacity);
+    if (has_free()) reserve_corners(usual_corner_capacity);
   }
 
   /// Whether there are any.
   bool is_used() const { return trees_.count() > 0; }
+  /// Whether some are free.
+  bool has_free() const { return !slot_of_host_.empty(); }
 
-  /// The trees at these positions; by vertex, on the backend [m].
+  /// The trees of driven volumes at these positions, where they stay during the step; by vertex, on the backend [m].
   void refit(Backend& backend, const Vec* positions) {
-    if (is_used()) trees_.refit(backend, surface_, positions);
+    if (is_used() && !has_free()) trees_.refit(backend, surface_, positions);
   }
 
-  /// The contacts of all free vertices. *overflow (on the backend) is set where a row was too short.
-  void find(Backend& backend, const VolumeAskers& askers, int* overflow) {
+  /// The contacts of all who ask. *overflow (on the backend) is set where a row was too short.
+  void find(Backend& backend, const VolumeAskers& asked, int* overflow) {
     if (!is_used()) return;
-    const VolumeView view{surface_,       askers.volumes,        trees_.parts(),
-                          trees_.count(), askers.contact_radius, trees_.solids()};
-    backend.for_each(slots_ * trees_.count(),
-                     AskVolumes{view, askers.vertices, slots_, askers.position, askers.control, answers_.data()});
-    backend.for_each(slots_, ListVolumeContacts{.volume = view,
-                                                .vertices = askers.vertices,
-                                                .slots = slots_,
-                                                .position = askers.position,
-                                                .control = askers.control,
-                                                .answers = answers_.data(),
-                                                .tables = askers.tables,
-                                                .capacity = capacity_,
-                                                .counts = counts_.data(),
-                                                .stream = stream_.data(),
-                                                .found = found_.data(),
-                                                .longest = longest_.data(),
-                                                .overflow = overflow});
+    PaddedVecs volumes = asked.volumes;
+    if (has_free()) {
+      backend.for_each(static_cast<int>(padded_.size()), PlaceVolumes{asked.position, padded_.data()});
+      trees_.refit(backend, surface_, asked.position);
+      volumes = {padded_.data()};
+    }
+    const VolumeView view{surface_, volumes, trees_.parts(), trees_.count(), asked.contact_radius, trees_.solids()};
+    backend.for_each(rows_ * trees_.count(),
+                     AskVolumes{view, askers_.data(), rows_, asked.position, asked.control, answers_.data()});
+    if (has_solids_)
+      list<true>(backend, view, asked, overflow);
+    else
+      list<false>(backend, view, asked, overflow);
+    if (!has_free()) return;
+    const CornerRows corners{slot_of_.data(), corner_capacity_, corner_counts_.data(), corner_codes_.data()};
+    backend.for_each(slots_, ForgetCorners{asked.control, corners});
+    backend.for_each(rows_, FillCorners{asked.control, counts_.data(), stream_.data(), capacity_, corners});
+    backend.for_each(slots_, SortCorners{asked.control, corners, longest_.data() + 1, overflow});
   }
 
   /// What the sweep reads.
-  VolumeStream stream() const { return {stream_.data(), counts_.data(), capacity_}; }
+  VolumeStream stream() const {
+    VolumeStream stream{stream_.data(), counts_.data(), capacity_};
+    if (!has_free()) return stream;
+    stream.colour = colour_;
+    stream.corner_codes = corner_codes_.data();
+    stream.corner_counts = corner_counts_.data();
+    stream.corner_capacity = corner_capacity_;
+    return stream;
+  }
   /// What was found, beside the stream.
   const FoundVolumeContact* found() const { return found_.data(); }
-  /// Free vertices, where there are volumes; else 0.
-  int slots() const { return is_used() ? slots_ : 0; }
+  /// By row: who asks; sheets without a way, null where there are no solids. On the backend.
+  const int* askers() const { return askers_.data(); }
+  const int* unresolved() const { return unresolved_.data(); }
+  /// Of contacts, where there are volumes; else 0.
+  int rows() const { return is_used() ? rows_ : 0; }
 
   /// Into the control, at the end of a step.
   void count(Backend& backend, float contact_radius, StepControl* control) const {
-    backend.for_each(slots(), CountVolumeContacts{counts_.data(), found_.data(), capacity_, contact_radius, control});
+    backend.for_each(rows(), CountVolumeContacts{counts_.data(), found_.data(), unresolved_.data(), capacity_,
+                                                 contact_radius, control});
   }
 
   /// Host only: rows as long as the last detection needed.
   void grow() {
     if (!is_used()) return;
-    int longest = 0;
-    longest_.download(&longest, 1);
-    if (longest > capacity_) reserve(longest);
+    int longest[2] = {0, 0};
+    longest_.download(longest, 2);
+    if (longest[0] > capacity_) reserve(longest[0]);
+    if (longest[1] > corner_capacity_) reserve_corners(longest[1]);
   }
-  /// Contacts that fit in a row.
-  int capacity() const { return capacity_; }
-  /// Host only: rows of this length, empty until the next detection.
-  void reserve(int capacity) {
-    capacity_ = capacity;
-    const auto places = static_cast<std::size_t>(slots_) * static_cast<std::size_t>(capacity);
-    stream_.resize(places), found_.resize(places);
-    counts_.fill_zero();
-    longest_.fill_zero();
+  /// Contacts that fit in a row, as the point, and, where volumes are free, as a corner.
+  std::vector<std::int64_t> capacities() const {
+    if (!is_used()) return {};
+    if (!has_free()) return {capacity_};
+    return {capacity_, corner_capacity_};
+  }
+  /// Host only: rows of these lengths, empty until the next detection. Throws std::invalid_argument where they are no
+  /// such.
+  void reserve(std::span<const std::int64_t> capacities) {
+    if (capacities.size() != this->capacities().size()) throw std::invalid_argument("capacities of other lists");
+    for (const std::int64_t capacity : capacities)
+      if (capacity <= 0 || capacity > most_places / std::max({1, rows_, slots_}))
+        throw std::invalid_argument("capacities of other lists");
+    if (!capacities.empty()) reserve(static_cast<int>(capacities[0]));
+    if (capacities.size() > 1) reserve_corners(static_cast<int>(capacities[1]));
   }
 
   /// Host only: contacts in place of those of a detection, row by row.
@@ -182,10 +222,11 @@ class Volumes {
     }
     reserve(static_cast<int>(longest));
     std::vector<VolumeIncidence> all(rows.size() * longest);
-    for (std::size_t slot = 0; slot < rows.size(); ++slot)
-      std::copy(rows[slot].begin(), rows[slot].end(), all.begin() + static_cast<std::ptrdiff_t>(slot * longest));
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      std::copy(rows[row].begin(), rows[row].end(), all.begin() + static_cast<std::ptrdiff_t>(row * longest));
     stream_.upload(all.data(), all.size());
     counts_.upload(counts.data(), counts.size());
+    if (has_free()) put_corners(rows);
   }
 
  private:
@@ -194,11 +235,79 @@ class Volumes {
 
   /// A vertex near a ridge or in a junction of parts has two or three.
   static constexpr int usual_capacity = 4;
+  /// A vertex has six triangles or so, and points press as densely as they lie.
+  static constexpr int usual_corner_capacity = 16;
+  /// Codes of corners have two bits for the role.
+  static constexpr std::int64_t most_places = (std::int64_t{1} << 29) - 1;
+
+  template <bool has_solids>
+  void list(Backend& backend, const VolumeView& view, const VolumeAskers& asked, int* overflow) {
+    backend.for_each(rows_, ListVolumeContacts<has_solids>{.volume = view,
+                                                           .askers = askers_.data(),
+                                                           .rows = rows_,
+                                                           .position = asked.position,
+                                                           .control = asked.control,
+                                                           .answers = answers_.data(),
+                                                           .tables = asked.tables,
+                                                           .capacity = capacity_,
+                                                           .counts = counts_.data(),
+                                                           .stream = stream_.data(),
+                                                           .found = found_.data(),
+                                                           .unresolved = unresolved_.data(),
+                                                           .longest = longest_.data(),
+                                                           .overflow = overflow});
+  }
+
+  void reserve(int capacity) {
+    capacity_ = capacity;
+    const auto places = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(capacity);
+    stream_.resize(places), found_.resize(places);
+    counts_.fill_zero();
+    if (unresolved_.size() > 0) unresolved_.fill_zero();
+    longest_.fill_zero();
+    if (has_free()) corner_counts_.fill_zero();
+  }
+
+  void reserve_corners(int capacity) {
+    corner_capacity_ = capacity;
+    corner_codes_.resize(static_cast<std::size_t>(slots_) * static_cast<std::size_t>(capacity));
+    corner_counts_.fill_zero();
+  }
+
+  void put_corners(const std::vector<std::vector<VolumeIncidence>>& rows) {
+    std::vector<std::vector<int>> corners(static_cast<std::size_t>(slots_));
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      for (std::size_t k = 0; k < rows[row].size(); ++k) {
+        const VolumeIncidence& incidence = rows[row][k];
+        const int place = static_cast<int>(row) * capacity_ + static_cast<int>(k);
+        for (int role = 1; role < 4; ++role) {
+          const int slot = slot_of_host_[static_cast<std::size_t>(incidence.vertex(role))];
+          if (slot >= 0 && incidence.contact.weight(role) != 0)
+            corners[static_cast<std::size_t>(slot)].push_back(place << 2 | role);
+        }
+      }
+    }
+    std::size_t longest = 1;
+    for (const std::vector<int>& row : corners) longest = std::max(longest, row.size());
+    reserve_corners(static_cast<int>(longest));
+    std::vector<int> counts, codes(corners.size() * longest);
+    for (std::size_t slot = 0; slot < corners.size(); ++slot) {
+      counts.push_back(static_cast<int>(corners[slot].size()));
+      std::ranges::copy(corners[slot], codes.begin() + static_cast<std::ptrdiff_t>(slot * longest));
+    }
+    corner_codes_.upload(codes.data(), codes.size());
+    corner_counts_.upload(counts.data(), counts.size());
+  }
 
   SurfaceView surface_;
   VolumeTrees<Backend> trees_;
-  int slots_, capacity_ = 0;
-  Buffer<int> answers_, counts_, longest_;
+  int rows_, slots_, capacity_ = 0, corner_capacity_ = 0;
+  bool has_solids_;
+  std::vector<int> slot_of_host_;
+  const int* colour_;
+  Buffer<int> askers_, answers_, counts_, unresolved_, longest_;
+  Buffer<int> slot_of_, corner_counts_, corner_codes_;  ///< where some are free
+  Buffer<PaddedVec> padded_;                            ///< likewise: positions of the detection, by vertex [m]
   Buffer<VolumeIncidence> stream_;
   Buffer<FoundVolumeContact> found_;
 };

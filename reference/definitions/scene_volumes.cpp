@@ -1,45 +1,90 @@
 #include "reference/definitions/scene_volumes.hpp"
 
+#include <algorithm>
+#include <tuple>
+
 #include <tbb/parallel_for.h>
 
 #include "reference/definitions/part_contacts.hpp"
+#include "reference/definitions/volume_depth.hpp"
 
 namespace ogc::reference {
+namespace {
+
+using compare::VolumeContact;
+
+VolumeContact rounded(VolumeContact contact, const std::array<double, 3>& weights, const compare::Vec3& direction,
+                      double depth) {
+  const auto single = [](double x) { return static_cast<float>(x); };
+  for (std::size_t k = 0; k < 3; ++k) contact.weights[k] = single(weights[k]);
+  contact.direction = {single(direction.x), single(direction.y), single(direction.z)};
+  contact.depth = single(depth);
+  return contact;
+}
+
+/// Of parts of triangles alone; points are numbered as they ask.
+std::vector<VolumeContact> contacts_of_triangles(const compare::VolumeDepthIn& in) {
+  const Complex mesh{*in.topology, in.positions};
+  std::vector<std::vector<PartContact>> found(in.points.size());
+  tbb::parallel_for(std::size_t{0}, found.size(),
+                    [&](std::size_t i) { found[i] = part_contacts(mesh, in.points[i], in.contact_radius); });
+  std::vector<VolumeContact> all;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (const PartContact& exact : found[i])
+      all.push_back(rounded({.point = static_cast<Index>(i),
+                             .inside = exact.inside,
+                             .triangle = exact.triangle,
+                             .face = exact.face,
+                             .direction = {}},
+                            exact.weights, exact.direction, exact.depth));
+  return all;
+}
+
+/// Of parts of any kind.
+compare::VolumeDepthOut exact_of(const compare::VolumeDepthIn& in) {
+  const compare::VolumeDepthTruth truth = volume_depth(in);
+  compare::VolumeDepthOut out;
+  for (std::size_t i = 0; i < truth.parts.size(); ++i) {
+    for (const compare::VolumePartTruth& part : truth.parts[i]) {
+      for (const compare::VolumeAnswer* exact : exact_answers(part))
+        out.contacts.push_back(rounded(exact->contact, exact->weights, exact->direction, exact->depth));
+      out.unresolved.insert(out.unresolved.end(), exact_unresolved(part), static_cast<Index>(i));
+    }
+  }
+  std::ranges::sort(out.contacts, {},
+                    [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
+  return out;
+}
+
+}  // namespace
 
 SceneVolumes::SceneVolumes(const compare::Scene& scene, const compare::Topology& topology)
     : topology_(topology),
       surface_(compare::volume_surface(scene)),
+      asking_(compare::volume_askers(scene, topology)),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)) {
-  const std::vector<Index> groups = rigid_groups(scene);
   const std::vector<bool> is_volume = compare::volume_flags(scene);
-  for (std::size_t v = 0; v < groups.size(); ++v)
-    if (groups[v] == -1 && !is_volume[v]) asking_.push_back(static_cast<Index>(v));
+  for (const Index v : asking_) own_.push_back(is_volume[static_cast<std::size_t>(v)] ? v : -1);
 }
 
-std::vector<compare::VolumeContact> SceneVolumes::contacts(std::span<const compare::Vec3f> positions) const {
-  std::vector<compare::VolumeContact> all;
-  if (!has_any()) return all;
-  const Complex mesh{surface_.topology, positions};
-  std::vector<std::vector<PartContact>> found(asking_.size());
-  tbb::parallel_for(std::size_t{0}, asking_.size(), [&](std::size_t i) {
-    found[i] = part_contacts(mesh, positions[static_cast<std::size_t>(asking_[i])], contact_radius_);
-  });
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const PartContact& exact : found[i]) {
-      const auto single = [](double x) { return static_cast<float>(x); };
-      const compare::Vec3& n = exact.direction;
-      compare::VolumeContact contact;
-      contact.point = asking_[i];
-      contact.inside = exact.inside;
-      contact.triangle = surface_.triangles[static_cast<std::size_t>(exact.triangle)];
-      contact.face = scene_face(surface_, topology_, exact.face);
-      for (std::size_t k = 0; k < 3; ++k) contact.weights[k] = single(exact.weights[k]);
-      contact.direction = {single(n.x), single(n.y), single(n.z)};
-      contact.depth = single(exact.depth);
-      all.push_back(contact);
-    }
+compare::VolumeDepthOut SceneVolumes::contacts(std::span<const compare::Vec3f> positions) const {
+  compare::VolumeDepthOut out;
+  if (!has_any()) return out;
+  std::vector<Vec3f> points;
+  for (const Index v : asking_) points.push_back(positions[static_cast<std::size_t>(v)]);
+  const compare::VolumeDepthIn question{&surface_.topology,  positions, contact_radius_, points,
+                                        surface_.tetrahedra, own_};
+  if (surface_.tetrahedra.empty())
+    out.contacts = contacts_of_triangles(question);
+  else
+    out = exact_of(question);
+  for (VolumeContact& contact : out.contacts) {
+    contact.point = asking_[static_cast<std::size_t>(contact.point)];
+    contact.triangle = surface_.triangles[static_cast<std::size_t>(contact.triangle)];
+    contact.face = scene_face(surface_, topology_, contact.face);
   }
-  return all;
+  for (Index& point : out.unresolved) point = asking_[static_cast<std::size_t>(point)];
+  return out;
 }
 
 }  // namespace ogc::reference

@@ -1,4 +1,4 @@
-// The volumes of a scene before its free vertices: what a detection finds, in the words of the contract (§3.9).
+// The volumes of a scene before those who ask them: what a detection finds, in the words of the contract (§3.9).
 #pragma once
 
 #include <span>
@@ -16,14 +16,16 @@ class SceneVolumes {
   SceneVolumes(const compare::Scene& scene, const compare::Topology& topology);
   /// Whether there are any.
   bool has_any() const { return !surface_.triangles.empty(); }
-  /// The contacts of all free vertices of surfaces, rounded to single precision, in canonical order; `point` is the
-  /// vertex, `triangle` and `face` are numbers of the scene. `positions`: by vertex, of all bodies [m].
-  std::vector<compare::VolumeContact> contacts(std::span<const compare::Vec3f> positions) const;
+  /// The contacts of all volume_askers, rounded to single precision, in canonical order, and the sheets without any
+  /// way; `point` is the vertex, `triangle` and `face` are numbers of the scene. `positions`: by vertex, of all bodies
+  /// [m].
+  compare::VolumeDepthOut contacts(std::span<const compare::Vec3f> positions) const;
 
  private:
   const compare::Topology& topology_;
   compare::VolumeSurface surface_;
   std::vector<compare::Index> asking_;
+  std::vector<compare::Index> own_;  ///< by who asks: the vertex of a volume that it is, or −1
   float contact_radius_;
 };
 

@@ -19,11 +19,11 @@ constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 /// Contacts stand point by point.
-void count_volume_contacts(const std::vector<compare::VolumeContact>& contacts, double contact_radius,
-                           compare::StepMetrics& metrics) {
-  metrics.volume_contacts = static_cast<std::int64_t>(contacts.size());
+void count_volume_contacts(const ContactSets& sets, double contact_radius, compare::StepMetrics& metrics) {
+  metrics.volume_contacts = static_cast<std::int64_t>(sets.volumes.size());
+  metrics.depth_unresolved = static_cast<std::int64_t>(sets.unresolved.size());
   compare::Index last = -1;
-  for (const compare::VolumeContact& contact : contacts) {
+  for (const compare::VolumeContact& contact : sets.volumes) {
     if (contact.inside == 0) continue;
     metrics.vertices_inside += contact.point != last;
     last = contact.point;
@@ -53,7 +53,7 @@ ContactStep::ContactStep(const compare::Scene& scene, const compare::Topology& t
   const std::vector<bool> is_volume = compare::volume_flags(scene);
   for (std::size_t v = 0; v < exclusions_.groups.size(); ++v) {
     if (potential_.mobility()[v] == Mobility::fixed) continue;
-    (is_volume[v] ? driven_ : movable_).push_back(v);
+    (is_volume[v] && potential_.mobility()[v] != Mobility::free ? driven_ : movable_).push_back(v);
   }
 }
 
@@ -94,7 +94,9 @@ void ContactStep::detect_here() {
   regions_ = FeasibleRegions(detected_, settings_.bounds);
   const State centre = widened(detected_.previous);
   for (const std::size_t v : movable_) x_[v] = regions_.inside(v, centre[v], x_[v]).x;
-  detected_.sets.volumes = timed(detection_stage, [&] { return volumes_.contacts(detected_.previous); });
+  compare::VolumeDepthOut found = timed(detection_stage, [&] { return volumes_.contacts(detected_.previous); });
+  detected_.sets.volumes = std::move(found.contacts);
+  detected_.sets.unresolved = std::move(found.unresolved);
   potential_.set_contacts(detected_.sets, widened(detected_.previous));
   ++metrics_.broad_phases;
   ++metrics_.discrete_detections;
@@ -240,7 +242,7 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.query_radius = double{query_radius_};
   metrics_.residual = residual_;
   metrics_.smallest_distance = detected_.smallest_distance;
-  count_volume_contacts(detected_.sets.volumes, settings_.contact_radius, metrics_);
+  count_volume_contacts(detected_.sets, settings_.contact_radius, metrics_);
   metrics_.wall_ms = elapsed_ms();
   if (options_.profile) metrics_.stage_ms = stage_ms_;
   metrics_.momentum_lost_end = momentum_lost({x_, start_, target_}, potential_);

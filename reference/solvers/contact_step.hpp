@@ -94,8 +94,8 @@ class ContactStep {
   compare::Exclusions exclusions_;
   Potential potential_;
   SceneVolumes volumes_;
-  std::vector<std::size_t> movable_;  ///< free and prescribed vertices, without driven volumes
-  std::vector<std::size_t> driven_;   ///< vertices of driven volumes
+  std::vector<std::size_t> movable_;  ///< free vertices, and prescribed ones of surfaces
+  std::vector<std::size_t> driven_;   ///< prescribed vertices of volumes
   std::size_t bounded_ = 0;           ///< K, those of them that have a bound
 
   State start_, target_, x_;

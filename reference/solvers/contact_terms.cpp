@@ -53,10 +53,11 @@ void add_terms(const compare::FrictionForceCase& question, const WeightsAt& befo
 }
 
 compare::VolumeForceCase question_of(const compare::SweepIn& in, const std::vector<Index>& body,
-                                     const compare::VolumeContact& contact, const SweepPositions& x) {
+                                     const compare::VolumeContact& contact, std::size_t own, const SweepPositions& x) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
   const std::array<Index, 4> vertex{contact.point, corners[0], corners[1], corners[2]};
   compare::VolumeForceCase question;
+  question.own = static_cast<std::int32_t>(own);
   for (std::size_t k = 0; k < 4; ++k) {
     question.vertex[k] = x[vertex[k]];
     question.start[k] = in.start[static_cast<std::size_t>(vertex[k])];
@@ -74,6 +75,29 @@ compare::VolumeForceCase question_of(const compare::SweepIn& in, const std::vect
   return question;
 }
 
+/// Σ |w_u|/|w| over the contact's vertices of the own one's colour, itself included (method.md §7.4).
+double majorant(const compare::SweepIn& in, const compare::VolumeContact& contact, std::size_t own) {
+  const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
+  const std::array<Index, 4> vertex{contact.point, corners[0], corners[1], corners[2]};
+  const std::array<double, 4> weight{1, contact.weights[0], contact.weights[1], contact.weights[2]};
+  const auto colour = [&](std::size_t k) { return in.colour[static_cast<std::size_t>(vertex[k])]; };
+  double sum = weight[own];
+  for (std::size_t k = 0; k < 4; ++k) sum += k != own && colour(k) == colour(own) ? weight[k] : 0;
+  return sum / weight[own];
+}
+
+/// The answers with blocks so many times as large.
+std::vector<compare::ForceAnswer> majorised(std::vector<compare::ForceAnswer> answers, double factor) {
+  for (compare::ForceAnswer& answer : answers) {
+    for (double& entry : answer.block) entry *= factor;
+    answer.block_scale *= factor;
+  }
+  return answers;
+}
+
+/// In units of u: a sum of up to three moduli beside the own one, in place of w² their product with |w|.
+constexpr double majorant_tolerance = 3;
+
 }  // namespace
 
 void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
@@ -87,8 +111,11 @@ void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils
   for (const auto& [contact, own] : stencils.edge_edge[v]) add(stencil_of(*in.topology, in.edge_edge[contact]), own);
   for (const auto& [contact, own] : stencils.volumes[v]) {
     constexpr double inputs = compare::sweep_input_tolerance;
-    sum.terms.push_back(term_of(volume_force(question_of(in, stencils.body, in.volumes[contact], positions)),
-                                compare::volume_force_tolerance + inputs, compare::volume_block_tolerance + inputs));
+    const double factor = majorant(in, in.volumes[contact], own);
+    sum.terms.push_back(
+        term_of(majorised(volume_force(question_of(in, stencils.body, in.volumes[contact], own, positions)), factor),
+                compare::volume_force_tolerance + inputs,
+                compare::volume_block_tolerance + inputs + (factor > 1 ? majorant_tolerance : 0)));
   }
 }
 

@@ -19,6 +19,7 @@ struct ContactSets {
   std::vector<compare::VertexFacetContact> vertex_facet;
   std::vector<compare::EdgeEdgeContact> edge_edge;
   std::vector<compare::VolumeContact> volumes{};  ///< with volumes: as StepEvent has them
+  std::vector<compare::Index> unresolved{};       ///< sheets without any way, likewise
 };
 
 /// Vertices of a face, in the order of the mesh; those that it lacks are −1.

@@ -195,6 +195,8 @@ void Potential::add_contact(const ContactStencil& stencil, const State& previous
 void Potential::add_contact(const compare::VolumeContact& contact) {
   const auto body_of = [&](Index v) { return static_cast<std::size_t>(body_[static_cast<std::size_t>(v)]); };
   const compare::Triangle& corners = topology_.triangles[static_cast<std::size_t>(contact.triangle)];
+  const auto is_free = [&](Index v) { return mobility_[static_cast<std::size_t>(v)] == Mobility::free; };
+  if (!is_free(contact.point) && std::ranges::none_of(corners, is_free)) return;
   const compare::MeetingMaterial& material =
       rest_.meetings[body_of(contact.point) * scene_.bodies.size() + body_of(corners[0])];
   const compare::Vec3f& n = contact.direction;

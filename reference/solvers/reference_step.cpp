@@ -54,7 +54,7 @@ class ReferenceStep {
                                              compare::segment_groups(*in_.scene, compare::rod_segments(*in_.scene)));
     set_targets();
     for (std::size_t v = 0; v < x_.size(); ++v)
-      if (is_volume_[v]) x_[v] = out_.target[v];
+      if (is_volume_[v] && exclusions_.groups[v] >= 0) x_[v] = out_.target[v];
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
     StepOrder order(settings_, compare::bounded_count(*in_.topology, exclusions_.groups),
                     compare::has_volumes(*in_.scene));
@@ -127,7 +127,8 @@ class ReferenceStep {
     bound_ = event.bound;
     planes_ = event.planes;
     contacts_ = {event.vertex_facet.contacts, event.edge_edge.contacts};
-    event.volumes.contacts = volume_contacts_ = volumes_.contacts(x_);
+    event.volumes = volumes_.contacts(x_);
+    volume_contacts_ = event.volumes.contacts;
   }
 
   /// In the guess loop, where x is X_prev.

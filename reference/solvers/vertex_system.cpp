@@ -52,10 +52,21 @@ using Updated = std::array<bool, 4>;
 
 /// Σ |w_u| over the vertices that are updated, in units of the own one's |w|: what their blocks are multiplied by, so
 /// that they majorise what all of them do (method.md §7.4). Any number where the own one's weight is 0.
-double majorant(const ClosestForm& form, const Updated& updated, std::size_t own) {
+double majorant(const std::array<double, 4>& weight, const Updated& updated, std::size_t own) {
   double sum = 0;
-  for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(form.weight[k]) : 0;
-  return form.weight[own] == 0 ? 1 : sum / std::abs(form.weight[own]);
+  for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(weight[k]) : 0;
+  return weight[own] == 0 ? 1 : sum / std::abs(weight[own]);
+}
+
+/// Of a contact with these vertices. `x`: who is read where says who is of the own one's colour.
+Updated updated_with(Index own, const std::array<Index, 4>& vertex, const SweepView& x) {
+  Updated updated{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Index u = vertex[k];
+    updated[k] = u == own ||
+                 (u >= 0 && x.colour[static_cast<std::size_t>(u)] == x.colour[static_cast<std::size_t>(own)]);
+  }
+  return updated;
 }
 
 void add_friction(const FrictionTerm& term, double factor, const std::array<Triple<ByOwn<double>>, 4>& x,
@@ -80,19 +91,22 @@ void add_contact(const Potential& potential, const ContactTerm& term, const Upda
     return contact_activation(term.activation, d, term.contact_radius, term.mollifier * term.stiffness);
   });
   add_force(energy.slope[0], distance.slope, sum);
-  const double factor = majorant(form, updated, place);
+  const double factor = majorant(form.weight, updated, place);
   add_outer(factor * energy.bend(0), distance.slope, distance.slope, sum.block);
   if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, factor, x, sum);
 }
 
-/// Of the point: what moves nothing else has no other part.
-void add_volume(const VolumeTerm& term, const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
-  const std::array<Triple<ByOwn<double>>, 4> x = with_own<ByOwn<double>>(corners, 0);
+/// Of the point or of a corner.
+void add_volume(const VolumeTerm& term, const Updated& updated, std::size_t place,
+                const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
+  if (term.weight[place] == 0) return;
+  const std::array<Triple<ByOwn<double>>, 4> x = with_own<ByOwn<double>>(corners, place);
   const ByOwn<double> overlap = term.overlap(separation(term.weight, x));
   if (!(overlap.value > 0)) return;
+  const double factor = majorant(term.weight, updated, place);
   add_force(term.stiffness * overlap.value, overlap.slope, sum);
-  add_outer(term.stiffness, overlap.slope, overlap.slope, sum.block);
-  if (term.friction > 0) add_friction(term.friction_at(corners), 1, x, sum);
+  add_outer(factor * term.stiffness, overlap.slope, overlap.slope, sum.block);
+  if (term.friction > 0) add_friction(term.friction_at(corners), factor, x, sum);
 }
 
 }  // namespace
@@ -157,16 +171,12 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   }
   for (const Incidence& incidence : contacts_[v]) {
     const ContactTerm& term = potential_.contacts()[incidence.stencil];
-    Updated updated{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Index u = term.vertex[k];
-      updated[k] = u == vertex || (u >= 0 && x.colour[static_cast<std::size_t>(u)] == x.colour[v]);
-    }
-    add_contact(potential_, term, updated, incidence.place, plain_corners(term.vertex, vertex, x), sum);
+    add_contact(potential_, term, updated_with(vertex, term.vertex, x), incidence.place,
+                plain_corners(term.vertex, vertex, x), sum);
   }
   for (const Incidence& incidence : volumes_[v]) {
     const VolumeTerm& term = potential_.volumes()[incidence.stencil];
-    add_volume(term, plain_corners(term.vertex, vertex, x), sum);
+    add_volume(term, updated_with(vertex, term.vertex, x), incidence.place, plain_corners(term.vertex, vertex, x), sum);
   }
   return sum;
 }

@@ -155,7 +155,13 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
     add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
   for (std::size_t i = 0; i < in.edge_edge.size(); ++i)
     add_element(edge_edge, i, stencil_of(*in.topology, in.edge_edge[i]).vertex);
-  for (std::size_t i = 0; i < in.volumes.size(); ++i) add_element(volumes, i, std::array{in.volumes[i].point});
+  for (std::size_t i = 0; i < in.volumes.size(); ++i) {
+    const compare::VolumeContact& contact = in.volumes[i];
+    const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
+    // where c is on the edge opposite to the point itself, the point is a corner that has no part in c
+    const auto corner = [&](std::size_t k) { return contact.weights[k] == 0 ? -1 : corners[k]; };
+    add_element(volumes, i, std::array{contact.point, corner(0), corner(1), corner(2)});
+  }
 }
 
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance) {

@@ -66,19 +66,12 @@ struct GatherRods {
   }
 };
 
-/// As tetrahedron_part and volume_part, of a scene that may have none.
+/// As tetrahedron_part, of a scene that may have none.
 template <class Add>
 OGC_HD Part<LoadTetrahedron, Add> tetrahedra_if_any(const SweepView& view, int slot, const Add& add) {
   TetrahedronRow row;
   if (view.tetrahedron_rows != nullptr) row = view.tetrahedron_rows[slot];
   return part(row.count, LoadTetrahedron{view.tetrahedra + row.begin, row.begin}, add);
-}
-OGC_HD inline Part<LoadVolumeContact, AddVolumeContact> volumes_if_any(const SweepView& view, int slot, int v,
-                                                                       const Vec& own) {
-  const VolumeStream& volumes = view.volumes;
-  const int count = volumes.counts != nullptr ? volumes.counts[slot] : 0;
-  return part(count, LoadVolumeContact{volumes.contacts + slot * volumes.capacity},
-              AddVolumeContact{view, own, view.start[v]});
 }
 
 /// As rod_part, likewise.
@@ -100,8 +93,7 @@ struct GatherAnything : KnowsVolumes {
     const OwnVertex at{own, own - view.start[vertex.vertex]};
     const AddAnyTetrahedron add{view, view.solids[vertex.body], view.models[vertex.body], at};
     return every_model_sum<Weights>(view, slot, vertex, at, team, tetrahedra_if_any(view, slot, add),
-                                    volumes_if_any(view, slot, vertex.vertex, own),
-                                    rods_if_any(view, slot, vertex, at));
+                                    volume_part(view, slot, vertex.vertex, own), rods_if_any(view, slot, vertex, at));
   }
 };
 using GatherAnythingWithRods = GatherAnything<WeightsOfUpdate>;

@@ -1,13 +1,17 @@
-// Contacts of free vertices with volumes, found with each detection and frozen until the next (§3.9, method.md §9).
+// Contacts with volumes, found with each detection and frozen until the next (§3.9, method.md §9). Who asks has a row:
+// first the slots of the sweep, −1 for such as do not ask, then prescribed vertices.
 //
-//   AskVolumes     each vertex and each part: is it inside, nearer than r, or neither? The answer is kept beside the
-//                  facet that is nearest, where the next search begins
-//   ListContacts   each vertex: its contacts, part by part, in a row of fixed length; where that is too short the step
+//   AskVolumes     each row and each part of triangles: is its vertex inside, nearer than r, or neither? The answer is
+//                  kept beside the facet that is nearest, where the next search begins
+//   ListContacts   each row: its contacts, part by part, in a row of fixed length; where that is too short the step
 //                  is repeated with longer ones (fast/stages/lists.hpp)
+//   FillCorners    where volumes are free, each row: its contacts into the rows of their corners, likewise; then
+//   SortCorners    each slot: its row in ascending order, whatever the order in which it was filled
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/volume_depth.hpp"
+#include "fast/kernels/volumes/solids.hpp"
 #include "fast/kernels/volumes/stream.hpp"
 
 namespace ogc::fast {
@@ -17,51 +21,73 @@ OGC_HD inline int answer_of(const NearestFacet& nearest) { return nearest.facet 
 /// The reverse.
 OGC_HD inline NearestFacet nearest_in(int answer) { return {answer >> 2, static_cast<VolumeSide>(answer & 3)}; }
 
-/// for_each over slots, part after part: neighbours search the same tree.
+/// for_each over vertices: where free volumes are asked.
+struct PlaceVolumes {
+  const Vec* position;  ///< of the detection, by vertex [m]
+  PaddedVec* padded;    ///< written
+
+  OGC_HD void operator()(int v) const { padded[v] = PaddedVec(position[v]); }
+};
+
+/// for_each over rows, part after part: neighbours search the same tree.
 struct AskVolumes {
-  VolumeView volume;            ///< its trees refitted
-  const SweepVertex* vertices;  ///< by slot
-  int slots;
+  VolumeView volume;  ///< its trees refitted
+  const int* askers;  ///< by row: the vertex, or −1
+  int rows;
   const Vec* position;         ///< of the detection, by vertex [m]
   const StepControl* control;  ///< where it is not active nothing is asked
   int* answers;                ///< by item: of the detection before, or any facet of the part; replaced
 
   OGC_HD void operator()(int i) const {
     if (control->active == 0) return;
-    const int part = i / slots, v = vertices[i - part * slots].vertex;
+    const int part = i / rows, v = askers[i - part * rows];
+    if (v < 0 || volume.parts[part].is_solid()) return;
     answers[i] = answer_of(VolumeQuestion(volume, position[v]).nearest_of(part, answers[i] >> 2));
   }
 };
 
-/// for_each over slots. A facet without area has no direction, and gives no contact.
+/// for_each over rows. A facet without area has no direction and gives no contact. `has_solids`: whether there are
+/// parts of tetrahedra, whose ways are searched here, each from nothing, so that a run that goes on has the same bits.
+template <bool has_solids>
 struct ListVolumeContacts {
   VolumeView volume;
-  const SweepVertex* vertices;  ///< by slot
-  int slots;
-  const Vec* position;         ///< as in AskVolumes
+  const int* askers;  ///< as in AskVolumes
+  int rows;
+  const Vec* position;         ///< likewise
   const StepControl* control;  ///< likewise: the old rows stay
   const int* answers;          ///< of AskVolumes
   ContactTables tables;        ///< k and μ of the bodies that meet
   int capacity;                ///< contacts that fit in a row
-  int* counts;                 ///< by slot, written: at most `capacity`
+  int* counts;                 ///< by row, written: at most `capacity`
   VolumeIncidence* stream;     ///< row by row, written
   FoundVolumeContact* found;   ///< beside `stream`, written
+  int* unresolved;             ///< by row, written where there are solids: sheets without a way
   int* longest;                ///< raised to the length that a row needs
   int* overflow;               ///< set where that is too much
 
-  OGC_HD void operator()(int slot) const {
+  OGC_HD void operator()(int row) const {
     if (control->active == 0) return;
-    const int v = vertices[slot].vertex;
-    const VolumeQuestion question(volume, position[v]);
-    int count = 0;
-    for (int part = 0; part < volume.part_count; ++part) {
-      question.visit_contacts(part, nearest_in(answers[part * slots + slot]), [&](const FoundVolumeContact& contact) {
+    const int v = askers[row];
+    int count = 0, lost = 0;
+    if (v >= 0) {
+      const auto add = [&](const FoundVolumeContact& contact) {
         if (!is_finite(contact.direction)) return;
-        if (count < capacity) put(slot * capacity + count, v, contact);
+        if (count < capacity) put(row * capacity + count, v, contact);
         ++count;
-      });
+      };
+      const VolumeQuestion question(volume, position[v]);
+      for (int part = 0; part < volume.part_count; ++part) {
+        if constexpr (has_solids) {
+          if (volume.parts[part].is_solid()) {
+            lost += SolidQuestion(volume, position[v], v).visit_contacts(part, -1, add).unresolved;
+            continue;
+          }
+        }
+        question.visit_contacts(part, nearest_in(answers[part * rows + row]), add);
+      }
     }
-    counts[slot] = count < capacity ? count : capacity;
+    counts[row] = count < capacity ? count : capacity;
+    if constexpr (has_solids) unresolved[row] = lost;
     if (count <= capacity) return;
     atomic_max(longest, count);
     atomic_max(overflow, 1);
@@ -76,6 +102,7 @@ struct ListVolumeContacts {
       incidence.corner[k] = facet.corner[k];
       incidence.contact.weights[k] = contact.weights[k];
     }
+    incidence.point = v;
     incidence.contact.normal = contact.direction;
     incidence.contact.stiffness = material.stiffness;
     incidence.contact.friction = material.friction;
@@ -84,22 +111,89 @@ struct ListVolumeContacts {
   }
 };
 
-/// for_each over slots, at the end of a step: what its row says of volumes.
+/// The rows of contacts as corners.
+struct CornerRows {
+  const int* slot_of;  ///< by vertex; −1: not free
+  int capacity;        ///< that fit in a row
+  int* counts;         ///< by slot
+  int* codes;          ///< row by row, as VolumeStream::corner_codes
+};
+
+/// for_each over slots, before FillCorners.
+struct ForgetCorners {
+  const StepControl* control;  ///< where it is not active the old rows stay
+  CornerRows corners;
+
+  OGC_HD void operator()(int slot) const {
+    if (control->active != 0) corners.counts[slot] = 0;
+  }
+};
+
+/// for_each over rows. Corners that have no part in c feel nothing.
+struct FillCorners {
+  const StepControl* control;       ///< as in ForgetCorners
+  const int* counts;                ///< of ListVolumeContacts
+  const VolumeIncidence* contacts;  ///< likewise
+  int capacity;                     ///< of their rows
+  CornerRows corners;
+
+  OGC_HD void operator()(int row) const {
+    if (control->active == 0) return;
+    for (int place = row * capacity; place < row * capacity + counts[row]; ++place) {
+      const VolumeIncidence& incidence = contacts[place];
+      for (int role = 1; role < 4; ++role) {
+        const int slot = corners.slot_of[incidence.vertex(role)];
+        if (slot < 0 || incidence.contact.weight(role) == 0) continue;
+        const int k = atomic_add(&corners.counts[slot], 1);
+        if (k < corners.capacity) corners.codes[slot * corners.capacity + k] = place << 2 | role;
+      }
+    }
+  }
+};
+
+/// for_each over slots.
+struct SortCorners {
+  const StepControl* control;  ///< as in ForgetCorners
+  CornerRows corners;
+  int* longest;   ///< raised to the length that a row needs
+  int* overflow;  ///< set where that is too much
+
+  OGC_HD void operator()(int slot) const {
+    if (control->active == 0) return;
+    int count = corners.counts[slot];
+    if (count > corners.capacity) {
+      atomic_max(longest, count);
+      atomic_max(overflow, 1);
+      count = corners.counts[slot] = corners.capacity;
+    }
+    int* codes = corners.codes + slot * corners.capacity;
+    for (int k = 1; k < count; ++k) {
+      const int code = codes[k];
+      int to = k;
+      for (; to > 0 && codes[to - 1] > code; --to) codes[to] = codes[to - 1];
+      codes[to] = code;
+    }
+  }
+};
+
+/// for_each over rows, at the end of a step: what its row of metrics says of volumes.
 struct CountVolumeContacts {
-  const int* counts;                ///< by slot
+  const int* counts;                ///< by row
   const FoundVolumeContact* found;  ///< row by row
+  const int* unresolved;            ///< by row; null where there are no solids
   int capacity;                     ///< of a row
   float contact_radius;             ///< r [m]
   StepControl* control;             ///< counted there
 
-  OGC_HD void operator()(int slot) const {
-    if (counts[slot] == 0) return;
+  OGC_HD void operator()(int row) const {
+    if (unresolved != nullptr && unresolved[row] > 0) atomic_add(&control->depth_unresolved, unresolved[row]);
+    if (counts[row] == 0) return;
     float deepest = -1;
-    for (int k = 0; k < counts[slot]; ++k) {
-      const FoundVolumeContact& contact = found[slot * capacity + k];
+    for (int k = 0; k < counts[row]; ++k) {
+      const FoundVolumeContact& contact = found[row * capacity + k];
       if (contact.inside) deepest = larger(deepest, larger(contact.depth - contact_radius, 0.0f));
     }
-    atomic_add(&control->volume_contacts, counts[slot]);
+    atomic_add(&control->volume_contacts, counts[row]);
     if (deepest < 0) return;
     atomic_add(&control->vertices_inside, 1);
     atomic_max(&control->deepest, float_bits(deepest));

@@ -1,5 +1,5 @@
-// Contacts with volumes in the sum over the stencils of a vertex. A driven volume stands still while a step is solved,
-// so each free vertex feels its own contacts alone.
+// Contacts with volumes in the sum over the stencils of a vertex: as the point, and, where volumes are free, as corner
+// of a triangle that others press. A driven volume stands still while a step is solved.
 #pragma once
 
 #include "fast/kernels/metrics.hpp"
@@ -8,57 +8,92 @@
 
 namespace ogc::fast {
 
-/// A contact of a free vertex, which is the point: the vertices of the triangle, which are prescribed or fixed, and
-/// what the detection froze.
+/// A contact: the point, the vertices of the triangle, and what the detection froze.
 struct alignas(16) VolumeIncidence {
   int corner[3] = {0, 0, 0};  ///< numbers in the mesh
   VolumeContact contact;
+  int point = 0;  ///< number in the mesh
+
+  /// The vertex of a role: the point (0), a corner (1, 2, 3).
+  OGC_HD int vertex(int role) const { return role == 0 ? point : corner[role - 1]; }
 };
 
-/// Contact k of a vertex.
-struct LoadVolumeContact {
-  const VolumeIncidence* first;  ///< of the vertex's row
+/// A contact as one of its vertices sees it.
+struct SeenVolumeContact {
+  VolumeContact contact;
+  int index[4];  ///< by role, encoded as in sweep.hpp
+  int own = 0;   ///< the vertex' own role
+  int together;  ///< of add_volume_contact
+};
 
-  OGC_HD VolumeIncidence operator()(int k) const { return first[k]; }
+/// Where driven volumes are all there are, corners have no colour.
+OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int own, const int* colour) {
+  SeenVolumeContact seen;
+  seen.contact = incidence.contact;
+  seen.own = own;
+  seen.together = 0;
+  const int own_colour = colour != nullptr ? colour[incidence.vertex(own)] : 0;
+  for (int k = 0; k < 4; ++k) {
+    const int v = incidence.vertex(k), its_colour = colour != nullptr ? colour[v] : -1;
+    seen.index[k] = its_colour < own_colour ? ~v : v;
+    if (k != own && its_colour == own_colour) seen.together |= 1 << k;
+  }
+  return seen;
+}
+
+/// Contact k of a vertex: first those of which it is the point, then those of which it is a corner.
+struct LoadVolumeContact {
+  VolumeStream volumes;
+  int slot, points;  ///< `points`: how many of the first kind
+
+  OGC_HD SeenVolumeContact operator()(int k) const {
+    if (k < points) return seen_from(volumes.contacts[slot * volumes.capacity + k], 0, volumes.colour);
+    const int code = volumes.corner_codes[slot * volumes.corner_capacity + k - points];
+    return seen_from(volumes.contacts[code >> 2], code & 3, volumes.colour);
+  }
 };
 /// Adds a contact.
 struct AddVolumeContact {
   const SweepView& view;
   Vec own, own_start;  ///< x and xᵗ of the vertex [m]
 
-  /// Corners are read as vertices of no colour are: where the sweep writes.
-  OGC_HD void operator()(const VolumeIncidence& incidence, ForceAndBlock& sum) const {
-    Vec x[4] = {own}, start[4] = {own_start};
-    for (int k = 0; k < 3; ++k) {
-      x[k + 1] = view.read(~incidence.corner[k]);
-      start[k + 1] = view.start[incidence.corner[k]];
+  OGC_HD void operator()(const SeenVolumeContact& seen, ForceAndBlock& sum) const {
+    Vec x[4], start[4];
+    for (int k = 0; k < 4; ++k) {
+      x[k] = k == seen.own ? own : view.read(seen.index[k]);
+      start[k] = k == seen.own ? own_start : view.start[decoded(seen.index[k])];
     }
-    add_volume_contact(incidence.contact, x, start, 0, view.contact_radius, view.friction_limit, sum);
+    add_volume_contact(seen.contact, x, start, seen.own, view.contact_radius, view.friction_limit, sum, seen.together);
   }
 };
 
-/// The contacts of a vertex as a part of its sum.
+/// The contacts of a vertex as a part of its sum; of a scene that may have no volumes.
 OGC_HD inline Part<LoadVolumeContact, AddVolumeContact> volume_part(const SweepView& view, int slot, int v,
                                                                     const Vec& own) {
   const VolumeStream& volumes = view.volumes;
-  return part(volumes.counts[slot], LoadVolumeContact{volumes.contacts + slot * volumes.capacity},
-              AddVolumeContact{view, own, view.start[v]});
+  const int points = volumes.counts != nullptr ? volumes.counts[slot] : 0,
+            corners = volumes.corner_counts != nullptr ? volumes.corner_counts[slot] : 0;
+  return part(points + corners, LoadVolumeContact{volumes, slot, points}, AddVolumeContact{view, own, view.start[v]});
 }
 
 /// From this share of r on a vertex is deep inside a volume (compare/volumes.md, The step).
 inline constexpr float deep_share = 0.5F;
 
-/// Whether x, of the vertex of a slot, lies deep inside a volume by what one of its contacts froze: φ < −r/2. Corners
-/// stand still while others are solved.
+/// Whether a contact's point lies deep inside a volume by what the contact froze: φ < −r/2. `x`: by role [m].
+OGC_HD inline bool is_deep(const VolumeContact& contact, const Vec* x, float contact_radius) {
+  return dot(contact.normal, volume_separation(contact, x)) < -deep_share * contact_radius;
+}
+
+/// Whether x, of the vertex of a slot, lies deep inside a driven volume, whose corners stand still while others are
+/// solved. Where volumes are free, CountDeepInside asks after the iteration.
 OGC_HD inline bool lies_deep_in_volume(const SweepView& view, int slot, const Vec& x) {
   const VolumeStream& volumes = view.volumes;
-  if (volumes.counts == nullptr) return false;
-  const float deep = -deep_share * view.contact_radius;
+  if (volumes.counts == nullptr || volumes.colour != nullptr) return false;
   for (int k = 0; k < volumes.counts[slot]; ++k) {
     const VolumeIncidence& incidence = volumes.contacts[slot * volumes.capacity + k];
     Vec at[4] = {x};
     for (int i = 0; i < 3; ++i) at[i + 1] = view.read(~incidence.corner[i]);
-    if (dot(incidence.contact.normal, volume_separation(incidence.contact, at)) < deep) return true;
+    if (is_deep(incidence.contact, at, view.contact_radius)) return true;
   }
   return false;
 }
@@ -97,20 +132,46 @@ struct GatherEverythingAndVolumes : KnowsVolumes {
   }
 };
 
-/// Energy of the contacts of a slot, in double.
+/// The positions of a contact's vertices by role.
+struct VolumePositions {
+  Vec x[4];  ///< [m]
+
+  OGC_HD VolumePositions(const VolumeIncidence& incidence, const Vec* position) {
+    for (int k = 0; k < 4; ++k) x[k] = position[incidence.vertex(k)];
+  }
+};
+
+/// for_each over rows after an iteration, where volumes are free: counts who lies deep inside one.
+struct CountDeepInside {
+  VolumeStream volumes;
+  const Vec* position;   ///< by vertex [m]
+  float contact_radius;  ///< r [m]
+  const int* turn;       ///< as in SweepView
+  int iteration;
+  StepControl* control;  ///< counted there
+
+  OGC_HD void operator()(int row) const {
+    if (turn != nullptr && *turn != iteration) return;
+    for (int k = 0; k < volumes.counts[row]; ++k) {
+      const VolumeIncidence& incidence = volumes.contacts[row * volumes.capacity + k];
+      const VolumePositions at(incidence, position);
+      if (is_deep(incidence.contact, at.x, contact_radius)) return control->count_deep_inside();
+    }
+  }
+};
+
+/// Energy of the contacts of a row, in double.
 struct VolumeTerm {
   VolumeStream volumes;
-  const SweepVertex* vertices;  ///< by slot
-  const Vec* position;          ///< by vertex [m]
-  float contact_radius;         ///< r [m]
+  const Vec* position;   ///< by vertex [m]
+  float contact_radius;  ///< r [m]
 
-  OGC_HD void operator()(int slot, double* sum) const {
-    for (int k = 0; k < volumes.counts[slot]; ++k) {
-      const VolumeIncidence& incidence = volumes.contacts[slot * volumes.capacity + k];
-      const Vec x[4] = {position[vertices[slot].vertex], position[incidence.corner[0]], position[incidence.corner[1]],
-                        position[incidence.corner[2]]};
+  OGC_HD void operator()(int row, double* sum) const {
+    for (int k = 0; k < volumes.counts[row]; ++k) {
+      const VolumeIncidence& incidence = volumes.contacts[row * volumes.capacity + k];
+      const VolumePositions at(incidence, position);
       const double depth = static_cast<double>(contact_radius) -
-                           dot(incidence.contact.normal, volume_separation(incidence.contact, x));
+                           dot(incidence.contact.normal, volume_separation(incidence.contact, at.x));
       if (depth > 0) sum[sum_vertex_facet] += 0.5 * incidence.contact.stiffness * depth * depth;
     }
   }

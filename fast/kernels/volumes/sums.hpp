@@ -10,12 +10,12 @@ namespace ogc::fast {
 struct VolumeSums {
   EnergySums energies;
   VolumeTerm volume;
-  int slots;  ///< free vertices
+  int rows;  ///< of its contacts
 
   /// Those of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     energies.add(chunk, chunks, sums);
-    add_terms(volume, slots, chunk, chunks, sums);
+    add_terms(volume, rows, chunk, chunks, sums);
   }
 };
 

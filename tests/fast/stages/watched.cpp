@@ -302,8 +302,7 @@ TEST_CASE("a step that is timed, or observed, makes the launches of one that is 
     options.profile = profile;
     Watched simulation(WatchedBackend{}, scene, options, "");
     Onlooker onlooker(simulation.backend(), simulation.step(), simulation.state(), simulation.detection(),
-                      simulation.volumes(), simulation.rods(), simulation.sweep().vertices(),
-                      simulation.topology());
+                      simulation.volumes(), simulation.rods(), simulation.topology());
     if (observed) simulation.observe(&onlooker);
     launched = &noted;
     simulation.advance(1);
