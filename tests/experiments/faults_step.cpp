@@ -158,7 +158,7 @@ void ask_volumes_of_before(const StepIn& in, StepOut& out) {
     std::vector<Vec3f> positions = event.position;
     for (std::size_t v = 0; v < positions.size(); ++v)
       if (is_volume[v]) positions[v] = start[v];
-    event.volumes.contacts = volumes.contacts(positions);
+    event.volumes = volumes.contacts(positions);
   }
 }
 
@@ -166,7 +166,7 @@ void ask_volumes_of_before(const StepIn& in, StepOut& out) {
 void ask_volumes_at_targets(const StepIn& in, StepOut& out) {
   const reference::SceneVolumes volumes(*in.scene, *in.topology);
   for (StepEvent& event : out.events)
-    if (is_detection(event)) event.volumes.contacts = volumes.contacts(out.target);
+    if (is_detection(event)) event.volumes = volumes.contacts(out.target);
 }
 
 /// Each detection but the first keeps its contacts with volumes.
@@ -199,6 +199,19 @@ void ask_nothing_inside(const StepIn& in, StepOut& out) {
 /// The right step, with what only volumes show.
 Fault about_volumes(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
   return shown_by("volume", spoiled(name, spoil));
+}
+
+/// The same of free volumes.
+Fault about_free_volumes(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
+  return shown_by("free_volume", spoiled(name, spoil));
+}
+
+/// Nobody but surfaces asks.
+void ask_from_surfaces_alone(const StepIn& in, StepOut& out) {
+  const std::vector<bool> is_volume = volume_flags(*in.scene);
+  for (StepEvent& event : out.events)
+    std::erase_if(event.volumes.contacts,
+                  [&](const VolumeContact& c) { return is_volume[static_cast<std::size_t>(c.point)]; });
 }
 
 /// Volumes are surfaces to contact and bounds.
@@ -271,6 +284,8 @@ std::vector<Fault> step_faults() {
       about_volumes("contacts with volumes of the first detection kept", keep_contacts_with_volumes),
       about_volumes("volumes that lag", let_volumes_lag),
       about_volumes("a vertex left inside asks nothing", ask_nothing_inside),
+      about_free_volumes("free volumes where the step began", ask_volumes_of_before),
+      about_free_volumes("vertices of free volumes do not ask", ask_from_surfaces_alone),
       bounded_volumes(),
   };
   for (Fault& fault : pair_guess_faults()) faults.push_back(std::move(fault));

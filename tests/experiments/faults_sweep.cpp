@@ -140,6 +140,23 @@ Fault about_frozen(const std::string& name, const std::function<void(SweepCopy&)
   return fault;
 }
 
+/// A fault of free volumes, likewise.
+Fault about_free_volumes(Fault fault) {
+  fault.generator = "free_volume";
+  return fault;
+}
+
+/// Corners of triangles are not pushed back.
+void forget_corners(reference::SweepStencils& stencils) {
+  for (auto& own : stencils.volumes) std::erase_if(own, [](const auto& element) { return element.second > 0; });
+}
+
+/// Each corner is the point.
+void confuse_roles(reference::SweepStencils& stencils) {
+  for (auto& own : stencils.volumes)
+    for (auto& [contact, role] : own) role = 0;
+}
+
 /// Vertices of volumes are where they were at the start of the step.
 void forget_motion_of_volumes(SweepCopy& copy) {
   const std::vector<bool> is_volume = volume_flags(copy.scene);
@@ -213,6 +230,9 @@ std::vector<Fault> sweep_faults() {
                     }),
       about_volumes("volumes do not carry along", forget_motion_of_volumes),
       about_volumes("a volume that truncates", truncate_by_volumes),
+      about_free_volumes(gathered_wrongly("what presses a free volume is not pressed back", forget_corners)),
+      about_free_volumes(gathered_wrongly("a free volume's corners take the whole force", confuse_roles)),
+      about_free_volumes(asked_wrongly("a free volume does not carry along", forget_motion_of_volumes)),
   };
 }
 

@@ -10,47 +10,12 @@
 #include "compare/judge/cases/mesh_builder.hpp"
 #include "compare/judge/cases/placement.hpp"
 #include "compare/judge/cases/solid_block.hpp"
-#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 
 namespace {
 
 using namespace placement;
-
-/// Six times the volume that a body's triangles enclose.
-double six_volumes(const Scene& scene, const Body& body) {
-  const auto from_first = [&](Index v) {
-    return sum(scene.mesh.positions[static_cast<std::size_t>(v)],
-               scaled(scene.mesh.positions[static_cast<std::size_t>(body.first_vertex)], -1));
-  };
-  double all = 0;
-  for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
-    const auto& corners = scene.mesh.triangles[static_cast<std::size_t>(t)];
-    const Vec3 a = from_first(corners[0]), b = from_first(corners[1]), c = from_first(corners[2]);
-    all += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
-  }
-  return all;
-}
-
-/// A symmetry of the cube that mirrors would leave volumes inside out, and solids at rest: their corners are then named
-/// the other way round.
-void turn_mirrored(Scene& scene) {
-  for (const Body& body : scene.bodies) {
-    if (!body.is_volume() || six_volumes(scene, body) > 0) continue;
-    const auto first = scene.mesh.triangles.begin() + body.first_triangle;
-    for (auto t = first; t != first + body.triangle_count; ++t) std::swap((*t)[1], (*t)[2]);
-  }
-  const auto at = [&](Index v) { return scene.rest_positions[static_cast<std::size_t>(v)]; };
-  for (const Body& body : scene.bodies) {
-    if (!body.is_solid()) continue;
-    const auto first = scene.mesh.tetrahedra.begin() + body.first_tetrahedron;
-    if (const auto& [a, b, c, d] = *first; orientation(at(a), at(b), at(c), at(d)) > 0) return;
-    for (auto t = first; t != first + body.tetrahedron_count; ++t) std::swap((*t)[2], (*t)[3]);
-    const std::vector<Triangle> boundary = boundary_triangles({first, first + body.tetrahedron_count});
-    std::copy(boundary.begin(), boundary.end(), scene.mesh.triangles.begin() + body.first_triangle);
-  }
-}
 
 /// A scene under construction, in metres; `spacing` is about the length of an edge.
 struct StepBuilder {
@@ -123,8 +88,8 @@ struct StepBuilder {
   }
 
   /// A block of tetrahedra that stands on the plane of a sheet at `origin`, with a vertex inside, or hangs from it. Now
-  /// and then it starts turned inside out: upside down in its own place.
-  void block(const Vec3& origin, const Vec3& velocity, bool hangs) {
+  /// and then it starts turned inside out, upside down in its own place; not as a volume, which nobody could be inside.
+  void block(const Vec3& origin, const Vec3& velocity, bool hangs, BodyContact contact = BodyContact::surface) {
     const double height = random.between(0.5, 1.5);
     Mesh mesh = hangs ? jittered_block(random, spacing, height) : jittered_cube(random, spacing, height);
     const auto higher = [](const Vec3& a, const Vec3& b) { return a.z < b.z; };
@@ -134,7 +99,8 @@ struct StepBuilder {
     shift.z -= hangs ? highest : lowest;
     for (Vec3& x : mesh.positions) x = sum(x, shift);
     add(mesh, velocity, false);
-    if (!random.one_in(5)) return;
+    scene.bodies.back().contact = contact;
+    if (contact == BodyContact::volume || !random.one_in(5)) return;
     for (std::size_t v = scene.mesh.positions.size() - mesh.positions.size(); v < scene.mesh.positions.size(); ++v) {
       double& z = scene.mesh.positions[v].z;
       z = lowest + highest + 2 * shift.z - z;
@@ -432,6 +398,30 @@ CaseData solid(Random& random) {
   return builder.finish();
 }
 
+/// A free volume over, in or half in another one or a sheet, some vertices of which are prescribed now and then.
+CaseData free_volume(Random& random) {
+  StepBuilder builder(random);
+  const double speed = builder.speed(random.magnitude(-2, 0.3)), gap = random.between(-0.6, 0.4);
+  const Vec3 askew{random.between(-0.5, 0.5), random.between(-0.5, 0.5), gap};
+  builder.block(askew, {builder.speed(random.between(-0.3, 0.3)), 0, -random.sign() * speed}, false,
+                BodyContact::volume);
+  const auto second = static_cast<Index>(builder.scene.mesh.positions.size());
+  if (random.one_in(2))
+    builder.block({}, {0, 0, 0.5 * speed}, true, BodyContact::volume);
+  else
+    builder.sheet(side(random), side(random), {}, {}, random.one_in(4));
+  if (!builder.scene.bodies.back().fixed && random.one_in(3)) {
+    PrescribedMotion motion;
+    motion.name = "held";
+    for (Index v = second; v < second + 4; ++v) motion.vertices.push_back(v);
+    motion.velocity = scaled(in_box(random, -1, 1), builder.speed(random.magnitude(-2, 0)));
+    builder.scene.motions.push_back(motion);
+  }
+  builder.jitter(random.between(0.01, 0.09));
+  if (random.one_in(2)) builder.scene.settings.redetect_every = 1 + random.below(2);
+  return builder.finish();
+}
+
 /// Sheets before one or two volumes, over them, in them, or half of each; perhaps one above the other.
 CaseData sheets_before_volumes(Random& random) {
   StepBuilder builder(random);
@@ -555,7 +545,7 @@ CaseData rods(Random& random) {
   return builder.finish();
 }
 
-constexpr std::array<Generator, 21> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 22> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -573,6 +563,7 @@ constexpr std::array<Generator, 21> table{{{"fall", 12, true, fall},
                                            {"dat", 12, false, dat, 0, Stage::plane},
                                            {"volume", 8, false, volume, 0, Stage::volume_depth},
                                            {"ladder.volume", 8, false, volume_at_radius, 0, Stage::volume_depth},
+                                           {"free_volume", 8, false, free_volume, 0, Stage::volume_depth},
                                            {"rods", 12, false, rods, 0, Stage::orientation},
                                            {"pairs", 24, false, pairs, 0, std::nullopt, true},
                                            {"ladder.stack", 24, false, stack_by_pairs, 0, std::nullopt, true}}};

@@ -471,6 +471,45 @@ CaseData volume_at_radius(Random& random) {
   return with_volume(random, std::move(test), mesh);
 }
 
+/// One or two free volumes about a vertex of sheets: blocks of tetrahedra, which may reach into each other. As much
+/// stiffer than their inertia as sheets are.
+CaseData free_volume(Random& random) {
+  SweepCase test = case_of<SweepCase>(sheets(random));
+  Scene scene = *test.scene;
+  const double r = scene.settings.contact_radius, size = r * random.magnitude(0, 1);
+  const Vec3 place = some_vertex(random, test);
+  for (int k = 0, count = 1 + random.below(2); k < count; ++k) {
+    Body body;
+    body.name = "volume" + std::to_string(k);
+    body.contact = BodyContact::volume;
+    body.material.solid_density = random.magnitude(2, 4);
+    const double inertia = body.material.solid_density * size * size / std::pow(scene.settings.time_step, 2);
+    body.material.solid_mu = inertia * random.magnitude(-1, 2);
+    body.material.solid_lambda = inertia * random.magnitude(-1, 2);
+    body.material.contact_stiffness = scene.bodies.front().material.contact_stiffness * random.magnitude(-1, 1);
+    body.material.friction = random.one_in(3) ? 0 : random.between(0.05, 1);
+    Mesh mesh = jittered_block(random, size, 1);
+    const Vec3 shift = placement::sum(place, placement::scaled(in_box(random, -1.5, 0.5), size));
+    for (Vec3& x : mesh.positions) x = placement::sum(x, shift);
+    append_body(scene, body, mesh);
+  }
+  round_to_single(scene);
+  for (std::size_t v = test.previous.size(); v < scene.mesh.positions.size(); ++v) {
+    const auto near = [&](double by) {
+      return placement::single(
+          placement::sum(scene.mesh.positions[v], placement::scaled(in_box(random, -1, 1), by * r)));
+    };
+    test.previous.push_back(near(0));
+    test.start.push_back(near(0.1));
+    test.old.push_back(near(0.1));
+    test.target.push_back(near(0.3));
+    test.largest_bound.push_back(std::numeric_limits<float>::max());
+  }
+  test.colour = random_colours(random, scene, build_topology(scene));
+  test.scene = std::make_shared<Scene>(std::move(scene));
+  return test;
+}
+
 /// Other models than the default ones, with the colours that their springs ask for.
 template <CaseData (*make)(Random&)>
 CaseData with_models(Random& random) {
@@ -509,7 +548,7 @@ CaseData rods_at_rest(Random& random) {
   return with_rod(random, case_of<SweepCase>(random.one_in(2) ? at_rest(random) : collapse(random)));
 }
 
-constexpr std::array<Generator, 28> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 29> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
@@ -529,6 +568,7 @@ constexpr std::array<Generator, 28> table{{{"sheets", 16, true, sheets},
                                            {"solid", 4, false, solid, 0, Stage::tetrahedron},
                                            {"volume", 4, false, volume, 0, Stage::volume_depth},
                                            {"ladder.volume", 4, false, volume_at_radius, 0, Stage::volume_depth},
+                                           {"free_volume", 8, false, free_volume, 0, Stage::volume_depth},
                                            {"frozen", 8, false, frozen, 0, std::nullopt, true},
                                            {"frozen.bodies", 4, false, frozen_bodies, 0, Stage::volume_depth, true},
                                            {"models", 8, false, with_models<sheets>},

@@ -1,6 +1,8 @@
 #include "compare/judge/cases/solid_block.hpp"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "compare/judge/cases/placement.hpp"
 #include "compare/problem/tetrahedra.hpp"
@@ -55,5 +57,41 @@ Mesh jittered_surface(Random& random, double size, double height) {
 }
 
 Mesh jittered_cube(Random& random, double size, double height) { return jittered(random, {2, 2, 2}, size, height); }
+
+namespace {
+
+/// Six times the volume that a body's triangles enclose.
+double six_volumes(const Scene& scene, const Body& body) {
+  const auto from_first = [&](Index v) {
+    return placement::sum(scene.mesh.positions[static_cast<std::size_t>(v)],
+                          placement::scaled(scene.mesh.positions[static_cast<std::size_t>(body.first_vertex)], -1));
+  };
+  double all = 0;
+  for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+    const auto& corners = scene.mesh.triangles[static_cast<std::size_t>(t)];
+    const Vec3 a = from_first(corners[0]), b = from_first(corners[1]), c = from_first(corners[2]);
+    all += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+  }
+  return all;
+}
+
+}  // namespace
+
+void turn_mirrored(Scene& scene) {
+  for (const Body& body : scene.bodies) {
+    if (!body.is_volume() || body.is_solid() || six_volumes(scene, body) > 0) continue;
+    const auto first = scene.mesh.triangles.begin() + body.first_triangle;
+    for (auto t = first; t != first + body.triangle_count; ++t) std::swap((*t)[1], (*t)[2]);
+  }
+  const auto at = [&](Index v) { return scene.rest_positions[static_cast<std::size_t>(v)]; };
+  for (const Body& body : scene.bodies) {
+    if (!body.is_solid()) continue;
+    const auto first = scene.mesh.tetrahedra.begin() + body.first_tetrahedron;
+    if (const auto& [a, b, c, d] = *first; orientation(at(a), at(b), at(c), at(d)) > 0) return;
+    for (auto t = first; t != first + body.tetrahedron_count; ++t) std::swap((*t)[2], (*t)[3]);
+    const std::vector<Triangle> boundary = boundary_triangles({first, first + body.tetrahedron_count});
+    std::copy(boundary.begin(), boundary.end(), scene.mesh.triangles.begin() + body.first_triangle);
+  }
+}
 
 }  // namespace ogc::compare

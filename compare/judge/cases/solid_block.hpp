@@ -1,8 +1,8 @@
-// A small solid for cases about whole scenes.
+// A small solid for cases about whole scenes, and what a symmetry that mirrors does to bodies with an inner side.
 #pragma once
 
 #include "compare/judge/cases/random.hpp"
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/scene.hpp"
 
 namespace ogc::compare {
 
@@ -13,5 +13,9 @@ Mesh jittered_block(Random& random, double size, double height);
 Mesh jittered_surface(Random& random, double size, double height);
 /// The block of 2 × 2 × 2 cells.
 Mesh jittered_cube(Random& random, double size, double height);
+
+/// A symmetry of the cube that mirrors leaves volumes inside out, and solids at rest: their corners are then named the
+/// other way round.
+void turn_mirrored(Scene& scene);
 
 }  // namespace ogc::compare

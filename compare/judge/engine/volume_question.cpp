@@ -30,22 +30,26 @@ VolumeQuestion::VolumeQuestion(const Scene& scene, const Topology& topology)
     : topology_(topology),
       surface_(volume_surface(scene)),
       own_(std::make_shared<const Topology>(surface_.topology)),
+      asking_(volume_askers(scene, topology)),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)) {
-  const std::vector<Index> groups = rigid_groups(scene);
   const std::vector<bool> is_volume = volume_flags(scene);
-  for (std::size_t v = 0; v < groups.size(); ++v)
-    if (groups[v] == -1 && !is_volume[v]) asking_.push_back(static_cast<Index>(v));
+  for (const Index v : asking_) asking_as_.push_back(is_volume[place(v)] ? v : -1);
 }
 
 VolumeDepthCase VolumeQuestion::at(std::span<const Vec3f> positions) const {
-  VolumeDepthCase asked{own_, {positions.begin(), positions.end()}, contact_radius_, {}};
+  VolumeDepthCase asked{own_, {positions.begin(), positions.end()}, contact_radius_, {}, surface_.tetrahedra};
   for (const Index v : asking_) asked.points.push_back(positions[place(v)]);
+  asked.own = asking_as_;
   return asked;
 }
 
+VolumeDepthTruth VolumeQuestion::truth(const VolumeDepthCase& asked, const Authority& authority) {
+  return authority.volume_depth(
+      {asked.topology.get(), asked.positions, asked.contact_radius, asked.points, asked.tetrahedra, asked.own});
+}
+
 std::vector<VolumeContact> VolumeQuestion::exact(const VolumeDepthCase& asked, const Authority& authority) const {
-  const VolumeDepthTruth truth = authority.volume_depth(
-      {asked.topology.get(), asked.positions, asked.contact_radius, asked.points});
+  const VolumeDepthTruth truth = VolumeQuestion::truth(asked, authority);
   std::vector<VolumeContact> contacts;
   const auto take = [&](const VolumeAnswer& answer, std::size_t i) {
     VolumeContact contact = rounded(answer, asking_[i]);
@@ -83,6 +87,12 @@ std::optional<VolumeDepthOut> VolumeQuestion::answer_of(const VolumeDepthOut& in
     }
     if (contact.face.index < 0) return refuse("a face of none");
     own.contacts.push_back(contact);
+  }
+  for (const Index vertex : in_scene.unresolved) {
+    own.unresolved.push_back(find(asking_, vertex));
+    if (own.unresolved.back() >= 0) continue;
+    problem = "vertex " + std::to_string(vertex) + " has an unresolved sheet and asks no volume";
+    return std::nullopt;
   }
   return own;
 }

@@ -21,10 +21,12 @@ class VolumeQuestion {
 
   /// Whether there are any volumes.
   bool has_any() const { return !surface_.triangles.empty(); }
-  /// Who asks: the free vertices of surfaces, ascending.
+  /// Who asks: volume_askers.
   const std::vector<Index>& asking() const { return asking_; }
   /// Asked at these positions of all vertices of the scene.
   VolumeDepthCase at(std::span<const Vec3f> positions) const;
+  /// All accepted answers.
+  static VolumeDepthTruth truth(const VolumeDepthCase& asked, const Authority& authority);
   /// The exact answer in the scene's numbers, rounded.
   std::vector<VolumeContact> exact(const VolumeDepthCase& asked, const Authority& authority) const;
   /// An answer in the scene's numbers as one to the question; empty, with the reason, where it is none.
@@ -34,7 +36,7 @@ class VolumeQuestion {
   const Topology& topology_;
   VolumeSurface surface_;
   std::shared_ptr<const Topology> own_;
-  std::vector<Index> asking_;
+  std::vector<Index> asking_, asking_as_;  ///< `asking_as_`: the vertex of a volume that each is, or −1
   float contact_radius_;
 };
 

@@ -228,12 +228,8 @@ class StepVerdict {
     const std::optional<VolumeDepthOut> own = volumes_.answer_of(event.volumes, problem);
     if (!own) return tally_.mismatch(where(i) + ": " + problem);
     const auto& question = case_of<VolumeDepthCase>(asked.data);
-    part(where(i), Stage::volume_depth, [&](Tally& tally) {
-      judge_volume_depth(asked,
-                         authority_.volume_depth(
-                             {question.topology.get(), question.positions, question.contact_radius, question.points}),
-                         *own, tally);
-    });
+    part(where(i), Stage::volume_depth,
+         [&](Tally& tally) { judge_volume_depth(asked, VolumeQuestion::truth(question, authority_), *own, tally); });
   }
 
   Bounds policy() const { return in_.scene->settings.bounds; }

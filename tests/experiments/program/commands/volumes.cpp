@@ -12,29 +12,52 @@
 using namespace ogc;
 using namespace ogc::tests;
 
-TEST_CASE("a solver that has no volumes of tetrahedra refuses them by name, before anything is written", "[unit]") {
+TEST_CASE("ipc refuses volumes by name, driven or free, before anything is written", "[unit]") {
+  const TemporaryFolder folder;
+  const auto refuses = [&](const std::string& scene, const std::string& body) {
+    const std::filesystem::path out = folder / "ipc";
+    const ProgramResult result = run_ogc("run " + scene + " --solver ipc --out " + out.string());
+    INFO(result.err);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, {"body '" + body + "' is a volume", "ipc", "leave the body a surface"}));
+    CHECK(!std::filesystem::exists(out));
+  };
+  refuses("dress --scale smoke --set contact=volume", "body");
+  refuses("mat_twist --scale smoke --set contact=volume", "mat");
+}
+
+TEST_CASE("a mat of tetrahedra that is twisted as a free volume runs to its end, and the summary says what is inside",
+          "[unit]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path run = folder / "run";
+  const ProgramResult result = run_ogc("run mat_twist --scale smoke --set contact=volume --steps 40 --json --out " +
+                                       run.string());
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  CHECK(json.at("guarantee_kept") == true);
+  CHECK(json.at("largest_lag_m") == 0);
+  CHECK(json.at("volumes").at("inside_at_start") == 0);
+  CHECK(json.at("volumes").at("most_unresolved") == 0);
+  CHECK(json.at("smallest_distance_m").is_null());  // no vertex has a bound
+  const auto manifest = nlohmann::json::parse(compare::read_bytes(run / "run.json"));
+  CHECK(manifest.at("most_depth_unresolved") == "0");
+  CHECK(contains(compare::read_bytes(run / "steps.csv"), {",deepest [m],depth_unresolved [1]"}));
+  const ProgramResult audit = run_ogc("audit " + run.string());
+  CHECK(audit.status == 0);
+  CHECK(contains(audit.out, {"inside volumes"}));
+}
+
+TEST_CASE("a free volume that begins inside out is refused with the triangle's name", "[unit]") {
   const TemporaryFolder folder;
   compare::Scene scene = solid_scene();
   scene.bodies[0].contact = compare::BodyContact::volume;
+  for (compare::Vec3& x : scene.mesh.positions) x.x = -x.x;
   const std::string file = write_scene(folder / "scene", scene).string();
-  for (const std::string solver : {"vbd", "reference_vbd", "newton", "ipc"}) {
-    const std::filesystem::path out = folder / solver;
-    const ProgramResult result = run_ogc("run " + file + " --solver " + solver + " --out " + out.string());
-    INFO(result.err);
-    CHECK(result.status == 2);
-    CHECK(contains(result.err, {"body 'block' is a volume", solver == "reference_vbd" ? "vbd" : solver,
-                                "does not simulate", "leave the body a surface"}));
-    CHECK(!std::filesystem::exists(out));
-  }
-}
-
-TEST_CASE("ipc refuses a driven volume by name", "[unit]") {
-  const TemporaryFolder folder;
-  const ProgramResult result = run_ogc("run dress --scale smoke --set contact=volume --solver ipc --out " +
-                                       (folder / "ipc").string());
+  const ProgramResult result = run_ogc("run " + file + " --out " + (folder / "run").string());
   INFO(result.err);
   CHECK(result.status == 2);
-  CHECK(contains(result.err, {"body 'body' is a volume", "ipc", "leave the body a surface"}));
+  CHECK(contains(result.err, {"triangle 0", "turned inside out"}));
 }
 
 TEST_CASE("newton: a dress on a volume does not lag, and no panel intersects another", "[unit]") {
