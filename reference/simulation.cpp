@@ -78,7 +78,7 @@ class ReferenceSimulation : public compare::Simulation {
 };
 
 /// What neither of Newton's solvers takes.
-void refuse_for_newton(const compare::Scene& scene) {
+void refuse_for_newton(const compare::Scene& scene, const char* solver) {
   if (scene.settings.guess == compare::Guess::pairs)
     throw compare::InputError(
         "setting 'guess' can't be 'pairs' with Newton's method; give guess=rounds or --solver vbd");
@@ -97,7 +97,7 @@ void refuse_for_newton(const compare::Scene& scene) {
 
 std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
                                                   const compare::SimulationOptions& options) {
-  refuse_for_newton(scene);
+  refuse_for_newton(scene, "newton");
   if (has_rods(scene) && newton_settings(scene.settings).truncation == Truncation::pair)
     throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
@@ -112,7 +112,7 @@ std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
   if (newton_settings(settings).truncation == Truncation::pair)
     throw compare::InputError(
         "setting 'truncation' can't be 'pair' with penalty, which truncates nothing; leave it out");
-  refuse_for_newton(scene);
+  refuse_for_newton(scene, "penalty");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options, NewtonSteps::whole);
 }
 
