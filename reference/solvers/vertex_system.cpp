@@ -58,8 +58,8 @@ double majorant(const std::array<double, 4>& weight, const Updated& updated, std
   return weight[own] == 0 ? 1 : sum / std::abs(weight[own]);
 }
 
-/// Of a contact with these vertices. `x`: who is read where says who is of the own one's colour. With ContactBlocks::own
-/// the own one alone.
+/// Of a contact with these vertices. `x`: who is read where says who is of the own one's colour. The own one alone with
+/// ContactBlocks::own.
 Updated updated_with(Index own, const std::array<Index, 4>& vertex, const SweepView& x, ContactBlocks blocks) {
   Updated updated{};
   for (std::size_t k = 0; k < 4; ++k) {
