@@ -200,7 +200,7 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 10;
   scene.settings.contact_radius = radius;
-  set_driven_contact(scene, compare::BodyContact::volume);
+  set_body_contact(scene, compare::BodyContact::volume);
   return scene;
 }
 

@@ -129,7 +129,7 @@ TEST_CASE("contact_set=distance has for each vertex one contact with each other 
   const auto distance = [&](const compare::VertexFacetContact& c) {
     const auto stencil = reference::stencil_of(topology, c);
     const auto corners = reference::contact_corners(stencil.sides, stencil.vertex, x);
-    const auto apart = separation(reference::closest_form(stencil.sides, corners).weight, corners);
+    const auto apart = reference::separation(reference::closest_form(stencil.sides, corners).weight, corners);
     return std::hypot(apart[0], apart[1], apart[2]);
   };
   std::set<compare::Index> seen;
@@ -150,19 +150,19 @@ TEST_CASE("colours: greedy and random ones separate stencils, a vertex alone has
   const compare::RestStateOut rest = reference::rest_state({&scene, &topology}).exact;
   const std::vector<compare::Index> groups = rigid_groups(scene);
   const auto colours = [&](reference::Colouring rule) { return colours_of(scene, rest, groups, rule); };
-  using enum reference::Colouring;
-  for (const auto rule : {greedy, reference::Colouring::random, vertex, turned}) {
+  using reference::Colouring;
+  for (const auto rule : {Colouring::greedy, Colouring::random, Colouring::vertex, Colouring::turned}) {
     const auto colour = colours(rule);
     const auto at = [&](compare::Index v) { return colour[static_cast<std::size_t>(v)]; };
     for (const compare::Triangle& t : topology.triangles) CHECK(std::set{at(t[0]), at(t[1]), at(t[2])}.size() == 3);
   }
-  const auto alone = colours(vertex), together = colours(reference::Colouring::together);
+  const auto alone = colours(Colouring::vertex), together = colours(Colouring::together);
   CHECK(std::set(alone.begin(), alone.end()).size() == alone.size());
   CHECK(std::ranges::all_of(together, [](compare::Index c) { return c == 0; }));
-  const auto once = colours(reference::Colouring::random);
-  CHECK(once == colours(reference::Colouring::random));
+  const auto once = colours(Colouring::random);
+  CHECK(once == colours(Colouring::random));
   scene.settings.seed = 1;
-  CHECK(once != colours(reference::Colouring::random));
+  CHECK(once != colours(Colouring::random));
 }
 
 TEST_CASE("cut_after=iteration and other contact sets keep vertices in their bounds, and change the step",
@@ -194,11 +194,10 @@ TEST_CASE("a setting that changes nothing with a solver is refused by name", "[u
   compare::Settings settings;
   reference::refuse_variants(settings, "vbd");
   set_setting(settings, "contact_set", "pairs");
-  CHECK_THROWS_WITH(reference::refuse_variants(settings, "vbd"), Catch::Matchers::ContainsSubstring("contact_set"));
+  CHECK_THROWS_WITH(reference::refuse_variants(settings, "vbd"), ContainsSubstring("contact_set"));
   reference::refuse_sweep_variants(settings, "newton");
   set_setting(settings, "colours", "random");
-  CHECK_THROWS_WITH(reference::refuse_sweep_variants(settings, "newton"),
-                    Catch::Matchers::ContainsSubstring("colours"));
+  CHECK_THROWS_WITH(reference::refuse_sweep_variants(settings, "newton"), ContainsSubstring("colours"));
   compare::Scene scene = two_sheets();
   scene.settings = settings;
   CHECK_THROWS_AS(reference::start_newton(scene, {}), compare::InputError);
