@@ -171,9 +171,6 @@ class CpuBackend {
     });
   }
 
-  /// A thread searches from the start as well: nothing is sought before.
-  static constexpr bool seeks = false;
-
   /// In the calling thread.
   void exclusive_scans(const Scan& first, const Scan& second) {
     exclusive_scan(first);
@@ -189,13 +186,6 @@ class CpuBackend {
       keys[i] = items[static_cast<std::size_t>(i)].key;
       values[i] = items[static_cast<std::size_t>(i)].value;
     });
-  }
-
-  /// One after the other.
-  template <class Beside, class Body>
-  void at_once(Beside beside, Body body) {
-    beside();
-    body();
   }
 
   /// The flag is read at once.

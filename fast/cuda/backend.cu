@@ -125,39 +125,6 @@ void CudaBackend::end_condition(cudaStream_t outer) {
   OGC_CUDA_CHECK(error);
 }
 
-namespace {
-
-/// What `later` captures from here on comes after all that `earlier` has captured.
-void order(cudaStream_t earlier, cudaStream_t later) {
-  cudaEvent_t event = nullptr;
-  OGC_CUDA_CHECK(cudaEventCreateWithFlags(&event, cudaEventDisableTiming));
-  OGC_CUDA_CHECK(cudaEventRecord(event, earlier));
-  OGC_CUDA_CHECK(cudaStreamWaitEvent(later, event, 0));
-  OGC_CUDA_CHECK(cudaEventDestroy(event));
-}
-
-}  // namespace
-
-// A stream that captures what comes beside the current one's next work is the current one.
-cudaStream_t CudaBackend::begin_branch() {
-  const cudaStream_t trunk = current_;
-  OGC_CUDA_CHECK(cudaStreamCreateWithFlags(&current_, cudaStreamNonBlocking));
-  order(trunk, current_);
-  follows_ = false;
-  return trunk;
-}
-
-cudaStream_t CudaBackend::end_branch(cudaStream_t trunk) {
-  follows_ = false;
-  return std::exchange(current_, trunk);
-}
-
-void CudaBackend::join(cudaStream_t branch) {
-  order(branch, current_);
-  OGC_CUDA_CHECK(cudaStreamDestroy(branch));
-  follows_ = false;
-}
-
 void CudaBackend::launch(const Recording& recording, int times) {
   while (events_.size() < static_cast<std::size_t>(times) + 1) {
     cudaEvent_t event = nullptr;

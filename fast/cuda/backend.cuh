@@ -199,21 +199,6 @@ class CudaBackend {
     follows_ = true;
   }
 
-  /// In a recording two branches of the graph, elsewhere one after the other. Scratch memory is the second one's.
-  template <class Beside, class Body>
-  void at_once(Beside beside, Body body) {
-    if (!recording_) {
-      beside();
-      body();
-      return;
-    }
-    const cudaStream_t trunk = begin_branch();
-    beside();
-    const cudaStream_t branch = end_branch(trunk);
-    body();
-    join(branch);
-  }
-
   /// One launch by warps (fast/cuda/search.cuh). Throws compare::ResourceError for a tree of more than
   /// largest_searched_count primitives.
   template <class First, class Second>
@@ -228,18 +213,6 @@ class CudaBackend {
     follow(typeid(Searches<First>), run_searches<First, Second>, blocks, 32 * warps, first, first_groups, first_blocks,
            second, second_groups);
   }
-
-  /// One launch by warps, too; of trees no larger than `search` takes.
-  template <class Query>
-  void seek(int parts, const Query& query) {
-    const int warps = std::min(search_warps, block_threads_ / 32);
-    const SearchGroups groups(query.rows, search_group(query.rows));
-    const int part_blocks = groups.blocks(warps);
-    if (parts * part_blocks == 0) return;
-    follow(typeid(Query), run_part_searches<Query>, parts * part_blocks, 32 * warps, query, groups, part_blocks);
-  }
-  /// Whether searches by warps beside those of single threads save time.
-  static constexpr bool seeks = true;
 
   /// One launch where both are short, else CUB's; temporary memory may be allocated.
   void exclusive_scans(const Scan& first, const Scan& second) {
@@ -342,9 +315,6 @@ class CudaBackend {
   }
   cudaStream_t begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type);
   void end_condition(cudaStream_t outer);
-  cudaStream_t begin_branch();
-  cudaStream_t end_branch(cudaStream_t trunk);
-  void join(cudaStream_t branch);
   void begin_recording();
   void end_recording(Recording& recording);
   void abandon_recording() noexcept;

@@ -188,16 +188,4 @@ __global__ void __launch_bounds__(32 * search_warps, 8)
   }
 }
 
-/// The searches of a query in each part, `part_blocks` blocks each.
-template <class Query>
-__global__ void __launch_bounds__(32 * search_warps, 8)
-    run_part_searches(Query query, SearchGroups groups, int part_blocks) {
-  follow_launch();
-  __shared__ SearchMemory memory[search_warps];
-  const int warps = static_cast<int>(blockDim.x) / 32, warp = static_cast<int>(threadIdx.x) / 32,
-            part = static_cast<int>(blockIdx.x) / part_blocks, block = static_cast<int>(blockIdx.x) % part_blocks;
-  const Searches<Query> searches{query.volume.parts[part].facets.tree, query.rows, query.in_part(part)};
-  run_group(searches, groups, block * warps + warp, memory[warp]);
-}
-
 }  // namespace ogc::fast

@@ -74,7 +74,6 @@ struct StepControl {
   /// With volumes, at the end: contacts, vertices inside; how deep the deepest was at the last detection, bits [m];
   /// sheets without any way.
   int volume_contacts = 0, vertices_inside = 0, deepest = 0, depth_unresolved = 0;
-  int short_rows = 0;  ///< with volumes: whether a vertex has more contacts than its row has room for
   /// With rods, at the end: bits of the largest ‖D‖/l [1]; smallest distance of contacts that act [m].
   int longest_segment = 0;
   float nearest_contact = 0;
@@ -107,7 +106,6 @@ OGC_HD inline bool take_request(StepControl& c, int redetect_count) {
 OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.not_finite > 0) c.status |= compare::step_not_finite;
   if (c.violations > 0) c.status |= compare::step_bound_violated;
-  if (c.short_rows > 0) c.status |= compare::step_list_grew;
   if (c.status != 0) c.active = c.guess = c.detect = 0;
 }
 
@@ -128,7 +126,6 @@ struct BeginStep {
     c.lagging = c.advanced = c.lag_asked = c.deep_inside = 0;
     c.pairs = c.unsafe = c.left = c.unsafe_seen = 0;
     c.volume_contacts = c.vertices_inside = c.deepest = c.depth_unresolved = 0;
-    c.short_rows = 0;
     c.longest_segment = 0;
     c.nearest_contact = 3.40282347e38f;
     c.rounds = c.detections = c.since_detection = c.iterations = c.turn = 0;

@@ -79,23 +79,12 @@ class VolumeQuestion {
  public:
   OGC_HD VolumeQuestion(const VolumeView& volume, const Vec& point) : volume_(volume), x_(point) {}
 
-  /// Whether all of a part is farther than r, and does not hold the point.
-  OGC_HD bool is_beyond(int part) const {
-    return squared_gap(box_of(part), {x_, x_}) > gap_limit(volume_.contact_radius);
-  }
-  /// Of a facet [m].
-  OGC_HD Distance distance_to(int facet) const { return point_triangle_distance(x_, corners(facet)); }
-  /// Of a facet [m].
-  OGC_HD Corners corners(int t) const {
-    const Facet& facet = volume_.surface.facets[t];
-    return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
-  }
-
   /// The search begins at the distance of `first`, one of the part's facets, which decides the time alone.
   OGC_HD NearestFacet nearest_of(int part, int first) const {
-    if (is_beyond(part)) return {first, VolumeSide::far};
+    const Box box = box_of(part);
+    if (squared_gap(box, {x_, x_}) > gap_limit(volume_.contact_radius)) return {first, VolumeSide::far};
     const Nearest nearest = search(part, first);
-    if (is_in(box_of(part)) && !is_outside(nearest.face)) return {nearest.facet, VolumeSide::inside};
+    if (is_in(box) && !is_outside(nearest.face)) return {nearest.facet, VolumeSide::inside};
     return {nearest.facet, is_near(nearest.facet, nearest.distance) ? VolumeSide::near : VolumeSide::far};
   }
 
@@ -127,6 +116,11 @@ class VolumeQuestion {
     int face = -1, facet = -1;
   };
 
+  OGC_HD Corners corners(int t) const {
+    const Facet& facet = volume_.surface.facets[t];
+    return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
+  }
+
   /// The face of a facet whose interior holds the facet's point closest to x.
   OGC_HD int face_of(int t) const {
     const Facet& facet = volume_.surface.facets[t];
@@ -144,7 +138,7 @@ class VolumeQuestion {
     nearest.distance.value = infinity;
     float limit = infinity;
     const auto meet = [&](int t) {
-      const Distance d = distance_to(t);
+      const Distance d = point_triangle_distance(x_, corners(t));
       if (d.value > nearest.distance.value) return;
       if (d.value == nearest.distance.value) {
         if (nearest.face < 0) nearest.face = face_of(nearest.facet);
@@ -158,7 +152,7 @@ class VolumeQuestion {
     meet(first);
     for_each_near(volume_.parts[part].facets.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
       if (offer.gap > limit || offer.primitive == first) return;
-      if (!fast::is_beyond(separation(x_, corners(offer.primitive)), limit)) meet(offer.primitive);
+      if (!is_beyond(separation(x_, corners(offer.primitive)), limit)) meet(offer.primitive);
     });
     if (nearest.face < 0) nearest.face = face_of(nearest.facet);
     return nearest;

@@ -25,12 +25,8 @@
 //                                    f(i, least, after) for each row of numbers values[offsets[i]] …
 //                                    values[offsets[i + 1] − 1], in any order: the smallest, and the one that
 //                                    F::rank ≤ 31 others come before in ascending order; infinite where there is none
-//   at_once(Body beside, Body body)      what both enqueue, neither of which reads what the other writes; on a device,
-//                                    in a recording, two branches of the graph. `beside` enqueues for_each alone
 //   search(Searches first, Searches second)
 //                                    two kinds of searches (fast/kernels/search.hpp) side by side
-//   seeks                            whether the backend has seek(parts, query): the searches of fast/kernels/volumes/
-//                                    seek.hpp in so many parts, which decide the time alone
 //   exclusive_scans(const Scan& first, const Scan& second)
 //                                    of n numbers n + 1 sums each, the last is the total; neither reads what the
 //                                    other writes

@@ -180,11 +180,13 @@ class Step {
   /// since its first detection.
   void find_in_volumes(const Vec* position) {
     clock_.time(StepStage::volumes, [&] {
-      volumes_.find(backend_, {.volumes = detection_.positions(),
-                               .position = position,
-                               .tables = sweep_.tables(state_.previous.data()),
-                               .contact_radius = settings_.contact_radius,
-                               .control = control()});
+      volumes_.find(backend_,
+                    {.volumes = detection_.positions(),
+                     .position = position,
+                     .tables = sweep_.tables(state_.previous.data()),
+                     .contact_radius = settings_.contact_radius,
+                     .control = control()},
+                    detection_.lists().overflow);
     });
   }
 
@@ -239,22 +241,12 @@ class Step {
             .resolve = sweep_.resolve_contact(view, state_.previous.data())};
   }
 
-  /// `body` enqueues a detection, which takes about as long as the contacts with volumes of who is at `position` (on
-  /// the backend).
-  template <class Body>
-  void beside_volumes(const Vec* position, Body body) {
-    if (!volumes_.is_used()) return body();
-    backend_.at_once([&] { find_in_volumes(position); }, body);
-  }
-
   /// Everything is found anew, the stream of contacts included.
   void detect() {
-    beside_volumes(state_.position.data(), [&] {
-      clock_.time(StepStage::detection, [&] {
-        detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
-                          settings_.bound_relaxation,
-                          StepLaunches{start_of_detection(nullptr), listing<EndDetection>()});
-      });
+    find_in_volumes(state_.position.data());
+    clock_.time(StepStage::detection, [&] {
+      detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
+                        settings_.bound_relaxation, StepLaunches{start_of_detection(nullptr), listing<EndDetection>()});
     });
     observe(compare::StepEventKind::detection);
   }
@@ -315,10 +307,9 @@ class Step {
     else
       guess_in_rounds();
     observe(compare::StepEventKind::guess);
-    beside_volumes(state_.previous.data(), [&] {
-      clock_.time(StepStage::detection,
-                  [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
-    });
+    find_in_volumes(state_.previous.data());
+    clock_.time(StepStage::detection,
+                [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
     if (observer_ != nullptr) observer_->after_listing();
     StepState<Backend>& s = state_;
     using BeginBoth = Beside<BeginSweep, TurnSegment>;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -89,11 +88,11 @@ class VolumeTrees {
 
 /// What volumes are asked at a detection; all on the backend.
 struct VolumeAskers {
-  PaddedVecs volumes;    ///< positions of driven volumes' vertices, by vertex [m]
-  const Vec* position;   ///< of those who ask, and of free volumes, by vertex [m]
-  ContactTables tables;  ///< k and μ
-  float contact_radius;  ///< r [m]
-  StepControl* control;  ///< where it is not active nobody asks; it learns where a row is too short
+  PaddedVecs volumes;          ///< positions of driven volumes' vertices, by vertex [m]
+  const Vec* position;         ///< of those who ask, and of free volumes, by vertex [m]
+  ContactTables tables;        ///< k and μ
+  float contact_radius;        ///< r [m]
+  const StepControl* control;  ///< where it is not active nobody asks
 };
 
 /// The resident volumes of one scene.
@@ -116,7 +115,6 @@ class Volumes {
     for (const PartOrder& part : parts)
       answers.insert(answers.end(), rows.askers.size(), answer_of({part.facets.front(), VolumeSide::far}));
     answers_.upload(answers.data(), answers.size());
-    if (Backend::seeks) seeds_.resize(answers.size());
     askers_.upload(rows.askers.data(), rows.askers.size());
     counts_.resize(rows.askers.size());
     counts_.fill_zero();
@@ -142,8 +140,8 @@ class Volumes {
     if (is_used() && !has_free()) trees_.refit(backend, surface_, positions);
   }
 
-  /// The contacts of all who ask.
-  void find(Backend& backend, const VolumeAskers& asked) {
+  /// The contacts of all who ask. *overflow (on the backend) is set where a row was too short.
+  void find(Backend& backend, const VolumeAskers& asked, int* overflow) {
     if (!is_used()) return;
     PaddedVecs volumes = asked.volumes;
     if (has_free()) {
@@ -152,25 +150,17 @@ class Volumes {
       volumes = {padded_.data()};
     }
     const VolumeView view{surface_, volumes, trees_.parts(), trees_.count(), asked.contact_radius, trees_.solids()};
-    if constexpr (Backend::seeks)
-      backend.seek(trees_.count(), SeekNearest{.volume = view,
-                                               .askers = askers_.data(),
-                                               .rows = rows_,
-                                               .position = asked.position,
-                                               .control = asked.control,
-                                               .answers = answers_.data(),
-                                               .seeds = seeds_.data()});
-    backend.for_each(rows_ * trees_.count(), AskVolumes{view, askers_.data(), rows_, asked.position, asked.control,
-                                                        answers_.data(), seeds_.data()});
+    backend.for_each(rows_ * trees_.count(),
+                     AskVolumes{view, askers_.data(), rows_, asked.position, asked.control, answers_.data()});
     if (has_solids_)
-      list<true>(backend, view, asked);
+      list<true>(backend, view, asked, overflow);
     else
-      list<false>(backend, view, asked);
+      list<false>(backend, view, asked, overflow);
     if (!has_free()) return;
     const CornerRows corners{slot_of_.data(), corner_capacity_, corner_counts_.data(), corner_codes_.data()};
     backend.for_each(slots_, ForgetCorners{asked.control, corners});
     backend.for_each(rows_, FillCorners{asked.control, counts_.data(), stream_.data(), capacity_, corners});
-    backend.for_each(slots_, SortCorners{asked.control, corners, longest_.data() + 1});
+    backend.for_each(slots_, SortCorners{asked.control, corners, longest_.data() + 1, overflow});
   }
 
   /// What the sweep reads.
@@ -251,7 +241,7 @@ class Volumes {
   static constexpr std::int64_t most_places = (std::int64_t{1} << 29) - 1;
 
   template <bool has_solids>
-  void list(Backend& backend, const VolumeView& view, const VolumeAskers& asked) {
+  void list(Backend& backend, const VolumeView& view, const VolumeAskers& asked, int* overflow) {
     backend.for_each(rows_, ListVolumeContacts<has_solids>{.volume = view,
                                                            .askers = askers_.data(),
                                                            .rows = rows_,
@@ -264,7 +254,8 @@ class Volumes {
                                                            .stream = stream_.data(),
                                                            .found = found_.data(),
                                                            .unresolved = unresolved_.data(),
-                                                           .longest = longest_.data()});
+                                                           .longest = longest_.data(),
+                                                           .overflow = overflow});
   }
 
   void reserve(int capacity) {
@@ -315,7 +306,6 @@ class Volumes {
   std::vector<int> slot_of_host_;
   const int* colour_;
   Buffer<int> askers_, answers_, counts_, unresolved_, longest_;
-  Buffer<std::uint64_t> seeds_;                         ///< where the backend seeks
   Buffer<int> slot_of_, corner_counts_, corner_codes_;  ///< where some are free
   Buffer<PaddedVec> padded_;                            ///< likewise: positions of the detection, by vertex [m]
   Buffer<VolumeIncidence> stream_;

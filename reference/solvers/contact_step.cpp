@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "compare/problem/volumes.hpp"
-#include "reference/solvers/variants/contact_sets.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/measure.hpp"
+#include "reference/solvers/variants/contact_sets.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -113,7 +113,8 @@ void ContactStep::replace_contacts() {
   const auto within = [&](double radius) {
     const compare::DetectIn in{&topology_, exclusions_, detected_.previous, static_cast<float>(radius),
                                static_cast<float>(radius)};
-    return contact_variant(contact_set_, in, body);
+    ListedContacts listed = contact_variant(contact_set_, in, body);
+    return ContactSets{std::move(listed.vertex_facet), std::move(listed.edge_edge)};
   };
   detected_.sets = within(detection_radius(settings_));
   detected_.active = settings_.contact_margin > 0 ? within(settings_.contact_radius) : detected_.sets;

@@ -55,17 +55,6 @@ OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #endif
 }
 
-/// Lowers the target to the value.
-OGC_HD inline void atomic_min(std::uint64_t* target, std::uint64_t value) {
-#if defined(__CUDA_ARCH__)
-  atomicMin(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
-#else
-  std::atomic_ref<std::uint64_t> shared(*target);
-  std::uint64_t seen = shared.load(std::memory_order_relaxed);
-  while (seen > value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
-#endif
-}
-
 /// Writes `value` where `expected` stands, and returns the value before.
 OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected,
                                                     std::uint64_t value) {

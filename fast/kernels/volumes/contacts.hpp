@@ -11,7 +11,6 @@
 
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/volume_depth.hpp"
-#include "fast/kernels/volumes/seek.hpp"
 #include "fast/kernels/volumes/solids.hpp"
 #include "fast/kernels/volumes/stream.hpp"
 
@@ -38,14 +37,12 @@ struct AskVolumes {
   const Vec* position;         ///< of the detection, by vertex [m]
   const StepControl* control;  ///< where it is not active nothing is asked
   int* answers;                ///< by item: of the detection before, or any facet of the part; replaced
-  const std::uint64_t* seeds;  ///< by item, of SeekNearest; null: searches begin at the facets of `answers`
 
   OGC_HD void operator()(int i) const {
     if (control->active == 0) return;
     const int part = i / rows, v = askers[i - part * rows];
     if (v < 0 || volume.parts[part].is_solid()) return;
-    const int first = seeds != nullptr ? facet_of_seed(seeds[i]) : answers[i] >> 2;
-    answers[i] = answer_of(VolumeQuestion(volume, position[v]).nearest_of(part, first));
+    answers[i] = answer_of(VolumeQuestion(volume, position[v]).nearest_of(part, answers[i] >> 2));
   }
 };
 
@@ -56,16 +53,17 @@ struct ListVolumeContacts {
   VolumeView volume;
   const int* askers;  ///< as in AskVolumes
   int rows;
-  const Vec* position;        ///< likewise
-  StepControl* control;       ///< likewise: the old rows stay; it learns where a row is too short
-  const int* answers;         ///< of AskVolumes
-  ContactTables tables;       ///< k and μ of the bodies that meet
-  int capacity;               ///< contacts that fit in a row
-  int* counts;                ///< by row, written: at most `capacity`
-  VolumeIncidence* stream;    ///< row by row, written
-  FoundVolumeContact* found;  ///< beside `stream`, written
-  int* unresolved;            ///< by row, written where there are solids: sheets without a way
-  int* longest;               ///< raised to the length that a row needs
+  const Vec* position;         ///< likewise
+  const StepControl* control;  ///< likewise: the old rows stay
+  const int* answers;          ///< of AskVolumes
+  ContactTables tables;        ///< k and μ of the bodies that meet
+  int capacity;                ///< contacts that fit in a row
+  int* counts;                 ///< by row, written: at most `capacity`
+  VolumeIncidence* stream;     ///< row by row, written
+  FoundVolumeContact* found;   ///< beside `stream`, written
+  int* unresolved;             ///< by row, written where there are solids: sheets without a way
+  int* longest;                ///< raised to the length that a row needs
+  int* overflow;               ///< set where that is too much
 
   OGC_HD void operator()(int row) const {
     if (control->active == 0) return;
@@ -92,7 +90,7 @@ struct ListVolumeContacts {
     if constexpr (has_solids) unresolved[row] = lost;
     if (count <= capacity) return;
     atomic_max(longest, count);
-    atomic_max(&control->short_rows, 1);
+    atomic_max(overflow, 1);
   }
 
  private:
@@ -155,16 +153,17 @@ struct FillCorners {
 
 /// for_each over slots.
 struct SortCorners {
-  StepControl* control;  ///< as in ForgetCorners; it learns where a row is too short
+  const StepControl* control;  ///< as in ForgetCorners
   CornerRows corners;
-  int* longest;  ///< raised to the length that a row needs
+  int* longest;   ///< raised to the length that a row needs
+  int* overflow;  ///< set where that is too much
 
   OGC_HD void operator()(int slot) const {
     if (control->active == 0) return;
     int count = corners.counts[slot];
     if (count > corners.capacity) {
       atomic_max(longest, count);
-      atomic_max(&control->short_rows, 1);
+      atomic_max(overflow, 1);
       count = corners.counts[slot] = corners.capacity;
     }
     int* codes = corners.codes + slot * corners.capacity;

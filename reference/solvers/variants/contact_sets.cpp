@@ -90,10 +90,10 @@ std::vector<compare::VertexFacetContact> nearest_of_bodies(const compare::Detect
 
 }  // namespace
 
-ContactSets contact_variant(ContactSet set, const compare::DetectIn& in, std::span<const Index> body) {
+ListedContacts contact_variant(ContactSet set, const compare::DetectIn& in, std::span<const Index> body) {
   if (set == ContactSet::ogc) throw std::logic_error("the method's own contacts are those of a detection");
   const Collector found(in);
-  ContactSets sets;
+  ListedContacts sets;
   if (set == ContactSet::distance) {
     sets.vertex_facet = nearest_of_bodies(in, found.facets(), body);
     return sets;

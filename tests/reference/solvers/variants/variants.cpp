@@ -56,10 +56,13 @@ double tangential_share(const compare::Scene& scene, reference::ContactSet set) 
     return potential.derivatives(x, reference::HessianProjection::none).gradient;
   };
   const auto rest = forces({});
-  const auto pushed = forces(
-      set == reference::ContactSet::ogc
-          ? reference::ContactSets{reference::detect(scene, topology, exclusions, positions, in.query_radius).sets}
-          : reference::contact_variant(set, in, body_of_vertex(scene)));
+  const auto listed = [&]() -> reference::ContactSets {
+    if (set == reference::ContactSet::ogc)
+      return reference::detect(scene, topology, exclusions, positions, in.query_radius).sets;
+    const auto other = reference::contact_variant(set, in, body_of_vertex(scene));
+    return {other.vertex_facet, other.edge_edge};
+  };
+  const auto pushed = forces(listed());
   double along = 0, all = 0;
   for (const std::size_t v : {7, 8, 9, 10, 13, 14, 15, 16, 19, 20, 21, 22, 25, 26, 27, 28}) {
     const auto f = pushed[v] - rest[v];
