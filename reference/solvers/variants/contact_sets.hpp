@@ -12,8 +12,8 @@ namespace ogc::reference {
 
 /// What a set lists.
 struct ListedContacts {
-  std::vector<compare::VertexFacetContact> vertex_facet;
-  std::vector<compare::EdgeEdgeContact> edge_edge;
+  std::vector<compare::VertexFacetContact> vertex_facet;  ///< by vertex and triangle
+  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< by the edges that generate them
 };
 
 /// The contacts nearer than in.contact_radius; in.query_radius is not read. `body`: by vertex.

@@ -28,14 +28,17 @@ enum class ContactBlocks {
   own         ///< w²
 };
 /// When a position is cut to its bound.
-enum class CutAfter { update, iteration };
+enum class CutAfter {
+  update,    ///< at once, so that others read where it is kept
+  iteration  ///< all vertices together
+};
 
 /// The settings contact_set, colours, contact_blocks and cut_after.
 struct Variants {
-  ContactSet contact_set = ContactSet::ogc;
-  Colouring colours = Colouring::turned;
-  ContactBlocks contact_blocks = ContactBlocks::majorised;
-  CutAfter cut_after = CutAfter::update;
+  ContactSet contact_set = ContactSet::ogc;                 ///< of all solvers of the reference
+  Colouring colours = Colouring::turned;                    ///< of sweeps
+  ContactBlocks contact_blocks = ContactBlocks::majorised;  ///< likewise
+  CutAfter cut_after = CutAfter::update;                    ///< likewise
 };
 
 /// As the problem carries them.
