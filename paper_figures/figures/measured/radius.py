@@ -36,7 +36,7 @@ TIME_STEP, STEPS, LAST = 1 / 300, 100, 20  # [s]
 DEPTH, START = 0.1, 0.95  # of r: what one contact a vertex would sink, and the height at the start
 RATIOS = (0.1, 0.25, 0.5, 1, 2)  # r over the sheet's spacing
 SETS = {"ogc": "OGC's", "pairs": "every pair (IPC's)", "distance": "distance field"}
-SEEDS = {"smoke": 3, "small": 10}
+SEEDS = {"smoke": 1, "small": 10}  # nothing here is chaotic
 JITTER = 1e-6  # [m]
 
 
@@ -96,13 +96,13 @@ class Case:
 
     @property
     def job(self):
-        words = ("--solver", "reference_vbd", "--set", f"contact_set={self.contacts}", "--set", f"seed={self.seed}",
-                 "--jitter", f"{JITTER:g}", "--audit", "end")
+        words = ("--solver", "reference_vbd", "--set", f"contact_set={self.contacts}", "--jitter", f"{JITTER:g}",
+                 "--seed", self.seed, "--audit", "end")
         return Job(self.name, words, scene=Pressed(self.ratio))
 
 
 def cases(scale):
-    return [Case(contacts, ratio, seed) for seed in range(SEEDS[scale]) for ratio in RATIOS for contacts in SETS]
+    return [Case(contacts, ratio, seed) for seed in range(1, SEEDS[scale] + 1) for ratio in RATIOS for contacts in SETS]
 
 
 def on_face(p, corners):
@@ -266,8 +266,7 @@ def oscillation(height):
 
 def metrics(run, case):
     height, pressed = heights(run), Pressed(case.ratio)
-    rows = run.rows[-LAST:]
-    contacts = np.mean([row["vertex_facet_contacts"] + row["edge_edge_contacts"] for row in rows])
+    contacts = np.mean(run.column("vertex_facet_contacts")[-LAST:] + run.column("edge_edge_contacts")[-LAST:])
     return {"roughness [r]": roughness(height[-1], pressed.radius), "oscillation [1]": oscillation(height),
             "contacts a vertex [1]": contacts / SIDE**2, "height at the end [r]":
             float(height[-1] @ vertex_share()) / pressed.radius}
