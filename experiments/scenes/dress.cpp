@@ -282,7 +282,7 @@ Scene dress(const DressSizes& sizes) {
                     .pelvis_radius = inside_hips - 1.5 * radius,
                     .spacing = sizes.body_spacing},
                    driven_surface());
-  set_body_contact(scene, compare::BodyContact::volume);
+  for (const std::size_t b : driven_bodies(scene)) scene.bodies[b].contact = compare::BodyContact::volume;
   return scene;
 }
 
@@ -300,7 +300,7 @@ Scene dress(const DressData& data, std::int64_t steps) {
     scene.excluded_pairs.push_back({first, s.ratio < 0.5 ? third : second});
   }
   exclude_junctions(scene, scene.settings.contact_radius);
-  set_body_contact(scene, compare::BodyContact::volume);
+  for (const std::size_t b : driven_bodies(scene)) scene.bodies[b].contact = compare::BodyContact::volume;
   return scene;
 }
 

@@ -200,7 +200,7 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 10;
   scene.settings.contact_radius = radius;
-  set_body_contact(scene, compare::BodyContact::volume);
+  for (const std::size_t b : driven_bodies(scene)) scene.bodies[b].contact = compare::BodyContact::volume;
   return scene;
 }
 

@@ -52,8 +52,12 @@ States::States(const std::filesystem::path& folder, const Authority& authority)
   for (std::size_t i = 0; i < count; ++i) {
     Frame frame = run.frame(count == 1 ? 0 : i * (run.frame_count() - 1) / (count - 1));
     if (i == 0) cell_size_ = mean_edge_length(*topology_, frame.positions);
-    State state{std::move(frame.positions), std::move(frame.bounds), std::move(frame.velocities),
-                std::move(frame.orientations), frame.step, {}};
+    State state{std::move(frame.positions),
+                std::move(frame.bounds),
+                std::move(frame.velocities),
+                std::move(frame.orientations),
+                frame.step,
+                {}};
     for (std::size_t v = 0; v < state.positions.size(); ++v)
       state.cells.emplace_back(cell(state.positions[v]), static_cast<Index>(v));
     std::sort(state.cells.begin(), state.cells.end());
@@ -99,7 +103,9 @@ TruncateCase States::moved_vertex(std::size_t frame, Random& random) const {
 InitialGuessCase States::guessed_vertex(std::size_t frame, Random& random) const {
   const State& state = states_[frame];
   const Index v = random.below(topology_->vertex_count);
-  const float bound = state.bounds.empty() ? contact_radius_ : state.bounds[v];
+  // vertices of volumes have no bound
+  const bool is_bounded = !state.bounds.empty() && state.bounds[v] < std::numeric_limits<float>::max();
+  const float bound = is_bounded ? state.bounds[v] : contact_radius_;
   return {state.positions[v],
           state.velocities[v],
           to_single({scene_->gravity})[0],

@@ -141,7 +141,9 @@ TEST_CASE(
     "[unit]") {
   const TemporaryFolder folder;
   const DressData data = SmallData().read(folder);
-  const Scene scene = dress(data, 7);
+  Scene scene = dress(data, 7);
+  CHECK(scene.bodies.back().is_volume());
+  scene.bodies.back().contact = BodyContact::surface;  // this one encloses nothing
   CHECK(describe(validate(scene)).empty());
   REQUIRE(scene.bodies.size() == 3);
   CHECK(scene.rest_positions[3] == Vec3{5, 0, 0});

@@ -170,7 +170,9 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
                     points = study.points_at(of_scene, scale)
                     self.assertGreater(len(set(points)), 1, (name, scene))
                     words = study.command(body, scene, scale, "cuda")
-                    self.assertEqual(words[words.index("--backend") + 1], "cuda")
+                    who = ("--solver", body["solver"]) if "solver" in body else ("--backend", "cuda")
+                    self.assertEqual(words[words.index(who[0]) + 1], who[1])
+                    self.assertEqual(len({"--solver", "--backend"} & set(words)), 1)
                     self.assertEqual(words.count("--point"), len(points))
                 self.assertIn(words[words.index("--audit") + 1], ("off", "end"))
 

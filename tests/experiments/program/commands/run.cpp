@@ -73,7 +73,7 @@ TEST_CASE("the smoke runs of all scenes keep the guarantee and leave a readable 
     CHECK(reader.frame(0).positions == compare::to_single(reader.scene().mesh.positions));
     // A scene about contact that has none shows nothing; one is about frames of rods.
     CHECK((name == "turning_rod" || std::ranges::any_of(compare::read_steps(folder / "run").rows, [](const auto& row) {
-             return row.vertex_facet_contacts + row.edge_edge_contacts > 0;
+             return row.vertex_facet_contacts + row.edge_edge_contacts + row.volume_contacts > 0;
            })));
     const ProgramResult audit = run_ogc("audit --json " + (folder / "run").string());
     CHECK(audit.status == 0);
