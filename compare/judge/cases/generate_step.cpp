@@ -563,7 +563,7 @@ constexpr std::array<Generator, 22> table{{{"fall", 12, true, fall},
                                            {"dat", 12, false, dat, 0, Stage::plane},
                                            {"volume", 8, false, volume, 0, Stage::volume_depth},
                                            {"ladder.volume", 8, false, volume_at_radius, 0, Stage::volume_depth},
-                                           {"free_volume", 8, false, free_volume, 0, Stage::volume_depth},
+                                           {"free_volume", 3, false, free_volume, 0, Stage::volume_depth},
                                            {"rods", 12, false, rods, 0, Stage::orientation},
                                            {"pairs", 24, false, pairs, 0, std::nullopt, true},
                                            {"ladder.stack", 24, false, stack_by_pairs, 0, std::nullopt, true}}};
