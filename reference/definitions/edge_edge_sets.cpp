@@ -44,10 +44,6 @@ void for_each_pair(const compare::DetectIn& in, Visit visit) {
   }
 }
 
-Face face_of(const Complex& mesh, Index e, EdgeFeature feature) {
-  return feature == EdgeFeature::interior ? edge_face(e) : vertex_face(mesh.edge(e)[static_cast<std::size_t>(feature)]);
-}
-
 bool is_on(const Complex& mesh, Face face, Index e) {
   return face == edge_face(e) || face == vertex_face(mesh.edge(e)[0]) || face == vertex_face(mesh.edge(e)[1]);
 }

@@ -17,13 +17,6 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-Face face_of(const Complex& mesh, Index t, TriangleFeature feature) {
-  const auto f = static_cast<std::size_t>(feature);
-  if (f < 3) return vertex_face(mesh.triangle(t)[f]);
-  if (f < 6) return edge_face(mesh.topology.triangle_edges[at(t)][f - 3]);
-  return triangle_face(t);
-}
-
 /// Faces are in order of dimension, then number.
 Face nearest_face(const Complex& mesh, const std::vector<Index>& part, const Vec3f& x) {
   std::optional<std::pair<Face, Margin>> nearest;

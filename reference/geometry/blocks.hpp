@@ -5,6 +5,8 @@
 #include <span>
 
 #include "compare/problem/exclusions.hpp"
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
 #include "reference/geometry/conditions.hpp"
 
 namespace ogc::reference {
@@ -52,6 +54,19 @@ inline Face vertex_face(Index v) { return {FaceKind::vertex, v}; }
 inline Face edge_face(Index e) { return {FaceKind::edge, e}; }
 /// A triangle as a face.
 inline Face triangle_face(Index t) { return {FaceKind::triangle, t}; }
+
+/// A feature of a triangle as a face.
+inline Face face_of(const Complex& mesh, Index triangle, compare::TriangleFeature feature) {
+  const auto f = static_cast<std::size_t>(feature);
+  if (f < 3) return vertex_face(mesh.triangle(triangle)[f]);
+  if (f < 6) return edge_face(mesh.topology.triangle_edges[static_cast<std::size_t>(triangle)][f - 3]);
+  return triangle_face(triangle);
+}
+/// A feature of an edge as a face.
+inline Face face_of(const Complex& mesh, Index edge, compare::EdgeFeature feature) {
+  if (feature == compare::EdgeFeature::interior) return edge_face(edge);
+  return vertex_face(mesh.edge(edge)[static_cast<std::size_t>(feature)]);
+}
 
 /// A condition of a block and the face whose block begins where it ends.
 struct Boundary {

@@ -56,13 +56,8 @@ class EdgeQuery {
  private:
   std::array<Vec3f, 2> ends(Index e) const { return {mesh_.at(mesh_.edge(e)[0]), mesh_.at(mesh_.edge(e)[1])}; }
 
-  Face face_of(Index e, EdgeFeature feature) const {
-    return feature == EdgeFeature::interior ? edge_face(e)
-                                            : vertex_face(mesh_.edge(e)[static_cast<std::size_t>(feature)]);
-  }
-
   FacePair faces_of(Index other, EdgeFeatures features) const {
-    return ordered(face_of(edge_, features.first), face_of(other, features.second));
+    return ordered(face_of(mesh_, edge_, features.first), face_of(mesh_, other, features.second));
   }
 
   std::vector<Index> edges_around(Face face) const {

@@ -45,7 +45,7 @@ class VertexQuery {
     const float d = distance_below(gap);
     if (d < in_.query_radius) ++answer_.pairs;
     const bool within = d < in_.contact_radius;
-    if (within) enter(face_of(t, feature));
+    if (within) enter(face_of(mesh_, t, feature));
     answer_.near = answer_.near || examine(with_radius(gap, in_.contact_radius)).near ||
                    (within && near_feature(corners, feature, x_));
     if (within || grey(with_radius(gap, in_.contact_radius))) ask_about(t, corners);
@@ -68,13 +68,6 @@ class VertexQuery {
   }
 
  private:
-  Face face_of(Index t, TriangleFeature feature) const {
-    const auto f = static_cast<std::size_t>(feature);
-    if (f < 3) return vertex_face(mesh_.triangle(t)[f]);
-    if (f < 6) return edge_face(mesh_.topology.triangle_edges[static_cast<std::size_t>(t)][f - 3]);
-    return triangle_face(t);
-  }
-
   /// The triangles that contain a face, ascending.
   std::vector<Index> triangles_around(Face face) const {
     if (face.kind == FaceKind::triangle) return {face.index};
@@ -112,7 +105,7 @@ class VertexQuery {
     const std::uint8_t features = possible_features(corners, x_);
     std::vector<Face> closest;
     for (int f = 0; f < 7; ++f) {
-      if ((features >> f & 1) != 0) closest.push_back(face_of(t, static_cast<TriangleFeature>(f)));
+      if ((features >> f & 1) != 0) closest.push_back(face_of(mesh_, t, static_cast<TriangleFeature>(f)));
     }
     for (const Face face : closest) note(face);
     if (!has_area(corners)) note_ties(closest);

@@ -35,30 +35,19 @@ class Collector {
   const std::vector<FoundEdges>& edges() const { return edges_; }
 
  private:
-  Face face_of(Index t, TriangleFeature feature) const {
-    const auto f = static_cast<std::size_t>(feature);
-    if (f < 3) return vertex_face(mesh_.triangle(t)[f]);
-    if (f < 6) return edge_face(mesh_.topology.triangle_edges[static_cast<std::size_t>(t)][f - 3]);
-    return triangle_face(t);
-  }
-  Face side_of(Index e, EdgeFeature feature) const {
-    return feature == EdgeFeature::interior ? edge_face(e)
-                                            : vertex_face(mesh_.edge(e)[static_cast<std::size_t>(feature)]);
-  }
-
   // Threads share the work, so what they find is put into an order afterwards.
   void add(const FacetPair& pair) {
     const float distance = distance_below(pair.gap());
     if (!(distance < in_.contact_radius)) return;
     const Index v = pair.first[0], t = pair.name.second;
     const std::scoped_lock lock(mutex_);
-    facets_.push_back({{v, face_of(t, pair.closest()), t}, t, distance});
+    facets_.push_back({{v, face_of(mesh_, t, pair.closest()), t}, t, distance});
   }
   void add(const EdgesPair& pair) {
     if (!(distance_below(pair.gap()) < in_.contact_radius)) return;
     const EdgeFeatures closest = pair.closest();
     const Index e = pair.name.first, f = pair.name.second;
-    compare::EdgeEdgeContact contact{side_of(e, closest.first), side_of(f, closest.second), e, f};
+    compare::EdgeEdgeContact contact{face_of(mesh_, e, closest.first), face_of(mesh_, f, closest.second), e, f};
     if (contact.second < contact.first) contact = {contact.second, contact.first, f, e};
     const std::scoped_lock lock(mutex_);
     edges_.push_back({contact, {e, f}});

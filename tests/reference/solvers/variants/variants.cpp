@@ -35,34 +35,52 @@ compare::Scene level_sheets() {
   return scene;
 }
 
-compare::DetectIn question(const compare::Scene& scene, const compare::Topology& topology,
-                           const compare::Exclusions& exclusions, const std::vector<compare::Vec3f>& positions) {
-  const auto radius = static_cast<float>(scene.settings.contact_radius);
-  return {&topology, exclusions, positions, radius, radius};
+/// A scene at its start, as sets are asked about it.
+struct Asked {
+  compare::Scene scene;
+  compare::Topology topology;
+  compare::Exclusions exclusions;
+  std::vector<compare::Vec3f> positions;
+  std::vector<compare::Index> body;
+
+  explicit Asked(compare::Scene asked)
+      : scene(std::move(asked)),
+        topology(build_topology(scene)),
+        exclusions(compare::exclusions(scene)),
+        positions(compare::to_single(scene.mesh.positions)),
+        body(body_of_vertex(scene)) {}
+
+  compare::DetectIn in() const {
+    const auto radius = static_cast<float>(scene.settings.contact_radius);
+    return {&topology, exclusions, positions, radius, radius};
+  }
+  reference::ContactSets contacts(reference::ContactSet set) const {
+    if (set == reference::ContactSet::ogc)
+      return reference::detect(scene, topology, exclusions, positions, in().query_radius).sets;
+    const reference::ListedContacts listed = reference::contact_variant(set, in(), body);
+    return {listed.vertex_facet, listed.edge_edge};
+  }
+};
+
+/// Two sheets askew, with a radius that reaches far.
+Asked askew_sheets() {
+  compare::Scene scene = two_sheets();
+  scene.settings.contact_radius = 8e-3;
+  round_to_single(scene);
+  return Asked(std::move(scene));
 }
 
 /// Σ‖f_t‖ / Σ‖f‖ of the contact forces on the level sheet's inner vertices: at its rim what lies beside it is pushed
 /// outwards, rightly.
-double tangential_share(const compare::Scene& scene, reference::ContactSet set) {
-  const compare::Topology topology = build_topology(scene);
-  const compare::Exclusions exclusions = compare::exclusions(scene);
-  const std::vector<compare::Vec3f> positions = compare::to_single(scene.mesh.positions);
-  const compare::DetectIn in = question(scene, topology, exclusions, positions);
-  const reference::State x = reference::widened(positions);
-  reference::Potential potential(scene, topology);
+double tangential_share(const Asked& asked, reference::ContactSet set) {
+  const reference::State x = reference::widened(asked.positions);
+  reference::Potential potential(asked.scene, asked.topology);
   potential.begin_step(x, x);
   const auto forces = [&](const reference::ContactSets& sets) {
     potential.set_contacts(sets, x);
     return potential.derivatives(x, reference::HessianProjection::none).gradient;
   };
-  const auto rest = forces({});
-  const auto listed = [&]() -> reference::ContactSets {
-    if (set == reference::ContactSet::ogc)
-      return reference::detect(scene, topology, exclusions, positions, in.query_radius).sets;
-    const auto other = reference::contact_variant(set, in, body_of_vertex(scene));
-    return {other.vertex_facet, other.edge_edge};
-  };
-  const auto pushed = forces(listed());
+  const auto rest = forces({}), pushed = forces(asked.contacts(set));
   double along = 0, all = 0;
   for (const std::size_t v : {7, 8, 9, 10, 13, 14, 15, 16, 19, 20, 21, 22, 25, 26, 27, 28}) {
     const auto f = pushed[v] - rest[v];
@@ -79,27 +97,20 @@ TEST_CASE(
     "contact_set: a level sheet above a level one is pushed straight up by the method's contacts and by a distance "
     "field, and sideways by one contact of each pair of primitives",
     "[property]") {
-  const compare::Scene scene = level_sheets();
+  const Asked asked(level_sheets());
   // Directions are differences of double closest points, of coordinates below 0.1 m, over a distance of 2 mm.
   const double rounding = 64 * 0x1p-53 * 0.1 / 2e-3;
-  CHECK(tangential_share(scene, reference::ContactSet::ogc) < rounding);
-  CHECK(tangential_share(scene, reference::ContactSet::distance) < rounding);
-  CHECK(tangential_share(scene, reference::ContactSet::pairs) > 0.01);
+  CHECK(tangential_share(asked, reference::ContactSet::ogc) < rounding);
+  CHECK(tangential_share(asked, reference::ContactSet::distance) < rounding);
+  CHECK(tangential_share(asked, reference::ContactSet::pairs) > 0.01);
 }
 
 TEST_CASE(
     "contact_set=pairs has every contact of the method but those that the rule for nearly parallel edges adds, and "
     "lists a face as often as pairs have it closest",
     "[property]") {
-  compare::Scene scene = two_sheets();
-  scene.settings.contact_radius = 8e-3;
-  round_to_single(scene);
-  const compare::Topology topology = build_topology(scene);
-  const compare::Exclusions exclusions = compare::exclusions(scene);
-  const std::vector<compare::Vec3f> positions = compare::to_single(scene.mesh.positions);
-  const compare::DetectIn in = question(scene, topology, exclusions, positions);
-  const auto ours = reference::detect(scene, topology, exclusions, positions, in.query_radius).sets;
-  const auto all = reference::contact_variant(reference::ContactSet::pairs, in, body_of_vertex(scene));
+  const Asked asked = askew_sheets();
+  const auto ours = asked.contacts(reference::ContactSet::ogc), all = asked.contacts(reference::ContactSet::pairs);
   std::multiset<std::pair<compare::Index, compare::Face>> facets;
   std::multiset<std::pair<compare::Face, compare::Face>> edges;
   for (const auto& c : all.vertex_facet) facets.insert({c.vertex, c.face});
@@ -117,20 +128,13 @@ TEST_CASE(
 
 TEST_CASE("contact_set=distance has for each vertex one contact with each other body, no farther than any pair",
           "[property]") {
-  compare::Scene scene = two_sheets();
-  scene.settings.contact_radius = 8e-3;
-  round_to_single(scene);
-  const compare::Topology topology = build_topology(scene);
-  const compare::Exclusions exclusions = compare::exclusions(scene);
-  const std::vector<compare::Vec3f> positions = compare::to_single(scene.mesh.positions);
-  const compare::DetectIn in = question(scene, topology, exclusions, positions);
-  const std::vector<compare::Index> body = body_of_vertex(scene);
-  const auto found = reference::contact_variant(reference::ContactSet::distance, in, body);
-  const auto pairs = reference::contact_variant(reference::ContactSet::pairs, in, body);
+  const Asked asked = askew_sheets();
+  const auto found = asked.contacts(reference::ContactSet::distance),
+             pairs = asked.contacts(reference::ContactSet::pairs);
   CHECK(found.edge_edge.empty());
-  const reference::State x = reference::widened(positions);
+  const reference::State x = reference::widened(asked.positions);
   const auto distance = [&](const compare::VertexFacetContact& c) {
-    const auto stencil = reference::stencil_of(topology, c);
+    const auto stencil = reference::stencil_of(asked.topology, c);
     const auto corners = reference::contact_corners(stencil.sides, stencil.vertex, x);
     const auto apart = reference::separation(reference::closest_form(stencil.sides, corners).weight, corners);
     return std::hypot(apart[0], apart[1], apart[2]);
