@@ -185,20 +185,20 @@ FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, 
 WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # end a row's name
 VOLUMES = ("dress", "robot_shirt")  # scenes whose body, as a default, may be entered and pushes out
 ROWS = tuple(scene + end for scene in FRAME_STEPS
-             for end in ("", WITH_PLANES, *([WITH_VOLUMES] if scene in VOLUMES else [])))
+             for end in ("", WITH_PLANES, *([WITH_VOLUMES] if scene in (*VOLUMES, MAT) else [])))
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
 
 
 def scene_of(row):
-    """Each scene has a row with the paper's bounds, called as it is, and one with planes; where a body moves it is a
-    surface in both, and a volume in a third."""
+    """Each scene has a row with the paper's bounds, called as it is, and one with planes; a body that moves, and the
+    solid mat, are surfaces in both, and volumes in a third."""
     return row.removesuffix(WITH_PLANES).removesuffix(WITH_VOLUMES)
 
 
 def of_row(row, data):
     """The dress is a stand-in without the data of Codimensional IPC."""
     own = PLANES if row.endswith(WITH_PLANES) else ()
-    if scene_of(row) in VOLUMES:
+    if scene_of(row) in VOLUMES or row.endswith(WITH_VOLUMES):
         own += ("--set", "contact=" + ("volume" if row.endswith(WITH_VOLUMES) else "surface"))
     return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *own)
 

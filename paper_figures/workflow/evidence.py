@@ -3,9 +3,9 @@ judgement needs no package.
 
 A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`; of an accepted
 result `X_steps.csv`, of a long one `X_hundreds.csv`, see thinned.py; compressed ones end in `.gz`); a table is
-`figNN_SCALE.csv` or `tableN_SCALE.csv` with a commit and a device in each row. An accepted manifest names its scene by
-the hash of `results/scenes/HASH.json`. Runs that are unfinished, of a changed tree, or that failed their audit are no
-evidence.
+`figNN_SCALE.csv`, `tableN_SCALE.csv` or an ablation's (TABLES), with a commit and a device in each row. An accepted
+manifest names its scene by the hash of `results/scenes/HASH.json`. Runs that are unfinished, of a changed tree, or that
+failed their audit are no evidence.
 """
 
 import copy
@@ -30,6 +30,7 @@ ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
 PAPER_BOUNDS = "ball"
 SURFACE, VOLUME = "surface", "volume"  # what a body is to others
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
+TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "radius*.csv", "falling*.csv")
 
 
 class EvidenceError(Exception):
@@ -292,7 +293,7 @@ class Evidence:
         self.runs, self.tables = sorted(runs_in(folder), key=lambda run: run.manifest.get("ended", "")), []
         self.failed = [run for run in self.runs if run.failed_audit]
         self.runs = [run for run in self.runs if run.usable or changed and run.sound]
-        found = ((ended_of(path), path) for path in (*folder.rglob("fig*.csv"), *folder.rglob("table*_*.csv")))
+        found = ((ended_of(path), path) for pattern in TABLES for path in folder.rglob(pattern))
         for ended, path in sorted(found):
             name, scale = table_name(path)
             with path.open(newline="") as file:
@@ -349,11 +350,14 @@ class Evidence:
         return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on)
 
     def _of_table(self, spec, scale):
+        """A cell, or the quotient of two; `column` is then one for both, or a list of one for each: where runs vary,
+        [smallest, largest] says what every run of the first is of every run of the second."""
         for table in reversed([t for t in self.tables if t.name == spec["table"] and t.scale == scale]):
             rows = [_row(table, spec[key]) for key in (("over", "under") if "over" in spec else ("where",))]
             if any(row is None for row in rows):
                 continue
-            cells = [_cell(table, row, spec["column"]) for row in rows]
+            columns = [spec["column"]] * len(rows) if isinstance(spec["column"], str) else spec["column"]
+            cells = [_cell(table, row, column) for row, column in zip(rows, columns)]
             if len({row["commit"] for row in rows}) > 1:
                 raise EvidenceError(f"{table.source} mixes commits "
                                     f"{', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one "
@@ -361,7 +365,8 @@ class Evidence:
             if len({row["device"] for row in rows}) > 1:  # a ratio of two machines says nothing
                 continue
             value = cells[0] / cells[1] if len(cells) > 1 else cells[0]
-            on = f"each on {rows[0]['device']}" if len(cells) > 1 and "[ms]" in spec["column"] else ""
+            is_time = "[ms]" in spec["column"] or rows[0].get("unit") == "ms"
+            on = f"each on {rows[0]['device']}" if len(cells) > 1 and is_time else ""
             return Measured(value, table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""), on)
         return None
 

@@ -5,8 +5,9 @@ NAME.yaml beside this file says all: `study` has `jitter` [m], `repeat`, `audit`
 `ogc ablate --point`; the others are held against the first; where they differ by scale, one list a scale), and by
 scale `set` (settings of all points) and `options` (further options of `ogc ablate`); `scales` names those that the
 scene is run at, where it is not at all. With `solver` in `study` that one runs it, on the CPU. FOLDER then holds a
-folder of `ogc ablate` for each scene, NAME.csv (a row a scene, metric and point), NAME.txt (findings), NAME.png and
-NAME.pdf. Cut off and called again, it goes on with the run that was cut off."""
+folder of `ogc ablate` for each scene, ablations.csv (a row a scene, metric and point), NAME.txt (findings), NAME.png
+and NAME.pdf. Cut off and called again, it goes on with the run that was cut off; with --made it tabulates and draws
+the scenes that there are."""
 
 import argparse
 import csv
@@ -23,6 +24,7 @@ from paper_figures.workflow.runs import write_table
 from plots import ablation, style
 
 HERE = Path(__file__).parent
+TABLE = "ablations.csv"
 KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver"}
 SCENE_KEYS = {"points", "set", "options", "scales"}
 CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
@@ -96,7 +98,7 @@ def origin(folder):
             "device": manifest["device"]}
 
 
-def rows(folder, scene):
+def rows(folder, study, scene):
     """Rows of the study's table: a metric and point of a scene."""
     made_by = origin(folder)
     with (folder / ablation.TABLE).open(newline="") as file:
@@ -104,7 +106,7 @@ def rows(folder, scene):
             names = list(row)
             varied = names[1:names.index(ablation.AFTER_AXES)]
             point = ",".join(f"{name}={row[name]}" for name in varied if row[name]) or "default"
-            yield {"scene": scene, "metric": row["metric"], "point": point,
+            yield {"study": study, "scene": scene, "metric": row["metric"], "point": point,
                    **{name: row[name] for name in names[len(varied) + 1:]}, **made_by}
 
 
@@ -134,6 +136,7 @@ def arguments():
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
     parser.add_argument("--scale", default="smoke", choices=("smoke", "small", "paper"))
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    parser.add_argument("--made", action="store_true", help="tabulate and draw the scenes that there are, run none")
     return parser.parse_args()
 
 
@@ -142,16 +145,21 @@ def main():
     study = load(asked.study)
     table, findings, metrics = [], [], {}
     scenes = scenes_at(study, asked.scale)
+    if asked.made:
+        scenes = [scene for scene in scenes if (asked.folder / scene / ablation.TABLE).is_file()]
+        if not scenes:
+            raise StudyError(f"{asked.folder} has no scene of {asked.study}; leave --made out, and they are run")
     for number, scene in enumerate(scenes, 1):
         words = command(study, scene, asked.scale, asked.backend)
         print(f"{asked.study}: {scene} ({number} of {len(scenes)}): ogc {' '.join(words)}", flush=True)
         folder = asked.folder / scene
-        run(asked.ogc, words, folder)
-        table += rows(folder, scene)
+        if not asked.made:
+            run(asked.ogc, words, folder)
+        table += rows(folder, asked.study, scene)
         findings += [f"{scene}: {line}\n" for line in (folder / "ablation_findings.txt").read_text().splitlines()]
         metrics[scene] = ablation.read(folder)
     out = asked.folder / asked.study
-    write_table(out.with_suffix(".csv"), table)
+    write_table(asked.folder / TABLE, table)
     out.with_suffix(".txt").write_text("".join(findings))
     title = yaml.safe_load((HERE / f"{asked.study}.yaml").read_text())["title"]
     draw(metrics, study.get("panels", PANELS), f"{title} ({asked.scale}, {study['repeat']} seeds)",

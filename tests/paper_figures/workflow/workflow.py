@@ -184,9 +184,10 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
         self.assertFalse((self.runs / f"study/{name}.png").exists())
         self.assertEqual(self.study(name), (0, ""))
         self.assertEqual((self.runs / "calls").read_text().split(), [scenes[0], *scenes])  # ogc keeps what is done
-        rows = (self.runs / f"study/{name}.csv").read_text().splitlines()
-        self.assertEqual(rows[:2], ["scene,metric,point,unit,runs,finished,median,smallest,largest,commit,device",
-                                    f"{scenes[0]},median_step,default,ms,2,2,3,2,4,0123456789,2 threads"])
+        rows = (self.runs / "study/ablations.csv").read_text().splitlines()
+        self.assertEqual(rows[:2],
+                         ["study,scene,metric,point,unit,runs,finished,median,smallest,largest,commit,device",
+                          f"{name},{scenes[0]},median_step,default,ms,2,2,3,2,4,0123456789,2 threads"])
         self.assertEqual(len(rows), 1 + 2 * len(scenes))
         self.assertIn(f"{scenes[2]}: median_step: iterations=5", (self.runs / f"study/{name}.txt").read_text())
         self.assertTrue((self.runs / f"study/{name}.png").is_file())

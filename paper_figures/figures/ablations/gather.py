@@ -1,0 +1,42 @@
+"""One table of the studies that were run, as results keep it: `python3 -m paper_figures.figures.ablations.gather
+FOLDER... --out ablations_SCALE.csv`, FOLDERs that study.py left. A metric that is one number in every run of a scene is
+left out, as it tells no setting from another, but for a row that says how many runs of a point finished."""
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+from paper_figures.figures.ablations.study import TABLE
+from paper_figures.workflow.runs import write_table
+
+ALWAYS = "detections_a_step"  # of every point, so that points without a finished run are there
+NUMBERS = ("median", "smallest", "largest")
+
+
+def told(rows):
+    """Rows of one study's scene whose metric differs between any two runs."""
+    values = {}
+    for row in rows:
+        values.setdefault(row["metric"], set()).update(row[name] for name in NUMBERS if row[name] not in ("", "nan"))
+    return [row for row in rows if row["metric"] == ALWAYS or len(values[row["metric"]]) > 1 and row["median"]]
+
+
+def gathered(folders):
+    scenes = {}
+    for folder in folders:
+        with (Path(folder) / TABLE).open(newline="") as file:
+            for row in csv.DictReader(file):
+                scenes.setdefault((row["study"], row["scene"]), []).append(row)
+    return [row for rows in scenes.values() for row in told(rows)]
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.split(":")[0])
+    parser.add_argument("folders", nargs="+", type=Path)
+    parser.add_argument("--out", required=True, type=Path)
+    options = parser.parse_args()
+    missing = [str(folder) for folder in options.folders if not (folder / TABLE).is_file()]
+    if missing:
+        sys.exit(f"gather: no {TABLE} in {', '.join(missing)}: run the study first")
+    write_table(options.out, gathered(options.folders))
