@@ -177,7 +177,8 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
                 self.assertIn(words[words.index("--audit") + 1], ("off", "end"))
 
     def test_a_study_that_was_stopped_goes_on_and_ends_in_a_table_findings_and_a_picture(self):
-        name, scenes = "ablation_policy", list(study.load("ablation_policy")["scenes"])
+        name = "ablation_policy"
+        scenes = study.scenes_at(study.load(name), "smoke")
         status, said = self.study(name, OGC_STOP=scenes[1])
         self.assertEqual(status, 1)
         self.assertIn("exit status 130; call it again to go on", said)
