@@ -479,6 +479,7 @@ def yarn_twisted(scale, backend):
 # half of m/h², for 30 times.
 REST_STEPS = {"smoke": 480, "small": 120000, "paper": 120000}
 REST_FRAME_STEPS = {"smoke": 240, "small": 5000, "paper": 5000}
+RELEASE_FRAME_STEPS = {"smoke": 30, "small": 1250, "paper": 1250}  # until they are braked
 BRAKED = ("--set", "damping=per_vertex", "--set", "time_step=5e-5", "--set", "iterations=8")
 FRICTIONLESS = "_frictionless"
 AT_REST = {"released": "hanging", f"released{FRICTIONLESS}": f"hanging{FRICTIONLESS}"}  # beside which it is held
@@ -486,19 +487,20 @@ AT_REST = {"released": "hanging", f"released{FRICTIONLESS}": f"hanging{FRICTIONL
 
 def yarn_at_rest(scale, backend):
     """Fig. 16's cloths at rest: a chain a cloth."""
-    words = ("--backend", backend, "--audit", "frame", "--audit-meetings", "off", "--set",
-             f"frame_steps={REST_FRAME_STEPS[scale]}")
+    common = ("--backend", backend, "--audit", "frame", "--audit-meetings", "off", "--set")
+    loose = (*common, f"frame_steps={RELEASE_FRAME_STEPS[scale]}")
+    held = (*common, f"frame_steps={REST_FRAME_STEPS[scale]}", *BRAKED)
     braked, steps = release.Release(scale, braked=True), REST_STEPS[scale]
-    twisted = Job("twisted", (YARN_TWIST, "--scale", scale, *words, "--steps", YARN_STEPS[YARN_TWIST][scale]),
+    twisted = Job("twisted", (YARN_TWIST, "--scale", scale, *loose, "--steps", YARN_STEPS[YARN_TWIST][scale]),
                   pictured=False)
-    let_go = Job("let_go", words, (twisted.name, -1), RELEASE_STEPS[scale], scene=release.Release(scale),
+    let_go = Job("let_go", loose, (twisted.name, -1), RELEASE_STEPS[scale], scene=release.Release(scale),
                  pictured=False)
 
     def without_friction(of):
-        return Job(f"{of}{FRICTIONLESS}", (*words, *BRAKED, "--set", "friction=0"), (of, -1), steps, scene=braked)
+        return Job(f"{of}{FRICTIONLESS}", (*held, "--set", "friction=0"), (of, -1), steps, scene=braked)
 
-    released = Job("released", (*words, *BRAKED), (let_go.name, -1), steps, scene=braked)
-    hanging = Job("hanging", (*words, *BRAKED, "--steps", steps), scene=braked)
+    released = Job("released", held, (let_go.name, -1), steps, scene=braked)
+    hanging = Job("hanging", (*held, "--steps", steps), scene=braked)
     yield twisted, let_go, released, without_friction(released.name)
     yield hanging, without_friction(hanging.name)
 
