@@ -28,7 +28,7 @@ from plots.run_folder import Run, RunError
 NAME = "activation_load"
 STIFFNESSES = (10, 1, 0.2)  # k_c [N/m]: the printed one, and softer ones, so that contacts are pressed harder
 RATIOS = (0.1, 0.25, 0.5, 1, 2, 3, 7, 40)  # κ
-SEEDS = {"smoke": 1, "small": 3}
+SEEDS = {"smoke": 1, "small": 1}  # solved to convergence: nothing is chaotic
 JITTER = 1e-6  # [m]
 OTHERS = ("quadratic", "cubic")
 WAYS = ("contact stiffness", "curvature at the load", "smallest distance")

@@ -2,7 +2,7 @@
 from entering itself: time a step, who is inside and how deep, and the mat at four times. Runs, table and picture.
 
 The mat is one body of tetrahedra: as a surface its boundary has balls or planes, as a volume it has no bound, and its
-boundary vertices ask its own tetrahedra. What is inside is the audit's, of states every 1/60 s.
+boundary vertices ask its own tetrahedra. What is inside is the audit's, of states every sixth of a second at `paper`.
 """
 
 import argparse
@@ -21,22 +21,17 @@ from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 NAME = "mat_volumes"
-ROWS = {f"{commands.MAT}{commands.WITH_VOLUMES}": "volume", commands.MAT: "balls", commands.MAT_PLANES: "planes"}
+ROWS = {commands.MAT_VOLUMES: "volume", commands.MAT: "balls", commands.MAT_PLANES: "planes"}
 SHARES = (25, 50, 75, 100)  # of the run [%]
 HALF = 8.0  # [s] as in fig19_mat_twist: where the mat is twisted, and not yet knotted
 FROM_AUDIT = {"most vertices inside [1]": "most_vertices_inside", "deepest [m]": "deepest_m",
               "most edges through [1]": "most_edges_meeting_volumes"}
 
 
-def jobs(scale, backend):
-    for row in ROWS:
-        yield from commands.whole_runs(row, scale, backend, audit="frame")
-
-
 def runs_of(options):
     """row -> Run. Throws RunError."""
     try:
-        for job in () if options.made else jobs(options.scale, options.backend):
+        for job in () if options.made else commands.mat_as_volume(options.scale, options.backend):
             job.make(options.ogc, options.folder, Limit(), True)
     except RunFailure as error:
         raise RunError(str(error)) from error
