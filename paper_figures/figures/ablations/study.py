@@ -25,6 +25,7 @@ from plots import ablation, style
 
 HERE = Path(__file__).parent
 TABLE = "ablations.csv"
+KEPT = "guarantee_kept"  # the metric whose number is how many runs of a point kept it
 KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver"}
 SCENE_KEYS = {"points", "set", "options", "scales"}
 CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
@@ -108,6 +109,22 @@ def rows(folder, study, scene):
             point = ",".join(f"{name}={row[name]}" for name in varied if row[name]) or "default"
             yield {"study": study, "scene": scene, "metric": row["metric"], "point": point,
                    **{name: row[name] for name in names[len(varied) + 1:]}, **made_by}
+    for point, runs in of_points(folder).items():
+        kept = sum(run["guarantee_kept"] == "yes" for run in runs)
+        ended = sum(run["status"] == "finished" for run in runs)
+        yield {"study": study, "scene": scene, "metric": KEPT, "point": point, "unit": "1", "runs": len(runs),
+               "finished": ended, **dict.fromkeys(("median", "smallest", "largest"), kept), **made_by}
+
+
+def of_points(folder):
+    """point -> rows of its runs, those that failed, too."""
+    found = {}
+    with (folder / "ablation.csv").open(newline="") as file:
+        for row in csv.DictReader(file):
+            varied = list(row)[:list(row).index("seed")]
+            point = ",".join(f"{name}={row[name]}" for name in varied if row[name]) or "default"
+            found.setdefault(point, []).append(row)
+    return found
 
 
 def draw(folders, panels, title, out):

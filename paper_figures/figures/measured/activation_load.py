@@ -165,8 +165,9 @@ def equal(rows):
             for level in LEVELS:
                 name = f"iterations to {level} [1]"
                 counts = [number(one, name) for one in logs]
-                ratio = np.nan if place is None else np.interp(place, np.log(RATIOS), counts) / number(ours, name)
-                row[f"logarithm's over OGC's iterations to {level} [1]"] = f"{ratio:.3g}" if np.isfinite(ratio) else ""
+                ratio = math.nan if place is None else np.interp(place, np.log(RATIOS), counts) / number(ours, name)
+                is_told = 0 < ratio < math.inf  # both come to that residual
+                row[f"logarithm's over OGC's iterations to {level} [1]"] = f"{ratio:.3g}" if is_told else ""
             yield row | {key: ours[key] for key in ("device", "commit")}
 
 

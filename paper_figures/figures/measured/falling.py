@@ -1,4 +1,4 @@
-"""What falls fast beside something near (§6, Fig. 22b): two triangles side by side, 10 mm apart, and a sheet beside a
+"""What falls fast beside something near (Fig. 22b): two triangles side by side, 10 mm apart, and a sheet beside a
 sheet, with each kind of bounds and by IPC. How far they come in 0.2 s, over the way of a free fall, and how many
 detections a step takes. Runs, table and picture.
 
