@@ -181,8 +181,8 @@ struct Contestant {
   bool has_steps_with_planes = true;
   /// Whether its planes divide gaps by approach. A plug-in's do not: compare/plugin.h has no displacements there.
   bool divides_by_approach = true;
-  /// Whether its sweeps and steps know guess=pairs and contact_weights=iteration. A plug-in's do not: compare/plugin.h
-  /// has no such settings.
+  /// Whether its sweeps and steps know guess=pairs and contact_weights=iteration, and its volumes cavities. A plug-in's
+  /// do not: compare/plugin.h has none of it.
   bool has_newer_settings = true;
   /// Whether its sweeps and steps know volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
   bool has_volumes = true;

@@ -32,9 +32,9 @@ class VolumeAuditor {
   /// Whether there are any.
   bool has_volumes() const { return !parts_.empty(); }
   /// Of vertices that are not fixed, and of edges of which an end is not. Winding numbers and meetings are decided
-  /// without rounding, each part by itself: a connected component of triangles, or the boundary of a body of
-  /// tetrahedra. Of a part with rims each rim is closed by a fan about the mean of its ends. A vertex on the surface is
-  /// outside.
+  /// without rounding, each part by itself: a connected component of triangles with its cavities, or the boundary of a
+  /// body of tetrahedra. Of a part with rims each rim is closed by a fan about the mean of its ends. A vertex on the
+  /// surface is outside.
   ///
   /// A vertex of a body of tetrahedra lies on its surface, and in the body itself where one of its tetrahedra of
   /// positive volume, without this vertex, holds it, its surface included; its distance is then that to triangles which

@@ -254,7 +254,7 @@ typedef struct ogc_volume_depth_in {
   const ogc_vec3* points; /* [n] that ask */
 } ogc_volume_depth_in;
 
-/* A contact of a point with a part, that is with a connected component of the volume. */
+/* A contact of a point with a part, that is with a connected component of the volume; none of them is a cavity. */
 typedef struct ogc_volume_contact {
   int32_t point;
   int32_t inside;     /* 1: the part holds the point */

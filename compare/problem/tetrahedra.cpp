@@ -65,7 +65,8 @@ std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra
   return triangles;
 }
 
-std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra) {
+std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra,
+                                     std::span<const Edge> cavities) {
   std::vector<Index> lowest(topology.component.size());  // by component: one of its set that is not above it
   std::iota(lowest.begin(), lowest.end(), 0);
   const auto root = [&](Index v) {
@@ -73,12 +74,13 @@ std::vector<Index> joined_components(const Topology& topology, std::span<const T
     while (lowest[static_cast<std::size_t>(c)] != c) c = lowest[static_cast<std::size_t>(c)];
     return c;
   };
-  for (const Tetrahedron& t : tetrahedra) {
-    for (std::size_t k = 1; k < 4; ++k) {
-      const auto [low, high] = std::minmax({root(t[0]), root(t[k])});
-      lowest[static_cast<std::size_t>(high)] = low;
-    }
-  }
+  const auto join = [&](Index a, Index b) {
+    const auto [low, high] = std::minmax({root(a), root(b)});
+    lowest[static_cast<std::size_t>(high)] = low;
+  };
+  for (const Tetrahedron& t : tetrahedra)
+    for (std::size_t k = 1; k < 4; ++k) join(t[0], t[k]);
+  for (const auto& [inner, outer] : cavities) join(inner, outer);
   std::vector<Index> joined;
   joined.reserve(topology.component.size());
   for (Index v = 0; v < topology.vertex_count; ++v) joined.push_back(root(v));

@@ -29,8 +29,10 @@ std::vector<TetrahedronFace> sorted_faces(std::span<const Tetrahedron> tetrahedr
 /// out.
 std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra);
 
-/// By vertex: Topology::component, those that tetrahedra connect joined under the lowest of their numbers.
-std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra);
+/// By vertex: Topology::component, those that tetrahedra connect, or a cavity's vertex and one of the surface around it
+/// (VolumeDepthIn::cavities), joined under the lowest of their numbers.
+std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra,
+                                     std::span<const Edge> cavities = {});
 
 /// The sign of det(b − a, c − a, d − a), without rounding: 1 where the volume is positive, 0 where the points lie in a
 /// plane. Coordinates are numbers of single precision.

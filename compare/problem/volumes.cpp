@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "compare/problem/cavities.hpp"
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/problem_kind.hpp"
@@ -66,28 +67,28 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
+/// The connected components of a body's surface, each as a part.
+std::vector<VolumePart> shells_of(const Scene& scene, std::size_t number) {
   const Body& body = scene.bodies[number];
-  Sets sets(at(body.vertex_count));
-  const auto local = [&](Index v) { return at(v - body.first_vertex); };
+  Sets sets(scene.mesh.positions.size());
   const auto triangles = std::span(scene.mesh.triangles).subspan(at(body.first_triangle), at(body.triangle_count));
-  for (const auto& [a, b, c] : triangles) sets.unite(local(a), local(b)), sets.unite(local(a), local(c));
-  std::map<std::size_t, std::size_t> place;  // of the part of a set
-  std::vector<VolumePart> parts;
+  for (const auto& [a, b, c] : triangles) sets.unite(at(a), at(b)), sets.unite(at(a), at(c));
+  std::map<std::size_t, std::size_t> place;  // of the shell of a set
+  std::vector<VolumePart> shells;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto [entry, is_new] = place.try_emplace(sets.root(local(triangles[i][0])), parts.size());
-    if (is_new) parts.push_back({number, {}, {}});
-    parts[entry->second].triangles.push_back(body.first_triangle + static_cast<Index>(i));
+    const auto [entry, is_new] = place.try_emplace(sets.root(at(triangles[i][0])), shells.size());
+    if (is_new) shells.push_back({number, {}, {}});
+    shells[entry->second].triangles.push_back(body.first_triangle + static_cast<Index>(i));
   }
-  for (VolumePart& part : parts) {
+  for (VolumePart& shell : shells) {
     std::vector<Side> rims;
-    visit_edges(sorted_sides(scene, part.triangles), [&](std::span<const Side> sides) {
+    visit_edges(sorted_sides(scene, shell.triangles), [&](std::span<const Side> sides) {
       if (sides.size() == 1) rims.push_back(sides[0]);
     });
     std::ranges::sort(rims, {}, [](const Side& side) { return side.triangle; });
-    for (const Side& side : rims) part.rims.push_back(side.ascending ? side.edge : Edge{side.edge[1], side.edge[0]});
+    for (const Side& side : rims) shell.rims.push_back(side.ascending ? side.edge : Edge{side.edge[1], side.edge[0]});
   }
-  return parts;
+  return shells;
 }
 
 /// A sum of determinants with the sum of the moduli of their terms.
@@ -125,9 +126,9 @@ SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
     const auto [a, b, c] = scene.mesh.triangles[at(t)];
     volume.add(origin, position(a), position(b), position(c));
   }
-  const Index first = scene.bodies[part.body].first_vertex;
-  Sets sets(at(scene.bodies[part.body].vertex_count));
-  for (const auto& [a, b] : part.rims) sets.unite(at(a - first), at(b - first));
+  if (part.rims.empty()) return volume;
+  Sets sets(scene.mesh.positions.size());
+  for (const auto& [a, b] : part.rims) sets.unite(at(a), at(b));
   struct Mean {
     Vec3 sum;
     double count = 0;
@@ -135,16 +136,71 @@ SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
   std::map<std::size_t, Mean> means;
   // each vertex of a rim ends as many of its edges as it begins, so that the beginnings are all of them
   for (const auto& [a, b] : part.rims) {
-    Mean& mean = means[sets.root(at(a - first))];
+    Mean& mean = means[sets.root(at(a))];
     const Vec3& x = position(a);
     mean.sum = {mean.sum.x + x.x, mean.sum.y + x.y, mean.sum.z + x.z};
     ++mean.count;
   }
   for (const auto& [a, b] : part.rims) {
-    const auto& [sum, count] = means.at(sets.root(at(a - first)));
+    const auto& [sum, count] = means.at(sets.root(at(a)));
     volume.add(origin, position(b), position(a), {sum.x / count, sum.y / count, sum.z / count});
   }
   return volume;
+}
+
+bool is_usable(const Scene& scene, const Body& body) {
+  const auto first = scene.mesh.positions.begin() + body.first_vertex;
+  return std::all_of(first, first + body.vertex_count, [](const Vec3& x) {
+    return is_finite(x) && std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) <= most_length;
+  });
+}
+
+/// By shell of a volume of triangles: the shell whose cavity it is, or −1.
+std::vector<int> cavities_among(const Scene& scene, const std::vector<VolumePart>& shells) {
+  std::vector<Shell> asked;
+  if (shells.size() < 2 || !is_usable(scene, scene.bodies[shells[0].body])) return std::vector<int>(shells.size(), -1);
+  for (const VolumePart& shell : shells) {
+    const SignedVolume volume = shell.rims.empty() ? six_volumes(scene, shell) : SignedVolume{};
+    asked.push_back({shell.triangles, std::abs(volume.value) > volume.error() ? volume.value : 0});
+  }
+  return enclosing_shells(scene.mesh, asked);
+}
+
+/// Unites the shells that tetrahedra join.
+void unite_by_tetrahedra(const Scene& scene, const std::vector<VolumePart>& shells, Sets& parts) {
+  const Body& body = scene.bodies[shells[0].body];
+  Sets sets(scene.mesh.positions.size());
+  for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t)
+    for (const Index v : scene.mesh.tetrahedra[at(t)]) sets.unite(at(scene.mesh.tetrahedra[at(t)][0]), at(v));
+  std::map<std::size_t, std::size_t> shell_of;  // the first one of a set
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    const std::size_t set = sets.root(at(scene.mesh.triangles[at(shells[i].triangles[0])][0]));
+    parts.unite(shell_of.try_emplace(set, i).first->second, i);
+  }
+}
+
+std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
+  std::vector<VolumePart> shells = shells_of(scene, number);
+  if (shells.size() < 2) return shells;
+  Sets sets(shells.size());
+  if (scene.bodies[number].is_solid()) {
+    unite_by_tetrahedra(scene, shells, sets);
+  } else {
+    const std::vector<int> enclosing = cavities_among(scene, shells);
+    for (std::size_t i = 0; i < shells.size(); ++i)
+      if (enclosing[i] >= 0) sets.unite(i, at(enclosing[i]));
+  }
+  std::vector<VolumePart> parts;
+  std::map<std::size_t, std::size_t> place;  // of the part of a set
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    const auto [entry, is_new] = place.try_emplace(sets.root(i), parts.size());
+    if (is_new) parts.push_back({number, {}, {}});
+    VolumePart& part = parts[entry->second];
+    part.triangles.insert(part.triangles.end(), shells[i].triangles.begin(), shells[i].triangles.end());
+    part.rims.insert(part.rims.end(), shells[i].rims.begin(), shells[i].rims.end());
+  }
+  for (VolumePart& part : parts) std::ranges::sort(part.triangles);
+  return parts;
 }
 
 /// Whether each edge of the body has an inner side or is of one triangle; lists those that have not.
@@ -173,18 +229,12 @@ bool check_edges(std::vector<Problem>& problems, const Scene& scene, const Body&
   return threefold.count() + misoriented.count() == 0;
 }
 
-bool is_usable(const Scene& scene, const Body& body) {
-  const auto first = scene.mesh.positions.begin() + body.first_vertex;
-  return std::all_of(first, first + body.vertex_count, [](const Vec3& x) {
-    return is_finite(x) && std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) <= most_length;
-  });
-}
-
 /// `is_sound`: by body, whether its parts may be looked at.
 void check_parts(std::vector<Problem>& problems, const Scene& scene, const std::vector<bool>& is_sound,
                  const ElementNames& names, std::size_t limit) {
   ProblemKind inside_out(problems, limit, "begins a part of a volume that is turned inside out",
-                         "reverse the vertices of its triangles, so that their normals point outward");
+                         "reverse the vertices of its triangles, so that their normals point outward; a cavity, "
+                         "whose normals point into it, lies within a closed part of the same body");
   ProblemKind empty(problems, limit, "begins a part of a volume that encloses nothing",
                     "give the part an inner side, or leave the body a surface");
   for (const VolumePart& part : volume_parts(scene)) {
@@ -258,6 +308,19 @@ void check_volume_bodies(std::vector<Problem>& problems, const Scene& scene, con
   check_parts(problems, scene, is_sound, names, limit);
 }
 
+std::vector<Edge> volume_cavities(const Scene& scene) {
+  std::vector<Edge> all;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (!scene.bodies[b].is_volume() || scene.bodies[b].is_solid()) continue;
+    const std::vector<VolumePart> shells = shells_of(scene, b);
+    const auto vertex = [&](std::size_t i) { return scene.mesh.triangles[at(shells[i].triangles[0])][0]; };
+    const std::vector<int> enclosing = cavities_among(scene, shells);
+    for (std::size_t i = 0; i < shells.size(); ++i)
+      if (enclosing[i] >= 0) all.push_back({vertex(i), vertex(at(enclosing[i]))});
+  }
+  return all;
+}
+
 VolumeSurface volume_surface(const Scene& scene) {
   VolumeSurface volumes;
   std::vector<Triangle> triangles;
@@ -270,6 +333,7 @@ VolumeSurface volume_surface(const Scene& scene) {
     if (body.is_volume()) volumes.tetrahedra.insert(volumes.tetrahedra.end(), first, first + body.tetrahedron_count);
   }
   volumes.topology = build_topology(static_cast<Index>(scene.mesh.positions.size()), triangles);
+  volumes.cavities = volume_cavities(scene);
   return volumes;
 }
 

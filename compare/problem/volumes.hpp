@@ -17,8 +17,8 @@ std::string_view name_of(BodyContact contact);
 /// All names, in the order of the enumeration.
 std::span<const std::string_view> body_contact_names();
 
-/// A part of a volume: a connected component of its surface, which is asked by itself. Triangles that
-/// share a vertex are connected.
+/// A part of a volume, which is asked by itself: a connected component of its surface, or of its tetrahedra, with its
+/// cavities (compare/problem/cavities.hpp). Triangles that share a vertex are connected.
 struct VolumePart {
   std::size_t body = 0;          ///< whose part it is
   std::vector<Index> triangles;  ///< of the scene, ascending
@@ -29,11 +29,16 @@ struct VolumePart {
 /// scene.
 std::vector<VolumePart> volume_parts(const Scene& scene);
 
+/// The cavities of a scene's volumes of triangles, as VolumeDepthIn::cavities has them: of each a vertex of its own and
+/// one of the surface whose cavity it is.
+std::vector<Edge> volume_cavities(const Scene& scene);
+
 /// The surfaces of all volumes of a scene as one question of the stage volume_depth: vertices keep their numbers.
 struct VolumeSurface {
   Topology topology;                    ///< of their triangles alone
   std::vector<Index> triangles;         ///< by triangle there: its number in the scene, ascending
   std::vector<Tetrahedron> tetrahedra;  ///< of those volumes that have any, body by body
+  std::vector<Edge> cavities;           ///< volume_cavities
 };
 
 /// Of a scene without volumes: no triangle. Indices are valid, and bodies cover the scene.

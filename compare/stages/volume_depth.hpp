@@ -17,8 +17,8 @@ namespace ogc::compare {
 /// One volume: its surface and its tetrahedra, if it has any, and points that ask it. Each edge of a part of triangles
 /// has one triangle (a rim), or two that run through it in opposite senses; triangles have an area, none is lower than
 /// 2⁻²⁰ of its longest side, whose foot and normal single precision does not know. A *part* is a connected component of
-/// triangles and tetrahedra; the triangles of one with tetrahedra are their boundary (compare/problem/tetrahedra.hpp)
-/// and no others. Views; the owner must outlive the call.
+/// triangles and tetrahedra, with its cavities; the triangles of one with tetrahedra are their boundary
+/// (compare/problem/tetrahedra.hpp) and no others. Views; the owner must outlive the call.
 struct VolumeDepthIn {
   const Topology* topology = nullptr;            ///< of the volume's triangles
   std::span<const Vec3f> positions;              ///< by vertex of the volume [m]
@@ -26,6 +26,8 @@ struct VolumeDepthIn {
   std::span<const Vec3f> points;                 ///< that ask [m]
   std::span<const Tetrahedron> tetrahedra = {};  ///< those without positive volume are as if they were not there
   std::span<const Index> own = {};               ///< by point: the vertex that it is, or −1; empty: none is any
+  /// of components of triangles that are cavities of others, and of one part with them: a vertex of each of both
+  std::span<const Edge> cavities = {};
 };
 
 /// One contact of a point x with a part; c is the point of `face` closest to x.

@@ -201,6 +201,13 @@ class CpuBackend {
     for (decide(0); *flag != 0; decide_again(0)) body();
   }
 
+  /// One after the other.
+  template <class Aside, class Body>
+  void at_once(Aside aside, Body body) {
+    aside();
+    body();
+  }
+
   /// The host has nothing to record.
   struct Recording {
     void clear() {}

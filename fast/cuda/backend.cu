@@ -61,6 +61,7 @@ void CudaBackend::end_recording(Recording& recording) {
   recording_ = false;
   cudaGraph_t graph = nullptr;
   OGC_CUDA_CHECK(cudaStreamEndCapture(stream_, &graph));
+  end_branches();
   const cudaError_t error = cudaGraphInstantiate(&recording.graph_, graph, 0);
   cudaGraphDestroy(graph);
   OGC_CUDA_CHECK(error);
@@ -79,7 +80,45 @@ void CudaBackend::abandon_recording() noexcept {
   current_ = stream_;
   cudaStreamEndCapture(stream_, &graph);
   if (graph != nullptr) cudaGraphDestroy(graph);
+  end_branches();
   cudaGetLastError();
+}
+
+// An event carries the capture, and what it stands behind, from one stream to the other. Streams and events live as
+// long as the recording: those of a branch are part of it.
+void CudaBackend::wait_for(cudaStream_t waiting, cudaStream_t other) {
+  cudaEvent_t crossing = nullptr;
+  OGC_CUDA_CHECK(cudaEventCreateWithFlags(&crossing, cudaEventDisableTiming));
+  crossings_.push_back(crossing);
+  OGC_CUDA_CHECK(cudaEventRecord(crossing, other));
+  OGC_CUDA_CHECK(cudaStreamWaitEvent(waiting, crossing, 0));
+}
+
+// Makes a stream that begins behind what `current_` has captured so far the current one.
+cudaStream_t CudaBackend::begin_branch() {
+  cudaStream_t branch = nullptr;
+  OGC_CUDA_CHECK(cudaStreamCreateWithFlags(&branch, cudaStreamNonBlocking));
+  branches_.push_back(branch);
+  wait_for(branch, current_);
+  follows_ = false;
+  return std::exchange(current_, branch);
+}
+
+void CudaBackend::end_branch(cudaStream_t main) {
+  follows_ = false;
+  current_ = main;
+}
+
+void CudaBackend::join(cudaStream_t branch) {
+  wait_for(current_, branch);
+  follows_ = false;
+}
+
+void CudaBackend::end_branches() noexcept {
+  for (cudaEvent_t crossing : crossings_) cudaEventDestroy(crossing);
+  for (cudaStream_t branch : branches_) cudaStreamDestroy(branch);
+  crossings_.clear();
+  branches_.clear();
 }
 
 cudaGraphConditionalHandle CudaBackend::new_condition() {

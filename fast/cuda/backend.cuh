@@ -8,9 +8,9 @@
 // A step is thousands of small kernels; enqueued one by one each costs 3.2 µs of host time, inside a CUDA graph 0.5 µs.
 // So `replay` records what a body enqueues into a graph, once, and launches the graph once for each repetition. It
 // records again when a Buffer has moved, since a graph holds pointers. `when` becomes a conditional IF node there (4.1
-// to 4.9 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel), `repeat` a WHILE node. Outside a recording
-// (probes, --profile) both read the flag on the host. Conditional nodes need a driver of CUDA 12.4; this runtime (13)
-// asks for a newer one.
+// to 4.9 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel), `repeat` a WHILE node, `at_once` two
+// branches that part and meet. Outside a recording (probes, --profile) flags are read on the host, and branches run one
+// after the other. Conditional nodes need a driver of CUDA 12.4; this runtime (13) asks for a newer one.
 #pragma once
 
 #include <algorithm>
@@ -255,6 +255,26 @@ class CudaBackend {
     end_condition(outer);
   }
 
+  /// In a recording two branches of the graph; elsewhere one after the other.
+  template <class Aside, class Body>
+  void at_once(Aside aside, Body body) {
+    if (!recording_) {
+      aside();
+      body();
+      return;
+    }
+    const cudaStream_t main = begin_branch(), branch = current_;
+    try {
+      aside();
+    } catch (...) {
+      end_branch(main);
+      throw;
+    }
+    end_branch(main);
+    body();
+    join(branch);
+  }
+
   /// Enqueues what `body` enqueues, `times` times over. `body` runs on the host only when `recording` is empty or
   /// stale, so it must enqueue the same calls with the same arguments every time; what changes from step to step
   /// (numbers, targets) is counted on the device.
@@ -315,6 +335,11 @@ class CudaBackend {
   }
   cudaStream_t begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type);
   void end_condition(cudaStream_t outer);
+  cudaStream_t begin_branch();
+  void end_branch(cudaStream_t main);
+  void join(cudaStream_t branch);
+  void wait_for(cudaStream_t waiting, cudaStream_t other);
+  void end_branches() noexcept;
   void begin_recording();
   void end_recording(Recording& recording);
   void abandon_recording() noexcept;
@@ -324,7 +349,9 @@ class CudaBackend {
   bool recording_ = false, follows_ = false;
   int block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_;
-  std::vector<cudaEvent_t> events_;  // events_[k], events_[k + 1]: start and end of repetition k
+  std::vector<cudaStream_t> branches_;  // of the recording under way
+  std::vector<cudaEvent_t> crossings_;  // likewise: where branches part and meet
+  std::vector<cudaEvent_t> events_;     // events_[k], events_[k + 1]: start and end of repetition k
   int repetitions_ = 0;
 };
 

@@ -71,6 +71,7 @@ struct StepControl {
   /// detection, so that another detection is due; whether an unsafe pair was seen in this pass.
   int pairs = 0, unsafe = 0, left = 0, unsafe_seen = 0;
   int not_finite = 0, violations = 0;
+  int short_rows = 0;  ///< with volumes: a row of contacts had no room; set beside a detection, whose lists have a flag
   /// With volumes, at the end: contacts, vertices inside; how deep the deepest was at the last detection, bits [m];
   /// sheets without any way.
   int volume_contacts = 0, vertices_inside = 0, deepest = 0, depth_unresolved = 0;
@@ -106,6 +107,7 @@ OGC_HD inline bool take_request(StepControl& c, int redetect_count) {
 OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.not_finite > 0) c.status |= compare::step_not_finite;
   if (c.violations > 0) c.status |= compare::step_bound_violated;
+  if (c.short_rows > 0) c.status |= compare::step_list_grew;
   if (c.status != 0) c.active = c.guess = c.detect = 0;
 }
 
@@ -124,7 +126,7 @@ struct BeginStep {
     c.smallest_bound = 3.40282347e38f;
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
     c.lagging = c.advanced = c.lag_asked = c.deep_inside = 0;
-    c.pairs = c.unsafe = c.left = c.unsafe_seen = 0;
+    c.pairs = c.unsafe = c.left = c.unsafe_seen = c.short_rows = 0;
     c.volume_contacts = c.vertices_inside = c.deepest = c.depth_unresolved = 0;
     c.longest_segment = 0;
     c.nearest_contact = 3.40282347e38f;
@@ -168,7 +170,7 @@ struct EndListing {
   const int* overflow;   ///< on the backend
 
   OGC_HD void operator()(int) const {
-    if (*overflow == 0) return;
+    if (*overflow == 0 && control->short_rows == 0) return;
     control->status |= compare::step_list_grew;
     stop_if_failed(*control);
   }

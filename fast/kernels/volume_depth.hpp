@@ -12,6 +12,20 @@
 //   rim        outside: an edge of one triangle, and a vertex of such an edge, have no inner side
 //
 // Beyond the box of a part nobody is inside of it, so that most points need no search of most parts.
+//
+// A driven volume stands still between two detections of a step, and who was far from it has mostly moved little since.
+// So a search that finds a point p far, inside the box, tells how far one may go from p and be far still, ρ. Let D be
+// the distance from p, c the closest point, and each facet t at least d_t away from p, and p at the height h_t over its
+// plane. Whoever is at x, at most ρ < D − r from p, is at least D − ρ > r and at most D + ρ from the part. So the
+// facets around its nearest face are at most D + 2 ρ from p. If each facet has (d_t − D)/2 > ρ or h_t > ρ, x lies on
+// the outer side of all of those. Then so it is for a face of any kind: the sum of their normals is on that side, too,
+// unless two of them are nearly opposite, and so no facet counts by its height whose normal does not lean towards
+// p − c, by 2⁻⁸.
+//
+// Rounding: what the search takes for the nearest face may be two slacks farther than that, each at most 2 u S
+// (point_triangle_distance), and S is at most six times the 1-norm L of the box' extent, for p and x alike: 2⁻¹⁹ L.
+// Heights are over the planes that is_outside takes, whose normals err by 2⁻³⁰ where the facet is no sliver, and
+// squares of the ball by 2⁻²² of ρ ≤ L. Taken for all of it: 2⁻¹⁸ L.
 #pragma once
 
 #include "fast/kernels/block.hpp"
@@ -72,6 +86,23 @@ struct FoundVolumeContact {
   float depth = 0;        ///< [m]
 };
 
+/// Who is in it is far from a part, as long as the volume stands still.
+struct alignas(16) ClearBall {
+  /// In place of a radius: nobody has asked since the volume moved; was asked, and no ball is known; none was found.
+  static constexpr float unasked = -1, asked = -2, refused = -3;
+
+  Vec centre;              ///< [m]
+  float radius = unasked;  ///< [m]; negative: nobody is in it
+
+  OGC_HD bool holds(const Vec& x) const {
+    const Vec d = x - centre;
+    return radius > 0 && add(add(mul(d.x, d.x), mul(d.y, d.y)), mul(d.z, d.z)) <= mul(radius, radius);
+  }
+};
+
+/// Of its distance, how far a point in the box of a part may go at most before it is asked again.
+inline constexpr float clear_share = 0.125F;
+
 class SolidQuestion;
 
 /// A point before a volume.
@@ -79,13 +110,17 @@ class VolumeQuestion {
  public:
   OGC_HD VolumeQuestion(const VolumeView& volume, const Vec& point) : volume_(volume), x_(point) {}
 
-  /// The search begins at the distance of `first`, one of the part's facets, which decides the time alone.
-  OGC_HD NearestFacet nearest_of(int part, int first) const {
+  /// The search begins at the distance of `first`, one of the part's facets, which decides the time alone. `clear`, if
+  /// it is asked for: where the answer stays `far`.
+  OGC_HD NearestFacet nearest_of(int part, int first, ClearBall* clear = nullptr) const {
     const Box box = box_of(part);
     if (squared_gap(box, {x_, x_}) > gap_limit(volume_.contact_radius)) return {first, VolumeSide::far};
     const Nearest nearest = search(part, first);
-    if (is_in(box) && !is_outside(nearest.face)) return {nearest.facet, VolumeSide::inside};
-    return {nearest.facet, is_near(nearest.facet, nearest.distance) ? VolumeSide::near : VolumeSide::far};
+    const bool in_box = is_in(box);
+    if (in_box && !is_outside(nearest.face)) return {nearest.facet, VolumeSide::inside};
+    if (is_near(nearest.facet, nearest.distance)) return {nearest.facet, VolumeSide::near};
+    if (clear != nullptr && in_box) *clear = clear_ball(part, nearest, box);
+    return {nearest.facet, VolumeSide::far};
   }
 
   /// Calls visit(contact) for each contact with a part, of which `nearest` tells: one at the nearest face of a part
@@ -156,6 +191,42 @@ class VolumeQuestion {
     });
     if (nearest.face < 0) nearest.face = face_of(nearest.facet);
     return nearest;
+  }
+
+  /// About x, which is far, in the box, and on the outer side of the nearest face.
+  OGC_HD ClearBall clear_ball(int part, const Nearest& nearest, const Box& box) const {
+    const float doubt = mul(0x1p-18F, norm_1(box.upper - box.lower));
+    const Corners at = corners(nearest.facet);
+    const TriangleFeature feature = closest_feature(x_, at, volume_.surface.facets[nearest.facet].descending);
+    const Real away = unit(feature == TriangleFeature::interior ? normal(nearest.facet) : from_foot(at, feature));
+    const Distance& d = nearest.distance;
+    const float above = round_up(add(d.value, d.slack)),
+                free = sub(round_down(sub(d.value, d.slack)), volume_.contact_radius);
+    float radius = smaller(mul(clear_share, free), sub(free, mul(2, doubt))), limit = -1;
+    const auto set_limit = [&] {
+      limit = radius > doubt ? gap_limit(add(above, mul(2 + 0x1p-20F, add(radius, mul(2, doubt))))) : -1;
+    };
+    set_limit();
+    for_each_near(volume_.parts[part].facets.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
+      if (offer.gap > limit) return;
+      const float by_distance = sub(mul(0.5F, sub(separation(x_, corners(offer.primitive)), above)), doubt);
+      if (by_distance >= radius) return;
+      const float by_height = sub(height_over(offer.primitive, away), doubt);
+      if (by_height >= radius) return;
+      radius = by_height > by_distance ? by_height : by_distance;
+      set_limit();
+    });
+    return {x_, radius > doubt ? radius : ClearBall::refused};
+  }
+
+  /// Of x over the plane of a facet whose normal is known well and leans towards `away`; −∞ over others.
+  OGC_HD float height_over(int t, const Real& away) const {
+    const Corners at = corners(t);
+    const Real e = difference<Rounded>(at.b, at.a), f = difference<Rounded>(at.c, at.a), n = cross(e, f);
+    const double nn = squared(n), size = square_root(nn);
+    const bool is_known = nn > mul(0x1p-36, mul(squared(e), squared(f)));
+    if (!is_known || !(dot(n, away).value > mul(0x1p-8, size))) return -infinity;
+    return round_down(divide(dot(difference<Rounded>(x_, at.a), n).value, size));
   }
 
   /// The box of a part, which no rounding moves.

@@ -142,7 +142,7 @@ inline void sort_contacts(std::vector<compare::VolumeContact>& contacts) {
 template <class Backend>
 compare::VolumeDepthOut probe_volume_depth(Backend& backend, const compare::VolumeDepthIn& in) {
   const Surface<Backend> surface(*in.topology, {});
-  const VolumeParts parts = volume_parts(*in.topology, in.tetrahedra, in.positions);
+  const VolumeParts parts = volume_parts(*in.topology, in.tetrahedra, in.cavities, in.positions);
   VolumeTrees<Backend> trees(parts, solid_tables(*in.topology, in.tetrahedra));
   ProbeMemory<Backend> memory(backend);
   const std::vector<compare::Vec3f> positions(in.positions.begin(), in.positions.end());

@@ -36,6 +36,8 @@
 //                                    decide(0), then what body() enqueues if *flag is not 0 then; not nested
 //   repeat(F decide, const int* flag, Body body, G decide_again)
 //                                    decide(0), then while *flag is not 0 what body() enqueues and decide_again(0)
+//   at_once(Aside aside, Body body)      what both enqueue, at once or one after the other: neither writes what the
+//                                    other reads; aside() enqueues loops (for_each, …) alone; not nested
 //   Recording recording;                 empty at first; recording.clear() after a change of what the body enqueues
 //   replay(recording, int times, Body body)
 //                                    enqueues body()'s work `times` times. A device backend runs body() on the host

@@ -186,7 +186,7 @@ class Step {
                      .tables = sweep_.tables(state_.previous.data()),
                      .contact_radius = settings_.contact_radius,
                      .control = control()},
-                    detection_.lists().overflow);
+                    &control()->short_rows);
     });
   }
 
@@ -241,13 +241,24 @@ class Step {
             .resolve = sweep_.resolve_contact(view, state_.previous.data())};
   }
 
+  /// body(), which writes nothing that the volumes are asked with, and what they are asked at `position` beside it. A
+  /// row that is too short ends the step with the next of the control's decisions that comes after both.
+  template <class Body>
+  void beside_volumes(const Vec* position, Body body) {
+    if (!volumes_.is_used()) return body();
+    backend_.at_once([&] { find_in_volumes(position); }, body);
+  }
+
   /// Everything is found anew, the stream of contacts included.
   void detect() {
-    find_in_volumes(state_.position.data());
-    clock_.time(StepStage::detection, [&] {
-      detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
-                        settings_.bound_relaxation, StepLaunches{start_of_detection(nullptr), listing<EndDetection>()});
-    });
+    const auto detect_surfaces = [&] {
+      clock_.time(StepStage::detection, [&] {
+        detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
+                          settings_.bound_relaxation,
+                          StepLaunches{start_of_detection(nullptr), listing<EndDetection>()});
+      });
+    };
+    beside_volumes(state_.position.data(), detect_surfaces);
     observe(compare::StepEventKind::detection);
   }
 
@@ -307,9 +318,10 @@ class Step {
     else
       guess_in_rounds();
     observe(compare::StepEventKind::guess);
-    find_in_volumes(state_.previous.data());
-    clock_.time(StepStage::detection,
-                [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
+    beside_volumes(state_.previous.data(), [&] {
+      clock_.time(StepStage::detection,
+                  [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
+    });
     if (observer_ != nullptr) observer_->after_listing();
     StepState<Backend>& s = state_;
     using BeginBoth = Beside<BeginSweep, TurnSegment>;

@@ -55,9 +55,10 @@ std::vector<int> in_order(Places& places) {
 }
 
 VolumeParts parts_of(const compare::Topology& topology, const std::vector<int>& triangles,
-                     std::span<const compare::Tetrahedron> tetrahedra, std::span<const compare::Vec3f> positions) {
+                     std::span<const compare::Tetrahedron> tetrahedra, std::span<const compare::Edge> cavities,
+                     std::span<const compare::Vec3f> positions) {
   const Curve curve(positions);
-  const std::vector<compare::Index> component = compare::joined_components(topology, tetrahedra);
+  const std::vector<compare::Index> component = compare::joined_components(topology, tetrahedra, cavities);
   std::map<compare::Index, std::size_t> place;  // of a component's part
   std::vector<std::pair<Places, Places>> sorted;
   for (const int t : triangles) {
@@ -82,14 +83,15 @@ VolumeParts volume_parts(const compare::Scene& scene, const compare::Topology& t
   for (const compare::Body& body : scene.bodies) {
     for (int k = 0; body.is_volume() && k < body.triangle_count; ++k) triangles.push_back(body.first_triangle + k);
   }
-  return parts_of(topology, triangles, volume_tetrahedra(scene), compare::to_single(scene.mesh.positions));
+  return parts_of(topology, triangles, volume_tetrahedra(scene), compare::volume_cavities(scene),
+                  compare::to_single(scene.mesh.positions));
 }
 
 VolumeParts volume_parts(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra,
-                         std::span<const compare::Vec3f> positions) {
+                         std::span<const compare::Edge> cavities, std::span<const compare::Vec3f> positions) {
   std::vector<int> triangles(topology.triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) triangles[t] = static_cast<int>(t);
-  return parts_of(topology, triangles, tetrahedra, positions);
+  return parts_of(topology, triangles, tetrahedra, cavities, positions);
 }
 
 std::vector<compare::Tetrahedron> volume_tetrahedra(const compare::Scene& scene) {

@@ -20,9 +20,9 @@ using VolumeParts = std::vector<PartOrder>;
 /// the scene's start. Tetrahedra are numbered as volume_tetrahedra lists them.
 VolumeParts volume_parts(const compare::Scene& scene, const compare::Topology& topology);
 
-/// Those of a topology whose triangles are all of one volume, at `positions`.
+/// Those of a topology whose triangles are all of one volume, at `positions`. `cavities`: as VolumeDepthIn has them.
 VolumeParts volume_parts(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra,
-                         std::span<const compare::Vec3f> positions);
+                         std::span<const compare::Edge> cavities, std::span<const compare::Vec3f> positions);
 
 /// The tetrahedra of a scene's volumes, body by body.
 std::vector<compare::Tetrahedron> volume_tetrahedra(const compare::Scene& scene);

@@ -120,6 +120,10 @@ class Volumes {
     counts_.fill_zero();
     longest_.resize(2);
     if (has_solids_) unresolved_.resize(rows.askers.size());
+    if (!has_free()) {
+      const std::vector<ClearBall> none(answers.size());
+      clear_.upload(none.data(), none.size());
+    }
     if (has_free()) {
       slot_of_.upload(rows.slot_of.data(), rows.slot_of.size());
       padded_.resize(rows.slot_of.size());
@@ -137,7 +141,9 @@ class Volumes {
 
   /// The trees of driven volumes at these positions, where they stay during the step; by vertex, on the backend [m].
   void refit(Backend& backend, const Vec* positions) {
-    if (is_used() && !has_free()) trees_.refit(backend, surface_, positions);
+    if (!is_used() || has_free()) return;
+    backend.for_each(static_cast<int>(clear_.size()), ForgetClearBalls{clear_.data()});
+    trees_.refit(backend, surface_, positions);
   }
 
   /// The contacts of all who ask. *overflow (on the backend) is set where a row was too short.
@@ -150,8 +156,13 @@ class Volumes {
       volumes = {padded_.data()};
     }
     const VolumeView view{surface_, volumes, trees_.parts(), trees_.count(), asked.contact_radius, trees_.solids()};
-    backend.for_each(rows_ * trees_.count(),
-                     AskVolumes{view, askers_.data(), rows_, asked.position, asked.control, answers_.data()});
+    backend.for_each(rows_ * trees_.count(), AskVolumes{.volume = view,
+                                                        .askers = askers_.data(),
+                                                        .rows = rows_,
+                                                        .position = asked.position,
+                                                        .control = asked.control,
+                                                        .answers = answers_.data(),
+                                                        .clear = has_free() ? nullptr : clear_.data()});
     if (has_solids_)
       list<true>(backend, view, asked, overflow);
     else
@@ -306,6 +317,7 @@ class Volumes {
   std::vector<int> slot_of_host_;
   const int* colour_;
   Buffer<int> askers_, answers_, counts_, unresolved_, longest_;
+  Buffer<ClearBall> clear_;                             ///< beside `answers_`, where none are free
   Buffer<int> slot_of_, corner_counts_, corner_codes_;  ///< where some are free
   Buffer<PaddedVec> padded_;                            ///< likewise: positions of the detection, by vertex [m]
   Buffer<VolumeIncidence> stream_;

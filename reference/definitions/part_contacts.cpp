@@ -166,15 +166,17 @@ PartContact part_contact(const Complex& volume, Face face, const Vec3f& x, float
   return {inside, t, face, weights_of(volume, t, face, x), direction_of(volume, t, face, x, inside), depth};
 }
 
-std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius) {
-  std::map<Index, std::vector<Index>> parts;  // by component, which no edge leaves
+std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius,
+                                       std::span<const Index> part) {
+  const std::span<const Index> number = part.empty() ? std::span<const Index>(volume.topology.component) : part;
+  std::map<Index, std::vector<Index>> parts;  // by number, from which no edge leads to another
   for (std::size_t t = 0; t < volume.topology.triangles.size(); ++t)
-    parts[volume.topology.component[at(volume.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
+    parts[number[at(volume.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
   std::vector<PartContact> contacts;
-  for (const auto& [component, part] : parts) {
-    const Within within(volume, part, x, contact_radius);
+  for (const auto& [own, triangles] : parts) {
+    const Within within(volume, triangles, x, contact_radius);
     const Face nearest = nearest_face(volume, within.nearest, x);
-    if (in_box_of(volume, part, x) && !begins_outside(volume, nearest, x)) {
+    if (in_box_of(volume, triangles, x) && !begins_outside(volume, nearest, x)) {
       contacts.push_back(part_contact(volume, nearest, x, contact_radius, true));
       continue;
     }

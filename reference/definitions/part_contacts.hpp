@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "reference/geometry/blocks.hpp"
@@ -30,12 +31,13 @@ bool in_box_of(const Complex& volume, const std::vector<Index>& triangles, const
 /// The face of a triangle whose interior holds the point of the triangle closest to x.
 Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x);
 
-/// The contacts of x with all parts (connected components of the triangles) of a volume, ascending by inside, triangle,
-/// face. A part holds x if the way from its nearest face to x begins on the inner side; of equally near faces the
-/// lowest-dimensional, then the lowest-numbered one decides; faces at rims have no inner side, and beyond the part's
-/// box nobody is inside. Such a part gives one contact, at that face; any other gives one for each face in whose
-/// outward block x lies nearer than r. Each edge has one triangle, or two that run through it in opposite senses, and
-/// no triangle is without area.
-std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius);
+/// The contacts of x with all parts of a volume, ascending by inside, triangle, face. A part holds x if the way from
+/// its nearest face to x begins on the inner side; of equally near faces the lowest-dimensional, then the
+/// lowest-numbered one decides; faces at rims have no inner side, and beyond the part's box nobody is inside. Such a
+/// part gives one contact, at that face; any other gives one for each face in whose outward block x lies nearer than r.
+/// Each edge has one triangle, or two that run through it in opposite senses, and no triangle is without area. `part`:
+/// by vertex, a number of its part; empty: those of the connected components.
+std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius,
+                                       std::span<const Index> part = {});
 
 }  // namespace ogc::reference

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "compare/problem/tetrahedra.hpp"
 #include "reference/definitions/part_contacts.hpp"
 #include "reference/definitions/volume_depth.hpp"
 
@@ -25,9 +26,10 @@ VolumeContact rounded(VolumeContact contact, const std::array<double, 3>& weight
 /// Of parts of triangles alone; points are numbered as they ask.
 std::vector<VolumeContact> contacts_of_triangles(const compare::VolumeDepthIn& in) {
   const Complex mesh{*in.topology, in.positions};
+  const std::vector<compare::Index> part = compare::joined_components(*in.topology, {}, in.cavities);
   std::vector<std::vector<PartContact>> found(in.points.size());
   tbb::parallel_for(std::size_t{0}, found.size(),
-                    [&](std::size_t i) { found[i] = part_contacts(mesh, in.points[i], in.contact_radius); });
+                    [&](std::size_t i) { found[i] = part_contacts(mesh, in.points[i], in.contact_radius, part); });
   std::vector<VolumeContact> all;
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const PartContact& exact : found[i])
@@ -72,8 +74,8 @@ compare::VolumeDepthOut SceneVolumes::contacts(std::span<const compare::Vec3f> p
   if (!has_any()) return out;
   std::vector<Vec3f> points;
   for (const Index v : asking_) points.push_back(positions[static_cast<std::size_t>(v)]);
-  const compare::VolumeDepthIn question{&surface_.topology,  positions, contact_radius_, points,
-                                        surface_.tetrahedra, own_};
+  const compare::VolumeDepthIn question{&surface_.topology,  positions, contact_radius_,  points,
+                                        surface_.tetrahedra, own_,      surface_.cavities};
   if (surface_.tetrahedra.empty())
     out.contacts = contacts_of_triangles(question);
   else

@@ -72,8 +72,8 @@ void set_point(VolumePartTruth& part, Index point) {
 
 compare::VolumeDepthTruth volume_depth(const compare::VolumeDepthIn& in) {
   const Complex mesh{*in.topology, in.positions};
-  const std::vector<Index> component = compare::joined_components(*in.topology, in.tetrahedra);
-  std::map<Index, std::vector<Index>> parts;  // by component, which no edge leaves
+  const std::vector<Index> component = compare::joined_components(*in.topology, in.tetrahedra, in.cavities);
+  std::map<Index, std::vector<Index>> parts;  // by number, from which no edge leads to another
   for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t)
     parts[component[at(mesh.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
   const Solid solid(mesh, in.tetrahedra);

@@ -256,6 +256,7 @@ std::vector<Fault> depth_faults() {
                       }
                       out.contacts = kept;
                     }),
+      depth_asked("a cavity's surface asked as a part of its own", [](VolumeDepthIn& in) { in.cavities = {}; }),
       lost("a search radius that misses deep points",
            [](const VolumeContact& c, const VolumeDepthIn& in) { return c.depth > 3 * in.contact_radius; }),
       lost("contacts of one part dropped where another one holds the point",

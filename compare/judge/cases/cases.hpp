@@ -105,6 +105,7 @@ struct VolumeDepthCase {
   std::vector<Vec3f> points;                 ///< each counts as a case [m]
   std::vector<Tetrahedron> tetrahedra{};     ///< of parts that have any
   std::vector<Index> own{};                  ///< by point: the vertex that it is, or −1; empty: none is any
+  std::vector<Edge> cavities{};              ///< as in VolumeDepthIn
 };
 
 /// A mesh and what is asked about it.

@@ -108,8 +108,8 @@ struct StepBuilder {
   }
 
   /// The boundary of such a block as a volume, fixed or moved as a whole; now and then each vertex goes its own way.
-  void volume(const Vec3& origin) {
-    Mesh mesh = jittered_surface(random, spacing, random.between(0.5, 1.5));
+  void volume(const Vec3& origin) { volume(jittered_surface(random, spacing, random.between(0.5, 1.5)), origin); }
+  void volume(Mesh mesh, const Vec3& origin) {
     for (Vec3& x : mesh.positions) x = sum(x, scaled(sum(origin, {2, 2, 2}), spacing));
     const auto first = static_cast<Index>(scene.mesh.positions.size());
     const bool is_fixed = random.one_in(4);
@@ -438,6 +438,18 @@ CaseData sheets_before_volumes(Random& random) {
   return builder.finish();
 }
 
+/// A sheet in the void of a volume, or half in its wall.
+CaseData in_cavity(Random& random) {
+  StepBuilder builder(random);
+  builder.volume(jittered_hollow(random, builder.spacing, random.between(0.5, 1.5)), {});
+  const std::vector<Vec3>& x = builder.scene.mesh.positions;
+  const Vec3 middle = scaled(sum(x[x.size() - 1], x[x.size() - 8]), 0.5 / builder.spacing);
+  const double speed = builder.speed(random.magnitude(-2, 0.3));
+  builder.sheet(2, 2, sum(sum(middle, {-2.5, -2.5, -2}), in_box(random, -0.6, 0.6)), scaled(direction(random), speed));
+  if (random.one_in(2)) builder.scene.settings.redetect_every = 1 + random.below(2);
+  return builder.finish();
+}
+
 /// A sheet at rest with a vertex straight above a volume's highest one, a rung beside the contact radius.
 CaseData volume_at_radius(Random& random) {
   StepBuilder builder(random);
@@ -545,7 +557,7 @@ CaseData rods(Random& random) {
   return builder.finish();
 }
 
-constexpr std::array<Generator, 22> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 23> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -562,7 +574,8 @@ constexpr std::array<Generator, 22> table{{{"fall", 12, true, fall},
                                            {"ladder.planes", 22, false, planes_at_rest, 0, Stage::plane},
                                            {"dat", 12, false, dat, 0, Stage::plane},
                                            {"volume", 8, false, volume, 0, Stage::volume_depth},
-                                           {"ladder.volume", 8, false, volume_at_radius, 0, Stage::volume_depth},
+                                           {"cavity", 3, false, in_cavity, 0, Stage::volume_depth, true},
+                                           {"ladder.volume", 11, false, volume_at_radius, 0, Stage::volume_depth},
                                            {"free_volume", 3, false, free_volume, 0, Stage::volume_depth},
                                            {"rods", 12, false, rods, 0, Stage::orientation},
                                            {"pairs", 24, false, pairs, 0, std::nullopt, true},

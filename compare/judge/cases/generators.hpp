@@ -24,7 +24,8 @@ struct Generator {
   /// A stage that the contestant must have, too: `tetrahedron` for cases about solids, `plane` for half-spaces,
   /// `volume_depth` for volumes
   std::optional<Stage> also_needs = std::nullopt;
-  /// scenes with guess=pairs or contact_weights=iteration, which only a contestant that knows them is asked about
+  /// scenes with guess=pairs or contact_weights=iteration, and volumes with cavities, which only a contestant that
+  /// knows them is asked about
   bool newer_settings = false;
   bool divides = false;  ///< gaps that are divided by approach, likewise
 };

@@ -56,6 +56,27 @@ Mesh jittered_surface(Random& random, double size, double height) {
   return surface;
 }
 
+Mesh jittered_hollow(Random& random, double size, double height) {
+  Mesh mesh = jittered_surface(random, 3 * size, height);
+  Vec3 low = mesh.positions.front(), high = low;
+  for (const Vec3& x : mesh.positions) {
+    low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
+    high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+  }
+  const auto first = static_cast<Index>(mesh.positions.size());
+  const double share = random.between(0.3, 0.5);
+  // an upper or lower side of the block is a tenth of a cell away from its mean: no box of half its size meets it
+  const auto between = [share](double a, double b, int side) { return (a + b) / 2 + (side - 0.5) * share * (b - a); };
+  for (int v = 0; v < 8; ++v)
+    mesh.positions.push_back(
+        {between(low.x, high.x, v / 4), between(low.y, high.y, v / 2 % 2), between(low.z, high.z, v % 2)});
+  for (const auto& [a, b, c, d] :
+       {Tetrahedron{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}})
+    for (const auto& [p, q, r] : {Triangle{a, c, b}, {a, d, c}})
+      mesh.triangles.push_back({first + p, first + q, first + r});
+  return mesh;
+}
+
 Mesh jittered_cube(Random& random, double size, double height) { return jittered(random, {2, 2, 2}, size, height); }
 
 namespace {

@@ -11,6 +11,9 @@ namespace ogc::compare {
 Mesh jittered_block(Random& random, double size, double height);
 /// The boundary of such a block: triangles alone, outward, and no vertex inside.
 Mesh jittered_surface(Random& random, double size, double height);
+/// The same, three times as large, with a void in its middle: a box of 0.3 to 0.5 of its size, normals into it, whose
+/// vertices are the last eight.
+Mesh jittered_hollow(Random& random, double size, double height);
 /// The block of 2 × 2 × 2 cells.
 Mesh jittered_cube(Random& random, double size, double height);
 

@@ -40,12 +40,13 @@ VolumeDepthCase VolumeQuestion::at(std::span<const Vec3f> positions) const {
   VolumeDepthCase asked{own_, {positions.begin(), positions.end()}, contact_radius_, {}, surface_.tetrahedra};
   for (const Index v : asking_) asked.points.push_back(positions[place(v)]);
   asked.own = asking_as_;
+  asked.cavities = surface_.cavities;
   return asked;
 }
 
 VolumeDepthTruth VolumeQuestion::truth(const VolumeDepthCase& asked, const Authority& authority) {
-  return authority.volume_depth(
-      {asked.topology.get(), asked.positions, asked.contact_radius, asked.points, asked.tetrahedra, asked.own});
+  return authority.volume_depth({asked.topology.get(), asked.positions, asked.contact_radius, asked.points,
+                                 asked.tetrahedra, asked.own, asked.cavities});
 }
 
 std::vector<VolumeContact> VolumeQuestion::exact(const VolumeDepthCase& asked, const Authority& authority) const {

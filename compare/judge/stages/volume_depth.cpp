@@ -226,7 +226,7 @@ void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, con
   if (!std::ranges::is_sorted(out.unresolved) ||
       (!out.unresolved.empty() && (out.unresolved.front() < 0 || at(out.unresolved.back()) >= points)))
     return tally.mismatch("sheets without a way are of points that do not exist, or out of order");
-  const std::vector<Index> component = joined_components(topology, asked.tetrahedra);
+  const std::vector<Index> component = joined_components(topology, asked.tetrahedra, asked.cavities);
   const auto part_of = [&](const VolumeContact& c) { return component[at(topology.triangles[at(c.triangle)][0])]; };
   std::size_t next = 0;
   for (std::size_t i = 0; i < points; ++i) {
@@ -279,6 +279,9 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     problem.require(c.positions.size() == at(c.topology->vertex_count), "positions need one entry a vertex");
     const std::string why = volume_problem(*c.topology, c.positions);
     problem.require(why.empty(), why.c_str());
+    for (const Edge& cavity : c.cavities)
+      for (const Index v : cavity)
+        problem.require(v >= 0 && v < c.topology->vertex_count, "a cavity needs a vertex of the volume on either side");
     const std::string solid = solid_problem(c);
     problem.require(solid.empty(), solid.c_str());
   }
@@ -306,7 +309,8 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
             {"contact_radius", hexadecimal(c.contact_radius)},
             {"points", points_to_json(c.points)},
             {"tetrahedra", c.tetrahedra},
-            {"own", c.own}};
+            {"own", c.own},
+            {"cavities", c.cavities}};
   }
   static Case read(const Json& data) {
     Case c{to_topology(data.at("mesh")), {}, number(data.at("contact_radius")), {}};
@@ -314,6 +318,7 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     for (const Json& p : data.at("points")) c.points.push_back(to_point(p));
     if (data.contains("tetrahedra")) data.at("tetrahedra").get_to(c.tetrahedra);
     if (data.contains("own")) data.at("own").get_to(c.own);
+    if (data.contains("cavities")) data.at("cavities").get_to(c.cavities);
     if (c.positions.size() != at(c.topology->vertex_count)) throw InputError("positions need one entry a vertex");
     return c;
   }
@@ -331,7 +336,7 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
   }
 
   static In question(const Case& c) {
-    return {c.topology.get(), c.positions, c.contact_radius, c.points, c.tetrahedra, c.own};
+    return {c.topology.get(), c.positions, c.contact_radius, c.points, c.tetrahedra, c.own, c.cavities};
   }
   static constexpr auto judge = judge_volume_depth;
   static void add(Bits& bits, const Out& out) {

@@ -2,7 +2,8 @@
 // first the slots of the sweep, −1 for such as do not ask, then prescribed vertices.
 //
 //   AskVolumes     each row and each part of triangles: is its vertex inside, nearer than r, or neither? The answer is
-//                  kept beside the facet that is nearest, where the next search begins
+//                  kept beside the facet that is nearest, where the next search begins, and of the last one beside a
+//                  ball within which nobody has to ask again before the volumes move
 //   ListContacts   each row: its contacts, part by part, in a row of fixed length; where that is too short the step
 //                  is repeated with longer ones (fast/stages/lists.hpp)
 //   FillCorners    where volumes are free, each row: its contacts into the rows of their corners, likewise; then
@@ -29,6 +30,13 @@ struct PlaceVolumes {
   OGC_HD void operator()(int v) const { padded[v] = PaddedVec(position[v]); }
 };
 
+/// for_each over the items of AskVolumes: where driven volumes have moved.
+struct ForgetClearBalls {
+  ClearBall* clear;  ///< by item
+
+  OGC_HD void operator()(int i) const { clear[i].radius = ClearBall::unasked; }
+};
+
 /// for_each over rows, part after part: neighbours search the same tree.
 struct AskVolumes {
   VolumeView volume;  ///< its trees refitted
@@ -37,12 +45,20 @@ struct AskVolumes {
   const Vec* position;         ///< of the detection, by vertex [m]
   const StepControl* control;  ///< where it is not active nothing is asked
   int* answers;                ///< by item: of the detection before, or any facet of the part; replaced
+  ClearBall* clear;            ///< by item: of an answer that stands; null where volumes are free and move
 
   OGC_HD void operator()(int i) const {
     if (control->active == 0) return;
     const int part = i / rows, v = askers[i - part * rows];
     if (v < 0 || volume.parts[part].is_solid()) return;
-    answers[i] = answer_of(VolumeQuestion(volume, position[v]).nearest_of(part, answers[i] >> 2));
+    // many steps ask once: a ball is sought with the second question, and not again where there is none
+    const ClearBall old = clear != nullptr ? clear[i] : ClearBall{};
+    if (old.holds(position[v])) return;
+    const bool seeks = old.radius != ClearBall::unasked && old.radius != ClearBall::refused;
+    ClearBall ball{{}, ClearBall::asked};
+    const VolumeQuestion question(volume, position[v]);
+    answers[i] = answer_of(question.nearest_of(part, answers[i] >> 2, seeks ? &ball : nullptr));
+    if (clear != nullptr && old.radius != ClearBall::refused) clear[i] = ball;
   }
 };
 

@@ -74,6 +74,23 @@ TEST_CASE("each part answers by itself, and a rim is closed by a fan", "[unit]")
   CHECK(audited(open).deepest == 0.5);  // to the walls: the lid is none of its triangles
 }
 
+TEST_CASE("a vertex in the void of a part is outside, and one in its wall as deep as its nearer side says", "[unit]") {
+  Mesh hollow = cube({});
+  const std::size_t outer = hollow.triangles.size();
+  for (std::size_t v = 0; v < 8; ++v) {
+    const Vec3& x = hollow.positions[v];
+    hollow.positions.push_back({0.25 + x.x / 2, 0.25 + x.y / 2, 0.25 + x.z / 2});
+  }
+  for (std::size_t t = 0; t < outer; ++t) {
+    const auto [a, b, c] = hollow.triangles[t];
+    hollow.triangles.push_back({a + 8, c + 8, b + 8});
+  }
+  const VolumePenetration found = audited(
+      scene_of({{{0.5, 0.5, 0.5}, {0.5, 0.5, 0.9375}, {0.5, 0.375, 0.8125}}}, {hollow}));
+  CHECK(found.vertices_inside == 2);
+  CHECK(found.deepest == 0.0625);
+}
+
 TEST_CASE("edges of a volume that pass a cloth between its vertices are counted", "[unit]") {
   const Scene scene = scene_of({{{-9, -9, 0.5}, {9, -9, 0.5}, {0, 18, 0.5}}}, {cube({})});
   const VolumePenetration found = audited(scene);

@@ -90,6 +90,90 @@ TEST_CASE("closed surfaces, rims, overlapping parts and solids are volumes, wher
   }
 }
 
+namespace {
+
+/// A cube about the origin, its edges this long.
+Mesh cube_of(double size) {
+  Mesh mesh = cube();
+  for (Vec3& x : mesh.positions) x = {size * (x.x - 0.5), size * (x.y - 0.5), size * (x.z - 0.5)};
+  return mesh;
+}
+Mesh void_of(double size) { return reversed(cube_of(size)); }
+
+Mesh shifted(Mesh mesh, double by) {
+  for (Vec3& x : mesh.positions) x.x += by;
+  return mesh;
+}
+
+constexpr const char* inside_out = "begins a part of a volume that is turned inside out";
+
+}  // namespace
+
+TEST_CASE("a closed sheet that faces inward within a part is a cavity of it, and of one part with it", "[unit]") {
+  const Scene hollow = scene_of(joined(cube_of(4), void_of(2)));
+  CHECK(said(hollow) == "");
+  REQUIRE(volume_parts(hollow).size() == 1);
+  CHECK(volume_parts(hollow)[0].triangles.size() == 24);
+  CHECK(std::ranges::is_sorted(volume_parts(hollow)[0].triangles));
+  // vertices of the scene: the sheet before the body has three, the outer cube eight
+  const std::vector<Edge> cavities = volume_cavities(hollow);
+  REQUIRE(cavities.size() == 1);
+  CHECK((cavities[0][0] >= 11 && cavities[0][0] < 19));
+  CHECK((cavities[0][1] >= 3 && cavities[0][1] < 11));
+  CHECK(volume_surface(hollow).cavities == cavities);
+  // the order of both does not matter, nor where they lie
+  CHECK(said(scene_of(joined(void_of(2), cube_of(4)))) == "");
+  CHECK(said(scene_of(shifted(joined(cube_of(4), void_of(2)), 1000))) == "");
+  CHECK(volume_parts(scene_of(joined(joined(cube_of(4), shifted(void_of(1), -1)), shifted(void_of(1), 1)))).size() ==
+        1);
+}
+
+TEST_CASE("an island in a void is a part of its own, and a cavity belongs to the innermost part around it", "[unit]") {
+  const Scene scene = scene_of(joined(joined(cube_of(8), void_of(6)), joined(cube_of(4), void_of(2))));
+  CHECK(said(scene) == "");
+  const std::vector<VolumePart> parts = volume_parts(scene);
+  REQUIRE(parts.size() == 2);
+  CHECK(parts[0].triangles.front() == 1);
+  CHECK(parts[0].triangles.back() == 24);
+  CHECK(parts[1].triangles.front() == 25);
+  // one that overlaps takes no cavity that it does not hold
+  CHECK(volume_parts(scene_of(joined(joined(cube_of(4), void_of(2)), shifted(cube_of(1), 1)))).size() == 2);
+}
+
+TEST_CASE("a sheet that faces inward in nothing, across a part, in a void or in an open part is inside out", "[unit]") {
+  CHECK_THAT(said(scene_of(joined(cube_of(2), void_of(4)))),
+             Contains("triangle 12 of body 'body'") && Contains(inside_out) &&
+                 Contains("lies within a closed part of the same body"));
+  CHECK_THAT(said(scene_of(joined(cube_of(4), shifted(void_of(2), 1.5)))), Contains(inside_out));
+  CHECK_THAT(said(scene_of(joined(cube_of(4), shifted(void_of(2), 9)))), Contains(inside_out));
+  CHECK_THAT(said(scene_of(joined(joined(cube_of(8), void_of(4)), void_of(2)))),
+             Contains("triangle 24 of body 'body'") && Contains(inside_out) && !Contains("triangle 12 of"));
+  Mesh open = cube_of(4);
+  open.triangles.resize(open.triangles.size() - 2);
+  CHECK_THAT(said(scene_of(joined(open, void_of(2)))), Contains(inside_out));
+  // of another body
+  Scene two = scene_of(cube_of(4));
+  append_body(two, {.name = "void", .fixed = true, .material = {}, .contact = BodyContact::volume}, void_of(2));
+  CHECK_THAT(said(two), Contains("triangle 0 of body 'void'") && Contains(inside_out));
+}
+
+TEST_CASE("the boundary of hollow tetrahedra is one part, and inside out where they are at the start", "[unit]") {
+  Mesh mesh = block_mesh(4, 1);
+  std::erase_if(mesh.tetrahedra, [&](const Tetrahedron& t) {
+    return std::ranges::all_of(t, [&](Index v) {
+      const Vec3& x = mesh.positions[static_cast<std::size_t>(v)];
+      return std::min({x.x, x.y, x.z}) > 0.1 && std::max({x.x, x.y, x.z}) < 2.9;
+    });
+  });
+  Scene scene = scene_of(mesh, false);
+  CHECK(said(scene) == "");
+  REQUIRE(volume_parts(scene).size() == 1);
+  CHECK(volume_parts(scene)[0].triangles.size() == 6 * 18 + 12);
+  CHECK(volume_cavities(scene).empty());
+  for (std::size_t v = 3; v < scene.mesh.positions.size(); ++v) scene.mesh.positions[v].x *= -1;
+  CHECK_THAT(said(scene), Contains(inside_out));
+}
+
 TEST_CASE("a volume of triangles is driven: all of its vertices are fixed or prescribed", "[unit]") {
   Scene scene = scene_of(cube(), false);
   CHECK_THAT(said(scene),

@@ -5,8 +5,10 @@
 
 #include "compare/oracle/audit.hpp"
 #include "compare/oracle/volume_audit.hpp"
+#include "compare/problem/validate.hpp"
 #include "fast/cpu/simulation.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/problem/solid_scene.hpp"
 #include "tests/fast/scenes.hpp"
 
 using namespace ogc;
@@ -87,6 +89,68 @@ TEST_CASE("a sheet that falls on a volume comes to rest r above it, less what it
   CHECK(low > 0.005f - 1e-5f);
   CHECK(high < 0.005f + 1e-5f);
   CHECK(penetration(scene, state).vertices_inside == 0);
+}
+
+namespace {
+
+/// A box with walls 5 cm thick around the void from (−0.1, 0, −0.1) to (0.1, 0.1, 0.1) m, of triangles alone.
+void add_hollow_box(Scene& scene) {
+  add_box(scene, {-0.15, -0.05, -0.15}, {0.15, 0.15, 0.15});
+  compare::Body& body = scene.bodies.back();
+  const compare::Index first = body.first_vertex;
+  for (int v = 0; v < 8; ++v) {
+    const Vec3 x{v / 4 == 0 ? -0.1 : 0.1, v / 2 % 2 == 0 ? 0.0 : 0.1, v % 2 == 0 ? -0.1 : 0.1};
+    scene.mesh.positions.push_back(x), scene.rest_positions.push_back(x), scene.velocities.emplace_back();
+  }
+  for (std::size_t t = 12; t > 0; --t) {
+    const auto [a, b, c] = scene.mesh.triangles[scene.mesh.triangles.size() - 12];
+    CHECK(a >= first);
+    scene.mesh.triangles.push_back({a + 8, c + 8, b + 8});
+  }
+  body.vertex_count += 8, body.triangle_count += 12;
+}
+
+/// A block of tetrahedra without its middle cell of 0.2 × 0.2 × 0.2 m, whose floor is y = 0.
+void add_hollow_block(Scene& scene) {
+  compare::Mesh mesh = ogc::tests::block_mesh(4, 0.2, {-0.3, -0.2, -0.3});
+  const auto is_middle = [&](Index v) {
+    const Vec3& x = mesh.positions[static_cast<std::size_t>(v)];
+    return std::max({std::abs(x.x), std::abs(x.z), std::abs(x.y - 0.1)}) < 0.15;
+  };
+  std::erase_if(mesh.tetrahedra, [&](const compare::Tetrahedron& t) { return std::ranges::all_of(t, is_middle); });
+  append_body(scene, {.name = "block", .fixed = true, .material = {}, .contact = compare::BodyContact::volume}, mesh);
+}
+
+}  // namespace
+
+TEST_CASE("a cloth in the void of a volume falls on its floor and stays in the void, wherever that goes", "[unit]") {
+  const auto [of_tetrahedra, is_driven] = GENERATE(std::pair{false, false}, std::pair{false, true},
+                                                   std::pair{true, false});
+  Scene scene = empty_scene();
+  add_sheet(scene, 8, 0.1, 0.02, false).name = "sheet";
+  if (of_tetrahedra)
+    add_hollow_block(scene);
+  else
+    add_hollow_box(scene);
+  const Vec3 velocity{0.1, 0.05, -0.2};
+  if (is_driven) drive(scene, velocity);
+  scene.settings.iterations = 20;
+  scene.settings.redetect_fraction = 1;
+  compare::round_to_single(scene);
+  REQUIRE(describe(validate(scene)) == "");
+  const auto simulation = start_cpu(scene, {});
+  CHECK(penetration(scene, simulation->snapshot()).vertices_inside == 0);
+  const std::vector<compare::StepMetrics> rows = simulation->advance(150);
+  for (const compare::StepMetrics& row : rows) CHECK(row.vertices_inside == 0);
+  const compare::Snapshot state = simulation->snapshot();
+  CHECK(penetration(scene, state).vertices_inside == 0);
+  const double time = is_driven ? 150 * scene.settings.time_step : 0, r = scene.settings.contact_radius;
+  for (std::size_t v = 0; v < 64; ++v) {
+    const compare::Vec3f& x = state.positions[v];
+    CHECK(std::abs(x.x - velocity.x * time) < 0.1);
+    CHECK(std::abs(x.z - velocity.z * time) < 0.1);
+    CHECK(x.y - velocity.y * time == Approx(r).margin(1e-4));
+  }
 }
 
 TEST_CASE("who begins inside a volume comes out on the nearest side, and stays out", "[unit]") {

@@ -54,6 +54,12 @@ struct Subtract {
   OGC_HD void operator()(int) const { *target -= value; }
 };
 
+struct AddBoth {
+  const int *first, *second;
+  int* sum;
+  OGC_HD void operator()(int) const { *sum += *first + *second; }
+};
+
 // Sums of different kinds in one accumulator; terms span many magnitudes, so that another order of addition gives other
 // bits.
 struct Sums {
@@ -381,6 +387,40 @@ TEST_CASE("repeat goes on until its flag falls, both at once and in a replay, an
       backend.synchronize();
       CHECK(on_host(count)[0] == (recorded ? 3 * rounds : rounds));
     }
+  }
+}
+
+TEST_CASE("two branches part and meet, both at once and in a replay, at the top and in a round", "[gpu]") {
+  CudaBackend backend;
+  CudaBuffer<int> left, aside, main, sum;
+  for (auto* buffer : {&left, &aside, &main, &sum}) buffer->resize(1);
+  CudaRecording recording;
+  // whoever does not wait for both branches reads less than 3 from one of them
+  const auto branches = [&] {
+    backend.for_each(1, Assign{aside.data(), 1});
+    backend.for_each(1, Assign{main.data(), 1});
+    backend.at_once(
+        [&] {
+          for (int k = 0; k < 2; ++k) backend.for_each(1, AddOne{aside.data()});
+        },
+        [&] {
+          for (int k = 0; k < 2; ++k) backend.for_each(1, AddOne{main.data()});
+        });
+    backend.for_each(1, AddBoth{aside.data(), main.data(), sum.data()});
+  };
+  const auto body = [&] {
+    branches();
+    backend.repeat(Assign{left.data(), 3}, left.data(), branches, Subtract{left.data(), 1});
+    branches();
+  };
+  for (const bool recorded : {false, true}) {
+    sum.fill_zero();
+    if (recorded)
+      backend.replay(recording, 2, body);
+    else
+      body();
+    backend.synchronize();
+    CHECK(on_host(sum)[0] == (recorded ? 2 : 1) * 5 * 6);
   }
 }
 

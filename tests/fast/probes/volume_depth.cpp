@@ -89,6 +89,28 @@ TEST_CASE("each part answers by itself: one holds the point, the other is near",
   CHECK(contacts[1].direction.x == 1);
 }
 
+TEST_CASE("a void belongs to the part around it: nobody in it is inside, and the wall pushes out on its nearer side",
+          "[unit]") {
+  Boxes hollow({{0, 0, 0}, {0, 0, 0}});
+  for (std::size_t v = 8; v < 16; ++v) {
+    Vec3f& x = hollow.positions[v];
+    x = {x.x / 2, x.y / 2, x.z / 2};
+  }
+  for (std::size_t t = 12; t < 24; ++t) std::swap(hollow.triangles[t][1], hollow.triangles[t][2]);
+  hollow.topology = build_topology(16, hollow.triangles);
+  const std::vector<Edge> cavities{{8, 0}};
+  const std::vector<Vec3f> points{{0.1f, 0.2f, 0.875f}, {0.1f, 0.2f, 0.625f}, {0.1f, 0.2f, 0.375f}, {0.1f, 0, 0}};
+  const VolumeDepthOut out = ogc::fast::cpu_contestant().volume_depth(
+      {&hollow.topology, hollow.positions, 0.25f, points, {}, {}, cavities});
+  REQUIRE(out.contacts.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(out.contacts[i].point == static_cast<Index>(i));
+    CHECK(out.contacts[i].inside == (i < 2 ? 1 : 0));
+    CHECK(out.contacts[i].depth == (i < 2 ? 0.375f : 0.125f));
+    CHECK(out.contacts[i].direction.z == (i == 0 ? 1 : -1));
+  }
+}
+
 namespace {
 
 /// A row of cubes of six tetrahedra each, 2 m wide, high and deep; the layer between two of them stands at `x`.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/problem/tetrahedra.hpp"
 #include "compare/problem/volumes.hpp"
 #include "reference/definitions/closed_surface.hpp"
 #include "tests/catch.hpp"
@@ -117,6 +118,58 @@ TEST_CASE("a point is held by each of several parts as if it were alone, whereve
     in_both += std::ranges::count_if(all, &PartContact::inside) == 2;
   }
   CHECK(in_both > 3);
+}
+
+namespace {
+
+/// The cube with a void of half its size in its middle, triangles from number 12 on; one part by `part`.
+struct Hollow {
+  Body body{together(cube(), void_inside())};
+  std::vector<Index> part = compare::joined_components(body.topology, {}, std::vector<compare::Edge>{{8, 0}});
+  std::vector<PartContact> ask(const Vec3f& x, float r) const { return part_contacts(body.mesh(), x, r, part); }
+
+  static Surface void_inside() {
+    Surface surface = mapped(cube(), [](Vec3f x) { return Vec3f{0.5f + x.x / 2, 0.5f + x.y / 2, 0.5f + x.z / 2}; });
+    for (compare::Triangle& t : surface.triangles) std::swap(t[1], t[2]);
+    return surface;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a part with a cavity holds the points that both of its shells together wind around", "[property]") {
+  std::mt19937 random(33);
+  const Hollow hollow;
+  const reference::ClosedSurface closed(hollow.body.mesh());
+  std::size_t inside = 0, in_void = 0;
+  for (const Vec3f& x : points(random)) {
+    const bool winds = closed.locate(x).inside();
+    const std::vector<PartContact> contacts = hollow.ask(x, 0.25f);
+    INFO(x.x << " " << x.y << " " << x.z);
+    if (winds) REQUIRE(contacts.size() == 1);
+    for (const PartContact& contact : contacts) CHECK(contact.inside == winds);
+    inside += winds;
+    in_void += std::max({std::abs(x.x - 1), std::abs(x.y - 1), std::abs(x.z - 1)}) < 0.5f;
+  }
+  CHECK(inside > 30);
+  CHECK(in_void > 3);
+}
+
+TEST_CASE("the wall around a void pushes out of its nearer side, and the void's shell into the void", "[unit]") {
+  const Hollow hollow;
+  CHECK(hollow.ask({1, 1, 1}, 0.25f).empty());
+  const auto contact = [&](float z) {
+    const std::vector<PartContact> contacts = hollow.ask({0.75f, 1.125f, z}, 0.25f);
+    REQUIRE(contacts.size() == 1);
+    return contacts[0];
+  };
+  const PartContact outward = contact(1.875f), inward = contact(1.625f), beneath = contact(1.375f);
+  CHECK((outward.inside && inward.inside && !beneath.inside));
+  CHECK((outward.triangle < 12 && inward.triangle >= 12 && beneath.triangle >= 12));
+  CHECK((outward.depth == 0.375 && inward.depth == 0.375 && beneath.depth == 0.125));
+  CHECK(outward.direction == compare::Vec3{0, 0, 1});
+  CHECK(inward.direction == compare::Vec3{0, 0, -1});
+  CHECK(beneath.direction == compare::Vec3{0, 0, -1});
 }
 
 TEST_CASE("weights give the closest point, and the direction leads from it out of the part", "[property]") {

@@ -152,6 +152,24 @@ CaseData ray(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
+/// A block without its middle cell: points in the wall, in the void, at the faces of both.
+CaseData hollow(Random& random) {
+  VolumeBody body = block({3, 3, 3});
+  const auto middle = body.tetrahedra.begin() + 6 * 13;
+  body.tetrahedra.erase(middle, middle + 6);
+  body.triangles = boundary_triangles(body.tetrahedra);
+  centre(body);
+  jitter(random, body, random.one_in(2) ? 0.1 : 0);
+  const double radius = some_radius(random);
+  Points points;
+  for (int i = 0; i < points_a_volume; ++i) {
+    const Place place = any_place(random, body);
+    const Vec3 at_face = sum(place.foot, scaled(place.outward, random.sign() * radius * random.between(0, 1.1)));
+    points.push_back(random.one_in(3) ? within(random, body) : random.one_in(3) ? in_box(random, -0.4, 0.4) : at_face);
+  }
+  return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
+}
+
 /// Where the body lies several times over.
 CaseData sheets(Random& random) {
   VolumeBody body = coil(random, random.between(1.1, 2.8), random.between(-0.6, 0.6));
@@ -285,9 +303,10 @@ CaseData mixed(Random& random) {
 
 // Plug-ins are asked about triangles alone: compare/plugin/geometry.h has no tetrahedra.
 constexpr Stage volumes = Stage::volume_depth;
-constexpr std::array<Generator, 10> table{{{"solid", 12, true, solid, 0, volumes},
+constexpr std::array<Generator, 11> table{{{"solid", 12, true, solid, 0, volumes},
                                            {"solid.grid", 8, false, grid, 0, volumes},
                                            {"ladder.ray", 8, false, ray, 0, volumes},
+                                           {"ladder.hollow", 6, false, hollow, 0, volumes},
                                            {"ladder.sheets", 8, false, sheets, 0, volumes},
                                            {"ladder.inverted", 8, false, inverted, 0, volumes},
                                            {"ladder.lost", 6, false, lost, 0, volumes},

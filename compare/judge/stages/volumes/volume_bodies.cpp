@@ -30,6 +30,14 @@ void VolumeBody::append(const VolumeBody& other, double scale, const Vec3& shift
   for (const Vec3& p : other.x) x.push_back(sum(scaled(p, scale), shift));
   for (const auto& [a, b, c] : other.triangles) triangles.push_back({a + base, b + base, c + base});
   for (const auto& [a, b, c, d] : other.tetrahedra) tetrahedra.push_back({a + base, b + base, c + base, d + base});
+  for (const auto& [v, w] : other.cavities) cavities.push_back({v + base, w + base});
+}
+
+void VolumeBody::append_void(VolumeBody other, double scale, Index owner) {
+  for (Triangle& t : other.triangles) std::swap(t[1], t[2]);
+  const auto base = static_cast<Index>(x.size());
+  append(other, scale, {});
+  cavities.push_back({base, owner});
 }
 
 Vec3 VolumeBody::normal(Index t) const {
@@ -110,6 +118,7 @@ VolumeDepthCase placed(Random& random, VolumeBody body, Points points, double ra
   VolumeDepthCase c;
   c.tetrahedra = std::move(body.tetrahedra);
   c.own = std::move(own);
+  c.cavities = std::move(body.cavities);
   c.topology = std::make_shared<const Topology>(build_topology(static_cast<Index>(body.x.size()), body.triangles));
   for (std::size_t i = 0; i < frame; ++i)
     (i < body.x.size() ? c.positions : c.points).push_back(single(scaled(all[i], scale)));

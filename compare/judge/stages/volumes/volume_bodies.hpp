@@ -22,8 +22,11 @@ struct VolumeBody {
   std::vector<Vec3> x;
   std::vector<Triangle> triangles;
   std::vector<Tetrahedron> tetrahedra{};  ///< the triangles of those are their boundary
+  std::vector<Edge> cavities{};           ///< as in VolumeDepthIn
 
   void append(const VolumeBody& other, double scale, const Vec3& shift);
+  /// The other one turned inside out, as a cavity of the component that this vertex belongs to.
+  void append_void(VolumeBody other, double scale, Index owner);
   Vec3 normal(Index t) const;
   /// Triangles at a vertex.
   std::vector<Index> around(Index vertex) const;

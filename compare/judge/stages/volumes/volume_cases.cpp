@@ -1,6 +1,6 @@
 // Cases of volume_depth: closed surfaces, with rims and of several parts, and points beside their faces. Ladders lead
 // across a triangle, to the ends of the blocks of ridges, valleys and vertices of all kinds, to rims, to the medial
-// axis, to d = r, into plates down to no thickness, and into parts that overlap, touch or hold each other.
+// axis, to d = r, into plates down to no thickness, into parts that overlap, touch or hold each other, and into voids.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -256,6 +256,30 @@ CaseData parts(Random& random) {
                 random.one_in(3) ? Vec3{} : in_box(random, -1, 1));
   return beside(random, std::move(body), any_place, any_height);
 }
+/// A body with a void of its own shape, behind a wall that may be hardly anything; in the void, perhaps, one more like
+/// it, or one without a void. Another part, perhaps, across all of them. Points in the void, at all faces, and where
+/// both sides of the wall are as near.
+CaseData cavity(Random& random) {
+  const auto hollow = [&](const VolumeBody& solid, double share) {
+    VolumeBody body = solid;
+    body.append_void(solid, share, 0);
+    return body;
+  };
+  const VolumeBody whole = star(random, 2 + random.below(2), random.between(0, 0.3)), island = star(random, 2, 0.1);
+  const double wall = random.magnitude(-3, -0.2), share = 1 - wall;
+  VolumeBody body = hollow(whole, share);
+  if (random.one_in(3)) body.append(random.one_in(2) ? hollow(island, 0.5) : island, 0.3 * share, {});
+  if (random.one_in(4)) body.append(some_body(random), random.between(0.3, 1), in_box(random, -1, 1));
+  const double radius = some_radius(random);
+  Points points;
+  for (int i = 0; i < points_a_volume; ++i) {
+    const Place place = any_place(random, body);
+    const double height = random.one_in(2) ? any_height(random, place, radius) : -wall * (0.5 + random.rung());
+    points.push_back(random.one_in(4) ? scaled(in_box(random, -1, 1), 0.6 * share)
+                                      : sum(place.foot, scaled(place.outward, height)));
+  }
+  return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
+}
 /// Many radii deep, in the middle of fine meshes: whoever looks no farther than r finds nothing.
 CaseData deep(Random& random) {
   VolumeBody body = star(random, 3 + random.below(3), random.between(0, 0.1));
@@ -287,7 +311,7 @@ CaseData boundary(Random& random) {
   }
 }
 
-constexpr std::array<Generator, 16> of_triangles{{{"uniform", 30, true, uniform},
+constexpr std::array<Generator, 17> of_triangles{{{"uniform", 30, true, uniform},
                                                   {"few", 3, true, few},
                                                   {"bits", 8, false, bits},
                                                   {"dust", 6, false, uniform},
@@ -300,6 +324,7 @@ constexpr std::array<Generator, 16> of_triangles{{{"uniform", 30, true, uniform}
                                                   {"ladder.plate", 10, false, plate},
                                                   {"ladder.medial", 8, false, medial},
                                                   {"ladder.parts", 10, false, parts},
+                                                  {"ladder.cavity", 8, false, cavity, 0, std::nullopt, true},
                                                   {"ladder.deep", 6, false, deep},
                                                   {"ladder.units", 8, false, units},
                                                   {"ladder.boundary", 260, false, boundary}}};
