@@ -1,6 +1,6 @@
 // Algorithm 2, each pair once: the edge at place i of the tree order looks at the places behind its own only, and both
 // partners take the distance. Pairs are skipped, and those closer than r decided afterwards, as in
-// detect_vertex_facet.hpp.
+// detect_vertex_facet.hpp, but for those that are told to be no contact at once (block.hpp).
 #pragma once
 
 #include "fast/kernels/arithmetic/atomic.hpp"
@@ -84,8 +84,14 @@ struct DetectEdgeEdge {
     const float below = larger(d.below(), gap_below(gap));
     lower(&d_min_edge[low], below);
     lower(&d_min_edge[high], below);
-    if (d.may_be_within(contact_radius)) lists.note({low, high}, d.is_surely_within(contact_radius));
+    if (d.may_be_within(contact_radius) && !is_none(low, high))
+      lists.note({low, high}, d.is_surely_within(contact_radius));
     return below;
+  }
+
+  /// No contact for certain; low < high.
+  OGC_HD bool is_none(int low, int high) const {
+    return is_surely_no_contact(surface.edges[low], surface.edges[high], surface, positions);
   }
 
   OGC_HD Box box(const EdgeEnds& e) const {
