@@ -29,7 +29,12 @@ struct DetectEdgeEdge {
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     const float margin = skin.search_margin();
-    return {child.box(), child.primitive, i + 1, larger(gap_limit(add(contact_radius, margin)), child.reach), margin};
+    return {.box = child.box(),
+            .owner = child.primitive,
+            .from = i + 1,
+            .limit = larger(gap_limit(add(contact_radius, margin)), child.reach),
+            .margin = margin,
+            .reach = child.reach};
   }
 
   /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
@@ -47,10 +52,19 @@ struct DetectEdgeEdge {
     const int other = offer.primitive;
     const float apart = separation(ends(surface.edges[search.owner]), ends(surface.edges[other]));
     if (is_beyond(apart, within)) return false;
-    if (!(search.margin > 0)) return true;
+    if (!(search.margin > 0)) return !is_idle(search, offer, apart);
     skin.keep(search.owner < other ? NotedPair{search.owner, other} : NotedPair{other, search.owner});
     const float without_margin = limit(search, offer, 0.0F);
     return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
+  }
+
+  /// Whether a pair within r needs no distance: it lowers none, and is no contact. `apart`: its separation [m].
+  OGC_HD bool is_idle(const Search& search, const Offer& offer, float apart) const {
+    const float own = atomic_load(&d_min_edge[search.owner]), theirs = atomic_load(&d_min_edge[offer.primitive]);
+    const float lowering = larger(smaller(search.reach, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
+    if (!(offer.gap > lowering) && !is_beyond(apart, lowering)) return false;
+    return search.owner < offer.primitive ? is_none(search.owner, offer.primitive)
+                                          : is_none(offer.primitive, search.owner);
   }
 
   /// Its distance, for both partners.
