@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -178,10 +177,14 @@ class CpuBackend {
   }
 
   /// The original number breaks ties: that makes an unstable parallel sort stable.
-  void sort_pairs(std::uint64_t* keys, int* values, int n) {
+  void sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {}) {
     std::vector<Item> items(static_cast<std::size_t>(n));
     for_each(n, [&](int i) { items[static_cast<std::size_t>(i)] = {keys[i], i, values[i]}; });
-    tbb::parallel_sort(items.begin(), items.end());
+    const int above = 64 - bits.end;
+    const auto part = [bits, above](std::uint64_t key) { return key << above >> (above + bits.begin); };
+    tbb::parallel_sort(items.begin(), items.end(), [part](const Item& a, const Item& b) {
+      return part(a.key) != part(b.key) ? part(a.key) < part(b.key) : a.number < b.number;
+    });
     for_each(n, [&](int i) {
       keys[i] = items[static_cast<std::size_t>(i)].key;
       values[i] = items[static_cast<std::size_t>(i)].value;
@@ -226,8 +229,6 @@ class CpuBackend {
   struct Item {
     std::uint64_t key;
     int number, value;
-
-    friend auto operator<=>(const Item&, const Item&) = default;
   };
 
   static void exclusive_scan(const Scan& scan) {

@@ -220,8 +220,8 @@ class CudaBackend {
     follows_ = true;
   }
   /// CUB's radix sort; temporary memory may be allocated.
-  void sort_pairs(std::uint64_t* keys, int* values, int n) {
-    fast::sort_pairs(current_, scratch_, keys, values, n);
+  void sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {}) {
+    fast::sort_pairs(current_, scratch_, keys, values, n, bits);
     follows_ = false;  // it may end with a copy
   }
 

@@ -104,19 +104,20 @@ void exclusive_scans(cudaStream_t stream, Scratch& scratch, bool early, const Sc
   exclusive_scan(stream, scratch, true, second);
 }
 
-void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n) {
+void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n, KeyBits bits) {
   if (n < 2) return;
   const auto count = static_cast<std::size_t>(n);
   const std::size_t key_bytes = aligned(count * sizeof(std::uint64_t)), value_bytes = aligned(count * sizeof(int));
   cub::DoubleBuffer<std::uint64_t> both_keys(keys, nullptr);
   cub::DoubleBuffer<int> both_values(values, nullptr);
   std::size_t bytes = 0;
-  OGC_CUDA_CHECK(cub::DeviceRadixSort::SortPairs(nullptr, bytes, both_keys, both_values, n, 0, 64, stream));
+  OGC_CUDA_CHECK(
+      cub::DeviceRadixSort::SortPairs(nullptr, bytes, both_keys, both_values, n, bits.begin, bits.end, stream));
   char* temporary = static_cast<char*>(scratch.request(key_bytes + value_bytes + std::max<std::size_t>(bytes, 1)));
   both_keys.d_buffers[1] = reinterpret_cast<std::uint64_t*>(temporary);
   both_values.d_buffers[1] = reinterpret_cast<int*>(temporary + key_bytes);
   OGC_CUDA_CHECK(cub::DeviceRadixSort::SortPairs(temporary + key_bytes + value_bytes, bytes, both_keys, both_values, n,
-                                                 0, 64, stream));
+                                                 bits.begin, bits.end, stream));
   if (both_keys.Current() != keys) {
     OGC_CUDA_CHECK(
         cudaMemcpyAsync(keys, both_keys.Current(), count * sizeof(std::uint64_t), cudaMemcpyDeviceToDevice, stream));

@@ -30,8 +30,8 @@
 //   exclusive_scans(const Scan& first, const Scan& second)
 //                                    of n numbers n + 1 sums each, the last is the total; neither reads what the
 //                                    other writes
-//   sort_pairs(std::uint64_t* keys, int* values, int n)
-//                                    stable, ascending
+//   sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {})
+//                                    stable, ascending by these bits of the keys
 //   when(F decide, const int* flag, Body body)
 //                                    decide(0), then what body() enqueues if *flag is not 0 then; not nested
 //   repeat(F decide, const int* flag, Body body, G decide_again)
@@ -59,6 +59,11 @@ struct Scan {
   const int* in;  ///< on the backend
   int* out;       ///< on the backend, count + 1 sums
   int count;
+};
+
+/// Bits of a key that a sort looks at: from `begin` on, without `end`. A device takes a pass for each eight.
+struct KeyBits {
+  int begin = 0, end = 64;
 };
 
 /// Whether a launch begins when the one before it has ended, or may begin before.
