@@ -214,7 +214,7 @@ class CudaBackend {
            second, second_groups);
   }
 
-  /// One launch where both are short, else CUB's; temporary memory may be allocated.
+  /// One launch where both are short, else two; temporary memory may be allocated.
   void exclusive_scans(const Scan& first, const Scan& second) {
     fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);
     follows_ = true;
