@@ -63,6 +63,24 @@ __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n; i += stride) f(i);
 }
 
+/// What f(i) reads that neither this launch nor the one before writes.
+template <class F>
+concept ReadsAhead = requires(const F& f) { f.ahead(0); };
+
+/// The same, where the launch before may still run while a thread reads what its first item needs.
+template <ReadsAhead F>
+__global__ void __launch_bounds__(cuda_block_size) run_each_ahead(int n, F f) {
+  const int stride = static_cast<int>(gridDim.x * blockDim.x);
+  int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  auto read = f.ahead(min(i, n - 1));
+  follow_launch();
+  while (i < n) {
+    f(i, read);
+    i += stride;
+    if (i < n) read = f.ahead(i);
+  }
+}
+
 /// The same for i < *n, which the device reads, and no more than `capacity`.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
@@ -155,7 +173,10 @@ class CudaBackend {
   template <class F>
   void for_each(int n, F f) {
     if (n <= 0) return;
-    follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
+    if constexpr (ReadsAhead<F>)
+      follow(typeid(F), run_each_ahead<F>, blocks(n), block_threads_, n, f);
+    else
+      follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
   }
 
   /// Room for `capacity` items is launched; the device reads how many there are.

@@ -9,7 +9,8 @@
 //     void upload(const T*, std::size_t n); void download(T*, std::size_t n) const; void fill_zero();
 //                                    host only, outside a step
 //
-//   for_each(int n, F f)                 f(i) for 0 ≤ i < n, in any order; no result may depend on the order
+//   for_each(int n, F f)                 f(i) for 0 ≤ i < n, in any order; no result may depend on the order. Or f(i,
+//                                    f.ahead(i)), which reads nothing that this launch or the one before writes
 //   for_each_counted(const int* n, int capacity, F f)
 //                                    the same with a count that lives on the device, n ≤ capacity
 //   for_both(int m, F f, const int* n, int capacity, G g)
