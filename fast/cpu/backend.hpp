@@ -12,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <tbb/blocked_range.h>
@@ -212,7 +213,6 @@ class CpuBackend {
   /// Runs the body and measures it each time.
   template <class Body>
   void replay(Recording&, int times, Body body) {
-    replay_milliseconds_.clear();
     for (int k = 0; k < times; ++k) {
       const auto start = std::chrono::steady_clock::now();
       body();
@@ -220,8 +220,8 @@ class CpuBackend {
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
   }
-  /// of the last replay: wall time of each repetition [ms]
-  const std::vector<double>& replay_milliseconds() const { return replay_milliseconds_; }
+  /// Wall time of each repetition since it was asked last [ms].
+  std::vector<double> replay_milliseconds() { return std::exchange(replay_milliseconds_, {}); }
 
   void synchronize() {}
 

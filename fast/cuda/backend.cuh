@@ -295,8 +295,8 @@ class CudaBackend {
     launch(recording, times);
   }
 
-  /// Device time of each repetition of the last replay [ms]. Host only, after synchronize.
-  std::vector<double> replay_milliseconds() const;
+  /// Device time of each repetition since it was asked last [ms]. Host only, after synchronize.
+  std::vector<double> replay_milliseconds();
 
   /// Waits for all that was enqueued. Throws where a kernel of it has failed.
   void synchronize() { OGC_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
@@ -345,8 +345,8 @@ class CudaBackend {
   bool recording_ = false, follows_ = false;
   int block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_;
-  std::vector<cudaEvent_t> events_;  // events_[k], events_[k + 1]: start and end of repetition k
-  int repetitions_ = 0;
+  std::vector<cudaEvent_t> events_;  // in the order of time; between two of them lies a repetition, or nothing
+  std::vector<bool> is_end_;         // by event since replay_milliseconds was asked last: of a repetition
 };
 
 }  // namespace ogc::fast

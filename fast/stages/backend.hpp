@@ -43,7 +43,8 @@
 //                                    once, records it as a graph and launches that, again in later calls, until a
 //                                    Buffer has moved or the recording is cleared: the body enqueues the same calls
 //                                    with the same arguments every time; step numbers are counted on the device
-//   replay_milliseconds()                time of each repetition of the last replay [ms]; after synchronize
+//   replay_milliseconds()                time of each repetition of all replays since it was asked last [ms]; after
+//                                    synchronize
 //   synchronize()                        host only, once a frame
 //
 // Calls are enqueued in order and may return before the work is done; nothing but synchronize and the Buffer copies
