@@ -48,7 +48,7 @@ struct Chain {
 
   Quat orientation() {
     std::normal_distribution<float> normal;
-    return unit({normal(random), normal(random), normal(random), normal(random)});
+    return unit(Quat{normal(random), normal(random), normal(random), normal(random)});
   }
   Vec vector() {
     std::normal_distribution<float> normal;
