@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <tbb/blocked_range.h>
@@ -178,10 +178,14 @@ class CpuBackend {
   }
 
   /// The original number breaks ties: that makes an unstable parallel sort stable.
-  void sort_pairs(std::uint64_t* keys, int* values, int n) {
+  void sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {}) {
     std::vector<Item> items(static_cast<std::size_t>(n));
     for_each(n, [&](int i) { items[static_cast<std::size_t>(i)] = {keys[i], i, values[i]}; });
-    tbb::parallel_sort(items.begin(), items.end());
+    const int above = 64 - bits.end;
+    const auto part = [bits, above](std::uint64_t key) { return key << above >> (above + bits.begin); };
+    tbb::parallel_sort(items.begin(), items.end(), [part](const Item& a, const Item& b) {
+      return part(a.key) != part(b.key) ? part(a.key) < part(b.key) : a.number < b.number;
+    });
     for_each(n, [&](int i) {
       keys[i] = items[static_cast<std::size_t>(i)].key;
       values[i] = items[static_cast<std::size_t>(i)].value;
@@ -216,7 +220,6 @@ class CpuBackend {
   /// Runs the body and measures it each time.
   template <class Body>
   void replay(Recording&, int times, Body body) {
-    replay_milliseconds_.clear();
     for (int k = 0; k < times; ++k) {
       const auto start = std::chrono::steady_clock::now();
       body();
@@ -224,8 +227,8 @@ class CpuBackend {
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
   }
-  /// of the last replay: wall time of each repetition [ms]
-  const std::vector<double>& replay_milliseconds() const { return replay_milliseconds_; }
+  /// Wall time of each repetition since it was asked last [ms].
+  std::vector<double> replay_milliseconds() { return std::exchange(replay_milliseconds_, {}); }
 
   void synchronize() {}
 
@@ -233,8 +236,6 @@ class CpuBackend {
   struct Item {
     std::uint64_t key;
     int number, value;
-
-    friend auto operator<=>(const Item&, const Item&) = default;
   };
 
   static void exclusive_scan(const Scan& scan) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fast/kernels/contacts/frozen.hpp"
+#include "fast/kernels/rods/sweep.hpp"
 #include "fast/kernels/volumes/stream.hpp"
 
 namespace ogc::fast {
@@ -35,9 +36,11 @@ struct GatherByLanes {
   }
 };
 /// Of scenes with surfaces, the second with weights of the iteration, and of those whose free vertices all belong to
-/// solids.
+/// solids; and of rods.
 struct PackKernels {
   GatherByLanes surfaces, frozen_surfaces, solids;  ///< as GatherDefault, as GatherFrozenSurfaces, as GatherSolids
+  /// As f for its items begin … end − 1.
+  void (*update_segments)(const UpdateSegment& f, int begin, int end);
 };
 
 /// Compiled without and with AVX2. Where has_avx2() is false the latter must not be called.
@@ -47,6 +50,9 @@ extern const PackKernels pack_kernels_baseline, pack_kernels_avx2;
 bool has_avx2();
 /// The fastest that this machine can run.
 const PackKernels& pack_kernels();
+
+/// The segments of a loop that one thread runs.
+inline void run_range(const UpdateSegment& f, int begin, int end) { pack_kernels().update_segments(f, begin, end); }
 
 /// Sums of all team lanes of a part that is computed item by item.
 template <class AnyPart, int W>
@@ -107,9 +113,7 @@ struct GatherPackedModels {
   const PackKernels& kernels = pack_kernels();  ///< those of this machine
 
   /// As Gather has it, where it has volumes.
-  static bool lies_deep(const SweepView& view, int slot, const Vec& x)
-    requires gathers_volumes<Gather>
-  {
+  static bool lies_deep(const SweepView& view, int slot, const Vec& x) requires gathers_volumes<Gather> {
     return Gather::lies_deep(view, slot, x);
   }
 

@@ -40,17 +40,18 @@ inline Pack separations(const DetectVertexFacet& query, const Search& search, co
 /// Candidates that wait for three others.
 template <class Query>
 struct Waiting {
-  const Query& query;                           ///< notes pairs in `notes`
-  LocalNotes& notes;                            ///< of the thread
-  Search& search;                               ///< that they belong to; its limit falls as distances are taken
-  int primitive[Pack::width], count = 0;        ///< the first `count` wait
-  float gap[Pack::width], within[Pack::width];  ///< squared gaps of boxes, and what candidate_limit says [m²]
+  const Query& query;                     ///< notes pairs in `notes`
+  LocalNotes& notes;                      ///< of the thread
+  Search& search;                         ///< that they belong to; its limit falls as distances are taken
+  int primitive[Pack::width], count = 0;  ///< the first `count` wait
+  /// squared gaps of boxes, gap limits of reaches, and what candidate_limit says [m²]
+  float gap[Pack::width], reach[Pack::width], within[Pack::width];
 
   /// One candidate more.
   void take(const Offer& offer) {
     const float limit = query.candidate_limit(search, offer);
     if (limit < 0) return;
-    primitive[count] = offer.primitive, gap[count] = offer.gap, within[count] = limit;
+    primitive[count] = offer.primitive, gap[count] = offer.gap, reach[count] = offer.reach, within[count] = limit;
     if (++count == Pack::width) look();
   }
 
@@ -62,8 +63,8 @@ struct Waiting {
     float apart[Pack::width];
     separations(query, search, primitive).store(apart);
     for (int k = 0; k < count; ++k) {
-      if (!is_beyond(apart[k], within[k]))
-        search.limit = smaller(search.limit, query.meet(search, primitive[k], gap[k]));
+      if (is_beyond(apart[k], within[k]) || query.is_idle(search, {primitive[k], gap[k], reach[k]}, apart[k])) continue;
+      search.limit = smaller(search.limit, query.meet(search, primitive[k], gap[k]));
     }
     count = 0;
   }
@@ -83,8 +84,14 @@ void run_searches(const Searches<Query>& searches, int begin, int end) {
       searches.run_alone(i);
       continue;
     }
-    Waiting<Query> waiting{
-        .query = query, .notes = notes, .search = search, .primitive = {}, .count = 0, .gap = {}, .within = {}};
+    Waiting<Query> waiting{.query = query,
+                           .notes = notes,
+                           .search = search,
+                           .primitive = {},
+                           .count = 0,
+                           .gap = {},
+                           .reach = {},
+                           .within = {}};
     for_each_near(searches.tree, search.box, search.from, search.limit,
                   [&](const Offer& offer) { waiting.take(offer); });
     waiting.look();

@@ -34,7 +34,7 @@ CudaBackend::CudaBackend(CudaBackend&& other) noexcept
       multiprocessors_(other.multiprocessors_),
       scratch_(std::move(other.scratch_)),
       events_(std::exchange(other.events_, {})),
-      repetitions_(std::exchange(other.repetitions_, 0)) {}
+      is_end_(std::exchange(other.is_end_, {})) {}
 
 CudaBackend::~CudaBackend() {
   if (stream_ == nullptr) return;
@@ -165,27 +165,31 @@ void CudaBackend::end_condition(cudaStream_t outer) {
 }
 
 void CudaBackend::launch(const Recording& recording, int times) {
-  while (events_.size() < static_cast<std::size_t>(times) + 1) {
-    cudaEvent_t event = nullptr;
-    OGC_CUDA_CHECK(cudaEventCreate(&event));
-    events_.push_back(event);
-  }
-  repetitions_ = times;
-  OGC_CUDA_CHECK(cudaEventRecord(events_[0], stream_));
+  const auto record = [this](bool is_end) {
+    if (events_.size() == is_end_.size()) {
+      cudaEvent_t event = nullptr;
+      OGC_CUDA_CHECK(cudaEventCreate(&event));
+      events_.push_back(event);
+    }
+    OGC_CUDA_CHECK(cudaEventRecord(events_[is_end_.size()], stream_));
+    is_end_.push_back(is_end);
+  };
+  record(false);
   for (int k = 0; k < times; ++k) {
     OGC_CUDA_CHECK(cudaGraphLaunch(recording.graph_, stream_));
-    OGC_CUDA_CHECK(cudaEventRecord(events_[static_cast<std::size_t>(k) + 1], stream_));
+    record(true);
   }
 }
 
-std::vector<double> CudaBackend::replay_milliseconds() const {
+std::vector<double> CudaBackend::replay_milliseconds() {
   std::vector<double> result;
-  for (int k = 0; k < repetitions_; ++k) {
+  for (std::size_t k = 1; k < is_end_.size(); ++k) {
+    if (!is_end_[k]) continue;
     float milliseconds = 0;
-    OGC_CUDA_CHECK(cudaEventElapsedTime(&milliseconds, events_[static_cast<std::size_t>(k)],
-                                        events_[static_cast<std::size_t>(k) + 1]));
+    OGC_CUDA_CHECK(cudaEventElapsedTime(&milliseconds, events_[k - 1], events_[k]));
     result.push_back(static_cast<double>(milliseconds));
   }
+  is_end_.clear();
   return result;
 }
 

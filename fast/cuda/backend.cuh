@@ -63,6 +63,24 @@ __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n; i += stride) f(i);
 }
 
+/// What f(i) reads that neither this launch nor the one before writes.
+template <class F>
+concept ReadsAhead = requires(const F& f) { f.ahead(0); };
+
+/// The same, where the launch before may still run while a thread reads what its first item needs.
+template <ReadsAhead F>
+__global__ void __launch_bounds__(cuda_block_size) run_each_ahead(int n, F f) {
+  const int stride = static_cast<int>(gridDim.x * blockDim.x);
+  int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  auto read = f.ahead(min(i, n - 1));
+  follow_launch();
+  while (i < n) {
+    f(i, read);
+    i += stride;
+    if (i < n) read = f.ahead(i);
+  }
+}
+
 /// The same for i < *n, which the device reads, and no more than `capacity`.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
@@ -155,7 +173,10 @@ class CudaBackend {
   template <class F>
   void for_each(int n, F f) {
     if (n <= 0) return;
-    follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
+    if constexpr (ReadsAhead<F>)
+      follow(typeid(F), run_each_ahead<F>, blocks(n), block_threads_, n, f);
+    else
+      follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
   }
 
   /// Room for `capacity` items is launched; the device reads how many there are.
@@ -214,14 +235,14 @@ class CudaBackend {
            second, second_groups);
   }
 
-  /// One launch where both are short, else CUB's; temporary memory may be allocated.
+  /// One launch where both are short, else two; temporary memory may be allocated.
   void exclusive_scans(const Scan& first, const Scan& second) {
     fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);
     follows_ = true;
   }
   /// CUB's radix sort; temporary memory may be allocated.
-  void sort_pairs(std::uint64_t* keys, int* values, int n) {
-    fast::sort_pairs(current_, scratch_, keys, values, n);
+  void sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {}) {
+    fast::sort_pairs(current_, scratch_, keys, values, n, bits);
     follows_ = false;  // it may end with a copy
   }
 
@@ -294,8 +315,8 @@ class CudaBackend {
     launch(recording, times);
   }
 
-  /// Device time of each repetition of the last replay [ms]. Host only, after synchronize.
-  std::vector<double> replay_milliseconds() const;
+  /// Device time of each repetition since it was asked last [ms]. Host only, after synchronize.
+  std::vector<double> replay_milliseconds();
 
   /// Waits for all that was enqueued. Throws where a kernel of it has failed.
   void synchronize() { OGC_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
@@ -351,8 +372,8 @@ class CudaBackend {
   Scratch scratch_;
   std::vector<cudaStream_t> branches_;  // of the recording under way
   std::vector<cudaEvent_t> crossings_;  // likewise: where branches part and meet
-  std::vector<cudaEvent_t> events_;     // events_[k], events_[k + 1]: start and end of repetition k
-  int repetitions_ = 0;
+  std::vector<cudaEvent_t> events_;     // in the order of time; between two of them lies a repetition, or nothing
+  std::vector<bool> is_end_;            // by event since replay_milliseconds was asked last: of a repetition
 };
 
 }  // namespace ogc::fast

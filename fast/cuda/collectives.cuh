@@ -31,10 +31,10 @@ class Scratch {
   std::size_t largest_ = 0;
 };
 
-/// Neither reads what the other writes; one launch where both are short. `early`: see launch_kernel.
+/// Neither reads what the other writes; one launch where both are short, else two. `early`: see launch_kernel.
 void exclusive_scans(cudaStream_t stream, Scratch& scratch, bool early, const Scan& first, const Scan& second);
 
-/// Stable, ascending, in place.
-void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n);
+/// Stable, ascending by these bits of the keys, in place.
+void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n, KeyBits bits);
 
 }  // namespace ogc::fast

@@ -109,7 +109,8 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
   constexpr int teams = Pool<W, Accumulator>::teams;
   const int thread = static_cast<int>(threadIdx.x), team = thread / W, lane = thread % W;
   int offset = 0, total = 0;
-  __syncthreads();  // threads that still read the terms of the part before
+  // Also threads that still read the terms of the part before.
+  if (__syncthreads_or(present && part.count > 0 ? 1 : 0) == 0) return;
   typename Pool<W, Accumulator>::Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
   if (lane == 0) begins[team] = part.begin, offsets[team] = offset;
   if (thread == 0) offsets[teams] = total;

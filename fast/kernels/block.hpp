@@ -1,8 +1,9 @@
 // Membership in the blocks of Eq. 8, 9 and 15, beyond the distance: the same polynomials that tell the closest face,
-// for all faces around.
+// for all faces around. And pairs of edges that single precision tells to be in no blocks.
 #pragma once
 
 #include "fast/kernels/predicates.hpp"
+#include "fast/kernels/separation.hpp"
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
@@ -35,6 +36,72 @@ OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceVi
       return false;
   }
   return true;
+}
+
+// Pairs of edges that single precision tells to be no contact, however near they are. Where edges are shorter than r
+// that is nearly every pair within r: of one rod those next but one, of two rods that cross all but the nearest.
+//
+// Let v be an end of an edge, v + g its other end, c the point of the other edge nearest to v, and d = c − v. The
+// distance of two points, one of each edge, is convex, and at (v, c) no move of c lessens it; where d·g < 0, none of v
+// does, and each lengthens it: v is on its edge the only closest point. So a contact of the two would be one of v, and
+// c would lie in the block of v. It does not where d·(w − v) > 0 for a neighbour w of v: of c inside its edge this is
+// Receding < 0, of c at its end End > 0 (predicates.hpp), which is what in_vertex_block refuses. Nearly parallel edges
+// that overlap are contacts elsewhere, too (method.md §1.4): they are never rejected.
+//
+// Rounding: let u = 2⁻²⁴, and S the sum of the 1-norms of F = c's edge and of what lies between v and where F starts.
+// A difference errs by u of itself, a dot product by 6 u of the product of the lengths; so the parameter of c times ‖F‖
+// errs by 16 u S, d by 24 u S, d·g by 32 u S ‖g‖₁. Taken: 64 u S ‖g‖₁, and more than all that underflow may lose.
+
+/// Beyond what underflow takes from a sum of products of two lengths, where squared edges are above 2⁻¹⁰⁰ [m²].
+inline constexpr float lost_to_underflow = 0x1p-120F;
+
+/// Of ±d·g, where d errs by `error` [m] or less.
+OGC_HD inline bool is_surely_above_0(float product, const Vec& g, float error) {
+  return product > error * norm_1(g) + lost_to_underflow;
+}
+
+/// Whether no contact of v with the edge `other` is possible because the distance from it falls from v to a neighbour,
+/// and v is nearer to it than all other points of the edge from v to `inner`.
+OGC_HD inline bool is_passed_over(int v, int inner, const EdgeEnds& other, const SurfaceView& surface, PaddedVecs x) {
+  const Vec at = x[v], f = x[other.b] - x[other.a], from = x[other.a] - at;
+  const float ff = dot(f, f);
+  if (!(ff > 0x1p-100F && ff < 0x1p100F)) return false;
+  const Vec d = from + clamped(rough_quotient(-dot(from, f), ff)) * f;
+  const float error = 0x1p-18F * (norm_1(from) + norm_1(f));
+  const Vec inwards = x[inner] - at;
+  if (!is_surely_above_0(-dot(d, inwards), inwards, error)) return false;
+  const Rows& rows = surface.neighbours;
+  for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
+    const Vec g = x[rows.items[k]] - at;
+    if (is_surely_above_0(dot(d, g), g, error)) return true;
+  }
+  return false;
+}
+
+/// Whether two edges without a common vertex are no contact for certain; p is the lower-numbered one. False decides
+/// nothing.
+OGC_HD inline bool is_surely_no_contact(const EdgeEnds& p, const EdgeEnds& q, const SurfaceView& surface,
+                                        PaddedVecs x) {
+  const Vec a = x[p.a], e = x[p.b] - a, f = x[q.b] - x[q.a], w = x[q.a] - a;
+  const float ee = dot(e, e), ff = dot(f, f), ef = dot(e, f), we = dot(w, e), wf = dot(w, f);
+  // ‖e × f‖² here errs by less than 2⁻¹⁸ ‖e‖² ‖f‖²: above 2⁻¹³ of it no edges are nearly parallel.
+  const float nn = ee * ff - ef * ef;
+  const bool is_skew = nn > larger(0x1p-13F * (ee * ff), 0x1p-100F);
+  const float error = 0x1p-18F * (norm_1(w) + norm_1(e) + norm_1(f)) * norm_1(e) + lost_to_underflow;
+  const bool is_beside = larger(we, we + ef) < -error || smaller(we, we + ef) > ee + error;
+  if (!is_skew && !is_beside) return false;
+  // roughly where the closest points are: a wrong end is found out
+  float s = clamped(is_skew ? rough_quotient(we * ff - ef * wf, nn) : rough_quotient(we, ee));
+  const float t = clamped(rough_quotient(s * ef - wf, ff));
+  s = clamped(rough_quotient(we + t * ef, ee));
+  for (int side = 0; side < 2; ++side) {
+    const float place = side == 0 ? s : t;
+    const EdgeEnds own = side == 0 ? p : q, other = side == 0 ? q : p;
+    const bool is_at_end = place == 0 || place == 1;
+    if (is_at_end && is_passed_over(place == 0 ? own.a : own.b, place == 0 ? own.b : own.a, other, surface, x))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace ogc::fast

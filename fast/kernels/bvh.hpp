@@ -392,13 +392,18 @@ OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
   return spread_bits(x[0] ^ flips) << 2 | spread_bits(x[1] ^ flips) << 1 | spread_bits(x[2] ^ flips);
 }
 
-/// Hilbert keys of all vertices, edges and facets that are searched, for one sort; the two highest bits keep the three
+/// Hilbert keys of all vertices, edges and facets that are searched, for one sort; two bits above them keep the three
 /// kinds apart.
 struct HilbertKeys {
+  static constexpr int kind_bit = 60;
+  /// A sort need not look below this bit: cells of a 1024th of the extent hold few primitives, which then stand in the
+  /// order of their numbers.
+  static constexpr int lowest_sorted_bit = 30;
+
   SurfaceView surface;
   const Vec* positions;    ///< by vertex [m]
   TreeView facets, edges;  ///< refitted: their roots give the extent
-  std::uint64_t* keys;     ///< bits 62 and 63: kind; below: place on the curve
+  std::uint64_t* keys;     ///< kind, from kind_bit on; below: place on the curve
   int* values;             ///< number within its kind; the sort moves it with its key
 
   OGC_HD void operator()(int i) const {
@@ -414,7 +419,7 @@ struct HilbertKeys {
       for (const int corner : surface.facets[number].corner) box.include(positions[corner]);
     }
     values[i] = number;
-    keys[i] = static_cast<std::uint64_t>(e < 0 ? 0 : (t < 0 ? 1 : 2)) << 62 | hilbert_key(cell(box));
+    keys[i] = static_cast<std::uint64_t>(e < 0 ? 0 : (t < 0 ? 1 : 2)) << kind_bit | hilbert_key(cell(box));
   }
 
  private:

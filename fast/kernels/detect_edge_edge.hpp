@@ -1,6 +1,6 @@
 // Algorithm 2, each pair once: the edge at place i of the tree order looks at the places behind its own only, and both
 // partners take the distance. Pairs are skipped, and those closer than r decided afterwards, as in
-// detect_vertex_facet.hpp.
+// detect_vertex_facet.hpp, but for those that are told to be no contact at once (block.hpp).
 #pragma once
 
 #include "fast/kernels/arithmetic/atomic.hpp"
@@ -29,7 +29,12 @@ struct DetectEdgeEdge {
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     const float margin = skin.search_margin();
-    return {child.box(), child.primitive, i + 1, larger(gap_limit(add(contact_radius, margin)), child.reach), margin};
+    return {.box = child.box(),
+            .owner = child.primitive,
+            .from = i + 1,
+            .limit = larger(gap_limit(add(contact_radius, margin)), child.reach),
+            .margin = margin,
+            .reach = child.reach};
   }
 
   /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
@@ -47,10 +52,19 @@ struct DetectEdgeEdge {
     const int other = offer.primitive;
     const float apart = separation(ends(surface.edges[search.owner]), ends(surface.edges[other]));
     if (is_beyond(apart, within)) return false;
-    if (!(search.margin > 0)) return true;
+    if (!(search.margin > 0)) return !is_idle(search, offer, apart);
     skin.keep(search.owner < other ? NotedPair{search.owner, other} : NotedPair{other, search.owner});
     const float without_margin = limit(search, offer, 0.0F);
     return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
+  }
+
+  /// Whether a pair within r needs no distance: it lowers none, and is no contact. `apart`: its separation [m].
+  OGC_HD bool is_idle(const Search& search, const Offer& offer, float apart) const {
+    const float own = atomic_load(&d_min_edge[search.owner]), theirs = atomic_load(&d_min_edge[offer.primitive]);
+    const float lowering = larger(smaller(search.reach, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
+    if (!(offer.gap > lowering) && !is_beyond(apart, lowering)) return false;
+    return search.owner < offer.primitive ? is_none(search.owner, offer.primitive)
+                                          : is_none(offer.primitive, search.owner);
   }
 
   /// Its distance, for both partners.
@@ -84,8 +98,14 @@ struct DetectEdgeEdge {
     const float below = larger(d.below(), gap_below(gap));
     lower(&d_min_edge[low], below);
     lower(&d_min_edge[high], below);
-    if (d.may_be_within(contact_radius)) lists.note({low, high}, d.is_surely_within(contact_radius));
+    if (d.may_be_within(contact_radius) && !is_none(low, high))
+      lists.note({low, high}, d.is_surely_within(contact_radius));
     return below;
+  }
+
+  /// No contact for certain; low < high.
+  OGC_HD bool is_none(int low, int high) const {
+    return is_surely_no_contact(surface.edges[low], surface.edges[high], surface, positions);
   }
 
   OGC_HD Box box(const EdgeEnds& e) const {

@@ -68,6 +68,9 @@ struct DetectVertexFacet {
     return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
   }
 
+  /// A pair within r always needs its distance.
+  OGC_HD bool is_idle(const Search&, const Offer&, float) const { return false; }
+
   /// Its distance, for both partners.
   OGC_HD float meet(const Search& search, int t, float gap) const {
     return gap_limit(add(larger(contact_radius, measure(search.owner, t, gap)), search.margin));

@@ -6,7 +6,8 @@
 //
 // Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order
 // buckets, and in a bucket the sorted seconds, have the canonical order of compare/stages. The searches note pairs that
-// may be contacts: half as many again as the contacts where r is shorter than the edges, far more where it is longer.
+// may be contacts: half as many again as the contacts where r is shorter than the edges, more where it is longer;
+// of edges few then, too (block.hpp).
 // Where a list has no room the detection counts on, so that the host learns how much room it needs, and all later
 // kernels stop at the overflow flag.
 #pragma once

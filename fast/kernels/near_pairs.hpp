@@ -73,6 +73,9 @@ struct NearEdgeEdge : DetectEdgeEdge {
                       search.limit);
   }
 
+  /// Each pair is noted, whatever it is.
+  OGC_HD bool is_idle(const Search&, const Offer&, float) const { return false; }
+
   /// As NearVertexFacet::meet.
   OGC_HD float meet(const Search& search, int other, float) const {
     const int low = search.owner < other ? search.owner : other, high = search.owner < other ? other : search.owner;

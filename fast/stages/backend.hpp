@@ -9,7 +9,8 @@
 //     void upload(const T*, std::size_t n); void download(T*, std::size_t n) const; void fill_zero();
 //                                    host only, outside a step
 //
-//   for_each(int n, F f)                 f(i) for 0 ≤ i < n, in any order; no result may depend on the order
+//   for_each(int n, F f)                 f(i) for 0 ≤ i < n, in any order; no result may depend on the order. Or f(i,
+//                                    f.ahead(i)), which reads nothing that this launch or the one before writes
 //   for_each_counted(const int* n, int capacity, F f)
 //                                    the same with a count that lives on the device, n ≤ capacity
 //   for_both(int m, F f, const int* n, int capacity, G g)
@@ -30,8 +31,8 @@
 //   exclusive_scans(const Scan& first, const Scan& second)
 //                                    of n numbers n + 1 sums each, the last is the total; neither reads what the
 //                                    other writes
-//   sort_pairs(std::uint64_t* keys, int* values, int n)
-//                                    stable, ascending
+//   sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {})
+//                                    stable, ascending by these bits of the keys
 //   when(F decide, const int* flag, Body body)
 //                                    decide(0), then what body() enqueues if *flag is not 0 then; not nested
 //   repeat(F decide, const int* flag, Body body, G decide_again)
@@ -44,7 +45,8 @@
 //                                    once, records it as a graph and launches that, again in later calls, until a
 //                                    Buffer has moved or the recording is cleared: the body enqueues the same calls
 //                                    with the same arguments every time; step numbers are counted on the device
-//   replay_milliseconds()                time of each repetition of the last replay [ms]; after synchronize
+//   replay_milliseconds()                time of each repetition of all replays since it was asked last [ms]; after
+//                                    synchronize
 //   synchronize()                        host only, once a frame
 //
 // Calls are enqueued in order and may return before the work is done; nothing but synchronize and the Buffer copies
@@ -61,6 +63,11 @@ struct Scan {
   const int* in;  ///< on the backend
   int* out;       ///< on the backend, count + 1 sums
   int count;
+};
+
+/// Bits of a key that a sort looks at: from `begin` on, without `end`. A device takes a pass for each eight.
+struct KeyBits {
+  int begin = 0, end = 64;
 };
 
 /// Whether a launch begins when the one before it has ended, or may begin before.

@@ -81,7 +81,7 @@ class Bvh {
                                         .edges = edges_,
                                         .keys = keys_.data(),
                                         .values = order_.data()});
-    backend.sort_pairs(keys_.data(), order_.data(), total);
+    backend.sort_pairs(keys_.data(), order_.data(), total, {HilbertKeys::lowest_sorted_bit, HilbertKeys::kind_bit + 2});
   }
 
  private:

@@ -87,10 +87,12 @@ class RodSweep {
     rods.as_published = as_published_;
   }
 
-  /// All free segments, colour by colour; after the prescribed vertices, before the free ones.
-  void enqueue(Backend& backend, const SweepView& view) const {
+  /// All free segments, colour by colour; after the prescribed vertices, before the free ones. `is_first`: nothing of
+  /// the iteration stands before them.
+  void enqueue(Backend& backend, const SweepView& view, bool is_first) const {
     for (std::size_t c = 0; c + 1 < colour_begin_.size(); ++c)
-      backend.for_each(colour_begin_[c + 1] - colour_begin_[c], UpdateSegment{view, colour_begin_[c]});
+      backend.for_each(colour_begin_[c + 1] - colour_begin_[c],
+                       UpdateSegment{view, colour_begin_[c], is_first && c == 0});
   }
 
  private:

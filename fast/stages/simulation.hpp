@@ -275,7 +275,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   /// the host can act between launches.
   void enqueue(int count, std::vector<double>& wall_ms, std::vector<std::vector<double>>& stage_ms) {
     if (!clock_.on() && !step_.is_observed()) {
-      backend_.replay(recordings_[group_ > 1 ? 1 : 0], count, [this] { step_.enqueue(group_); });
+      replay(count);
       backend_.synchronize();
       wall_ms = backend_.replay_milliseconds();
       return;
@@ -289,6 +289,20 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
       stage_ms.push_back(clock_.take());
     }
     backend_.synchronize();
+  }
+
+  /// A recording for the steps that sort the trees and one for those that do not: to ask the device in each step would
+  /// cost it ten launches. Which steps these are BeginStep counts as the host does here.
+  void replay(int count) {
+    for (int since = since_sort_; count > 0;) {
+      const bool sorts = since >= steps_between_sorts;
+      const int times = sorts ? 1 : std::min(count, steps_between_sorts - since);
+      backend_.replay(recordings_[sorts ? 1 : 0][group_ > 1 ? 1 : 0], times, [this, sorts] {
+        step_.enqueue(group_, sorts ? Sorting::made : Sorting::left_out);
+      });
+      since = sorts ? 1 : since + times;
+      count -= times;
+    }
   }
 
   compare::StepMetrics metrics(const StepRow& row, std::int64_t step) const {
@@ -351,7 +365,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
 
   void lists_moved() {
     reserve();
-    for (auto& recording : recordings_) recording.clear();
+    for (auto& of_kind : recordings_)
+      for (auto& recording : of_kind) recording.clear();
   }
 
   std::vector<float> last_bounds() {
@@ -381,7 +396,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   std::size_t moving_;
   Step<Backend> step_;
   bool energies_;
-  typename Backend::Recording recordings_[2];  ///< of steps with and without groups of iterations
+  /// of steps that sort and of others, with and without groups of iterations
+  typename Backend::Recording recordings_[2][2];
   typename Backend::template Buffer<float> bounds_;
   std::int64_t step_number_ = 0;
   float query_radius_ = 0;

@@ -2,7 +2,7 @@
 // step: flags on the device decide what happens, so a graph can record the sequence once and nothing in it waits for
 // the host.
 //
-//   begin       when(sort): trees sorted anew; y, Gᵗ, θᵗ, r_q; driven volumes at y, and their trees
+//   begin       where it is its turn trees sorted anew; y, Gᵗ, θᵗ, r_q; driven volumes at y, and their trees
 //   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then the contacts of the
 //               last detection are listed, those with volumes are found, and xᵗ and x where the sweep gathers them
 //               (guess=pairs: one round; where balls cut many, all moves by a certificate of pairs, and a detection)
@@ -55,6 +55,9 @@ struct StepSettings {
 /// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order
 /// ages slowly (fast/PERFORMANCE.md).
 inline constexpr int steps_between_sorts = 16;
+
+/// Who decides whether a step sorts its trees: the device, or the host when it records the step.
+enum class Sorting { asked, made, left_out };
 
 /// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in
 /// four iterations (counted in fast/PERFORMANCE.md). `redetections`: of `steps` steps, beside those of the guess loop.
@@ -165,10 +168,10 @@ class Step {
   float detection_radius() const { return settings_.detection_radius; }
 
   /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows. `group`:
-  /// iterations that are asked together whether a detection is due; it changes the time alone.
-  void enqueue(int group) {
+  /// iterations that are asked together whether a detection is due; it changes the time alone, as `sorting` does.
+  void enqueue(int group, Sorting sorting = Sorting::asked) {
     if (observer_ != nullptr) observer_->begin();
-    clock_.time(StepStage::begin, [&] { begin(); });
+    clock_.time(StepStage::begin, [&] { begin(sorting); });
     clock_.time(StepStage::initial_guess, [&] { guess_loop(); });
     clock_.time(StepStage::sweep, [&] {
       for (int i = 0; i < settings_.iterations; i += group) iterate(i, std::min(group, settings_.iterations - i));
@@ -198,10 +201,16 @@ class Step {
   }
   FeasibleRegions regions() { return detection_.regions(state_.previous.data()); }
 
-  void begin() {
+  void begin(Sorting sorting) {
     StepState<Backend>& s = state_;
-    backend_.when(BeginStep{control(), settings_.control}, flag(&StepControl::sort),
-                  [&] { detection_.rebuild(s.start.data()); });
+    const BeginStep begin{control(), settings_.control};
+    const auto sort = [&] { detection_.rebuild(s.start.data()); };
+    if (sorting == Sorting::asked) {
+      backend_.when(begin, flag(&StepControl::sort), sort);
+    } else {
+      backend_.for_each(1, begin);
+      if (sorting == Sorting::made) sort();
+    }
     backend_.for_each(s.vertex_count, BeginVertex{.start = s.start.data(),
                                                   .velocity = s.velocity.data(),
                                                   .prescribed_number = s.prescribed_number.data(),

@@ -123,7 +123,8 @@ Searched find_searched(const compare::Topology& topology) {
     searched.facets += take(t, topology.triangles[static_cast<std::size_t>(t)]);
   // vertices inside solids are on no face, and searches leave them out by themselves
   if (static_cast<std::size_t>(searched.edges) < topology.edges.size()) return searched;
-  return {{}, topology.vertex_count, searched.edges, searched.facets};
+  // without a facet there is nothing that a vertex could look for
+  return {{}, topology.triangles.empty() ? 0 : topology.vertex_count, searched.edges, searched.facets};
 }
 
 Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,

@@ -388,7 +388,7 @@ class Sweep {
     const int prescribed = static_cast<int>(prescribed_host_.size());
     // It writes only what a colour reads after its sum, so the first colour may overlap it.
     backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});
-    rods_.enqueue(backend_, view);
+    rods_.enqueue(backend_, view, prescribed == 0);
     const bool is_before = prescribed > 0 || rods_.colours() > 0;
     for (int c = 0; c < colours_; ++c) {
       const auto k = static_cast<std::size_t>(c);

@@ -202,6 +202,27 @@ void strands_tested(const DetectIn& in, const Authority& authority, DetectEdgeEd
   });
 }
 
+/// A contact of a vertex dropped where the distance from it to a neighbour only nearly falls, as a rejection in single
+/// precision would whose tolerance has the wrong sign.
+void ends_passed_over(const DetectIn& in, const Authority&, DetectEdgeEdgeOut& out) {
+  const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
+  const auto is_passed = [&](const Face& own, const Edge& other) {
+    if (own.kind != FaceKind::vertex) return false;
+    const Vec3 v = at(own.index), a = at(other[0]), along = difference(at(other[1]), a);
+    const double t = std::clamp(dot(difference(v, a), along) / dot(along, along), 0.0, 1.0);
+    const Vec3 d = difference({a.x + t * along.x, a.y + t * along.y, a.z + t * along.z}, v);
+    return std::ranges::any_of(in.topology->vertex_neighbours[own.index], [&](Index w) {
+      const Vec3 arm = difference(at(w), v);
+      return dot(d, arm) > -1e-6 * std::sqrt(dot(d, d) * dot(arm, arm));
+    });
+  };
+  std::erase_if(out.contacts, [&](const EdgeEdgeContact& c) {
+    const auto& edges = in.topology->edges;
+    const Edge &e = edges[c.first_edge], &f = edges[c.second_edge];
+    return is_passed(c.first, f) || is_passed(c.second, e);
+  });
+}
+
 void fixed_capacity(const DetectIn&, const Authority&, DetectVertexFacetOut& out) {
   std::map<Index, int> by_owner;
   std::erase_if(out.contacts, [&](const VertexFacetContact& c) { return ++by_owner[c.owner] > 4; });
@@ -311,6 +332,7 @@ std::vector<Fault> edge_faults() {
       edge_fault("detect_edge_edge: nearly parallel edges untested", nearly_parallel_untested),
       edge_fault("detect_edge_edge: parallel edges asked at one end of their overlap", one_end_of_overlap),
       edge_fault("detect_edge_edge: parallel loose edges tested", strands_tested),
+      edge_fault("detect_edge_edge: ends passed over where a neighbour is as near", ends_passed_over),
       edge_fault("detect_edge_edge: edge ends swapped",
                  [](const auto& in, const auto&, auto& out) {
                    for (EdgeEdgeContact& c : out.contacts) {

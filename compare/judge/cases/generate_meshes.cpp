@@ -214,6 +214,31 @@ CaseData strands(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
+/// Rods of right angles, half turns and straight parts, a rung beside them or not, within whose radius several segments
+/// lie: where an end ceases to be the point of its segment that is closest to another one, and its neighbour to be
+/// nearer.
+CaseData bends(Random& random) {
+  MeshBuilder builder;
+  const double gap = random.magnitude(-1.5, 0);
+  for (int k = 1 + random.below(3); k > 0; --k) {
+    Vec3 at{0.5 * random.below(3), 0.5 * random.below(3), k * gap}, step{1, 0, 0};
+    Index last = builder.add(at);
+    for (int i = 2 + random.below(7); i > 0; --i) {
+      const int turn = random.below(5);
+      if (turn == 1) step = {-step.y, step.x, step.z};
+      if (turn == 2) step = {step.z, step.x, step.y};
+      if (turn == 3) step = {step.x + step.y, step.y - step.x, step.z};
+      const Vec3 tilt = random.one_in(2) ? Vec3{} : Vec3{0, random.rung(), random.rung()};
+      at = sum(at, sum(step, tilt));
+      const Index next = builder.add(at);
+      builder.loose_edges.push_back({last, next});
+      last = next;
+    }
+  }
+  return finish(random, builder,
+                {jitter_rung(random), random.one_in(2) ? random.between(0.8, 4) : radius_at(random, gap)});
+}
+
 /// A flat sheet at rest, whose radius reaches across its cells: each edge has parallel neighbours within it.
 CaseData flat(Random& random) {
   MeshBuilder builder;
@@ -345,7 +370,7 @@ CaseData needles(Random& random) {
   return finish(random, builder, {0, 0});
 }
 
-constexpr std::array<Generator, 21> table{{{"soup", 20, true, soup},
+constexpr std::array<Generator, 22> table{{{"soup", 20, true, soup},
                                            {"cloth", 20, true, cloth},
                                            {"few", 3, true, few},
                                            {"large", 600, true, large, large_run},
@@ -359,6 +384,7 @@ constexpr std::array<Generator, 21> table{{{"soup", 20, true, soup},
                                            {"ladder.above", 7, false, above},
                                            {"ladder.book", 4, false, book},
                                            {"ladder.strands", 4, false, strands},
+                                           {"ladder.bends", 5, false, bends},
                                            {"ladder.parallel", 8, false, parallel},
                                            {"ladder.flat", 4, false, flat},
                                            {"ladder.groups", 4, false, groups},

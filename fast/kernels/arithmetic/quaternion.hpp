@@ -2,9 +2,7 @@
 // vector.hpp.
 #pragma once
 
-#include <cmath>
-
-#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
 #include "fast/kernels/arithmetic/vector.hpp"
 
 namespace ogc::fast {
@@ -42,7 +40,10 @@ template <class T>
 OGC_HD T dot(const QuatOf<T>& a, const QuatOf<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
 }
-OGC_HD inline Quat pure(const Vec& v) { return {v.x, v.y, v.z, 0.0f}; }
+template <class T>
+OGC_HD QuatOf<T> pure(const Vector<T>& v) {
+  return {v.x, v.y, v.z, T(0.0f)};
+}
 
 /// R(q) v = v + 2 w (u × v) + 2 u × (u × v).
 OGC_HD inline Vec turned(const Quat& q, const Vec& v) {
@@ -57,9 +58,10 @@ OGC_HD inline Vec director(const Quat& q) { return turned(q, {0.0f, 0.0f, 1.0f})
 
 /// q/‖q‖ of a q that is not 0. The second factor takes the rounding of root and quotient away, which a device need not
 /// round correctly: ‖q‖ is 1 within 4 u.
-OGC_HD inline Quat unit(const Quat& q) {
-  const Quat near = (1.0f / sqrtf(dot(q, q))) * q;
-  return (1.5f - 0.5f * dot(near, near)) * near;
+template <class T>
+OGC_HD QuatOf<T> unit(const QuatOf<T>& q) {
+  const QuatOf<T> near = T(1.0f / root(dot(q, q))) * q;
+  return T(1.5f - 0.5f * dot(near, near)) * near;
 }
 
 }  // namespace ogc::fast

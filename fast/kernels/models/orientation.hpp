@@ -15,13 +15,15 @@ struct NeighbourRest {
 };
 
 /// What a neighbour that holds `q` asks for, given the relative rotation p: q p̄ ahead, q p behind.
-OGC_HD inline Quat asked_orientation(bool is_ahead, const Quat& q, const Quat& relative) {
+template <class T>
+OGC_HD QuatOf<T> asked_orientation(bool is_ahead, const QuatOf<T>& q, const QuatOf<T>& relative) {
   return q * (is_ahead ? conjugate(relative) : relative);
 }
 
 /// w s t with the sign that brings t nearer to the old q.
-OGC_HD inline Quat pull_towards(float weight, const Quat& asked, const Quat& old) {
-  return (dot(asked, old) < 0 ? -weight : weight) * asked;
+template <class T>
+OGC_HD QuatOf<T> pull_towards(const T& weight, const QuatOf<T>& asked, const QuatOf<T>& old) {
+  return select(dot(asked, old) < T(0.0f), -weight, weight) * asked;
 }
 
 /// Adds w (s t + k sᵗ tᵗ) to b. `now`, `start` of the neighbour; `own_start` of the segment.
@@ -51,17 +53,19 @@ OGC_HD inline float secular_root(float upper, float lower, float sigma) {
 }
 
 /// M/σ: q ↦ −D q c of unit vectors, its own inverse.
-struct ReflectedFrame {
-  Quat apart, direction;  ///< D/‖D‖, c/‖c‖
+template <class T>
+struct ReflectedFrameOf {
+  QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
 
-  OGC_HD Quat operator()(const Quat& q) const { return -1.0f * (apart * q * direction); }
+  OGC_HD QuatOf<T> operator()(const QuatOf<T>& q) const { return T(-1.0f) * (apart * q * direction); }
   /// The part of q in the eigenspace of 1, of directors along D. Projected twice: once leaves a rounding of all of q
   /// outside, which a small part would not bear.
-  OGC_HD Quat upper(const Quat& q) const {
-    const Quat once = 0.5f * (q + (*this)(q));
-    return 0.5f * (once + (*this)(once));
+  OGC_HD QuatOf<T> upper(const QuatOf<T>& q) const {
+    const QuatOf<T> once = T(0.5f) * (q + (*this)(q));
+    return T(0.5f) * (once + (*this)(once));
   }
 };
+using ReflectedFrame = ReflectedFrameOf<float>;
 
 /// A part in the upper eigenspace that is no larger than this share of the whole is rounding: two products of
 /// quaternions and half a sum err by 17 u (compare/stages/orientation.hpp), and twice that leaves room.

@@ -111,13 +111,22 @@ OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const 
 
 /// for_each over the free segments of a colour.
 struct UpdateSegment {
-  SweepView view;
-  int first_slot = 0;  ///< of the colour
+  /// What no launch before this one writes.
+  struct Ahead {
+    SegmentSlot slot;
+    bool is_off = false;  ///< it is another iteration's turn
+  };
 
-  OGC_HD void operator()(int i) const {
-    if (view.is_off()) return;
+  SweepView view;
+  int first_slot = 0;      ///< of the colour
+  bool asks_late = false;  ///< the launch before may decide whose turn it is
+
+  OGC_HD Ahead ahead(int i) const { return {view.rods.slots[first_slot + i], !asks_late && view.is_off()}; }
+  OGC_HD void operator()(int i) const { (*this)(i, ahead(i)); }
+  OGC_HD void operator()(int, const Ahead& read) const {
+    if (asks_late ? view.is_off() : read.is_off) return;
     const RodStream& rods = view.rods;
-    const SegmentSlot slot = rods.slots[first_slot + i];
+    const SegmentSlot& slot = read.slot;
     const SegmentRest& rest = slot.rest;
     const int e = slot.segment;
     const Vec apart = view.read(rest.end[1]) - view.read(rest.end[0]), direction = segment_direction(rods, e);

@@ -81,3 +81,12 @@ TEST_CASE("pairs are sorted by their keys, and keep their order where keys are e
     CHECK(values == expected);
   }
 }
+
+TEST_CASE("a sort looks at the bits it is told, and keys that differ elsewhere keep their order", "[unit]") {
+  CpuBackend backend;
+  std::vector<std::uint64_t> keys{0xf21U, 0x023U, 0xf10U, 0x0ffU, 0x11fU};
+  std::vector<int> values{0, 1, 2, 3, 4};
+  backend.sort_pairs(keys.data(), values.data(), 5, {4, 8});
+  CHECK(keys == std::vector<std::uint64_t>{0xf10U, 0x11fU, 0xf21U, 0x023U, 0x0ffU});
+  CHECK(values == std::vector<int>{2, 4, 0, 1, 3});
+}

@@ -15,6 +15,7 @@ struct Scripted {
   std::vector<float> apart, limit;
 
   float candidate_limit(const Search&, const Offer& offer) const { return offer.primitive == 3 ? -1.0F : 1.0F; }
+  bool is_idle(const Search&, const Offer& offer, float) const { return offer.reach > 0; }
   float meet(const Search&, int primitive, float) const { return limit[static_cast<std::size_t>(primitive)]; }
 };
 
@@ -22,7 +23,7 @@ Pack separations(const Scripted& query, const Search&, const int* primitive) {
   return Pack::of_each([&](int k) { return query.apart[static_cast<std::size_t>(primitive[k])]; });
 }
 
-/// The limit after these were offered.
+/// The limit after these were offered; those from 100 on as primitives of 100 less that are idle.
 float limit_after(const Scripted& query, const std::vector<int>& offered) {
   NotedPair room[1];
   int count = 0;
@@ -31,8 +32,8 @@ float limit_after(const Scripted& query, const std::vector<int>& offered) {
   LocalNotes notes(common);
   Search search{};
   search.limit = 9;
-  packed::Waiting<Scripted> waiting{query, notes, search, {}, 0, {}, {}};
-  for (const int primitive : offered) waiting.take({primitive, 0, 0});
+  packed::Waiting<Scripted> waiting{query, notes, search, {}, 0, {}, {}, {}};
+  for (const int primitive : offered) waiting.take({primitive % 100, 0, primitive < 100 ? 0.0F : 1.0F});
   waiting.look();
   return search.limit;
 }
@@ -48,4 +49,6 @@ TEST_CASE("what was met narrows a search, however many wait, and what is beyond 
   CHECK(limit_after(query, {2, 3}) == 9);  // the one is beyond, the other no candidate
   CHECK(limit_after(query, {0, 1, 2, 3, 4}) == 3);
   CHECK(limit_after(query, {1, 4, 0, 0, 5, 4}) == 2);
+  CHECK(limit_after(query, {101, 0}) == 4);
+  CHECK(limit_after(query, {104, 101, 100, 105, 1}) == 3);
 }

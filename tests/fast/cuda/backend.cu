@@ -326,6 +326,24 @@ TEST_CASE("sort_pairs is stable and ascending over all 64 bits", "[gpu]") {
   }
 }
 
+TEST_CASE("a sort looks at the bits it is told, and keys that differ elsewhere keep their order", "[gpu]") {
+  CudaBackend backend;
+  std::mt19937_64 random(4);
+  for (const std::size_t n : {5u, 4097u, 200'000u}) {
+    std::vector<std::uint64_t> keys(n);
+    for (auto& key : keys) key = random();
+    std::vector<int> values(n), expected(n);
+    std::iota(values.begin(), values.end(), 0);
+    std::iota(expected.begin(), expected.end(), 0);
+    const auto part = [&](int i) { return keys[static_cast<std::size_t>(i)] >> 30 & 0xffU; };
+    std::stable_sort(expected.begin(), expected.end(), [&](int a, int b) { return part(a) < part(b); });
+    CudaBuffer<std::uint64_t> device_keys = on_device(keys);
+    CudaBuffer<int> device_values = on_device(values);
+    backend.sort_pairs(device_keys.data(), device_values.data(), static_cast<int>(n), {30, 38});
+    CHECK((on_host(device_values) == expected));
+  }
+}
+
 TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
   CudaBackend backend;
   CudaBuffer<int> flag, count;

@@ -92,7 +92,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   for (int i = 0; i < 7; ++i) HilbertKeys{surface, positions.data(), tree, tree, keys.data(), values.data()}(i);
   CHECK(values == std::vector<int>{0, 1, 2, 3, 0, 1, 0});
   const auto key_of = [](std::uint64_t kind, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    return kind << 62 | hilbert_key({{x, y, z}});
+    return kind << HilbertKeys::kind_bit | hilbert_key({{x, y, z}});
   };
   constexpr std::uint32_t last = (1U << 20) - 1, half = last / 2;
   CHECK(keys == std::vector<std::uint64_t>{key_of(0, 0, 0, 0), key_of(0, last, 0, 0), key_of(0, 0, last, 0),

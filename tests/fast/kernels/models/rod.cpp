@@ -15,7 +15,7 @@ constexpr double u = 0x1p-24;
 
 Quat some_orientation(std::mt19937& random) {
   std::normal_distribution<float> normal;
-  return unit({normal(random), normal(random), normal(random), normal(random)});
+  return unit(Quat{normal(random), normal(random), normal(random), normal(random)});
 }
 
 Vec some_vector(std::mt19937& random) {

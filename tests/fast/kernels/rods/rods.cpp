@@ -22,7 +22,7 @@ struct Drawn {
 
   Quat orientation() {
     std::normal_distribution<float> normal;
-    return unit({normal(random), normal(random), normal(random), normal(random)});
+    return unit(Quat{normal(random), normal(random), normal(random), normal(random)});
   }
   Vec vector() {
     std::normal_distribution<float> normal;
@@ -54,8 +54,8 @@ D3 turned_by(const Quat& q, const D3& v) {
 struct OneSegment {
   SegmentRest rest{{1, 0}, 2, 1, 0};
   std::array<Vec, 2> start{Vec{1, 2, 5}, Vec{1, 2, 3}}, position{Vec{7, 10, 3}, Vec{7, 8, 3}};
-  Quat before = unit({0.1f, 0.2f, 0.3f, 0.9f}), after{9, 9, 9, 9};
-  std::array<Quat, 4> turns{Quat{0, 0, 1, 0}, Quat{0, 0, 1, 0}, unit({0, 0.6f, 0, 0.8f}), Quat{0, 0, 0, 2}};
+  Quat before = unit(Quat{0.1f, 0.2f, 0.3f, 0.9f}), after{9, 9, 9, 9};
+  std::array<Quat, 4> turns{Quat{0, 0, 1, 0}, Quat{0, 0, 1, 0}, unit(Quat{0, 0.6f, 0, 0.8f}), Quat{0, 0, 0, 2}};
   StepControl control;
 
   Quat turned(int held, bool turns_free) {

@@ -48,7 +48,7 @@ struct Chain {
 
   Quat orientation() {
     std::normal_distribution<float> normal;
-    return unit({normal(random), normal(random), normal(random), normal(random)});
+    return unit(Quat{normal(random), normal(random), normal(random), normal(random)});
   }
   Vec vector() {
     std::normal_distribution<float> normal;
@@ -102,8 +102,10 @@ TEST_CASE("a segment stays where it is another iteration's turn, or no number co
   const Quat before = chain.q[1];
   const int turn = 1;
   chain.view.turn = &turn;
-  UpdateSegment{chain.view, 0}(0);
-  CHECK(same(chain.q[1], before));
+  for (const bool asks_late : {false, true}) {
+    UpdateSegment{chain.view, 0, asks_late}(0);
+    CHECK(same(chain.q[1], before));
+  }
   chain.view.turn = nullptr;
   chain.positions[2] = PaddedVec(Vec{INFINITY, 0, 0});
   UpdateSegment{chain.view, 0}(0);
