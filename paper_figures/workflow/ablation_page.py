@@ -6,10 +6,11 @@ import csv
 import html
 import json
 
-from paper_figures.workflow.evidence import RESULTS
+from paper_figures.workflow.evidence import RESULTS, opened
 
 NAME = "ablations.html"
-TABLES = {"h200/ablations_small.csv": "small, one H100", "two_cores/ablations_smoke.csv": "smoke, two CPU cores"}
+TABLES = {"h200/ablations_small.csv.gz": "small, H100s and H200s", "h200/ablations_paper.csv": "paper, one H200",
+          "two_cores/ablations_smoke.csv.gz": "smoke, two CPU cores"}
 COLUMNS = ("median", "smallest", "largest")
 SCRIPT = r"""
 const data = JSON.parse(document.getElementById('data').textContent);
@@ -64,9 +65,9 @@ def tables(folder=RESULTS):
     """{table: {study: {scene: {point: {metric [unit]: [median, smallest, largest]}}}}} of the accepted tables."""
     found = {}
     for name, words in TABLES.items():
-        with (folder / name).open(newline="") as file:
+        with opened(folder / name) as file:
             for row in csv.DictReader(file):
-                if not row["median"]:
+                if row["median"] in ("", "nan"):
                     continue
                 points = found.setdefault(words, {}).setdefault(row["study"], {}).setdefault(row["scene"], {})
                 metric = row["metric"] + (f" [{row['unit']}]" if row["unit"] != "1" else "")

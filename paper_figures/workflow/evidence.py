@@ -30,7 +30,7 @@ ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
 PAPER_BOUNDS = "ball"
 SURFACE, VOLUME = "surface", "volume"  # what a body is to others
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
-TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "radius*.csv", "falling*.csv")
+TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "ablations*.csv.gz", "radius*.csv")
 
 
 class EvidenceError(Exception):
@@ -50,11 +50,16 @@ class Measured:
     about: str = ""
 
 
+def opened(path):
+    """A file of rows, compressed or not."""
+    return (gzip.open if path.suffix == ".gz" else open)(path, "rt", newline="")
+
+
 class Columns(Mapping):
     """Columns of a file of rows by name without unit; numbers are made of a column when it is asked for."""
 
     def __init__(self, path):
-        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", newline="") as file:
+        with opened(path) as file:
             names, *rows = [row for row in csv.reader(file) if row]
         rows = [row for row in rows if len(row) == len(names)]
         names = [column_and_unit(name)[0] for name in names]
@@ -258,7 +263,7 @@ class Table:
 
 def table_name(path):
     """(figure, scale) of `figNN_SCALE.csv`, or of `figNN.csv` in the folder FIGURE-SCALE-BACKEND of a figure's runs."""
-    name, _, scale = path.stem.rpartition("_")
+    name, _, scale = path.name.removesuffix(".gz").removesuffix(".csv").rpartition("_")
     folder = path.parent.name.split("-")
     return (name, scale) if name else (scale, folder[1] if len(folder) == 3 else "")
 
@@ -296,7 +301,7 @@ class Evidence:
         found = ((ended_of(path), path) for pattern in TABLES for path in folder.rglob(pattern))
         for ended, path in sorted(found):
             name, scale = table_name(path)
-            with path.open(newline="") as file:
+            with opened(path) as file:
                 rows = tuple(csv.DictReader(file))
             self.tables.append(Table(name, scale, rows, path.relative_to(folder).as_posix(), ended))
         self._earlier = {}

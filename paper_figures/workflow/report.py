@@ -281,7 +281,7 @@ def write(out, evidence=None, fresh=None):
     judgements = verdicts.judge_all(evidence)
     figures = [f for f in PAPER_ORDER if any(numbered(n) == f for n in book)
                or any(j.claim["figures"][0] == f for j in judgements)]
-    figures += [name for name, recipe in book.items() if "vary" in recipe.body]
+    figures += [name for name, recipe in book.items() if {"vary", "study"} & set(recipe.body)]
     contents = " · ".join([*(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"]),
                            f'<a href="{ablation_page.NAME}">ablations</a>'])
     sections = [figure_section(figure, book, judgements, evidence, fresh) for figure in figures]

@@ -58,9 +58,9 @@ def row_of(kind, run):
 
 
 def frame_at(run, share):
-    """The stored state at so many hundredths of the run's steps, or just before."""
-    last = share * int(run.column("step")[-1]) // 100
-    return [path for path in run.frames if int(path.stem.removeprefix("frame_")) <= last][-1]
+    """The stored state that is nearest to so many hundredths of the run's steps."""
+    wanted = share * int(run.column("step")[-1]) / 100
+    return min(run.frames, key=lambda path: abs(int(path.stem.removeprefix("frame_")) - wanted))
 
 
 def draw(runs, out):

@@ -179,11 +179,11 @@ class Braked(unittest.TestCase):
         ends = {"released": np.eye(3), "hanging": np.eye(3) + (0, 3e-3, 4e-3)}
 
         def row(ways):
-            """`ways`: of one vertex until the end, from the frames before [m]."""
+            """`ways`: of all vertices until the end, from the frames before [m]."""
             runs = {}
             for name, end in ends.items():
                 apart = [0.1, *ways[name], 0]
-                frames = [Frame(k, 0.5 * k, end + np.outer((0, 1, 0), (far, 0, 0)), np.zeros((3, 3)), np.zeros(3))
+                frames = [Frame(k, 0.5 * k, end + (far, 0, 0), np.zeros((3, 3)), np.zeros(3))
                           for k, far in enumerate(apart)]
                 run = runs[name] = mock.MagicMock(frames=frames)
                 run.setting.return_value = 1e-3
@@ -201,7 +201,7 @@ class Braked(unittest.TestCase):
     def test_the_claim_reads_what_the_figure_writes(self):
         claims = json.loads((SOURCE / "paper_figures/claims/yarn_twist.json").read_text())["claims"]
         measure = next(claim for claim in claims if claim["id"] == "yarn_twist.returns")["measure"]
-        self.assertEqual((measure["table"], measure["where"]), (yarn_rest.NAME, {"run": "released"}))
+        self.assertEqual((measure["table"], measure["where"]), (yarn_rest.NAME, {"run": "released_frictionless"}))
         self.assertIn(measure["column"], [f"distance, {words} [m]" for words in yarn_rest.SHARES])
 
 
