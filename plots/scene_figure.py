@@ -100,7 +100,7 @@ def draw_lag(axes, run):
     axes.plot(run.column("step"), 1e3 * run.column("largest_lag"), label="of the prescribed vertex that lags most")
     axes.axhline(1e3 * run.setting("contact_radius"), color="black", linestyle="--", linewidth=0.8,
                  label=f"contact radius r = {1e3 * run.setting('contact_radius'):g} mm")
-    axes.set(xlabel="step", ylabel="lag [mm]", title="Lag behind the prescribed motion, which obeys bounds",
+    axes.set(xlabel="step", ylabel="lag [mm]", title="Lag behind the prescribed motion",
              ylim=(0, None))
     axes.legend()
 
