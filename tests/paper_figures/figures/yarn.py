@@ -198,6 +198,32 @@ class Braked(unittest.TestCase):
         for ways in ({"released": swings, "hanging": still}, {"released": still, "hanging": swings}):
             self.assertEqual([row(ways)[name] for name in words], ["", "0.005"])
 
+    def test_pairs_that_are_near_are_those_of_all_pairs(self):
+        """Also of points in one plane, and of one point alone."""
+        draw = np.random.default_rng(7)
+        for points in (draw.random((300, 3)), draw.random((300, 3)) * (1, 1, 0), np.zeros((1, 3))):
+            apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+            wanted = {(a, b) for a, b in zip(*np.nonzero(apart < 0.1)) if a < b}
+            found = yarn_rest.near(points, 0.1)
+            self.assertEqual({tuple(pair) for pair in found}, wanted)
+            self.assertEqual(len(found), len(wanted), "none is there twice")
+
+    def test_threads_that_slid_apart_are_counted_and_a_fold_is_not(self):
+        """Two threads of 20 vertices beside each other; one of them slides half away; both turn about an axis."""
+        thread = np.zeros((20, 3))
+        thread[:, 0] = 1e-3 * np.arange(20)
+        flat = np.concatenate((thread, thread + (0, 3e-3, 0)))
+        slid, folded = flat.copy(), flat.copy()
+        slid[30:, 1] += 1
+        folded[:, [0, 2]] = folded[:, [2, 0]]
+
+        def kept(positions):
+            with mock.patch.object(yarn_rest, "last_frame", side_effect=lambda run: mock.Mock(positions=run)):
+                return yarn_rest.kept_threads(positions, flat)
+
+        self.assertEqual((kept(flat), kept(folded)), (1.0, 1.0))
+        self.assertTrue(0.4 < kept(slid) < 0.6, kept(slid))
+
     def test_the_claim_reads_what_the_figure_writes(self):
         claims = json.loads((SOURCE / "paper_figures/claims/yarn_twist.json").read_text())["claims"]
         measure = next(claim for claim in claims if claim["id"] == "yarn_twist.returns")["measure"]

@@ -196,6 +196,24 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
         self.assertIn(f"{scenes[2]}: median_step: iterations=5", (self.runs / f"study/{name}.txt").read_text())
         self.assertTrue((self.runs / f"study/{name}.png").is_file())
 
+    def test_a_gathered_table_has_what_tells_points_apart_and_who_kept_the_guarantee(self):
+        self.assertEqual(self.study("ablation_policy")[0], 0)
+        table = self.runs / "study/ablations.csv"
+        same = "ablation_policy,twist,largest_lag,{},m,2,2,0,0,0,0123456789,2 threads\n"
+        table.write_text(table.read_text() + same.format("default") + same.format("iterations=5"))
+        out = self.runs / "ablations_smoke.csv"
+
+        def gather(*folders):
+            words = [sys.executable, "-m", "paper_figures.figures.ablations.gather", *folders, "--out", out]
+            return subprocess.run(words, capture_output=True, text=True, check=False,
+                                  env={**os.environ, "PYTHONPATH": str(SOURCE)})
+
+        self.assertEqual(gather(table.parent).returncode, 0)
+        self.assertNotIn("largest_lag", out.read_text())
+        for metric in ("median_step", "guarantee_kept"):
+            self.assertEqual(out.read_text().count(f"twist,{metric},"), 2)
+        self.assertIn(f"no ablations.csv in {self.runs}: run the study first", gather(self.runs).stderr)
+
     def test_runs_of_another_program_are_made_again(self):
         stamp = self.runs / "stamp"
         stamp.write_text("one")
