@@ -9,6 +9,7 @@ import numpy as np
 from plots import render, style, yarn
 from plots.run_folder import RunError, commits_in_words
 
+UNEVEN = 100  # the longest step over the median one, from which times are drawn by their logarithms
 YARNS = ("#0072B2", "#D55E00", "#009E73")
 
 
@@ -79,7 +80,10 @@ def draw_time(axes, run, claims, profiled):
             axes.axhline(value, color="black", linestyle=dash, linewidth=0.8,
                          label=f"paper, {quantity.split('_')[-1]}: {value:g} ms ({machine})")
     axes.set(xlabel="step", ylabel="time a step [ms]", title="Time", ylim=(0, None))
-    if stages:
+    if run.column("wall").max() > UNEVEN * np.median(run.column("wall")):
+        axes.set(ylim=(None, None), yscale="log")
+        axes.legend(fontsize=6.5, ncols=2, loc="upper left")
+    elif stages:
         axes.legend(fontsize=6.5, ncols=2)
     else:  # above the run's line: the paper's lie where we are slow at the bottom, and would be written over
         axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
