@@ -34,13 +34,21 @@ class RunFailure(Exception):
     lines."""
 
 
-def options_of_figure(description, scales):
-    """Of a figure whose runs and table need Python's own library alone: folder, ogc, scale, backend, no_picture."""
+def parser_of_figure(description, scales=(), scale="small", has_backend=True):
+    """Of a figure that makes its runs itself: folder, ogc, and where there is a choice scale and backend."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="small", choices=scales)
-    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    if scales:
+        parser.add_argument("--scale", default=scale, choices=tuple(scales))
+    if has_backend:
+        parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    return parser
+
+
+def options_of_figure(description, scales):
+    """Of a figure whose runs and table need Python's own library alone: folder, ogc, scale, backend, no_picture."""
+    parser = parser_of_figure(description, scales)
     parser.add_argument("--no-picture", action="store_true", help="runs and table alone")
     return parser.parse_args()
 

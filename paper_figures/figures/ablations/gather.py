@@ -1,6 +1,7 @@
 """One table of the studies that were run, as results keep it: `python3 -m paper_figures.figures.ablations.gather
-FOLDER... --out ablations_SCALE.csv`, FOLDERs that study.py left. A metric that is one number in every run of a scene is
-left out, as it tells no setting from another, but for how many runs of a point kept the guarantee."""
+FOLDER... --out ablations_SCALE.csv`, FOLDERs that study.py left; a long one is compressed, as .csv.gz. A metric that is
+one number in every run of a scene is left out, as it tells no setting from another, but for how many runs of a point
+kept the guarantee."""
 
 import argparse
 import csv
@@ -8,6 +9,7 @@ import sys
 from pathlib import Path
 
 from paper_figures.figures.ablations.study import KEPT, TABLE
+from paper_figures.workflow.kept import compressed
 from paper_figures.workflow.runs import write_table
 
 NUMBERS = ("median", "smallest", "largest")
@@ -39,3 +41,6 @@ if __name__ == "__main__":
     if missing:
         sys.exit(f"gather: no {TABLE} in {', '.join(missing)}: run the study first")
     write_table(options.out, gathered(options.folders))
+    name, data = compressed(options.out.name, options.out.read_bytes())
+    options.out.unlink()
+    options.out.with_name(name).write_bytes(data)

@@ -10,7 +10,6 @@ in the other; under a high load there is no such κ, and the table then says by 
 least.
 """
 
-import argparse
 import math
 import sys
 from dataclasses import dataclass
@@ -20,7 +19,7 @@ import numpy as np
 
 from paper_figures.figures.fig21_activation_drop import LEVELS, first_below
 from paper_figures.workflow import commands, contact_forces
-from paper_figures.workflow.jobs import Job, RunFailure
+from paper_figures.workflow.jobs import Job, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import iterations, provenance, write_table
 from plots import style
 from plots.run_folder import Run, RunError
@@ -195,16 +194,8 @@ def draw(rows, out):
     style.save(figure, out)
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="where the runs are, or go, and tables and picture")
-    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="smoke", choices=tuple(SEEDS))
-    return parser.parse_args()
-
-
 def main():
-    options = arguments()
+    options = parser_of_figure(__doc__.splitlines()[0], SEEDS, "smoke", has_backend=False).parse_args()
     try:
         for chain in chains(options.scale):
             for job in chain:

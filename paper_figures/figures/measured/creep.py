@@ -8,7 +8,6 @@ below it the sheet falls with g (sin α − μ cos α). What is measured is the 
 second half of the time.
 """
 
-import argparse
 import json
 import math
 import sys
@@ -19,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from paper_figures.workflow import layers, slide
-from paper_figures.workflow.jobs import Job, RunFailure, manifest_of
+from paper_figures.workflow.jobs import Job, RunFailure, manifest_of, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
 from plots.run_folder import Run
@@ -173,17 +172,8 @@ def draw(runs, out):
     style.save(figure, out)
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
-    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="small", choices=tuple(STEPS))
-    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
-    return parser.parse_args()
-
-
 def main():
-    options = arguments()
+    options = parser_of_figure(__doc__.splitlines()[0], STEPS).parse_args()
     try:
         for job in jobs(options.scale, options.backend):
             job.make(options.ogc, options.folder, shown=True)

@@ -6,7 +6,6 @@ Nothing ever touches, so what lacks of the way is what truncation took. A sheet 
 vertex's nearest facets that do not hold it are an edge away.
 """
 
-import argparse
 import json
 import sys
 from array import array
@@ -16,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from paper_figures.workflow import layers
-from paper_figures.workflow.jobs import Job, RunFailure
+from paper_figures.workflow.jobs import Job, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
 from plots.run_folder import Run
@@ -127,15 +126,8 @@ def draw(rows, out):
     style.save(figure, out)
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
-    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    return parser.parse_args()
-
-
 def main():
-    options = arguments()
+    options = parser_of_figure(__doc__.splitlines()[0], has_backend=False).parse_args()
     try:
         for case in CASES:
             case.job.make(options.ogc, options.folder, shown=True)

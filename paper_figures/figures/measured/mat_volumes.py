@@ -5,7 +5,6 @@ The mat is one body of tetrahedra: as a surface its boundary has balls or planes
 boundary vertices ask its own tetrahedra. What is inside is the audit's, of states every sixth of a second at `paper`.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -13,7 +12,7 @@ import numpy as np
 
 from paper_figures.figures.table1 import contacts, times
 from paper_figures.workflow import commands
-from paper_figures.workflow.jobs import Limit, RunFailure
+from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import render, style
 from plots.movie import camera_of
@@ -99,11 +98,7 @@ def draw(runs, out):
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
-    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="smoke", choices=("smoke", "small", "paper"))
-    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    parser = parser_of_figure(__doc__.splitlines()[0], ("smoke", "small", "paper"), "smoke")
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
     return parser.parse_args()
 

@@ -10,7 +10,6 @@ Roughness: the root mean square of the Laplacian of heights (four neighbours) ov
 deviation over mean of the force on the sheet in the last twenty steps, which follows from its centre's acceleration.
 """
 
-import argparse
 import json
 import math
 import sys
@@ -22,7 +21,7 @@ import numpy as np
 
 from paper_figures.workflow import layers
 from paper_figures.workflow.contact_forces import contacts_of, ogc_force
-from paper_figures.workflow.jobs import Job, RunFailure, manifest_of
+from paper_figures.workflow.jobs import Job, RunFailure, manifest_of, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
 from plots.run_folder import Run
@@ -315,16 +314,8 @@ def draw(rows, out):
     style.save(figure, out)
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
-    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="smoke", choices=tuple(SEEDS))
-    return parser.parse_args()
-
-
 def main():
-    options = arguments()
+    options = parser_of_figure(__doc__.splitlines()[0], SEEDS, "smoke", has_backend=False).parse_args()
     try:
         for case in cases(options.scale):
             case.job.make(options.ogc, options.folder, shown=True)

@@ -11,7 +11,6 @@ A cloth that hangs folded is far from one that hangs flat, and is the same knit.
 vertices that touch another thread in the cloth that hangs as it is have that thread near in the other.
 """
 
-import argparse
 import sys
 from itertools import chain, product
 from pathlib import Path
@@ -20,7 +19,7 @@ import numpy as np
 
 from paper_figures.figures.measured.yarn import distances, seconds
 from paper_figures.workflow import commands
-from paper_figures.workflow.jobs import Limit, RunFailure
+from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
 from plots.run_folder import Run, RunError, commits_in_words
@@ -149,11 +148,7 @@ def draw(runs, out):
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
-    parser.add_argument("--ogc", default="build/default/ogc", help="the program")
-    parser.add_argument("--scale", default="small", choices=("smoke", "small", "paper"))
-    parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of all runs")
+    parser = parser_of_figure(__doc__.splitlines()[0], ("smoke", "small", "paper"))
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
     return parser.parse_args()
 

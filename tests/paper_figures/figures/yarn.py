@@ -227,7 +227,7 @@ class Braked(unittest.TestCase):
     def test_the_claim_reads_what_the_figure_writes(self):
         claims = json.loads((SOURCE / "paper_figures/claims/yarn_twist.json").read_text())["claims"]
         measure = next(claim for claim in claims if claim["id"] == "yarn_twist.returns")["measure"]
-        self.assertEqual((measure["table"], measure["where"]), (yarn_rest.NAME, {"run": "released_frictionless"}))
+        self.assertEqual((measure["table"], measure["where"]), (yarn_rest.NAME, {"run": "released"}))
         self.assertIn(measure["column"], [f"distance, {words} [m]" for words in yarn_rest.SHARES])
 
 
