@@ -1,6 +1,7 @@
-"""`yarn_twist` without the motion that turns it, as a scene file: what was twisted is let go, or hangs as it is from
-the start. The bights that the motion held are cast on, that is joined by springs, each to the next: nothing else holds
-the first row of a knit, and it runs out under its own weight, twisted or not. Python's own library is enough.
+"""`yarn_twist` as scene files: twisted otherwise (Twist), or without the motion that turns it (Release), so that what
+was twisted is let go, or hangs as it is from the start. The bights that the motion held are cast on, that is joined by
+springs, each to the next, and the yarn's end to the first of them: nothing else holds the first row of a knit, and it
+runs out under its own weight, twisted or not. Python's own library is enough.
 """
 
 import json
@@ -19,8 +20,9 @@ SEGMENT = 1.04e-3  # l [m] (experiments/scenes/yarn.cpp: 51.03 mm a loop of 49)
 
 
 def bights(vertices):
-    """The middle vertex of each bight of the first row, in order: of each run of consecutive vertices but short ones
-    between bights, where the next row reaches down to the edge."""
+    """The yarn's end, and the middle vertex of each bight of the first row, in order: of each run of consecutive
+    vertices but short ones between bights, where the next row reaches down to the edge. Half a bight ends the yarn;
+    were it left out, the first loop would be open, and its wale could run."""
     runs, run = [], []
     for v in sorted(vertices):
         if run and v != run[-1] + 1:
@@ -28,7 +30,8 @@ def bights(vertices):
             run = []
         run.append(v)
     runs.append(run)
-    return [run[len(run) // 2] for run in runs if 2 * len(run) > max(map(len, runs))]
+    return [0 if run[0] == 0 else run[len(run) // 2] for run in runs
+            if run[0] == 0 or 2 * len(run) > max(map(len, runs))]
 
 
 def cast_on(motion):
@@ -43,31 +46,80 @@ def brake(rod):
     return BRAKE_RATE * rod["density"] * SEGMENT**2 / (2 * rod["stretch"])
 
 
+def written(program, scale, path):
+    """The scene of a scale, as `ogc scenes` writes it to the folder of `path`, and a file of that name."""
+    subprocess.run([str(program), "scenes", SCENE, "--scale", scale, "--write", str(path.parent)], check=True,
+                   stdout=subprocess.DEVNULL)
+    return json.loads(path.read_text())
+
+
+def rod_of(scene):
+    return next(body for body in scene["bodies"] if body["name"] == YARN)["material"]["rod"]
+
+
+def stiffen(scene, factor):
+    """Against stretch and bend alike."""
+    rod = rod_of(scene)
+    for name in ("stretch", "bend"):
+        rod[name] *= factor
+
+
 @dataclass(frozen=True)
-class Release:
-    """The scene of a scale as a file below the folder of the runs (jobs.Job). `braked`: its motion is damped, for runs
-    with `damping=per_vertex`; where it comes to rest no damping decides."""
+class Twist:
+    """The scene of a scale, `turns` times turned, at `pace` times its speed, by yarn of `stiffness` times its own."""
 
     scale: str
-    braked: bool = False
+    turns: float
+    pace: float = 1
+    stiffness: float = 1
+
+    @property
+    def seconds(self):
+        """Until it is let go: a second after it was turned."""
+        return 2 * self.turns / self.pace + 1
 
     @property
     def path(self):
-        return f"scenes/{'braked' if self.braked else 'released'}_{self.scale}/{SCENE}.json"
+        return f"scenes/twisted_{self.scale}_{self.turns:g}_{self.pace:g}_{self.stiffness:g}/{SCENE}.json"
 
     def write(self, program, root):
         """Where it is missing."""
         path = root / self.path
         if path.is_file():
             return
-        subprocess.run([str(program), "scenes", SCENE, "--scale", self.scale, "--write", str(path.parent)], check=True,
-                       stdout=subprocess.DEVNULL)
-        scene = json.loads(path.read_text())
+        scene = written(program, self.scale, path)
+        turned = next(motion for motion in scene["motions"] if motion["name"] == TURNED)
+        turned["angular_velocity"] *= self.pace
+        turned["end"] = 2 * self.turns / self.pace
+        stiffen(scene, self.stiffness)
+        path.write_text(json.dumps(scene, indent=1))
+
+
+@dataclass(frozen=True)
+class Release:
+    """The scene of a scale as a file below the folder of the runs (jobs.Job). `braked`: its motion is damped, for runs
+    with `damping=per_vertex`; where it comes to rest no damping decides. `stiffness` as in Twist."""
+
+    scale: str
+    braked: bool = False
+    stiffness: float = 1
+
+    @property
+    def path(self):
+        stiffer = f"_{self.stiffness:g}" if self.stiffness != 1 else ""
+        return f"scenes/{'braked' if self.braked else 'released'}_{self.scale}{stiffer}/{SCENE}.json"
+
+    def write(self, program, root):
+        """Where it is missing."""
+        path = root / self.path
+        if path.is_file():
+            return
+        scene = written(program, self.scale, path)
         turned = next(motion for motion in scene["motions"] if motion["name"] == TURNED)
         scene["springs"] = [*scene.get("springs", []), *cast_on(turned)]
         scene["motions"] = [motion for motion in scene["motions"] if motion["name"] != TURNED]
+        stiffen(scene, self.stiffness)
         if self.braked:
-            rod = next(body for body in scene["bodies"] if body["name"] == YARN)["material"]["rod"]
-            rod["damping"] = brake(rod)
+            rod_of(scene)["damping"] = brake(rod_of(scene))
         scene["name"] = f"{SCENE}_released"
         path.write_text(json.dumps(scene, indent=1))

@@ -21,7 +21,7 @@ sys.path.insert(0, str(SOURCE))
 try:
     import numpy as np
 
-    from paper_figures.figures.measured import yarn, yarn_rest
+    from paper_figures.figures.measured import yarn, yarn_rest, yarn_return
     from paper_figures.workflow import commands, release
     from paper_figures.workflow.first_meeting import FirstMeeting, met_at
     from paper_figures.workflow.jobs import FINISHED, KEPT
@@ -148,6 +148,56 @@ class Search(unittest.TestCase):
                 found = [met_at(root / window.name) for window in job.made_below(root)]
                 self.assertEqual(min(filter(None, found), default=None), None if known is None else first_met)
                 self.assertEqual(len(found), 0 if known is None else -(-known // length))
+
+
+class CastOn(unittest.TestCase):
+    def test_no_loop_of_the_first_row_is_open(self):
+        """The yarn's end is tied to the first bight and each bight to the next, at the distance that they start at."""
+        with tempfile.TemporaryDirectory() as name:
+            root = Path(name)
+            cloth = release.Release("smoke")
+            cloth.write(OGC, root)
+            scene = json.loads((root / cloth.path).read_text())
+            mesh = (root / cloth.path).parent / scene["bodies"][0]["mesh"]
+            points = np.array([list(map(float, line.split()[1:4])) for line in mesh.read_text().splitlines()
+                               if line.startswith("v ")])
+        joined = [(spring["first"]["index"], spring["second"]["index"]) for spring in scene["springs"]]
+        self.assertEqual(joined[0][0], 0)
+        self.assertEqual([a for a, _ in joined[1:]], [b for _, b in joined[:-1]])
+        self.assertEqual(len(joined), 4)  # of four loops: the end, and three bights between them, and the last one
+        lowest = points[:, 1].min()
+        for spring, (a, b) in zip(scene["springs"], joined):
+            self.assertLess(max(points[a, 1], points[b, 1]) - lowest, 2e-4)
+            # the last bight's middle is one vertex beside its lowest point, as the join lengthens it
+            self.assertAlmostEqual(np.linalg.norm(points[a] - points[b]), spring["rest_length"], delta=1.1e-3)
+
+
+class Returns(unittest.TestCase):
+    def test_every_case_has_a_name_of_its_own_and_a_cloth_of_its_yarn_to_be_held_against(self):
+        for scale in ("smoke", "small", "paper"):
+            cases = list(yarn_return.cases(scale))
+            names = [case.name for case in cases]
+            self.assertEqual(len(set(names)), len(names))
+            self.assertLessEqual({case.beside for case in cases}, set(names))
+            jobs = [job for case in cases for job in case.jobs(scale, "cpu")]
+            self.assertEqual(len({job.name for job in jobs}), len(jobs))
+
+    def test_what_a_case_varies_is_in_its_scene(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = Path(name)
+            plain, other = release.Twist("smoke", 1), release.Twist("smoke", 0.5, 0.25, 10)
+            scenes = []
+            for twist in (plain, other):
+                twist.write(OGC, root)
+                scenes.append(json.loads((root / twist.path).read_text()))
+        turns = [motion["angular_velocity"] * motion["end"] / (2 * np.pi)
+                 for scene in scenes for motion in scene["motions"] if motion["name"] == release.TURNED]
+        np.testing.assert_allclose(turns, (1, 0.5))
+        self.assertEqual((plain.seconds, other.seconds), (3, 5))
+        plain, other = map(release.rod_of, scenes)
+        for part in ("stretch", "bend"):
+            self.assertAlmostEqual(other[part] / plain[part], 10)
+        self.assertEqual(other["density"], plain["density"])
 
 
 class Braked(unittest.TestCase):

@@ -1,0 +1,193 @@
+"""Whether a knit that is twisted returns, with all varied that the paper leaves open: how far and how fast it is
+turned, how stiff the yarn is, how well the twist is solved, whether threads rub while it is turned, whether it swings
+before it is braked. `python3 -m paper_figures.figures.measured.yarn_return FOLDER --scale paper --backend cuda`.
+
+In the end all cloths are braked without friction until they hang still (yarn_rest.py says why), each held against one
+of the same yarn that was never twisted and is braked as long.
+"""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from paper_figures.figures.measured.yarn import distances
+from paper_figures.figures.measured.yarn_rest import at_rest, kept_threads, last_frame, way
+from paper_figures.workflow import commands, release
+from paper_figures.workflow.jobs import Job, Limit, RunFailure, parser_of_figure
+from paper_figures.workflow.runs import provenance, write_table
+from plots import style
+from plots.run_folder import Run, RunError, commits_in_words
+
+NAME = "yarn_return"
+TURNS = {"smoke": (0.125, 0.25), "small": (1, 2), "paper": (1, 2, 3, 5)}
+STEP, STEPS_OF_FREE = 4e-4, {"smoke": 60, "small": 7500, "paper": 25000}  # the scene's [s]; until it is braked
+FINE = ("--set", "time_step=5e-5", "--set", "iterations=8")
+FINE_STEP = 5e-5  # s
+REST_STEPS = {"smoke": 480, "small": 90000, "paper": 90000}
+FRAME_STEPS = {"smoke": 240, "small": 5000, "paper": 5000}
+
+
+@dataclass(frozen=True)
+class Case:
+    """How a cloth comes to hang. `turns`: 0 if it was never twisted. `fine`: twisted by steps like those that it is
+    braked with. `friction`: while it is turned and swings. `swings`: until it is braked, as long as in Fig. 16.
+    `seed`: of a start moved by a micrometre at most; 0 if it is not."""
+
+    turns: float = 0
+    pace: float = 1
+    stiffness: float = 1
+    fine: bool = False
+    friction: bool = True
+    swings: bool = False
+    seed: int = 0
+
+    @property
+    def name(self):
+        words = [f"turns_{self.turns:g}" if self.turns else "hanging",
+                 f"pace_{self.pace:g}" if self.pace != 1 else "",
+                 f"stiffness_{self.stiffness:g}" if self.stiffness != 1 else "", "fine" if self.fine else "",
+                 "" if self.friction else "frictionless", "swings" if self.swings else "",
+                 f"seed_{self.seed}" if self.seed else ""]
+        return "_".join(filter(None, words)).replace(".", "p")
+
+    @property
+    def beside(self):
+        return Case(stiffness=self.stiffness).name
+
+    def jobs(self, scale, backend):
+        """In their order; the last one's end is what hangs."""
+        common = ("--backend", backend, "--audit", "end", "--audit-meetings", "off", "--set")
+        kept = (*common, f"frame_steps={FRAME_STEPS[scale]}")
+        rubs = () if self.friction else ("--set", "friction=0")
+        braked = release.Release(scale, braked=True, stiffness=self.stiffness)
+        rest = (*kept, *commands.BRAKED, "--set", "friction=0")
+        if not self.turns:
+            yield Job(self.name, (*rest, "--steps", REST_STEPS[scale]), scene=braked)
+            return
+        twist = release.Twist(scale, self.turns, self.pace, self.stiffness)
+        moved = ("--jitter", 1e-6, "--seed", self.seed) if self.seed else ()
+        steps = round(twist.seconds / (FINE_STEP if self.fine else STEP))
+        before = f"{self.name}_twist"
+        yield Job(before, (*common, f"frame_steps={steps}", *rubs, *(FINE if self.fine else ()), *moved, "--steps",
+                           steps), scene=twist)
+        if self.swings:
+            steps = STEPS_OF_FREE[scale]
+            last, before = before, f"{self.name}_free"
+            yield Job(before, (*common, f"frame_steps={steps}", *rubs), (last, -1), steps,
+                      scene=release.Release(scale, stiffness=self.stiffness))
+        yield Job(self.name, rest, (before, -1), REST_STEPS[scale], scene=braked)
+
+
+def cases(scale):
+    """One choice changed at a time: few turns and Fig. 16's, quickly solved and well; then the others. From three
+    starts where it is turned as in Fig. 16."""
+    turns = TURNS[scale]
+    most = turns[-1]
+    yield from (Case(stiffness=stiffness) for stiffness in (1, 10, 100))
+    yield from (Case(t, fine=fine) for fine in (False, True) for t in turns)
+    yield from (Case(most, seed=seed) for seed in (1, 2))
+    yield Case(most, swings=True)
+    yield Case(most, pace=0.25)
+    yield Case(most, fine=True, friction=False)
+    yield from (Case(t, stiffness=stiffness, fine=True) for stiffness in (10, 100) for t in (turns[0], most))
+
+
+def runs_of(options, chosen):
+    """name -> finished Run of the cases, made where they are not there yet; with --made those that there are."""
+    folder = Path(options.folder)
+    for case in () if options.made else chosen:
+        try:
+            for job in case.jobs(options.scale, options.backend):
+                job.make(options.ogc, folder, Limit(), True)
+        except RunFailure as error:
+            raise RunError(str(error)) from error
+    found = {case: Run(folder / case.name) for case in chosen if (folder / case.name / "run.json").is_file()}
+    for run in found.values():
+        run.require_finished()
+    return found
+
+
+def row_of(case, run, beside):
+    """`beside`: the run of the cloth that was never twisted; distances to it count where both are at rest."""
+    fine = commands.BRAKED if case.fine else ("", "time_step=4e-4", "", "iterations=4")
+    farthest, seconds = way(run)
+    apart = distances(run, last_frame(beside).positions)
+    kept = kept_threads(run, beside)
+    return {"case": case.name, "turns [1]": f"{case.turns:g}", "pace of the scene's [1]": f"{case.pace:g}",
+            "stiffness of the scene's yarn [1]": f"{case.stiffness:g}",
+            "twisted with": "" if not case.turns else " ".join(word for word in fine if "=" in word
+                                                               and not word.startswith("damping")),
+            "friction until it is braked": "yes" if case.friction else "no",
+            "swings until it is braked": "yes" if case.swings else "no", "seed": case.seed,
+            "at rest": "yes" if at_rest(run) and at_rest(beside) else "no",
+            "way in the last second, median [m]": f"{farthest:.4g}", "of these [s]": f"{seconds:.4g}",
+            "distance, median [m]": f"{np.median(apart):.4g}",
+            "distance, nine vertices in ten within [m]": f"{np.percentile(apart, 90):.4g}",
+            "distance, largest [m]": f"{apart.max():.4g}",
+            "touching threads within half a row still [1]": "" if kept is None else f"{kept:.4g}",
+            "mean stretch [1]": f"{run.column('mean_stretch')[-1]:.4g}",
+            "status": run.manifest["status"].splitlines()[0], "ended": run.manifest["ended"], **provenance(run)}
+
+
+def draw(runs, out):
+    """The cloths where they hang, from the front, coloured by the distance from where the untwisted one has them."""
+    from matplotlib.collections import LineCollection
+
+    plt = style.use()
+    named = {case.name: run for case, run in runs.items()}
+    shown = {case: run for case, run in runs.items() if case.beside in named}
+    columns = 7
+    lines = -(-len(shown) // columns)
+    figure, grid = plt.subplots(lines, columns, squeeze=False, figsize=(1.5 * columns, 2.3 * lines), sharex=True,
+                                sharey=True)
+    for axes in grid.flat[len(shown):]:
+        axes.set_axis_off()
+    for axes, (case, run) in zip(grid.flat, shown.items()):
+        points = last_frame(run).positions.astype(float)
+        apart = distances(run, last_frame(named[case.beside]).positions)
+        segments = np.stack((points[:-1, :2], points[1:, :2]), axis=1)
+        drawn = LineCollection(segments, linewidths=0.3, cmap="viridis", norm=plt.Normalize(0, 0.02), rasterized=True)
+        drawn.set_array(apart[1:])
+        axes.add_collection(drawn)
+        axes.autoscale_view()
+        axes.set_aspect("equal")
+        axes.grid(False)
+        axes.set_title(case.name.replace("_", " "), fontsize=5.5)
+    about = next(iter(runs.values())).manifest
+    figure.suptitle(f"yarn_twist, let go and at rest: {about['device']}, {commits_in_words(list(runs.values()))}; "
+                    "colour: distance from the untwisted cloth, yellow 20 mm and more", fontsize=7)
+    style.save(figure, out)
+
+
+def arguments():
+    parser = parser_of_figure(__doc__.splitlines()[0], ("smoke", "small", "paper"))
+    parser.add_argument("--only", action="append", default=[], help="a case by name; repeated: several")
+    parser.add_argument("--made", action="store_true", help="tabulate and draw the cases that there are, make none")
+    parser.add_argument("--list", action="store_true", help="the cases' names, and nothing else")
+    return parser.parse_args()
+
+
+def make(options):
+    there = list(cases(options.scale))
+    if options.list:
+        print("\n".join(case.name for case in there))
+        return
+    unknown = set(options.only) - {case.name for case in there}
+    if unknown:
+        raise RunError(f"there is no case {', '.join(sorted(unknown))}; --list has their names")
+    runs = runs_of(options, [case for case in there if not options.only or case.name in options.only])
+    if options.only:
+        return
+    named = {case.name: run for case, run in runs.items()}
+    rows = [row_of(case, run, named[case.beside]) for case, run in runs.items() if case.beside in named]
+    write_table(options.folder / f"{NAME}_{options.scale}.csv", rows)
+    draw(runs, options.folder / f"{NAME}_{options.scale}.png")
+
+
+if __name__ == "__main__":
+    try:
+        make(arguments())
+    except RunError as error:
+        sys.exit(f"{NAME}: {error}")
