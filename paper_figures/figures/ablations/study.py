@@ -61,11 +61,12 @@ def points_at(body, scale):
     return body["points"][scale] if isinstance(body["points"], dict) else body["points"]
 
 
-def command(study, scene, scale, backend):
-    """Words of `ogc ablate` behind the program, without --out."""
+def command(study, scene, scale, backend, data=""):
+    """Words of `ogc ablate` behind the program, without --out. `data`: of the published dress, else a stand-in."""
     body = study["scenes"][scene]
     points = [word for point in points_at(body, scale) for word in ("--point", point)]
-    settings = [word for setting in body.get("set", {}).get(scale, []) for word in ("--set", setting)]
+    chosen = [*body.get("set", {}).get(scale, []), *([f"data={data}"] if data and scene == "dress" else [])]
+    settings = [word for setting in chosen for word in ("--set", setting)]
     who = ["--solver", study["solver"]] if "solver" in study else ["--backend", backend]
     return ["ablate", scene, "--scale", scale, *who, *settings, "--audit", study["audit"], *points,
             "--repeat", str(study["repeat"]), "--jitter", str(study["jitter"]),
@@ -153,6 +154,8 @@ def arguments():
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
     parser.add_argument("--scale", default="smoke", choices=("smoke", "small", "paper"))
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
+    parser.add_argument("--data", default="", metavar="FOLDER",
+                        help="of Codimensional IPC's dress and dancer (default: a stand-in)")
     parser.add_argument("--made", action="store_true", help="tabulate and draw the scenes that there are, run none")
     return parser.parse_args()
 
@@ -167,7 +170,7 @@ def main():
         if not scenes:
             raise StudyError(f"{asked.folder} has no scene of {asked.study}; leave --made out, and they are run")
     for number, scene in enumerate(scenes, 1):
-        words = command(study, scene, asked.scale, asked.backend)
+        words = command(study, scene, asked.scale, asked.backend, asked.data)
         print(f"{asked.study}: {scene} ({number} of {len(scenes)}): ogc {' '.join(words)}", flush=True)
         folder = asked.folder / scene
         if not asked.made:
