@@ -177,6 +177,12 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
                     self.assertEqual(words.count("--point"), len(points))
                 self.assertIn(words[words.index("--audit") + 1], ("off", "end"))
 
+    def test_the_published_dress_is_read_where_its_data_are_named_and_by_no_other_scene(self):
+        body = study.load("ablation_policy")
+        words = {scene: study.command(body, scene, "paper", "cuda", "folder") for scene in body["scenes"]}
+        self.assertEqual([scene for scene in words if "data=folder" in words[scene]], ["dress"])
+        self.assertNotIn("data", " ".join(study.command(body, "dress", "paper", "cuda")))
+
     def test_a_study_that_was_stopped_goes_on_and_ends_in_a_table_findings_and_a_picture(self):
         name = "ablation_policy"
         scenes = study.scenes_at(study.load(name), "smoke")
