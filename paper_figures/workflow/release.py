@@ -1,7 +1,8 @@
 """`yarn_twist` as scene files: twisted otherwise (Twist), or without the motion that turns it (Release), so that what
-was twisted is let go, or hangs as it is from the start. The bights that the motion held are cast on, that is joined by
-springs, each to the next, and the yarn's end to the first of them: nothing else holds the first row of a knit, and it
-runs out under its own weight, twisted or not. Python's own library is enough.
+was twisted is let go, or hangs as it is from the start. The first row, which the motion held, is cast on: bights are
+joined by springs, each to the next, and each loop is closed at its neck. Nothing else holds the first row of a knit,
+and it runs out under its own weight, twisted or not. Threads can pass through a spring, but not between two others that
+it keeps as near as a loop's neck is, the yarn's thickness. Python's own library is enough.
 """
 
 import json
@@ -11,6 +12,9 @@ from dataclasses import dataclass
 SCENE, TURNED, YARN = "yarn_twist", "lower", "yarn"
 BIGHT = 0.4 / 33  # [m] between two bights of a row (experiments/scenes/yarn.cpp)
 STIFFNESS = 10  # N/m: 33 of them side by side bear the cloth, 0.7 N, and lengthen by 2 mm each
+LOOP = 49  # segments of a loop, the first of which begins with the yarn (experiments/scenes/yarn.cpp)
+NECK, NECK_WIDTH = 7, 2.95e-3  # vertices from a loop's ends to where its legs are nearest, and how near [m]
+NECK_STIFFNESS = 100  # N/m, of a segment of the yarn: k_s/l
 # Damping by vertex resists with k_d times the stiffness of the segments at the vertex, 2 k_s/l, against a mass of ρ l:
 # velocities decay at 2 k_s k_d/(ρ l²). Twice the frequency of the slowest swing, 1.2 √(g/L) of a rope as long as the
 # cloth, L = 0.8 m once its own weight has stretched it, is 8.4 1/s, which brings it to rest soonest. Steps
@@ -34,11 +38,17 @@ def bights(vertices):
             if run[0] == 0 or 2 * len(run) > max(map(len, runs))]
 
 
+def spring(a, b, stiffness, rest_length):
+    return {"first": {"body": YARN, "index": a}, "second": {"body": YARN, "index": b}, "stiffness": stiffness,
+            "rest_length": rest_length, "damping": 0}
+
+
 def cast_on(motion):
-    """Springs between the bights that the motion held."""
+    """Springs between the bights that the motion held, and at the necks of their loops."""
     held = bights(v for part in motion["vertices"] for v in part["indices"])
-    return [{"first": {"body": YARN, "index": a}, "second": {"body": YARN, "index": b}, "stiffness": STIFFNESS,
-             "rest_length": BIGHT, "damping": 0} for a, b in zip(held, held[1:])]
+    loops = range(0, LOOP * (len(held) - 1), LOOP)
+    return [*(spring(a, b, STIFFNESS, BIGHT) for a, b in zip(held, held[1:])),
+            *(spring(a + NECK, a + LOOP - NECK, NECK_STIFFNESS, NECK_WIDTH) for a in loops)]
 
 
 def brake(rod):
@@ -66,17 +76,19 @@ def stiffen(scene, factor):
 
 @dataclass(frozen=True)
 class Twist:
-    """The scene of a scale, `turns` times turned, at `pace` times its speed, by yarn of `stiffness` times its own."""
+    """The scene of a scale, `turns` times turned, at `pace` times its speed, by yarn of `stiffness` times its own, and
+    then held so many seconds."""
 
     scale: str
     turns: float
     pace: float = 1
     stiffness: float = 1
+    held: float = 1
 
     @property
     def seconds(self):
-        """Until it is let go: a second after it was turned."""
-        return 2 * self.turns / self.pace + 1
+        """Until it is let go."""
+        return 2 * self.turns / self.pace + self.held
 
     @property
     def path(self):

@@ -21,7 +21,8 @@ from plots import style
 from plots.run_folder import Run, RunError, commits_in_words
 
 NAME = "yarn_return"
-TURNS = {"smoke": (0.125, 0.25), "small": (1, 2), "paper": (1, 2, 3, 5)}
+TURNS = {"smoke": (0.01, 0.02), "small": (1, 2, 5), "paper": (1, 2, 3, 5)}
+HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # until it is let go [s]
 STEP, STEPS_OF_FREE = 4e-4, {"smoke": 60, "small": 7500, "paper": 25000}  # the scene's [s]; until it is braked
 FINE = ("--set", "time_step=5e-5", "--set", "iterations=8")
 FINE_STEP = 5e-5  # s
@@ -66,7 +67,7 @@ class Case:
         if not self.turns:
             yield Job(self.name, (*rest, "--steps", REST_STEPS[scale]), scene=braked)
             return
-        twist = release.Twist(scale, self.turns, self.pace, self.stiffness)
+        twist = release.Twist(scale, self.turns, self.pace, self.stiffness, HELD[scale])
         moved = ("--jitter", 1e-6, "--seed", self.seed) if self.seed else ()
         steps = round(twist.seconds / (FINE_STEP if self.fine else STEP))
         before = f"{self.name}_twist"

@@ -152,24 +152,31 @@ class Search(unittest.TestCase):
 
 class CastOn(unittest.TestCase):
     def test_no_loop_of_the_first_row_is_open(self):
-        """The yarn's end is tied to the first bight and each bight to the next, at the distance that they start at."""
+        """The yarn's end is tied to the first bight and each bight to the next, and each loop is closed where its legs
+        are nearest, all as they are at the start."""
         with tempfile.TemporaryDirectory() as name:
             root = Path(name)
             cloth = release.Release("smoke")
             cloth.write(OGC, root)
             scene = json.loads((root / cloth.path).read_text())
-            mesh = (root / cloth.path).parent / scene["bodies"][0]["mesh"]
-            points = np.array([list(map(float, line.split()[1:4])) for line in mesh.read_text().splitlines()
-                               if line.startswith("v ")])
+            mesh = ((root / cloth.path).parent / scene["bodies"][0]["mesh"]).read_bytes()
+        head = mesh.index(b"end_header\n") + len(b"end_header\n")
+        points = np.frombuffer(mesh, "<f8", 3 * 830, head).reshape(-1, 3)
         joined = [(spring["first"]["index"], spring["second"]["index"]) for spring in scene["springs"]]
-        self.assertEqual(joined[0][0], 0)
-        self.assertEqual([a for a, _ in joined[1:]], [b for _, b in joined[:-1]])
-        self.assertEqual(len(joined), 4)  # of four loops: the end, and three bights between them, and the last one
-        lowest = points[:, 1].min()
-        for spring, (a, b) in zip(scene["springs"], joined):
-            self.assertLess(max(points[a, 1], points[b, 1]) - lowest, 2e-4)
+        apart = [np.linalg.norm(points[a] - points[b]) - spring["rest_length"]
+                 for spring, (a, b) in zip(scene["springs"], joined)]
+        along, necks, loops = joined[:4], joined[4:], 4
+        self.assertEqual(along[0][0], 0)
+        self.assertEqual([a for a, _ in along[1:]], [b for _, b in along[:-1]])
+        for (a, b), difference in zip(along, apart):
+            self.assertLess(max(points[a, 1], points[b, 1]) - points[:, 1].min(), 2e-4)
             # the last bight's middle is one vertex beside its lowest point, as the join lengthens it
-            self.assertAlmostEqual(np.linalg.norm(points[a] - points[b]), spring["rest_length"], delta=1.1e-3)
+            self.assertLess(abs(difference), 1.1e-3)
+        for loop, (a, b) in zip(range(loops), necks, strict=True):
+            legs = points[release.LOOP * loop:release.LOOP * (loop + 1) + 1]
+            distance = np.linalg.norm(legs - legs[::-1], axis=1)[1:release.LOOP // 3]
+            self.assertAlmostEqual(np.linalg.norm(points[a] - points[b]), distance.min())
+        self.assertLess(np.abs(apart[4:]).max(), 1e-5)
 
 
 class Returns(unittest.TestCase):
