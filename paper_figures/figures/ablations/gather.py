@@ -1,10 +1,12 @@
 """One table of the studies that were run, as results keep it: `python3 -m paper_figures.figures.ablations.gather
-FOLDER... --out ablations_SCALE.csv`, FOLDERs that study.py left; a long one is compressed, as .csv.gz. A metric that is
-one number in every run of a scene is left out, as it tells no setting from another, but for how many runs of a point
-kept the guarantee."""
+FOLDER... --out ablations_SCALE.csv`, FOLDERs that study.py left; a long one is compressed, as .csv.gz. `--keep TABLE`:
+an older one, of which the scenes that the folders do not have stay. A metric that is one number in every run of a scene
+is left out, as it tells no setting from another, but for how many runs of a point kept the guarantee."""
 
 import argparse
 import csv
+import gzip
+import io
 import sys
 from pathlib import Path
 
@@ -23,24 +25,31 @@ def told(rows):
     return [row for row in rows if row["metric"] == KEPT or len(values[row["metric"]]) > 1 and row["median"]]
 
 
-def gathered(folders):
-    scenes = {}
+def by_scene(path):
+    """(study, scene) -> rows of a table, compressed or not."""
+    data, scenes = path.read_bytes(), {}
+    for row in csv.DictReader(io.StringIO((gzip.decompress(data) if path.suffix == ".gz" else data).decode())):
+        scenes.setdefault((row["study"], row["scene"]), []).append(row)
+    return scenes
+
+
+def gathered(folders, kept=None):
+    scenes = by_scene(kept) if kept else {}
     for folder in folders:
-        with (Path(folder) / TABLE).open(newline="") as file:
-            for row in csv.DictReader(file):
-                scenes.setdefault((row["study"], row["scene"]), []).append(row)
-    return [row for rows in scenes.values() for row in told(rows)]
+        scenes.update({scene: told(rows) for scene, rows in by_scene(Path(folder) / TABLE).items()})
+    return [row for _, rows in sorted(scenes.items()) for row in rows]
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.split(":")[0])
     parser.add_argument("folders", nargs="+", type=Path)
     parser.add_argument("--out", required=True, type=Path)
+    parser.add_argument("--keep", type=Path, metavar="TABLE", help="an older table, whose other scenes stay")
     options = parser.parse_args()
     missing = [str(folder) for folder in options.folders if not (folder / TABLE).is_file()]
     if missing:
         sys.exit(f"gather: no {TABLE} in {', '.join(missing)}: run the study first")
-    write_table(options.out, gathered(options.folders))
+    write_table(options.out, gathered(options.folders, options.keep))
     name, data = compressed(options.out.name, options.out.read_bytes())
     options.out.unlink()
     options.out.with_name(name).write_bytes(data)

@@ -122,6 +122,7 @@ def row_of(case, run, beside):
                                                                and not word.startswith("damping")),
             "friction until it is braked": "yes" if case.friction else "no",
             "swings until it is braked": "yes" if case.swings else "no", "seed": case.seed,
+            "springs of the first row [1]": run.manifest["scene"]["springs"],
             "at rest": "yes" if at_rest(run) and at_rest(beside) else "no",
             "way in the last second, median [m]": f"{farthest:.4g}", "of these [s]": f"{seconds:.4g}",
             "distance, median [m]": f"{np.median(apart):.4g}",
