@@ -30,7 +30,8 @@ ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
 PAPER_BOUNDS = "ball"
 SURFACE, VOLUME = "surface", "volume"  # what a body is to others
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
-TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "ablations*.csv.gz", "radius*.csv")
+TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "ablations*.csv.gz", "radius*.csv", "sphere_off*.csv",
+          "yarn_return*.csv")
 
 
 class EvidenceError(Exception):
