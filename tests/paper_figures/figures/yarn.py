@@ -283,9 +283,28 @@ class Braked(unittest.TestCase):
 
     def test_the_claim_reads_what_the_figure_writes(self):
         claims = json.loads((SOURCE / "paper_figures/claims/yarn_twist.json").read_text())["claims"]
-        measure = next(claim for claim in claims if claim["id"] == "yarn_twist.returns")["measure"]
+        measure = next(claim for claim in claims if claim["id"] == "yarn_twist.returns_small")["measure"]
         self.assertEqual((measure["table"], measure["where"]), (yarn_rest.NAME, {"run": "released"}))
         self.assertIn(measure["column"], [f"distance, {words} [m]" for words in yarn_rest.SHARES])
+
+    def test_the_claims_of_the_paper_read_a_case_that_there_is(self):
+        claims = json.loads((SOURCE / "paper_figures/claims/yarn_twist.json").read_text())["claims"]
+        of = [claim for claim in claims if claim["id"] in ("yarn_twist.returns", "yarn_twist.returns_stiffer")]
+        frames = [Frame(k, 0.5 * k, np.eye(3), np.zeros((3, 3)), np.zeros(3)) for k in range(3)]
+        run = mock.MagicMock(frames=frames, manifest={"scene": {"springs": 66}, "status": "finished", "ended": "e"})
+        run.setting.return_value = 1e-3
+        run.frame.side_effect = lambda frame: frame
+        run.column.return_value = np.array([1.0])
+        with mock.patch.object(yarn_return, "provenance", return_value={}):
+            row = yarn_return.row_of(yarn_return.Case(), run, run)
+        self.assertEqual([row[name] for name in ("at rest", "distance, largest [m]")], ["yes", "0"])
+        names = [case.name for case in yarn_return.cases("paper")]
+        for claim in of:
+            self.assertEqual(claim["measure"]["table"], yarn_return.NAME)
+            self.assertIn(claim["measure"]["column"], row)
+            for where in (claim["measure"]["where"], *(choice["where"] for choice in claim.get("choices", []))):
+                self.assertIn(where["case"], names)
+                self.assertLessEqual(set(where), set(row))
 
 
 class Drawn(unittest.TestCase):

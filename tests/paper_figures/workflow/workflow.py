@@ -175,7 +175,7 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
                     self.assertEqual(words[words.index(who[0]) + 1], who[1])
                     self.assertEqual(len({"--solver", "--backend"} & set(words)), 1)
                     self.assertEqual(words.count("--point"), len(points))
-                self.assertIn(words[words.index("--audit") + 1], ("off", "end"))
+                self.assertIn(words[words.index("--audit") + 1], ("off", "end", "frame"))
 
     def test_the_published_dress_is_read_where_its_data_are_named_and_by_no_other_scene(self):
         body = study.load("ablation_policy")
