@@ -222,7 +222,7 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
 
 /// Which sum over the stencils of a vertex a scene needs, by what the sum has and others lack: GatherDefault,
 /// GatherEveryModel, GatherSolids, GatherEverything, GatherVolumes, GatherEverythingAndVolumes, GatherRods,
-/// GatherAnythingWithRods; with weights of an iteration GatherFrozenSurfaces, GatherFrozen.
+/// GatherTiedRods, GatherAnythingWithRods; with weights of an iteration GatherFrozenSurfaces, GatherFrozen.
 enum class SweepSum {
   surfaces,
   every_model,
@@ -231,6 +231,7 @@ enum class SweepSum {
   volumes,
   everything_and_volumes,
   rods,
+  tied_rods,
   anything_with_rods,
   frozen_surfaces,
   frozen
@@ -241,9 +242,10 @@ inline SweepSum needed_sum(const RestState& rest, const compare::Scene& scene) {
   const bool has_volumes = compare::has_volumes(scene), has_rods = !rest.rods.empty(),
              is_frozen = scene.settings.contact_weights == compare::ContactWeightsRule::iteration;
   if (has_rods && !is_frozen) {
-    const bool others = has_volumes || rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
-                        !rest.triangles.empty() || !rest.hinges.empty() || !rest.tetrahedra.empty();
-    return others ? SweepSum::anything_with_rods : SweepSum::rods;
+    const bool others = has_volumes || rest.activation != ContactActivation::ogc || !rest.triangles.empty() ||
+                        !rest.hinges.empty() || !rest.tetrahedra.empty();
+    if (others) return SweepSum::anything_with_rods;
+    return rest.springs.empty() ? SweepSum::rods : SweepSum::tied_rods;
   }
   const bool every_model = rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
                            !std::all_of(rest.models.begin(), rest.models.end(), are_default);
@@ -406,6 +408,7 @@ class Sweep {
         case SweepSum::volumes: with(GatherVolumes{}); break;
         case SweepSum::everything_and_volumes: with(GatherEverythingAndVolumes{}); break;
         case SweepSum::rods: with(GatherRods{}); break;
+        case SweepSum::tied_rods: with(GatherTiedRods{}); break;
         case SweepSum::anything_with_rods: with(GatherAnythingWithRods{}); break;
         case SweepSum::frozen_surfaces: with(GatherFrozenSurfaces{}); break;
         case SweepSum::frozen: with(GatherFrozen{}); break;

@@ -1,5 +1,5 @@
-// Rods in a sweep: the sum over the stencils of a vertex of scenes that have nothing else (GatherRods) or anything
-// (GatherAnythingWithRods), and the update of a segment's quaternion. Segments are set before the vertices of an
+// Rods in a sweep: the sum over the stencils of a vertex of scenes that have nothing else (GatherRods), springs
+// (GatherTiedRods) or anything (GatherAnythingWithRods), and the update of a segment's quaternion. Segments are set before the vertices of an
 // iteration, colour by colour; neighbours never share a colour, so one array of quaternions is read and written.
 #pragma once
 
@@ -62,6 +62,22 @@ struct GatherRods {
     team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));
     const OwnVertex at{own, own - view.start[vertex.vertex]};
     return team.template sum<ForceAndBlock>(rod_part(view, slot, vertex, at), contacts.vertex_facet(),
+                                            contacts.edge_edge());
+  }
+};
+
+/// As GatherRods, with springs before the segments.
+struct GatherTiedRods {
+  static constexpr int parts = GatherRods::parts + 1;  ///< of the sum
+
+  template <class Team>
+  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
+                                  const Team& team) const {
+    const ContactParts<OgcActivation, WeightsOfUpdate> contacts{view, view.contact_rows[slot], {}};
+    team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));
+    const OwnVertex at{own, own - view.start[vertex.vertex]};
+    return team.template sum<ForceAndBlock>(spring_part(view, slot, view.models[vertex.body], at),
+                                            rod_part(view, slot, vertex, at), contacts.vertex_facet(),
                                             contacts.edge_edge());
   }
 };

@@ -8,6 +8,7 @@
 #include "compare/problem/validate.hpp"
 #include "fast/cpu/simulation.hpp"
 #include "fast/stages/colouring.hpp"
+#include "fast/stages/sweep.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc;
@@ -232,6 +233,51 @@ TEST_CASE("a run of rods that is interrupted goes on to the same bits", "[proper
   resumed->restore(begun->snapshot());
   resumed->advance(35);
   CHECK(same_bits(whole->snapshot(), resumed->snapshot()));
+}
+
+TEST_CASE("yarn tied by springs has the bits that it has beside a triangle that is far away", "[property]") {
+  const auto scene_with = [](bool tied, bool has_triangle, compare::DampingForm damping) {
+    compare::Scene scene = rod_scene(helix(60));
+    scene.gravity = {0, -9.81, 0};
+    scene.bodies[0].material.rod->damping = 1e-4;
+    scene.bodies[0].material.friction = 0.2;
+    scene.settings.contact_radius = 5e-3;  // turns lie 4.2 mm apart
+    scene.settings.damping = damping;
+    scene.settings.lanes = 2;
+    if (tied)
+      for (const Index end : {20, 45})
+        scene.springs.push_back({.first = 0, .second = end, .stiffness = 50, .rest_length = 2e-3, .damping = 1e-4});
+    if (has_triangle) {
+      compare::Mesh mesh;
+      mesh.positions = {{10, 0, 0}, {11, 0, 0}, {10, 0, 1}};
+      mesh.triangles = {{0, 1, 2}};
+      compare::Body body;
+      body.name = "far";
+      append_body(scene, body, mesh);
+    }
+    compare::round_to_single(scene);
+    return scene;
+  };
+  const auto kind = [](const compare::Scene& scene) { return needed_sum(rest_of(scene), scene); };
+  const auto colours = [](const compare::Scene& scene) { return colour_vertices(rest_of(scene)).count; };
+  for (const auto damping : {compare::DampingForm::strain, compare::DampingForm::per_vertex}) {
+    const compare::Scene alone = scene_with(true, false, damping), beside = scene_with(true, true, damping),
+                         untied = scene_with(false, false, damping);
+    CHECK(kind(untied) == SweepSum::rods);
+    CHECK(kind(alone) == SweepSum::tied_rods);
+    CHECK(kind(beside) == SweepSum::anything_with_rods);
+    REQUIRE(colours(alone) == colours(beside));  // else the order of a sweep is another
+    const auto one = start_cpu(alone, {}), other = start_cpu(beside, {}), without = start_cpu(untied, {});
+    const std::vector<compare::StepMetrics> rows = one->advance(80);
+    other->advance(80);
+    without->advance(80);
+    CHECK(rows.back().edge_edge_contacts > 0);
+    compare::Snapshot seen = other->snapshot();
+    seen.positions.resize(alone.mesh.positions.size());
+    seen.velocities.resize(alone.mesh.positions.size());
+    CHECK(same_bits(one->snapshot(), seen));
+    CHECK(!same_bits(one->snapshot(), without->snapshot()));  // a spring is felt
+  }
 }
 
 TEST_CASE("an open chain of segments takes two colours, an odd ring three", "[unit]") {
