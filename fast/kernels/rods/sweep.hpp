@@ -1,6 +1,6 @@
-// Rods in a sweep: the sum over the stencils of a vertex of scenes that have nothing else (GatherRods), springs
-// (GatherTiedRods) or anything (GatherAnythingWithRods), and the update of a segment's quaternion. Segments are set before the vertices of an
-// iteration, colour by colour; neighbours never share a colour, so one array of quaternions is read and written.
+// Rods in a sweep: the sum over the stencils of a vertex of scenes that have nothing else (GatherRods), springs as well
+// (GatherTiedRods) or anything (GatherAnythingWithRods); and the update of a segment's quaternion. Segments are set
+// colour by colour before the vertices; neighbours never share a colour, so one array is read and written.
 #pragma once
 
 #include "fast/kernels/models/damping.hpp"
