@@ -104,10 +104,10 @@ const std::array<StepMetric, 21>& step_metrics() {
 }
 
 /// With the contacts of the last detection, at the end of each step: a step's last row of iterations.csv.
-constexpr Metric stale_residual{"largest_stale_residual", "1"};
+constexpr std::array stale_residuals{Metric{"median_stale_residual", "1"}, Metric{"largest_stale_residual", "1"}};
 
-/// Not-a-number where the run has no such rows.
-double largest_stale_residual(const std::filesystem::path& folder) {
+/// As `stale_residuals`; not-a-number where the run has no such rows.
+std::array<double, stale_residuals.size()> stale_residuals_of(const std::filesystem::path& folder) {
   std::ifstream file(folder / "iterations.csv");
   std::map<std::string, double> by_step;
   std::string line;
@@ -125,7 +125,8 @@ double largest_stale_residual(const std::filesystem::path& folder) {
   }
   std::vector<double> values;
   for (const auto& [step, value] : by_step) values.push_back(value);
-  return largest(values);
+  if (values.empty()) return {nan, nan};
+  return {median_of(values), largest(values)};
 }
 
 std::string text(double value) { return number(value, 3); }
@@ -162,7 +163,8 @@ std::vector<Metric> ablation_metrics() {
   std::vector<Metric> metrics;
   for (const StepMetric& each : step_metrics()) {
     metrics.push_back(each.metric);
-    if (each.metric.name == "largest_residual") metrics.push_back(stale_residual);
+    if (each.metric.name == "largest_residual")
+      metrics.insert(metrics.end(), stale_residuals.begin(), stale_residuals.end());
   }
   return metrics;
 }
@@ -175,7 +177,8 @@ RunRow read_run_row(const std::filesystem::path& folder) {
   row.steps = static_cast<std::int64_t>(rows.size());
   for (const StepMetric& each : step_metrics()) {
     row.metrics.push_back(each.over_steps(values_of(rows, each.value)));
-    if (each.metric.name == "largest_residual") row.metrics.push_back(largest_stale_residual(folder));
+    if (each.metric.name == "largest_residual")
+      for (const double value : stale_residuals_of(folder)) row.metrics.push_back(value);
   }
   row.guarantee_kept = text_in(run, "guarantee_kept", "not checked");
   row.audited_states = text_in(run, "audited_states", "0");

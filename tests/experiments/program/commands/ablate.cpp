@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -108,6 +110,23 @@ std::string cell(const std::string& line, const std::string& header, const std::
 }
 
 }  // namespace
+
+TEST_CASE("residuals with the contacts of a step's last detection are those of its last iteration", "[unit]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder / "grid";
+  run_ogc("ablate cloth_on_sphere --scale smoke --steps 5 --iterations --point default --out " + out.string());
+  const std::vector<std::string> table = lines_of(out / "ablation.csv"), rows = lines_of(out / "default/iterations.csv");
+  REQUIRE(table.size() == 2);
+  std::map<std::string, double> last;  // by step
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    last[cell(rows[i], rows[0], "step [1]")] = std::stod(cell(rows[i], rows[0], "residual [1]"));
+  std::vector<double> values;
+  for (const auto& [step, value] : last) values.push_back(value);
+  std::ranges::sort(values);
+  REQUIRE(values.size() == 5);
+  CHECK(std::stod(cell(table[1], table[0], "median_stale_residual [1]")) == values[2]);
+  CHECK(std::stod(cell(table[1], table[0], "largest_stale_residual [1]")) == values[4]);
+}
 
 TEST_CASE("a repeated ablation that signals cut off ends with the runs of one that was left alone", "[property]") {
   const TemporaryFolder folder;
