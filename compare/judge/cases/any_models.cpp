@@ -38,6 +38,11 @@ void choose_models(Random& random, Scene& scene) {
     if (body.material.bending != BendingModel::none && random.one_in(2))
       body.material.bending = BendingModel::isometric_quadratic;
   }
+  add_springs(random, scene);
+  round_to_single(scene);
+}
+
+void add_springs(Random& random, Scene& scene) {
   const std::vector<Index> groups = rigid_groups(scene);
   for (int springs = random.below(4); springs > 0; --springs) add_spring(random, groups, scene);
   if (random.one_in(2)) {
@@ -46,7 +51,6 @@ void choose_models(Random& random, Scene& scene) {
       if (spring.third >= 0) scene.excluded_pairs.push_back({spring.first, spring.third});
     }
   }
-  round_to_single(scene);
 }
 
 void bend_isometrically(Scene& scene) {

@@ -11,6 +11,9 @@ namespace ogc::compare {
 /// not. The scene is rounded again.
 void choose_models(Random& random, Scene& scene);
 
+/// Its springs alone, with the pairs beside them; the scene is not rounded.
+void add_springs(Random& random, Scene& scene);
+
 /// The isometric model for every body with a bending energy.
 void bend_isometrically(Scene& scene);
 

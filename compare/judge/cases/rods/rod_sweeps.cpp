@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/judge/cases/any_models.hpp"
 #include "compare/judge/cases/colours.hpp"
 #include "compare/judge/cases/mesh_builder.hpp"
 #include "compare/judge/cases/rods/quaternions.hpp"
@@ -106,6 +107,10 @@ SweepCase rods_alone(Random& random) {
   for (int k = 0, count = 1 + random.below(2); k < count; ++k)
     add_rod(random, test, scene, scaled(in_box(random, -1, 1), k * (r + size)), size);
   test.query_radius = static_cast<float>(scene.settings.contact_radius * random.between(1, 3));
+  if (random.one_in(2)) {
+    add_springs(random, scene);
+    round_to_single(scene);
+  }
   return finished(random, std::move(test), std::move(scene));
 }
 
