@@ -115,7 +115,8 @@ TEST_CASE("residuals with the contacts of a step's last detection are those of i
   const TemporaryFolder folder;
   const std::filesystem::path out = folder / "grid";
   run_ogc("ablate cloth_on_sphere --scale smoke --steps 5 --iterations --point default --out " + out.string());
-  const std::vector<std::string> table = lines_of(out / "ablation.csv"), rows = lines_of(out / "default/iterations.csv");
+  const std::vector<std::string> table = lines_of(out / "ablation.csv"),
+                                 rows = lines_of(out / "default/iterations.csv");
   REQUIRE(table.size() == 2);
   std::map<std::string, double> last;  // by step
   for (std::size_t i = 1; i < rows.size(); ++i)
