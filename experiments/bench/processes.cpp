@@ -1,40 +1,14 @@
 #include "experiments/bench/processes.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-
-#include <cerrno>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
 #include "compare/files/bytes.hpp"
 #include "experiments/bench/results.hpp"
+#include "experiments/program/own_process.hpp"
 
 namespace ogc::experiments {
-
-namespace {
-
-/// Runs this program; what it prints as its result is dropped, what it logs is shown.
-int run_self(std::vector<std::string> words) {
-  words.insert(words.begin(), "ogc");
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) throw std::runtime_error("can't start a process for a benchmark");
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-}  // namespace
 
 void bench_in_processes(const std::vector<std::string>& arguments, int count, const std::filesystem::path& file) {
   const std::filesystem::path part = file.string() + ".part";
@@ -43,7 +17,7 @@ void bench_in_processes(const std::vector<std::string>& arguments, int count, co
     log_line("process " + std::to_string(k + 1) + " of " + std::to_string(count));
     std::vector<std::string> words = arguments;
     words.insert(words.end(), {"--json", part.string()});
-    if (const int status = run_self(words); status != 0)
+    if (const int status = status_of(start_self(words)); status != 0)
       throw std::runtime_error("process " + std::to_string(k + 1) + " ended with status " + std::to_string(status));
     Json one = parse_results(part);
     std::filesystem::remove(part);

@@ -17,6 +17,7 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/interrupt.hpp"
 #include "experiments/program/option_checks.hpp"
+#include "experiments/program/own_process.hpp"
 #include "experiments/program/runs/ablation_grid.hpp"
 #include "experiments/program/runs/ablation_table.hpp"
 #include "experiments/program/runs/resume.hpp"
@@ -26,7 +27,7 @@ namespace ogc::experiments {
 
 namespace {
 
-constexpr std::int64_t most_repeats = 1000;
+constexpr std::int64_t most_repeats = 1000, most_jobs = 1024;
 /// Of --only, where it is not given.
 constexpr std::int64_t every_run = -1;
 
@@ -35,6 +36,7 @@ struct AblateOptions {
   std::vector<std::string> vary, points;  ///< as typed
   std::int64_t repeat = 1;
   std::int64_t only = every_run;  ///< number of the one run to make
+  std::int64_t jobs = 1;          ///< runs at a time
   bool slurm = false;
 };
 
@@ -159,8 +161,15 @@ bool is_cut_beginning(const std::filesystem::path& folder) {
   });
 }
 
-/// Makes the run, goes on with it where it was cut off, or finds it done. False where it was interrupted.
-bool make(const PlannedRun& planned, const std::string& progress, CommandContext& context) {
+/// Whether the folder holds a run that is over.
+bool is_done(const std::filesystem::path& folder) {
+  return is_begun(folder) && is_over(compare::read_manifest(folder).provenance);
+}
+
+enum class Made { found, made, interrupted };
+
+/// Makes the run, goes on with it where it was cut off, or finds it done.
+Made make(const PlannedRun& planned, const std::string& progress, CommandContext& context) {
   RunRequest request = request_of(planned.options, context);
   const std::filesystem::path folder = request.folder;
   if (is_begun(folder)) {
@@ -168,7 +177,7 @@ bool make(const PlannedRun& planned, const std::string& progress, CommandContext
     check_same_question(there, request);
     if (is_over(there.provenance())) {
       log_line(progress + ": is done");
-      return true;
+      return Made::found;
     }
   } else if (is_cut_beginning(folder)) {
     log_line(progress + ": was cut off before its first step, and begins again");
@@ -180,7 +189,7 @@ bool make(const PlannedRun& planned, const std::string& progress, CommandContext
   compare::Contestant contestant = contestant_of(run.options, run.request.meetings);
   const RunSummary summary = RunSession(std::move(run.request), std::move(contestant)).run();
   if (!summary.failure.empty()) log_line("ogc: " + summary.failure);
-  return !summary.was_interrupted;
+  return summary.was_interrupted ? Made::interrupted : Made::made;
 }
 
 std::string in_brackets(const Metric& metric) {
@@ -251,15 +260,15 @@ struct Results {
   std::vector<std::string> sentences;
 };
 
-/// `done`: how many of the runs, from the first.
+/// `done`: rows of the runs, from the first on, as many as there are.
 Results results_of(const std::vector<Axis>& axes, const std::vector<Point>& points,
-                   const std::vector<PlannedRun>& planned, std::size_t done, bool has_seeds) {
+                   const std::vector<PlannedRun>& planned, const std::vector<RunRow>& done, bool has_seeds) {
   Results results;
   results.runs = run_rows(axes, has_seeds);
   std::vector<SettingRows> settings;
   for (const Point& point : points) settings.push_back({name_of(axes, point), {}});
-  for (std::size_t i = 0; i < done; ++i) {
-    const RunRow row = read_run_row(planned[i].options.out);
+  for (std::size_t i = 0; i < done.size(); ++i) {
+    const RunRow& row = done[i];
     const std::string seed = has_seeds ? std::to_string(planned[i].seed) : "";
     results.runs.push_back(row_of(points[planned[i].setting], seed, row));
     settings[planned[i].setting].rows.push_back(row);
@@ -314,21 +323,46 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// The command as it was given, for a shell, but for `left_out`.
-std::string command_again(const CLI::App& command, const std::vector<std::string>& left_out) {
-  std::string text = quoted(std::filesystem::read_symlink("/proc/self/exe").string()) + " ablate";
+/// The command as it was given, but for `left_out`.
+std::vector<std::string> words_again(const CLI::App& command, const std::vector<std::string>& left_out) {
+  std::vector<std::string> words{"ablate"};
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0 || std::ranges::find(left_out, option->get_name()) != left_out.end()) continue;
     for (const std::string& value : option->results()) {
-      if (!option->get_positional() && option->get_expected_max() == 0) {
-        text += " " + option->get_name();
-        break;
-      }
-      if (!option->get_positional()) text += " " + option->get_name();
-      text += " " + quoted(value);
+      if (!option->get_positional()) words.push_back(option->get_name());
+      if (!option->get_positional() && option->get_expected_max() == 0) break;
+      words.push_back(value);
     }
   }
+  return words;
+}
+
+/// Likewise, for a shell.
+std::string command_again(const CLI::App& command, const std::vector<std::string>& left_out) {
+  std::string text = quoted(std::filesystem::read_symlink("/proc/self/exe").string());
+  for (const std::string& word : words_again(command, left_out))
+    text += " " + (word.find_first_not_of("-abcdefghijklmnopqrstuvwxyz") == word.npos ? word : quoted(word));
   return text;
+}
+
+std::string counted_run(const std::string& name, std::size_t i, std::size_t count) {
+  return name + " (" + std::to_string(i + 1) + " of " + std::to_string(count) + ")";
+}
+
+/// Makes what is not done yet of a grid in `folder`, each run by a process of its own; what fails there fails again,
+/// or goes on, where the grid is tabulated.
+void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRun>& planned, const CLI::App& command,
+                       const std::string& folder) {
+  std::vector<OwnCommand> commands;
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    const std::string& out = planned[i].options.out;
+    if (is_done(out)) continue;
+    std::vector<std::string> words = words_again(command, {"--jobs", "--json", "--only", "--out", "--slurm"});
+    words.insert(words.end(), {"--out", folder, "--only", std::to_string(i)});
+    commands.push_back({counted_run(out.substr(folder.size() + 1), i, planned.size()), std::move(words), out + ".log"});
+  }
+  std::filesystem::create_directories(folder);
+  run_side_by_side(commands, static_cast<int>(options.jobs));
 }
 
 /// An array job for Slurm, a run a task; `command`: that of this grid.
@@ -379,26 +413,33 @@ void ablate(const AblateOptions& options, const CLI::App& command, CommandContex
   if (options.only >= static_cast<std::int64_t>(planned.size()))
     throw compare::InputError("--only " + std::to_string(options.only) + ": the grid has " +
                               counted(planned.size(), "run") + ", from 0 to " + std::to_string(planned.size() - 1));
-  if (options.slurm) return write_slurm(base.out, planned.size(), command_again(command, {"--slurm", "--only"}));
+  if (options.slurm)
+    return write_slurm(base.out, planned.size(), command_again(command, {"--jobs", "--slurm", "--only"}));
   catch_interrupts();
+  if (options.jobs > 1 && options.only == every_run) make_side_by_side(options, planned, command, base.out);
   const bool has_seeds = options.repeat > 1;
-  Results results;
+  std::vector<RunRow> rows;
+  const auto tabulated = [&] {
+    Results results = results_of(axes, points, planned, rows, has_seeds);
+    write_results(base.out, axes, results);
+    return results;
+  };
   for (std::size_t i = 0; i < planned.size(); ++i) {
     if (options.only != every_run && options.only != static_cast<std::int64_t>(i)) continue;
     const std::string name = planned[i].options.out.substr(base.out.size() + 1);
-    const bool is_whole = make(
-        planned[i], name + " (" + std::to_string(i + 1) + " of " + std::to_string(planned.size()) + ")", context);
-    if (!is_whole) {
+    const bool is_stopped = interrupted() && !is_done(planned[i].options.out);
+    const Made made = is_stopped ? Made::interrupted : make(planned[i], counted_run(name, i, planned.size()), context);
+    if (made == Made::interrupted) {
       context.status = exit_interrupted;
       log_line("interrupted; the same command with --out " + base.out + " goes on");
       break;
     }
-    if (read_run_row(planned[i].options.out).status != "finished") context.status = exit_check_failed;
+    rows.push_back(read_run_row(planned[i].options.out));
+    if (rows.back().status != "finished") context.status = exit_check_failed;
     if (options.only != every_run) return;
-    results = results_of(axes, points, planned, i + 1, has_seeds);
-    write_results(base.out, axes, results);
+    if (made == Made::made) tabulated();
   }
-  if (!results.settings.empty()) print_results(base.out, axes, results, context.json);
+  if (!rows.empty()) print_results(base.out, axes, tabulated(), context.json);
 }
 
 }  // namespace
@@ -430,6 +471,11 @@ void add_ablate_command(CLI::App& app, CommandContext& context) {
                     "Run nothing, and write OUT/slurm_array.sh, an array job with a task a run");
   command->add_option("--only", options->only, "Make the run of this number alone, from 0, and no table: a task's run")
       ->check(whole_number(0, most_counted));
+  command
+      ->add_option("--jobs", options->jobs,
+                   "Runs at a time, each a process of its own; times of a run then tell settings apart and no more")
+      ->check(whole_number(1, most_jobs))
+      ->capture_default_str();
   command->add_flag("--json", context.json, "Print runs, medians and findings as JSON on standard output");
   command->footer(
       settings_help() +
@@ -439,6 +485,7 @@ void add_ablate_command(CLI::App& app, CommandContext& context) {
       "  ogc ablate twist --scale smoke --point default --point iterations=20,time_step=0.00167,steps=1440 --repeat 10 "
       "--jitter 1e-6\n"
       "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine\n"
+      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --jobs 8\n"
       "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --slurm\n\n"
       "A run is one draw: where contact is chaotic, the last bit of the start decides how it goes on. --repeat 10 "
       "runs\n"

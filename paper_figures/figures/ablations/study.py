@@ -79,16 +79,17 @@ def program():
     return stamp.read_text() if stamp.is_file() else ""
 
 
-def run(ogc, words, folder):
-    """The runs of a scene; those of another program or question go first. Throws StudyError where they do not come to
-    an end."""
+def run(ogc, words, folder, jobs=1):
+    """The runs of a scene, `jobs` at a time; those of another program or question go first. Throws StudyError where
+    they do not come to an end."""
     question = json.dumps({"program": program(), "words": words})
     note = folder.with_suffix(".json")
     if folder.is_dir() and not (note.is_file() and note.read_text() == question):
         shutil.rmtree(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)
     note.write_text(question)
-    done = subprocess.run([ogc, *words, "--out", str(folder)], stdout=subprocess.DEVNULL, check=False)
+    done = subprocess.run([ogc, *words, "--jobs", str(jobs), "--out", str(folder)], stdout=subprocess.DEVNULL,
+                          check=False)
     if done.returncode not in CAME_TO_AN_END:
         raise StudyError(f"ogc {' '.join(words)} ended with exit status {done.returncode}; call it again to go on")
 
@@ -156,6 +157,7 @@ def arguments():
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--data", default="", metavar="FOLDER",
                         help="of Codimensional IPC's dress and dancer (default: a stand-in)")
+    parser.add_argument("--jobs", type=int, default=1, help="runs at a time; their times tell settings apart no more")
     parser.add_argument("--made", action="store_true", help="tabulate and draw the scenes that there are, run none")
     return parser.parse_args()
 
@@ -174,7 +176,7 @@ def main():
         print(f"{asked.study}: {scene} ({number} of {len(scenes)}): ogc {' '.join(words)}", flush=True)
         folder = asked.folder / scene
         if not asked.made:
-            run(asked.ogc, words, folder)
+            run(asked.ogc, words, folder, asked.jobs)
         table += rows(folder, asked.study, scene)
         findings += [f"{scene}: {line}\n" for line in (folder / "ablation_findings.txt").read_text().splitlines()]
         metrics[scene] = ablation.read(folder)

@@ -211,6 +211,49 @@ TEST_CASE("tasks of an array job make the runs of an ablation, and the command t
   CHECK(lines_of(out / "ablation.csv").size() == 5);
 }
 
+TEST_CASE("runs of an ablation side by side end in the bits of those one after the other", "[property]") {
+  const TemporaryFolder folder;
+  const std::string command =
+      "ablate cloth_on_sphere --scale smoke --steps 6 --jitter 1e-6 --repeat 2 --vary iterations=5,10 ";
+  REQUIRE(run_ogc(command + "--out " + (folder / "one").string()).status == 0);
+  const ProgramResult result = run_ogc(command + "--jobs 3 --out " + (folder / "three").string());
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const std::vector<std::string> one = lines_of(folder / "one/ablation.csv"),
+                                 three = lines_of(folder / "three/ablation.csv");
+  REQUIRE(one.size() == 5);
+  REQUIRE(three.size() == 5);
+  for (std::size_t i = 1; i < one.size(); ++i)
+    for (const char* name : {"iterations", "seed", "status", "final_hash"})
+      CHECK(cell(one[i], one[0], name) == cell(three[i], three[0], name));
+  CHECK(!std::filesystem::exists(folder / "three/iterations=5,seed=1.log"));
+  CHECK_THAT(result.err, Contains("(4 of 4)\n") && Contains("(4 of 4): is done"));
+}
+
+TEST_CASE("runs side by side that signals cut off end as if they had been left alone", "[property]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path whole = folder / "whole", cut = folder / "cut";
+  REQUIRE(run_ogc(repeated + whole.string()).status == 0);
+  for (const char* cutting : {"KILL 0.3", "INT 0.3", "TERM 0.4", "KILL 0.5"})
+    run_ogc(repeated + cut.string() + " --jobs 2", std::string("timeout -s ") + cutting + " ");
+  const ProgramResult result = run_ogc(repeated + cut.string() + " --jobs 2");
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  for (const std::string& run : repeated_runs) check_same_run(whole / run, cut / run);
+}
+
+TEST_CASE("a run of an ablation that fails beside others is a row, and its log stays", "[unit]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder / "grid";
+  const ProgramResult result = run_ogc(
+      "ablate cloth_on_sphere --scale smoke --steps 7 --solver newton --vary newton_iterations=1,50 --jobs 2 --out " +
+      out.string());
+  CHECK(result.status == 1);
+  CHECK(lines_of(out / "ablation.csv").size() == 3);
+  CHECK_THAT(compare::read_bytes(out / "newton_iterations=1.log"), Contains("did not converge") || Contains("Newton"));
+  CHECK(!std::filesystem::exists(out / "newton_iterations=50.log"));
+}
+
 TEST_CASE("a difference is stated only where ranges lie apart, with the range of all ratios", "[unit]") {
   using namespace ogc::experiments;
   const std::size_t metric = 0;
