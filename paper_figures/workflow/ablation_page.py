@@ -9,7 +9,8 @@ import json
 from paper_figures.workflow.evidence import RESULTS, opened
 
 NAME = "ablations.html"
-TABLES = {"h200/ablations_small.csv.gz": "small, H100s and H200s", "h200/ablations_paper.csv.gz": "paper, one H200",
+TABLES = {"h200/ablations_small.csv.gz": "small, H100s and H200s",
+          "h200/ablations_paper.csv.gz": "paper, H100s and one H200",
           "two_cores/ablations_smoke.csv.gz": "smoke, two CPU cores"}
 COLUMNS = ("median", "smallest", "largest")
 SCRIPT = r"""

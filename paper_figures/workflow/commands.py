@@ -495,7 +495,8 @@ def yarn_twisted(scale, backend):
 REST_STEPS = {"smoke": 480, "small": 90000, "paper": 90000}
 REST_FRAME_STEPS = {"smoke": 240, "small": 5000, "paper": 5000}
 RELEASE_FRAME_STEPS = {"smoke": 30, "small": 1250, "paper": 1250}  # until they are braked
-BRAKED = ("--set", "damping=per_vertex", "--set", "time_step=5e-5", "--set", "iterations=8")
+FINE = ("--set", "time_step=5e-5", "--set", "iterations=8")
+BRAKED = ("--set", "damping=per_vertex", *FINE)
 FRICTIONLESS = "_frictionless"
 AT_REST = {"released": "hanging", f"released{FRICTIONLESS}": f"hanging{FRICTIONLESS}"}  # beside which it is held
 

@@ -56,13 +56,6 @@ def brake(rod):
     return BRAKE_RATE * rod["density"] * SEGMENT**2 / (2 * rod["stretch"])
 
 
-def written(program, scale, path):
-    """The scene of a scale, as `ogc scenes` writes it to the folder of `path`, and a file of that name."""
-    subprocess.run([str(program), "scenes", SCENE, "--scale", scale, "--write", str(path.parent)], check=True,
-                   stdout=subprocess.DEVNULL)
-    return json.loads(path.read_text())
-
-
 def rod_of(scene):
     return next(body for body in scene["bodies"] if body["name"] == YARN)["material"]["rod"]
 
@@ -74,8 +67,27 @@ def stiffen(scene, factor):
         rod[name] *= factor
 
 
+def motion_that_turns(scene):
+    return next(motion for motion in scene["motions"] if motion["name"] == TURNED)
+
+
+class Changed:
+    """The scene of a `scale`, changed, as a file at `path` below the folder of the runs (jobs.Job)."""
+
+    def write(self, program, root):
+        """Where it is missing."""
+        path = root / self.path
+        if path.is_file():
+            return
+        subprocess.run([str(program), "scenes", SCENE, "--scale", self.scale, "--write", str(path.parent)], check=True,
+                       stdout=subprocess.DEVNULL)
+        scene = json.loads(path.read_text())
+        self.change(scene)
+        path.write_text(json.dumps(scene, indent=1))
+
+
 @dataclass(frozen=True)
-class Twist:
+class Twist(Changed):
     """The scene of a scale, `turns` times turned, at `pace` times its speed, by yarn of `stiffness` times its own, and
     then held so many seconds."""
 
@@ -94,21 +106,15 @@ class Twist:
     def path(self):
         return f"scenes/twisted_{self.scale}_{self.turns:g}_{self.pace:g}_{self.stiffness:g}/{SCENE}.json"
 
-    def write(self, program, root):
-        """Where it is missing."""
-        path = root / self.path
-        if path.is_file():
-            return
-        scene = written(program, self.scale, path)
-        turned = next(motion for motion in scene["motions"] if motion["name"] == TURNED)
+    def change(self, scene):
+        turned = motion_that_turns(scene)
         turned["angular_velocity"] *= self.pace
         turned["end"] = 2 * self.turns / self.pace
         stiffen(scene, self.stiffness)
-        path.write_text(json.dumps(scene, indent=1))
 
 
 @dataclass(frozen=True)
-class Release:
+class Release(Changed):
     """The scene of a scale as a file below the folder of the runs (jobs.Job). `braked`: its motion is damped, for runs
     with `damping=per_vertex`; where it comes to rest no damping decides. `stiffness` as in Twist."""
 
@@ -121,17 +127,11 @@ class Release:
         stiffer = f"_{self.stiffness:g}" if self.stiffness != 1 else ""
         return f"scenes/{'braked' if self.braked else 'released'}_{self.scale}{stiffer}/{SCENE}.json"
 
-    def write(self, program, root):
-        """Where it is missing."""
-        path = root / self.path
-        if path.is_file():
-            return
-        scene = written(program, self.scale, path)
-        turned = next(motion for motion in scene["motions"] if motion["name"] == TURNED)
+    def change(self, scene):
+        turned = motion_that_turns(scene)
         scene["springs"] = [*scene.get("springs", []), *cast_on(turned)]
-        scene["motions"] = [motion for motion in scene["motions"] if motion["name"] != TURNED]
+        scene["motions"].remove(turned)
         stiffen(scene, self.stiffness)
         if self.braked:
             rod_of(scene)["damping"] = brake(rod_of(scene))
         scene["name"] = f"{SCENE}_released"
-        path.write_text(json.dumps(scene, indent=1))

@@ -11,7 +11,7 @@ namespace ogc::compare {
 /// not. The scene is rounded again.
 void choose_models(Random& random, Scene& scene);
 
-/// Its springs alone, with the pairs beside them; the scene is not rounded.
+/// Such springs alone, with the pairs beside them left out or not; the scene is not rounded.
 void add_springs(Random& random, Scene& scene);
 
 /// The isometric model for every body with a bending energy.

@@ -4,12 +4,12 @@ TABLE`, folders of `ogc ablate`.
 """
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
 import numpy as np
 
+from paper_figures.figures.ablations.study import of_points
 from paper_figures.workflow.runs import provenance, write_table
 from plots.run_folder import Run, RunError
 from plots.standing_still import rows
@@ -18,21 +18,10 @@ METRICS = {"vertices that can't move": 1, "vertices that can't along their large
            "triangles below a thousandth of their area": 3}  # place in a row
 
 
-def points_of(folder):
-    """point -> its finished runs."""
-    found = {}
-    with (folder / "ablation.csv").open(newline="") as file:
-        for row in csv.DictReader(file):
-            varied = list(row)[:list(row).index("seed")]
-            point = ",".join(f"{name}={row[name]}" for name in varied if row[name]) or "default"
-            if row["status"] == "finished":
-                found.setdefault(point, []).append(Run(folder / Path(row["folder"]).name))
-    return found
-
-
 def rows_of(folder):
     """A row a point and metric of an ablation."""
-    for point, runs in points_of(folder).items():
+    for point, found in of_points(folder).items():
+        runs = [Run(folder / Path(row["folder"]).name) for row in found if row["status"] == "finished"]
         last = [list(rows(run))[-1] for run in runs]
         for metric, place in METRICS.items():
             shares = np.array([row[place] for row in last])

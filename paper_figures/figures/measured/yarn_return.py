@@ -23,11 +23,7 @@ from plots.run_folder import Run, RunError, commits_in_words
 NAME = "yarn_return"
 TURNS = {"smoke": (0.01, 0.02), "small": (1, 2, 5), "paper": (1, 2, 3, 5)}
 HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # until it is let go [s]
-STEP, STEPS_OF_FREE = 4e-4, {"smoke": 60, "small": 7500, "paper": 25000}  # the scene's [s]; until it is braked
-FINE = ("--set", "time_step=5e-5", "--set", "iterations=8")
-FINE_STEP = 5e-5  # s
-REST_STEPS = {"smoke": 480, "small": 90000, "paper": 90000}
-FRAME_STEPS = {"smoke": 240, "small": 5000, "paper": 5000}
+COARSE = ("--set", "time_step=4e-4", "--set", "iterations=4")  # the scene's own
 
 
 @dataclass(frozen=True)
@@ -54,31 +50,36 @@ class Case:
         return "_".join(filter(None, words)).replace(".", "p")
 
     @property
+    def twist_settings(self):
+        """Words of `ogc run`: step and iterations while it is turned."""
+        return commands.FINE if self.fine else COARSE
+
+    @property
     def beside(self):
         return Case(stiffness=self.stiffness).name
 
     def jobs(self, scale, backend):
         """In their order; the last one's end is what hangs."""
         common = ("--backend", backend, "--audit", "end", "--audit-meetings", "off", "--set")
-        kept = (*common, f"frame_steps={FRAME_STEPS[scale]}")
+        kept = (*common, f"frame_steps={commands.REST_FRAME_STEPS[scale]}")
         rubs = () if self.friction else ("--set", "friction=0")
         braked = release.Release(scale, braked=True, stiffness=self.stiffness)
-        rest = (*kept, *commands.BRAKED, "--set", "friction=0")
+        rest, rest_steps = (*kept, *commands.BRAKED, "--set", "friction=0"), commands.REST_STEPS[scale]
         if not self.turns:
-            yield Job(self.name, (*rest, "--steps", REST_STEPS[scale]), scene=braked)
+            yield Job(self.name, (*rest, "--steps", rest_steps), scene=braked)
             return
         twist = release.Twist(scale, self.turns, self.pace, self.stiffness, HELD[scale])
         moved = ("--jitter", 1e-6, "--seed", self.seed) if self.seed else ()
-        steps = round(twist.seconds / (FINE_STEP if self.fine else STEP))
+        steps = round(twist.seconds / float(self.twist_settings[1].partition("=")[2]))
         before = f"{self.name}_twist"
-        yield Job(before, (*common, f"frame_steps={steps}", *rubs, *(FINE if self.fine else ()), *moved, "--steps",
-                           steps), scene=twist)
+        yield Job(before, (*common, f"frame_steps={steps}", *rubs, *self.twist_settings, *moved, "--steps", steps),
+                  scene=twist)
         if self.swings:
-            steps = STEPS_OF_FREE[scale]
+            steps = commands.RELEASE_STEPS[scale]
             last, before = before, f"{self.name}_free"
             yield Job(before, (*common, f"frame_steps={steps}", *rubs), (last, -1), steps,
                       scene=release.Release(scale, stiffness=self.stiffness))
-        yield Job(self.name, rest, (before, -1), REST_STEPS[scale], scene=braked)
+        yield Job(self.name, rest, (before, -1), rest_steps, scene=braked)
 
 
 def cases(scale):
@@ -112,14 +113,12 @@ def runs_of(options, chosen):
 
 def row_of(case, run, beside):
     """`beside`: the run of the cloth that was never twisted; distances to it count where both are at rest."""
-    fine = commands.BRAKED if case.fine else ("", "time_step=4e-4", "", "iterations=4")
     farthest, seconds = way(run)
     apart = distances(run, last_frame(beside).positions)
     kept = kept_threads(run, beside)
     return {"case": case.name, "turns [1]": f"{case.turns:g}", "pace of the scene's [1]": f"{case.pace:g}",
             "stiffness of the scene's yarn [1]": f"{case.stiffness:g}",
-            "twisted with": "" if not case.turns else " ".join(word for word in fine if "=" in word
-                                                               and not word.startswith("damping")),
+            "twisted with": " ".join(case.twist_settings[1::2]) if case.turns else "",
             "friction until it is braked": "yes" if case.friction else "no",
             "swings until it is braked": "yes" if case.swings else "no", "seed": case.seed,
             "springs of the first row [1]": run.manifest["scene"]["springs"],

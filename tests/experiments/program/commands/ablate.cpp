@@ -250,7 +250,7 @@ TEST_CASE("a run of an ablation that fails beside others is a row, and its log s
       out.string());
   CHECK(result.status == 1);
   CHECK(lines_of(out / "ablation.csv").size() == 3);
-  CHECK_THAT(compare::read_bytes(out / "newton_iterations=1.log"), Contains("did not converge") || Contains("Newton"));
+  CHECK_THAT(compare::read_bytes(out / "newton_iterations=1.log"), Contains("did not converge in step"));
   CHECK(!std::filesystem::exists(out / "newton_iterations=50.log"));
 }
 
