@@ -50,19 +50,24 @@ OGC_HD inline Part<LoadRod, AddRod> rod_part(const SweepView& view, int slot, co
   return part(row.count, LoadRod{view.rods.incidences + row.begin}, AddRod{view, own, damping});
 }
 
-/// Of scenes whose free vertices are all on segments alone, with the activation `ogc`: segments, vertex–facet contacts,
-/// edge–edge contacts.
+/// The sum over `before`, segments, vertex–facet contacts and edge–edge contacts, with the activation `ogc`.
+template <class Team, class... Parts>
+OGC_HD ForceAndBlock rod_sum(const SweepView& view, int slot, const SweepVertex& vertex, const OwnVertex& at,
+                             const Team& team, const Parts&... before) {
+  const ContactParts<OgcActivation, WeightsOfUpdate> contacts{view, view.contact_rows[slot], {}};
+  team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));
+  return team.template sum<ForceAndBlock>(before..., rod_part(view, slot, vertex, at), contacts.vertex_facet(),
+                                          contacts.edge_edge());
+}
+
+/// Of scenes whose free vertices are all on segments alone, with the activation `ogc`.
 struct GatherRods {
   static constexpr int parts = 3;  ///< of the sum
 
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                   const Team& team) const {
-    const ContactParts<OgcActivation, WeightsOfUpdate> contacts{view, view.contact_rows[slot], {}};
-    team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));
-    const OwnVertex at{own, own - view.start[vertex.vertex]};
-    return team.template sum<ForceAndBlock>(rod_part(view, slot, vertex, at), contacts.vertex_facet(),
-                                            contacts.edge_edge());
+    return rod_sum(view, slot, vertex, {own, own - view.start[vertex.vertex]}, team);
   }
 };
 
@@ -73,12 +78,8 @@ struct GatherTiedRods {
   template <class Team>
   OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                   const Team& team) const {
-    const ContactParts<OgcActivation, WeightsOfUpdate> contacts{view, view.contact_rows[slot], {}};
-    team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));
     const OwnVertex at{own, own - view.start[vertex.vertex]};
-    return team.template sum<ForceAndBlock>(spring_part(view, slot, view.models[vertex.body], at),
-                                            rod_part(view, slot, vertex, at), contacts.vertex_facet(),
-                                            contacts.edge_edge());
+    return rod_sum(view, slot, vertex, at, team, spring_part(view, slot, view.models[vertex.body], at));
   }
 };
 

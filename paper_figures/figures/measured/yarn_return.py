@@ -89,7 +89,7 @@ def cases(scale):
     most = turns[-1]
     yield from (Case(stiffness=stiffness) for stiffness in (1, 10, 100))
     yield from (Case(t, fine=fine) for fine in (False, True) for t in turns)
-    yield from (Case(most, seed=seed) for seed in (1, 2))
+    yield from (Case(most, fine=True, seed=seed) for seed in (1, 2))
     yield Case(most, swings=True)
     yield Case(most, pace=0.25)
     yield Case(most, fine=True, friction=False)
@@ -155,9 +155,12 @@ def draw(runs, out):
         axes.autoscale_view()
         axes.set_aspect("equal")
         axes.grid(False)
-        axes.set_title(case.name.replace("_", " "), fontsize=5.5)
+        rests = at_rest(run) and at_rest(named[case.beside])
+        axes.set_title(case.name.replace("_", " ") + ("" if rests else "\n(moves still)"), fontsize=5.5)
+    figure.supxlabel("x [m]", fontsize=7)
+    figure.supylabel("y [m]", fontsize=7)
     about = next(iter(runs.values())).manifest
-    figure.suptitle(f"yarn_twist, let go and at rest: {about['device']}, {commits_in_words(list(runs.values()))}; "
+    figure.suptitle(f"yarn_twist, let go and braked: {about['device']}, {commits_in_words(list(runs.values()))}; "
                     "colour: distance from the untwisted cloth, yellow 20 mm and more", fontsize=7)
     style.save(figure, out)
 
