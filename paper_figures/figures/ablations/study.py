@@ -16,6 +16,7 @@ import os
 import shutil
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 import yaml
@@ -26,9 +27,11 @@ from plots import ablation, style
 HERE = Path(__file__).parent
 TABLE = "ablations.csv"
 KEPT = "guarantee_kept"  # the metric whose number is how many runs of a point kept it
+JUDGED = ("yes", "no")  # what an audit says of a run's guarantee
 KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver"}
 SCENE_KEYS = {"points", "set", "options", "scales"}
 CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
+LETTERS = 60  # of a line of the title over one column
 PANELS = ("median_step", "detections_a_step", "contacts_a_step", "largest_momentum_lost_end", "smallest_distance",
           "last_energy")
 
@@ -112,6 +115,8 @@ def rows(folder, study, scene):
             yield {"study": study, "scene": scene, "metric": row["metric"], "point": point,
                    **{name: row[name] for name in names[len(varied) + 1:]}, **made_by}
     for point, runs in of_points(folder).items():
+        if not any(run["guarantee_kept"] in JUDGED for run in runs):
+            continue  # nothing was audited: no run is known to have kept it, or not
         kept = sum(run["guarantee_kept"] == "yes" for run in runs)
         ended = sum(run["status"] == "finished" for run in runs)
         yield {"study": study, "scene": scene, "metric": KEPT, "point": point, "unit": "1", "runs": len(runs),
@@ -144,7 +149,9 @@ def draw(folders, panels, title, out):
             ablation.draw_metric(axes, name, *metrics[name], has_names=True)
             if row == 0:
                 axes.set_title(f"{scene}\n{axes.get_title()}")
-    figure.suptitle(f"{title}\npoint: median of the runs; line: their range; shaded: the first point's", fontsize=9)
+    words = f"{title}\npoint: median of the runs; line: their range; shaded: the first point's"
+    lines = (textwrap.fill(line, LETTERS * len(folders)) for line in words.splitlines())
+    figure.suptitle("\n".join(lines), fontsize=9)
     style.save(figure, out)
 
 

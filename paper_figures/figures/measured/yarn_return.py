@@ -141,7 +141,7 @@ def draw(runs, out):
     shown = {case: run for case, run in runs.items() if case.beside in named}
     columns = 7
     lines = -(-len(shown) // columns)
-    figure, grid = plt.subplots(lines, columns, squeeze=False, figsize=(1.5 * columns, 2.3 * lines), sharex=True,
+    figure, grid = plt.subplots(lines, columns, squeeze=False, figsize=(1.2 * columns, 1.9 * lines), sharex=True,
                                 sharey=True)
     for axes in grid.flat[len(shown):]:
         axes.set_axis_off()
@@ -156,12 +156,12 @@ def draw(runs, out):
         axes.set_aspect("equal")
         axes.grid(False)
         rests = at_rest(run) and at_rest(named[case.beside])
-        axes.set_title(case.name.replace("_", " ") + ("" if rests else "\n(moves still)"), fontsize=5.5)
+        axes.set_title(case.name.replace("_", " ") + ("" if rests else "\n(moves still)"), fontsize=5)
     figure.supxlabel("x [m]", fontsize=7)
     figure.supylabel("y [m]", fontsize=7)
     about = next(iter(runs.values())).manifest
-    figure.suptitle(f"yarn_twist, let go and braked: {about['device']}, {commits_in_words(list(runs.values()))}; "
-                    "colour: distance from the untwisted cloth, yellow 20 mm and more", fontsize=7)
+    figure.suptitle("yarn_twist, let go and braked; colour: distance from the untwisted cloth, yellow 20 mm and more\n"
+                    f"{about['device']}, {commits_in_words(list(runs.values()))}", fontsize=6.5)
     style.save(figure, out)
 
 

@@ -220,6 +220,13 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
             self.assertEqual(out.read_text().count(f"twist,{metric},"), 2)
         self.assertIn(f"no ablations.csv in {self.runs}: run the study first", gather(self.runs).stderr)
 
+    def test_a_study_that_audits_nothing_counts_nobody_who_kept_the_guarantee(self):
+        audited = self.ABLATE
+        self.ABLATE = audited.replace("finished,yes", "finished,not checked").replace("failed,no", "failed,not checked")
+        self.assertNotEqual(self.ABLATE, audited)
+        self.assertEqual(self.study("ablation_overhead")[0], 0)
+        self.assertNotIn("guarantee_kept", (self.runs / "study/ablations.csv").read_text())
+
     def test_runs_of_another_program_are_made_again(self):
         stamp = self.runs / "stamp"
         stamp.write_text("one")
