@@ -90,7 +90,7 @@ def cases(scale):
     yield from (Case(stiffness=stiffness) for stiffness in (1, 10, 100))
     yield from (Case(t, fine=fine) for fine in (False, True) for t in turns)
     yield from (Case(most, fine=True, seed=seed) for seed in (1, 2))
-    yield Case(most, swings=True)
+    yield from (Case(most, fine=fine, swings=True) for fine in (False, True))
     yield Case(most, pace=0.25)
     yield Case(most, fine=True, friction=False)
     yield from (Case(t, stiffness=stiffness, fine=True) for stiffness in (10, 100) for t in (turns[0], most))
