@@ -132,32 +132,36 @@ def judge(claim, evidence):
     note = [measured.about] if measured.about else []
     note += [f"as in {', '.join(others)}; the paper says it in two ways"] if others and not hit else []
     note += [f"the band was set on {claim['band_set'][:10]}, when this was known: {known}"] if known else []
-    note += _other_choices(claim, evidence, wanted) if not hit else []
     yes, no = (VERDICTS if claim["kind"] == RESULT else AS_SET)[:2]
-    return Judgement(claim, yes if hit or others else no, measured, "; ".join(note), bool(known))
+    if hit or others:
+        return Judgement(claim, yes, measured, "; ".join(note), bool(known))
+    varied = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])]
+    return Judgement(claim, no, measured, "; ".join(note + _other_choices(claim, varied)), bool(known))
 
 
-def _other_choices(claim, evidence, wanted):
+def _other_choices(claim, varied):
     """What the measure gives where a choice that the paper leaves open is made otherwise (`choices` of the claim:
-    `says`, and what is other in the measure): no verdict, but a claim that fails as printed may hold so."""
-    made = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])]
-    made = [(says, value) for says, value in made if value is not None]
+    `says`, and what is other in the measure): no verdict, but a claim that fails as printed may hold so. And which of
+    them no run made."""
+    missing = [says for says, value in varied if value is None]
+    made = [each for each in varied if each[1] is not None and not math.isnan(each[1])]
     hits = [each for each in made if within(each[1], claim["value"], claim["band"])]
     misses = [each for each in made if each not in hits]
     words = [f"{head} {'; '.join(f'{says}: {value:.3g}' for says, value in found)}"
              for head, found in (("with", hits), ("not with" if hits else "nor with", misses)) if found]
-    return [f"not with the printed parameters, {', '.join(words)}"] if words else []
+    return ([f"not with the printed parameters, {', '.join(words)}"] if words else []) + (
+        [f"no row with {'; '.join(missing)}"] if missing else [])
 
 
 def _measured_with(choice, claim, evidence, wanted):
-    """A number, or None where no run made this choice."""
+    """A number, NaN where a run that made this choice gave none, or None where no run made it."""
     try:
         otherwise = {key: other for key, other in choice.items() if key != "says"}
         printed = claim["measure"][0] if isinstance(claim["measure"], list) else claim["measure"]
         found = evidence.measure({**printed, **otherwise}, wanted)
     except EvidenceError:  # a table older than the column
         return None
-    return found.value if found and not math.isnan(found.value) else None
+    return found.value if found else None
 
 
 def _known_before(claim, evidence, wanted):

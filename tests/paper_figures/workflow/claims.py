@@ -210,23 +210,27 @@ class Judging(unittest.TestCase):
                 verdicts.judge(claim(measure={"table": "fig99", "column": "time", "over": {"kind": "a"},
                                               "under": {"kind": "b"}}), Evidence(name))
 
-    def test_other_choices_are_named_where_the_printed_parameters_refute_and_nowhere_else(self):
+    def test_choices_that_are_varied_and_those_that_are_not_are_named_where_the_printed_parameters_refute(self):
         with tempfile.TemporaryDirectory() as name:
             rows = "a,4,c1,d\nb,1,c1,d\nc,7,c1,d\nn,never,c1,d\n"
             (Path(name) / "fig99_paper.csv").write_text(f"kind,time,commit,device\n{rows}")
-            choices = [{"says": f"κ = {kind}", "where": {"kind": kind}}
-                       for kind in "bcnx"] + [{"says": "κ = z", "column": "older than it"}]
-
+            choices = [{"says": f"κ = {kind}", "where": {"kind": kind}} for kind in "bc"]
             measure = {"table": "fig99", "column": "time", "where": {"kind": "a"}}
 
-            def judged(band, measure=measure):
-                about = claim(measure=measure, band=band, choices=choices)
+            def judged(band, measure=measure, more=()):
+                about = claim(measure=measure, band=band, choices=[*choices, *more])
                 found = verdicts.judge(about, Evidence(name))
                 return found.verdict, found.note
             self.assertEqual(judged([0, 2]), ("refuted",
                                               "not with the printed parameters, with κ = b: 1, not with κ = c: 7"))
             self.assertEqual(judged([8, 9]), ("refuted",
                                               "not with the printed parameters, nor with κ = b: 1; κ = c: 7"))
+            no_number = [{"says": "κ = n", "where": {"kind": "n"}}]
+            self.assertEqual(judged([8, 9], more=no_number), judged([8, 9]), "it was varied")
+            for missing in ({"where": {"kind": "x"}}, {"column": "older than it"}):
+                more = [{"says": "κ = z", **missing}]
+                self.assertEqual(judged([8, 9], more=more), ("refuted", f"{judged([8, 9])[1]}; no row with κ = z"))
+                self.assertEqual(judged([3, 5], more=more), ("reproduced", ""))
             self.assertEqual(judged([3, 5]), ("reproduced", ""))
             self.assertEqual(judged([8, 9], [measure]), judged([8, 9]),
                              "the first of several places is the printed one")
