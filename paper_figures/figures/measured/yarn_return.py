@@ -142,7 +142,7 @@ def draw(runs, out):
     plt = style.use()
     named = {case.name: run for case, run in runs.items()}
     shown = {case: run for case, run in runs.items() if case.beside in named}
-    columns = 7
+    columns = min(8, len(shown))
     lines = -(-len(shown) // columns)
     figure, grid = plt.subplots(lines, columns, squeeze=False, figsize=(1.2 * columns, 1.9 * lines), sharex=True,
                                 sharey=True)
