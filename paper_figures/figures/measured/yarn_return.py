@@ -3,8 +3,8 @@ turned, how stiff the yarn is, how well the twist is solved, whether threads rub
 before it is braked. `python3 -m paper_figures.figures.measured.yarn_return FOLDER --scale paper --backend cuda`.
 
 In the end all cloths are braked without friction until they hang still (yarn_rest.py says why), each held against one
-of the same yarn that was never twisted. Twisted ones of stiffer yarn are braked longer: where half of the vertices of
-the others come less than a millimetre in a second, theirs still come more.
+of the same yarn that was never twisted. Twisted ones of stiffer yarn are braked longer, as half of their vertices still
+come more than a millimetre a second where the others rest.
 """
 
 import sys
