@@ -10,7 +10,8 @@ Of a setting or a count of a mesh, which whoever sets the run up decides, so tha
 Of both:
   not comparable  the claim is about another machine or another program; ours is given, and the claim that is comparable
     is named
-  not yet run     no accepted run is of the kind that the claim needs
+  not yet run     no accepted run is of the kind that the claim needs; or the number lies outside of the band, and a
+    choice of ours is not varied yet (`not_varied` of the claim)
 
 `python3 -m paper_figures.workflow.verdicts` prints all, `--write` keeps them in results/verdicts.csv, `--runs FOLDER`
 judges run folders instead.
@@ -135,6 +136,9 @@ def judge(claim, evidence):
     yes, no = (VERDICTS if claim["kind"] == RESULT else AS_SET)[:2]
     if hit or others:
         return Judgement(claim, yes, measured, "; ".join(note), bool(known))
+    if "not_varied" in claim:
+        words = f"outside of the band: {measured.value:.3g} ({measured.source}); not varied: {claim['not_varied']}"
+        return Judgement(claim, "not yet run", None, words)
     varied = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])]
     return Judgement(claim, no, measured, "; ".join(note + _other_choices(claim, varied)), bool(known))
 
@@ -222,12 +226,13 @@ def headline(judgements):
 
 
 def unjudged(judgements):
-    """Claims not yet run of a scene that has accepted results, unless they say what they wait for; and claims that wait
-    although they are judged."""
+    """Claims not yet run of a scene that has accepted results, unless they say what they wait for, or what is
+    not varied; and claims that say so although they are judged."""
     judged = {j.claim["scene"] for j in judgements if j.measured or "not judged" in j.note}
     silent = [j.claim["id"] for j in judgements if j.verdict == "not yet run" and j.claim["scene"] in judged
-              and "waits_for" not in j.claim]
-    stale = [j.claim["id"] for j in judgements if j.verdict != "not yet run" and "waits_for" in j.claim]
+              and not {"waits_for", "not_varied"} & set(j.claim)]
+    stale = [j.claim["id"] for j in judgements if j.verdict != "not yet run"
+             and {"waits_for", "not_varied"} & set(j.claim)]
     return silent, stale
 
 

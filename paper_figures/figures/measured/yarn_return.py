@@ -24,7 +24,7 @@ from plots.run_folder import Run, RunError, commits_in_words
 NAME = "yarn_return"
 TURNS = {"smoke": (0.01, 0.02), "small": (1, 2, 5), "paper": (1, 2, 3, 5)}
 HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # until it is let go [s]
-LONGER = 3  # times, of twisted cloths of stiffer yarn
+LONGER = 3  # times as many steps brake a twisted cloth of stiffer yarn
 COARSE = ("--set", "time_step=4e-4", "--set", "iterations=4")  # the scene's own
 
 

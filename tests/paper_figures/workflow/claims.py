@@ -266,6 +266,15 @@ class Judging(unittest.TestCase):
         found = [verdicts.judge(each, Evidence()) for each in (judged, waiting, {**judged, "waits_for": "x"})]
         self.assertEqual(verdicts.unjudged(found), (["s.d"], ["s.c"]))
 
+    def test_a_claim_with_a_choice_that_is_not_varied_is_not_refuted_and_names_the_number_that_lies_outside(self):
+        ours = verdicts.judge(claim(), Evidence()).measured
+        found = verdicts.judge(claim(band=[ours.value + 1, None], not_varied="membrane"), Evidence())
+        self.assertEqual((found.verdict, found.measured, found.note), ("not yet run", None,
+                         f"outside of the band: {ours.value:.3g} ({ours.source}); not varied: membrane"))
+        within = verdicts.judge(claim(band=[ours.value, None], not_varied="membrane"), Evidence())
+        self.assertEqual(within.verdict, "reproduced")
+        self.assertEqual(verdicts.unjudged([found, within]), ([], ["s.c"]))
+
 
 class Runs(unittest.TestCase):
     """A copy of one accepted run, changed."""
