@@ -13,7 +13,8 @@ from paper_figures.workflow.evidence import ROWS, SCENES, EvidenceError, run_at
 from paper_figures.workflow.jobs import AUDIT, PROCESSOR_TIME
 
 LONG = 2**15  # bytes of rows; more are kept compressed
-COLOURS = 256  # of a picture's palette
+COLOURS = 64  # of a picture's palette
+REFINEMENTS = 4  # of it by k-means, so that large areas keep their colour
 
 
 class AcceptError(Exception):
@@ -36,7 +37,7 @@ def bytes_of(path):
 
 
 def in_palette(picture):
-    """The PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: a quarter of the size.
+    """The PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: a fifth of the size.
     Throws AcceptError."""
     from PIL import Image, UnidentifiedImageError
 
@@ -45,7 +46,8 @@ def in_palette(picture):
     except UnidentifiedImageError as error:
         raise AcceptError(f"a picture is no PNG ({error}): draw it again") from error
     out = io.BytesIO()
-    image.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(out, "PNG", optimize=True)
+    palette = {"method": Image.Quantize.MAXCOVERAGE, "kmeans": REFINEMENTS, "dither": Image.Dither.NONE}
+    image.quantize(COLOURS, **palette).save(out, "PNG", optimize=True)
     return out.getvalue()
 
 

@@ -136,11 +136,12 @@ def judge(claim, evidence):
     yes, no = (VERDICTS if claim["kind"] == RESULT else AS_SET)[:2]
     if hit or others:
         return Judgement(claim, yes, measured, "; ".join(note), bool(known))
-    if "not_varied" in claim:
-        words = f"outside of the band: {measured.value:.3g} ({measured.source}); not varied: {claim['not_varied']}"
-        return Judgement(claim, "not yet run", None, words)
     varied = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])]
-    return Judgement(claim, no, measured, "; ".join(note + _other_choices(claim, varied)), bool(known))
+    otherwise = _other_choices(claim, varied)
+    if "not_varied" in claim:
+        words = [f"outside of the band: {measured.value:.3g} ({measured.source})", *otherwise]
+        return Judgement(claim, "not yet run", None, "; ".join([*words, f"not varied: {claim['not_varied']}"]))
+    return Judgement(claim, no, measured, "; ".join(note + otherwise), bool(known))
 
 
 def _other_choices(claim, varied):

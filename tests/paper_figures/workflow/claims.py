@@ -234,6 +234,11 @@ class Judging(unittest.TestCase):
             self.assertEqual(judged([3, 5]), ("reproduced", ""))
             self.assertEqual(judged([8, 9], [measure]), judged([8, 9]),
                              "the first of several places is the printed one")
+            waiting = verdicts.judge(claim(measure=measure, band=[8, 9], choices=choices, not_varied="ε"),
+                                     Evidence(name))
+            self.assertEqual((waiting.verdict, waiting.note),
+                             ("not yet run", f"outside of the band: 4 (fig99_paper.csv); {judged([8, 9])[1]}; "
+                                             "not varied: ε"))
 
     def test_a_run_is_told_from_others_by_its_activation(self):
         runs = Evidence().runs_as({"scene": "activation_drop", "scale": "small"})
