@@ -20,7 +20,7 @@ SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 try:
     import yaml  # noqa: F401
-    from PIL import Image
+    from PIL import Image, ImageStat
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
@@ -327,6 +327,23 @@ class Accepting(Scratch):
         (self.runs / "fig18-paper-cuda/fig18.png").write_bytes(b"no picture")
         with self.assertRaisesRegex(accept.AcceptError, "no PNG"):
             self.accept("fig18")
+
+    def test_a_picture_keeps_the_colour_of_what_is_large_and_that_of_what_is_rare(self):
+        """Ground of eight shades and a line beside thousands of colours: entries that k-means refines are means of what
+        they stand for, where those of the cover alone change the ground by 2.9 levels of 255."""
+        grey = Image.linear_gradient("L").resize((200, 200)).point(lambda level: 150 + level // 32)
+        drawn = Image.merge("RGB", [grey.point(lambda level, by=by: level - by) for by in (0, 1, 4)])
+        blot = Image.radial_gradient("L").resize((100, 100))
+        moved = [blot.transform(blot.size, Image.Transform.AFFINE, (1, 0, 30 * turn, 0, 1, 0)) for turn in range(3)]
+        drawn.paste(Image.merge("RGB", moved), (100, 100))
+        drawn.paste((213, 94, 0), (0, 20, 200, 22))
+        out = io.BytesIO()
+        drawn.save(out, "PNG")
+        again = Image.open(io.BytesIO(kept.in_palette(out.getvalue()))).convert("RGB")
+        self.assertLessEqual(len(again.getcolors(2**16)), kept.COLOURS)
+        ground = [ImageStat.Stat(image.crop((0, 30, 90, 200))).mean[0] for image in (again, drawn)]
+        self.assertAlmostEqual(*ground, delta=2)
+        self.assertEqual(again.getpixel((50, 21)), (213, 94, 0))
 
     def test_what_is_no_evidence_is_refused_in_words_and_nothing_is_written(self):
         for changes, words in (({"dirty": True}, "uncommitted changes"),
