@@ -26,6 +26,9 @@ LOOK = 0.3  # seconds between looks at the steps, and redraws of a terminal's li
 SAY = 30  # seconds between lines where nobody watches
 JOBS = re.compile(r"^Job stats:\n[^\n]*\n[- ]+\n(.*?)^total +\d+$", re.S | re.M)
 FAR = re.compile(r"\b(\d+)/(\d+)\b")
+RUN = re.compile(r"\((\d+) of (\d+)\)$", re.M)  # behind the name of each that `ogc ablate` makes
+SCENE = re.compile(r"\((\d+) of (\d+)\): ogc ", re.M)  # of a study, before its runs
+RUNS_SAID = 2**16  # bytes at the end of a log in which its last run and scene are looked for
 REPORT = "report"
 
 
@@ -40,7 +43,7 @@ def verb(step, recipe, points):
         return f"point {int(part)} of {points}"
     if {"run", "of", "rows", "vary"} & set(body):
         return {"run": f"simulating {recipe.scene}", "movie": "making the movie"}.get(part, "drawing")
-    return f"simulating {recipe.scene}, then drawing"
+    return f"simulating{f' {recipe.scene}' if recipe.scene else ''}, then drawing"
 
 
 class Known:
@@ -91,10 +94,20 @@ class Course:
         return f"Step {number}{of}, {self.known.figure.get(name, name)}"
 
     def far(self, name):
-        """(steps done, of how many) as the running program says in its log, or None."""
+        """(steps done, of how many) as the running program says in its log, or None; of a study runs, as if each of
+        its scenes had as many."""
         log = self.known.logs.get(name)
-        found = FAR.findall(tail(log, 400)) if log and log.is_file() else []
-        return tuple(map(int, found[-1])) if found and 0 < int(found[-1][0]) <= int(found[-1][1]) else None
+        if not log or not log.is_file():
+            return None
+        said = tail(log, RUNS_SAID)
+        if run := RUN.findall(said):
+            (number, runs), (scene, scenes) = (tuple(map(int, found[-1])) if found else (1, 1)
+                                               for found in (run, SCENE.findall(said)))
+            far = ((scene - 1) * runs + number - 1, scenes * runs)
+        else:
+            found = FAR.findall(said[-400:])
+            far = tuple(map(int, found[-1])) if found else (0, 0)
+        return far if 0 < far[0] <= far[1] else None
 
     def left(self):
         """(seconds that are left as far as one knows, whether that is all)."""

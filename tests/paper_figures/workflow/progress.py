@@ -77,6 +77,22 @@ class Words(Scratch):
         self.now, self.course.due = 5, ["fig18_run"]
         self.assertRegex(self.course.line(), "simulating cloth_on_sphere, 10 of 30; about 10 s left$")
 
+    def test_of_a_study_runs_count_and_not_the_steps_of_one(self):
+        known = progress.Known(self.folder, "smoke", "cpu", ["ablation_membrane"])
+        course = progress.Course(known, lambda: self.now)
+        course.take({"due": ["ablation_membrane"]})
+        course.take({"what": "begins", "step": "ablation_membrane"})
+        log, self.now = known.logs["ablation_membrane"], 30
+        log.parent.mkdir(parents=True, exist_ok=True)
+        log.write_text("s: twist (1 of 2): ogc ablate twist\ndefault,seed=1 (1 of 4)\nstep 1/720, 2 s left\n")
+        self.assertRegex(course.line(), r": simulating, then drawing; no time is known yet$")
+        with log.open("a") as file:
+            file.write("step 720/720, 0 s left\ndefault,seed=2 (2 of 4)\nstep 1/720, 2 s left\n")
+        self.assertRegex(course.line(), ", 1 of 8; about 4 min left$")
+        with log.open("a") as file:
+            file.write("s: knot (2 of 2): ogc ablate knot\ndefault,seed=1 (1 of 4)\nstep 9/100, 2 s left\n")
+        self.assertRegex(course.line(), ", 4 of 8; about 30 s left$")
+
     def test_a_finished_step_is_said_with_its_time_and_counted(self):
         self.begin("fig18_run")
         self.assertRegex(self.end("fig18_run"), r"^Step 1 of 3, fig18 .*: simulating cloth_on_sphere took 7 s$")
@@ -91,7 +107,7 @@ class Words(Scratch):
         self.assertEqual(self.course.line(), "")
 
     def test_every_recipe_has_words_for_every_step(self):
-        known = progress.Known(self.folder, "smoke", "cpu", ["all", "sweep"])
+        known = progress.Known(self.folder, "smoke", "cpu", ["all", "sweep", "ablations"])
         for name, words in known.words.items():
             self.assertNotRegex(words, r"None|simulating (,|$)", name)
         self.assertEqual(known.words["sweep_03"], "point 3 of 60")
