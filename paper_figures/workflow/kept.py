@@ -37,8 +37,8 @@ def bytes_of(path):
 
 
 def in_palette(picture):
-    """The PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: a fifth of the size.
-    Throws AcceptError."""
+    """The PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: about a quarter of the
+    size. Throws AcceptError."""
     from PIL import Image, UnidentifiedImageError
 
     try:

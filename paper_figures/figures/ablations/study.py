@@ -31,7 +31,9 @@ JUDGED = ("yes", "no")  # what an audit says of a run's guarantee
 KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver"}
 SCENE_KEYS = {"points", "set", "options", "scales"}
 CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
-LETTERS = 60  # of a line of the title over one column
+AXES = 2.8  # inches that a column's axes and their titles need beside the names of points
+LETTER = 0.06  # inches of a letter of a name
+LETTERS = 14  # of the title to an inch
 PANELS = ("median_step", "detections_a_step", "contacts_a_step", "largest_momentum_lost_end", "smallest_distance",
           "last_energy")
 
@@ -135,11 +137,13 @@ def of_points(folder):
 
 
 def draw(folders, panels, title, out):
-    """A row a metric, a column a scene."""
+    """A row a metric that any scene has, a column a scene."""
     plt = style.use()
-    most = max(len(settings) for metrics in folders.values() for _, settings in metrics.values())
+    panels = [name for name in panels if any(name in metrics for metrics in folders.values())]
+    points = [list(settings) for metrics in folders.values() for _, settings in metrics.values()]
+    width = (AXES + LETTER * max(len(name) for names in points for name in names)) * len(folders)
     figure, grid = plt.subplots(len(panels), len(folders), squeeze=False,
-                                figsize=(4.2 * len(folders), len(panels) * (0.9 + 0.22 * most)))
+                                figsize=(width, len(panels) * (0.9 + 0.22 * max(map(len, points)))))
     for column, (scene, metrics) in enumerate(folders.items()):
         for row, name in enumerate(panels):
             axes = grid[row][column]
@@ -150,7 +154,7 @@ def draw(folders, panels, title, out):
             if row == 0:
                 axes.set_title(f"{scene}\n{axes.get_title()}")
     words = f"{title}\npoint: median of the runs; line: their range; shaded: the first point's"
-    lines = (textwrap.fill(line, LETTERS * len(folders)) for line in words.splitlines())
+    lines = (textwrap.fill(line, int(LETTERS * width)) for line in words.splitlines())
     figure.suptitle("\n".join(lines), fontsize=9)
     style.save(figure, out)
 

@@ -330,7 +330,7 @@ class Accepting(Scratch):
 
     def test_a_picture_keeps_the_colour_of_what_is_large_and_that_of_what_is_rare(self):
         """Ground of eight shades and a line beside thousands of colours: entries that k-means refines are means of what
-        they stand for, where those of the cover alone change the ground by 2.9 levels of 255."""
+        they stand for, and change the ground by 1.1 levels of 255, where those of the cover alone change it by 2.9."""
         grey = Image.linear_gradient("L").resize((200, 200)).point(lambda level: 150 + level // 32)
         drawn = Image.merge("RGB", [grey.point(lambda level, by=by: level - by) for by in (0, 1, 4)])
         blot = Image.radial_gradient("L").resize((100, 100))

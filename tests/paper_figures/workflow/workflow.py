@@ -14,6 +14,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
@@ -182,6 +183,20 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
         words = {scene: study.command(body, scene, "paper", "cuda", "folder") for scene in body["scenes"]}
         self.assertEqual([scene for scene in words if "data=folder" in words[scene]], ["dress"])
         self.assertNotIn("data", " ".join(study.command(body, "dress", "paper", "cuda")))
+
+    def test_a_studys_picture_has_room_for_names_and_titles_and_no_row_that_no_scene_has(self):
+        settings = {"default": (1, 0, 2), "membrane=stable_neo_hookean, bound_relaxation=0.25": (3, 2, 4)}
+        metrics = {"median_step": ("ms", settings), "largest_momentum_lost_end": ("1", settings)}
+        with mock.patch.object(study.style, "save") as save:
+            study.draw({"twist": metrics}, ["median_step", "median_residual", "largest_momentum_lost_end"], "T", "out")
+        figure = save.call_args[0][0]
+        figure.canvas.draw()
+        self.assertEqual([axes.get_title() for axes in figure.axes],
+                         ["twist\nmedian step [ms]", "largest momentum lost end [1]"])
+        for axes in figure.axes:
+            for text in (axes.title, *axes.get_yticklabels()):
+                extent = text.get_window_extent()
+                self.assertTrue(0 <= extent.x0 and extent.x1 <= figure.bbox.x1, text.get_text())
 
     def test_a_study_that_was_stopped_goes_on_and_ends_in_a_table_findings_and_a_picture(self):
         name = "ablation_policy"
