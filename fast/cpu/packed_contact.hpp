@@ -20,9 +20,9 @@ inline namespace OGC_PACKS {
 
 /// OgcActivation within the radius: both stages are computed, and one is selected.
 struct PackedActivation {
-  /// g' [N] and g'' [N/m] by lane, for distances 0 < d < r [m] and stiffnesses k_c [N/m].
+  /// g' [N] and g'' [N/m] by lane, for distances 0 < d ≤ r [m] and stiffnesses k_c [N/m].
   template <int N>
-  static ActivationSlopeOf<PackOf<N>> slope(PackOf<N> d, float r, PackOf<N> k) {
+  static ActivationSlopeOf<PackOf<N>> slope_within(PackOf<N> d, float r, PackOf<N> k) {
     const PackMaskOf<N> logarithmic = d < 0.5F * r;
     const PackOf<N> slope = OgcActivation::logarithmic_stiffness(r, k) / d;
     return {select(logarithmic, -slope, -k * (r - d)), select(logarithmic, slope / d, k)};
@@ -179,8 +179,7 @@ void add_contacts(const SweepView& view, const Items<ContactIncidence, P>& items
     weights = packed::weights(items, x);
   const Vector<P> separation = weighted_sum(weights, x);
   const P squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights);
-  const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && distance < view.contact_radius &&
-                                (weight > 0.0F || weight < 0.0F);
+  const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && (weight > 0.0F || weight < 0.0F);
   if (is_false(acts)) return;
   const ContactShapeOf<P> shape{(1.0F / distance) * separation, distance, acts};
   ForceAndBlockOf<P> term;

@@ -174,13 +174,14 @@ OGC_HD inline ContactShape contact_shape(const Vec& separation, float contact_ra
   return {(1.0f / distance) * separation, distance, distance < contact_radius};
 }
 
-/// The distance at which slope and curvature are evaluated: not below 2⁻²³ r, where the logarithmic stage's g'' = k_c
-/// r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far above every other block and far below overflow. Nearer points feel the
-/// force of this distance.
+/// The distance at which slope and curvature are evaluated: within 2⁻²³ r … r. At 2⁻²³ r the logarithmic stage's g'' =
+/// k_c r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far above every other block and far below overflow; nearer points feel the
+/// force of this distance. Farther ones than r feel none, and keep the curvature that waits at r: without it an update
+/// that begins beyond r lands far too deep, and sweeps cycle (method.md §4.2).
 template <class T>
 OGC_HD T activation_distance(const T& distance, float contact_radius) {
   const float least = 0x1p-23f * contact_radius;
-  return select(distance > least, distance, T{least});
+  return select(distance < contact_radius, select(distance > least, distance, T{least}), T{contact_radius});
 }
 
 /// Adds the force and block of a vertex with weight w to `sum`; `majorant` stands for w² in the block (ContactAt).
@@ -189,7 +190,7 @@ template <class Activation, class T>
 OGC_HD T add_contact(const Activation& activation, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
                      float contact_radius, const T& stiffness, ForceAndBlockOf<T>& sum) {
   const T distance = activation_distance(shape.distance, contact_radius);
-  const ActivationSlopeOf<T> at = activation.slope(distance, contact_radius, stiffness);
+  const ActivationSlopeOf<T> at = activation.slope_within(distance, contact_radius, stiffness);
   sum.add_force(-at.slope * weight, shape.normal);
   sum.add_outer(at.curvature * majorant, shape.normal);
   return -at.slope;

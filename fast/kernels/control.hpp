@@ -164,18 +164,6 @@ struct EndDetection {
   }
 };
 
-/// After the contacts of the guess loop's last detection were listed.
-struct EndListing {
-  StepControl* control;  ///< on the backend
-  const int* overflow;   ///< on the backend
-
-  OGC_HD void operator()(int) const {
-    if (*overflow == 0 && control->short_rows == 0) return;
-    control->status |= compare::step_list_grew;
-    stop_if_failed(*control);
-  }
-};
-
 /// After a round of the guess loop: another one if enough vertices were cut and rounds are left.
 struct EndRound {
   StepControl* control;  ///< on the backend

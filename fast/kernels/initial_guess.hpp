@@ -11,6 +11,7 @@
 #include "fast/kernels/models/membrane.hpp"
 #include "fast/kernels/models/tetrahedron.hpp"
 #include "fast/kernels/plane_lists.hpp"
+#include "fast/kernels/touching_move.hpp"
 
 namespace ogc::fast {
 
@@ -26,6 +27,7 @@ struct BeginVertex {
   float step;                     ///< h [s]
   Vec* position;                  ///< x by vertex [m], written
   Vec* target;                    ///< y by vertex [m], written
+  Vec* taken;                     ///< by vertex, as the guess loop's first round reads it: 0, written
   StepControl* control;           ///< on the backend: raises largest_move, counts what is not finite
   /// by vertex, not 0 on driven volumes, which are at their targets from here on; null: there is none
   const std::uint8_t* is_driven_volume = nullptr;
@@ -38,6 +40,7 @@ struct BeginVertex {
     if (number >= 0) y = prescribed_targets[control->steps_done * prescribed_count + number];
     position[v] = is_driven_volume != nullptr && is_driven_volume[v] != 0 ? y : x;
     target[v] = y;
+    taken[v] = {};
     const Vec move = y - x;
     const float length = square_root(dot(move, move));
     if (!is_finite(length)) {
@@ -99,7 +102,6 @@ struct BeginRegions {
   FeasibleRegions ended;        ///< those that the last detection left
   Vec* previous;                ///< X_prev by vertex [m], written
   StepControl* control;         ///< on the backend: counts vertices that their region does not hold
-  int* touched = nullptr;       ///< by vertex, where the detection marks what touches (mark_touched.hpp): 0, written
   Vec* displacement = nullptr;  ///< by vertex, where it divides gaps (bounds=dat) [m]: y − x, or x − X_prev, written
   const Vec* target = nullptr;  ///< y by vertex in the guess loop, later null; read where displacements are written
 
@@ -108,33 +110,48 @@ struct BeginRegions {
     if (control->rounds > 0 && control->left == 0 && is_outside(ended[v], x)) control->count_violation();
     if (displacement != nullptr) displacement[v] = target != nullptr ? target[v] - x : x - previous[v];
     previous[v] = x;
-    if (touched != nullptr) touched[v] = 0;
   }
 };
 
-/// for_each over all vertices: x ← y truncated about X_prev. From round 2 on a vertex of an active contact stays where
-/// it is. A free vertex slides as inertia alone would have it.
+/// for_each over all vertices: x ← y truncated about X_prev, and of a free vertex what its contacts leave of the way
+/// there. It slides along half-spaces as inertia alone would have it.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev
-  const int* touched;       ///< by vertex, not 0 where it is part of an active contact at X_prev; read from round 2 on
+  GuessContacts contacts;   ///< `taken` of the first round, that of the second one behind it, and so on in turn
+  int vertex_count;         ///< length of one of both
+  Vec* taken;               ///< where contacts.taken is
   Vec* position;            ///< x by vertex [m], written
   StepControl* control;     ///< on the backend: its flag `active` and its rounds are read, cuts are counted
-  const int* prescribed_number = nullptr;  ///< as in BeginVertex; read where there are half-spaces
+  const int* prescribed_number;  ///< as in BeginVertex
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
-    if (control->rounds > 0 && touched[v] != 0) return;
     const FeasibleRegion region = regions[v];
-    const Vec& stay = region.ball.centre;
+    const Vec &stay = region.ball.centre, wanted = proposal(v, stay);
     const bool is_prescribed = regions.has_planes() && prescribed_number[v] >= 0;
-    const Truncated kept = is_prescribed ? held_on_path(region, stay, target[v])
-                                         : held(region, stay, target[v], InertiaMetric{});
+    const Truncated kept = is_prescribed ? held_on_path(region, stay, wanted)
+                                         : held(region, stay, wanted, InertiaMetric{});
     position[v] = kept.position;
     if (is_prescribed)
       count_behind(*control, kept, stay, regions);
     else if (kept.cut)
       control->count_cut();
+  }
+
+ private:
+  /// Where the vertex goes if nothing truncates it. y itself, to the bit, where no contact holds it.
+  OGC_HD Vec proposal(int v, const Vec& stay) const {
+    const bool is_odd = control->rounds % 2 != 0;
+    GuessContacts here = contacts;
+    if (is_odd) here.taken += vertex_count;
+    Vec& taken_now = taken[is_odd ? v : v + vertex_count];
+    taken_now = {};
+    if (here.offsets == nullptr || prescribed_number[v] != -1) return target[v];
+    const Vec move = target[v] - stay, held = held_move(here, v, move);
+    if (held.x == move.x && held.y == move.y && held.z == move.z) return target[v];
+    taken_now = held - move;
+    return stay + held;
   }
 };
 

@@ -5,7 +5,6 @@
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/detection.hpp"
 #include "fast/kernels/initial_guess.hpp"
-#include "fast/kernels/mark_touched.hpp"
 
 namespace ogc::fast {
 
@@ -31,12 +30,10 @@ struct PrepareStepAndRefit {
   }
 };
 
-/// Beside the last launch: `End`'s work on the step's control, and each slot gets its row of the contact stream. What
-/// was noted is used up: where a step does not take place, the listing after its guess loop finds nothing to do. Index
-/// over slots, at least one.
-template <class End>
+/// Beside the last launch: the detection is counted, and each slot gets its row of the contact stream. Index over
+/// slots, at least one.
 struct EndStepDetection {
-  End end;  ///< EndDetection or EndListing
+  EndDetection end;
   CopyContactRows<LooseIncidence> rows;
   int slots;  ///< free vertices
   ListsView lists;
@@ -46,26 +43,9 @@ struct EndStepDetection {
       end(i);
       if (*lists.overflow == 0) {
         *lists.listed_count = *lists.contact_count;
-        *lists.noted_count = *lists.contact_count = 0;
       }
     }
     if (i < slots) rows(i);
-  }
-};
-
-/// Beside the marks of a round of the guess loop, which has no lists: bounds, and the detection is counted. Where pairs
-/// found no room the marks are incomplete, and the step ends. Index over bounded vertices, at least one.
-struct EndRoundDetection {
-  ConservativeBound bounds;
-  int bounded;  ///< vertices of `bounds`; 0 where bounds are planes
-  EndDetection end;
-  ListsView lists;
-
-  OGC_HD void operator()(int i) const {
-    if (i < bounded) bounds(i);
-    if (i > 0) return;
-    if (*lists.noted_count > lists.noted_capacity) *lists.overflow = 1;
-    end(i);
   }
 };
 

@@ -228,8 +228,8 @@ struct ContactAt {
   float weight = 0;        ///< of the vertex itself
   float majorant = 0;      ///< |w| Σ |w_u| over the vertices u of its colour, itself included; w² mostly
 
-  /// Whether the vertex feels it.
-  OGC_HD bool acts() const { return shape.acts && weight != 0; }
+  /// Whether the vertex feels it, if only by its block: the points have not met.
+  OGC_HD bool acts() const { return shape.distance > 0 && weight != 0; }
 };
 
 /// The contact with these weights, and Σ w x.

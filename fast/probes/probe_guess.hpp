@@ -78,13 +78,14 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
   ProbeMemory<Backend> memory(backend);
   compare::InitialGuessOut out;
   const std::size_t n = in.cases.size();
-  std::vector<int> touched;
-  for (const Case& c : in.cases) touched.push_back(c.held);
   std::vector<StepControl> controls(n);
   for (StepControl& control : controls) control.active = control.rounds = 1;
   typename Backend::template Buffer<StepControl> control;
   control.upload(controls.data(), n);
   Vec *target = memory.template out<Vec>(out.target, n), *position = memory.template out<Vec>(out.position, n);
+  typename Backend::template Buffer<Vec> room;
+  room.resize(2 * n);
+  Vec* taken = room.data();
   const BeginVertex begin{.start = memory.template in<Vec>(column(in, &Case::start)),
                           .velocity = memory.template in<Vec>(column(in, &Case::velocity)),
                           .prescribed_number = memory.template in<int>(std::vector<int>(n, -1)),
@@ -94,13 +95,17 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
                           .step = 0,
                           .position = position,
                           .target = target,
+                          .taken = taken,
                           .control = nullptr};
   const GuessVertex guess{
       target,
       {memory.template in<Vec>(column(in, &Case::previous)), memory.template in<float>(column(in, &Case::bound))},
-      memory.template in<int>(touched),
+      {},
+      static_cast<int>(n),
+      taken,
       position,
-      nullptr};
+      nullptr,
+      memory.template in<int>(std::vector<int>(n, -1))};
   backend.for_each(static_cast<int>(n),
                    ProbeGuess{.begin = begin,
                               .guess = guess,

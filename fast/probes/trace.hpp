@@ -82,15 +82,9 @@ class StepTrace : public StepObserver {
     }
     const Vec* previous = state_.previous.data();
     event.position = download_positions(backend_, previous, n);
-    // No iteration yet: a round of the guess loop, which lists no contacts. They are listed to be looked at, and
-    // forgotten.
-    const bool is_unlisted = control.iterations == 0;
-    if (is_unlisted) {
-      step_.find_in_volumes(previous);
-      detection_.list_contacts(step_.detection_radius());
-    }
+    // No iteration yet: a round of the guess loop, which does not look for contacts with volumes.
+    if (control.iterations == 0) step_.find_in_volumes(previous);
     set_contacts(event);
-    if (is_unlisted) detection_.forget_contacts();
     return event;
   }
 

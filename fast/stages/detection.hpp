@@ -89,23 +89,6 @@ class Detection {
                     planes_.distances(), launches);
   }
 
-  /// As `detect` without the lists: smallest distances, bounds, and whatever launches.mark does with the noted pairs.
-  template <class Launches>
-  void detect_unlisted(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
-                       const Launches& launches) {
-    find(positions, contact_radius, query_radius, bound_relaxation, launches);
-    launches.mark(backend_, bounds(bound_relaxation), bounded(),
-                  lists_.collect({padded_.data()}, contact_radius, planes_.distances()));
-  }
-
-  /// The contacts of the last detect_unlisted, with its radius, listed as `detect` does. `launches`: the last launch.
-  template <class Launches = PlainLaunches>
-  void list_contacts(float contact_radius, const Launches& launches = {}) {
-    lists_.assemble(backend_, {padded_.data()}, contact_radius, 0, bounds(0), planes_.distances(), launches);
-  }
-  /// For who looks on: they may be listed once more.
-  void forget_contacts() { lists_.forget_contacts(backend_); }
-
   /// In place of what the last detection noted: pairs that moves of their vertices could bring together, no farther
   /// apart than *reach [m] (on the backend).
   void note_guess_pairs(float contact_radius, const float* reach, const LocalReach& local) {

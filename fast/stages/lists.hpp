@@ -92,11 +92,6 @@ class Lists {
     return {{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, view(), distances};
   }
 
-  /// Contacts that were listed are none; the same noted pairs may be listed again.
-  void forget_contacts(Backend& backend) {
-    backend.for_each(std::max(buckets_, surface_.vertex_count), ForgetContacts{view(), surface_.vertex_count});
-  }
-
   /// Host only: where the flag is set, enlarges each list that was too small to what was needed and half as much again,
   /// clears the flag and returns true. Sets are empty until the next detection.
   bool grow() {

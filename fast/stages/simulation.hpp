@@ -182,7 +182,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
-    s.touched.resize(n);
+    s.taken.resize(2 * n);
     if (scene_.settings.bounds == compare::Bounds::dat) {
       s.displacement.resize(n);
       detection_.divide_planes_by(s.displacement.data());

@@ -121,7 +121,7 @@ struct StepState {
   Buffer<float> angle_start;               ///< θᵗ by hinge [rad]
   Buffer<StepControl> control;             ///< one item
   Buffer<StepRow> rows;                    ///< by step of the frame
-  Buffer<int> touched;  ///< by vertex, in the guess loop: not 0 where it is part of an active contact
+  Buffer<Vec> taken;          ///< by vertex, twice as many: what contacts take from moves in the guess loop [m]
   Buffer<double> sums;  ///< as FinishStep reads them
 };
 
@@ -220,6 +220,7 @@ class Step {
                                                   .step = settings_.step,
                                                   .position = s.position.data(),
                                                   .target = s.target.data(),
+                                                  .taken = s.taken.data(),
                                                   .control = control(),
                                                   .is_driven_volume = s.is_driven_volume.data()});
     clock_.time(StepStage::volumes, [&] { volumes_.refit(backend_, s.position.data()); });
@@ -235,19 +236,8 @@ class Step {
 
   /// The regions that end here are certified, then X_prev ← x. `target`: y in the guess loop, later null.
   StepStart start_of_detection(const Vec* target) {
-    return {{state_.position.data(), regions(), state_.previous.data(), control(), state_.touched.data(),
+    return {{state_.position.data(), regions(), state_.previous.data(), control(),
              settings_.divides ? state_.displacement.data() : nullptr, target}};
-  }
-
-  /// The lists of a detection and the stream that the sweep reads.
-  template <class End>
-  StepListing<End> listing() {
-    const ContactView view = detection_.view();
-    const int* overflow = detection_.overflow();
-    return {.end = {control(), overflow},
-            .rows = sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
-            .slots = sweep_.slots(),
-            .resolve = sweep_.resolve_contact(view, state_.previous.data())};
   }
 
   /// body(), which writes nothing that the volumes are asked with, and what they are asked at `position` beside it. A
@@ -258,38 +248,50 @@ class Step {
     backend_.at_once([&] { find_in_volumes(position); }, body);
   }
 
-  /// Everything is found anew, the stream of contacts included.
+  /// X_prev ← x; contacts, bounds and the stream that the sweep reads. `target`: as in start_of_detection.
+  void detect_surfaces(const Vec* target) {
+    const ContactView view = detection_.view();
+    const int* overflow = detection_.overflow();
+    clock_.time(StepStage::detection, [&] {
+      detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
+                        settings_.bound_relaxation,
+                        StepLaunches{start_of_detection(target),
+                                     {control(), overflow},
+                                     sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
+                                     sweep_.slots(),
+                                     sweep_.resolve_contact(view, state_.previous.data())});
+    });
+  }
+
+  /// Everything is found anew, contacts with volumes included.
   void detect() {
-    const auto detect_surfaces = [&] {
-      clock_.time(StepStage::detection, [&] {
-        detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
-                          settings_.bound_relaxation,
-                          StepLaunches{start_of_detection(nullptr), listing<EndDetection>()});
-      });
-    };
-    beside_volumes(state_.position.data(), detect_surfaces);
+    beside_volumes(state_.position.data(), [&] { detect_surfaces(nullptr); });
     observe(compare::StepEventKind::detection);
   }
 
-  /// As much of it as a round of the guess loop needs: bounds, and who is part of an active contact.
+  /// In the guess loop, after which those with volumes are found.
   void detect_in_round() {
-    clock_.time(StepStage::detection, [&] {
-      detection_.detect_unlisted(
-          state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
-          RoundLaunches{start_of_detection(state_.target.data()), control(), state_.previous.data(),
-                        settings_.contact_radius, state_.touched.data()});
-    });
+    detect_surfaces(state_.target.data());
     observe(compare::StepEventKind::detection);
   }
 
   /// x ← y truncated.
   void guess() {
-    backend_.for_each(state_.vertex_count, GuessVertex{.target = state_.target.data(),
-                                                       .regions = regions(),
-                                                       .touched = state_.touched.data(),
-                                                       .position = state_.position.data(),
-                                                       .control = control(),
-                                                       .prescribed_number = state_.prescribed_number.data()});
+    StepState<Backend>& s = state_;
+    const GuessContacts contacts{.offsets = pair_guess_.is_used() ? nullptr : detection_.view().incidence_offsets,
+                                 .contacts = sweep_.contacts(),
+                                 .position = s.previous.data(),
+                                 .target = s.target.data(),
+                                 .taken = s.taken.data(),
+                                 .radius = settings_.contact_radius};
+    backend_.for_each(s.vertex_count, GuessVertex{.target = s.target.data(),
+                                                  .regions = regions(),
+                                                  .contacts = contacts,
+                                                  .vertex_count = s.vertex_count,
+                                                  .taken = s.taken.data(),
+                                                  .position = s.position.data(),
+                                                  .control = control(),
+                                                  .prescribed_number = s.prescribed_number.data()});
   }
 
   void guess_in_rounds() {
@@ -327,10 +329,7 @@ class Step {
     else
       guess_in_rounds();
     observe(compare::StepEventKind::guess);
-    beside_volumes(state_.previous.data(), [&] {
-      clock_.time(StepStage::detection,
-                  [&] { detection_.list_contacts(settings_.detection_radius, listing<EndListing>()); });
-    });
+    beside_volumes(state_.previous.data(), [] {});
     if (observer_ != nullptr) observer_->after_listing();
     StepState<Backend>& s = state_;
     using BeginBoth = Beside<BeginSweep, TurnSegment>;

@@ -26,10 +26,9 @@ struct StepStart {
   }
 };
 
-/// Last launch of a listing, likewise. `End`: what it does to the control.
-template <class End>
-struct StepListing {
-  End end;
+/// A detection of a step: its first launch and its last, which lists contacts for the sweep.
+struct StepLaunches : StepStart {
+  EndDetection end;
   CopyContactRows<LooseIncidence> rows;  ///< of the contact stream
   int slots;                             ///< free vertices
   ResolveContact resolve;                ///< the stream's contacts
@@ -37,28 +36,8 @@ struct StepListing {
   /// As PlainLaunches::rank.
   template <class Backend>
   void rank(Backend& backend, const ListsView& lists, const int* count, int capacity) const {
-    backend.for_both(std::max(1, slots), EndStepDetection<End>{end, rows, slots, lists}, count, capacity,
+    backend.for_both(std::max(1, slots), EndStepDetection{end, rows, slots, lists}, count, capacity,
                      RankAndResolve{{lists}, resolve});
-  }
-};
-
-/// Both, of a detection that lists its contacts at once.
-struct StepLaunches : StepStart, StepListing<EndDetection> {};
-
-/// Of a detection in a round of the guess loop: its first launch, and the last, in which vertices of active contacts
-/// are marked in place of lists.
-struct RoundLaunches : StepStart {
-  StepControl* control;  ///< on the backend
-  const Vec* previous;   ///< X_prev by vertex, on the backend [m]
-  float radius;          ///< r [m]
-  int* touched;          ///< by vertex, on the backend: marks
-
-  /// `bounds` of `bounded` vertices, beside the marks.
-  template <class Backend>
-  void mark(Backend& backend, const ConservativeBound& bounds, int bounded, const CollectContacts& collect) const {
-    const ListsView& lists = collect.lists;
-    backend.for_both(std::max(1, bounded), EndRoundDetection{bounds, bounded, {control, lists.overflow}, lists},
-                     lists.noted_count, lists.noted_capacity, MarkTouched{collect, previous, radius, control, touched});
   }
 };
 

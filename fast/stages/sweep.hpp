@@ -335,6 +335,8 @@ class Sweep {
 
   /// Free vertices: items of a launch over contact_rows.
   int slots() const { return static_cast<int>(vertices_.size()); }
+  /// The stream of the last detection: a vertex's contacts are where its row of incidences is; on the backend.
+  const ContactIncidence* contacts() const { return contacts_.data(); }
   /// By slot; on the backend.
   const SweepVertex* vertices() const { return vertices_.data(); }
   /// What makes the rows of the stream after a detection. Where *overflow is not 0 the old stream stays, which is

@@ -38,6 +38,10 @@ compare::ForceAnswer acting(const Meeting& meeting, const compare::ContactForceC
   result.force_scale += meeting.slope_doubt() / (compare::unit_roundoff * compare::contact_force_tolerance);
   add_weight_error(meeting, question, reach(meeting.inputs, {&at.first, 1}), reach(meeting.inputs, {&at.second, 1}),
                    result);
+  if (meeting.is_beyond()) {
+    result.force = {};
+    result.force_scale = 0;
+  }
   return result;
 }
 
@@ -52,7 +56,7 @@ compare::ForceAnswer largest(const compare::ContactForceCase& q, double distance
 std::vector<compare::ForceAnswer> answers_of(const compare::ContactForceCase& question,
                                              const std::vector<Meeting>& all) {
   return answers(
-      all, [&](double distance) { return largest(question, distance); },
+      all, Ends::nowhere, [&](double distance) { return largest(question, distance); },
       [&](const Meeting& meeting) { return acting(meeting, question); });
 }
 

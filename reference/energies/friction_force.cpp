@@ -81,7 +81,7 @@ compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distanc
 Accepted answers_of(const compare::FrictionForceCase& question, const std::vector<Meeting>& all) {
   bool near = is_near_decision(question.contact, all.front());
   std::vector<compare::ForceAnswer> accepted = answers(
-      all, [&](double distance) { return largest(question, distance); },
+      all, Ends::at_radius, [&](double distance) { return largest(question, distance); },
       [&](const Meeting& meeting) {
         const Friction friction = acting(meeting, question);
         near = near || (&meeting == &all.front() && friction.near_limit);

@@ -356,21 +356,22 @@ LargestSlopes largest_slopes(const ContactForceCase& question, double distance) 
   const double r = question.contact_radius;
   LargestSlopes largest;
   // g' falls from the nearest distance on, but that of ogc_as_printed jumps at τ.
-  for (const double d : {std::max(0x1p-23 * r, distance), std::max(0.5 * r, distance)}) {
+  for (const double d : {std::clamp(distance, 0x1p-23 * r, r), std::clamp(distance, 0.5 * r, r)}) {
     const Twice g = activation_energy(question.activation, Twice(Once(d, 0), 0), r, double{question.stiffness});
     largest = {std::max(largest.first, -g.value.slope[0]), std::max(largest.second, g.slope[0].slope[0])};
   }
   return largest;
 }
 
-std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings,
+std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, Ends end,
                                           const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting) {
   std::vector<compare::ForceAnswer> all;
   bool none = false, any = false;
   double nearest = 0;
   for (const Meeting& meeting : meetings) {
-    const bool acts = meeting.acts(), ends = meeting.distance.value > 0 && meeting.may_end();
+    const bool is_apart = meeting.distance.value > 0, has_end = end == Ends::at_radius;
+    const bool acts = has_end ? meeting.acts() : is_apart, ends = has_end && is_apart && meeting.may_end();
     if (!acts && all.empty()) {
       all.push_back({});
       none = true;
@@ -384,7 +385,8 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings,
     if (touches || of_needle) nearest = any ? std::min(nearest, distance) : distance;
     any = any || touches || of_needle;
   }
-  if (none && meetings.front().acts()) all.push_back({});
+  if (none && meetings.front().distance.value > 0 && (end == Ends::nowhere || meetings.front().acts()))
+    all.push_back({});
   if (any) all.push_back(largest(nearest));
   return all;
 }

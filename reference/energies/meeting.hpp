@@ -41,12 +41,13 @@ struct Meeting {
   Input majorant(const compare::ContactForceCase& question) const;
   /// Σ w_i x_i, the vector d n from the second side's contact point to the first's.
   Triple<Input> separation() const;
-  /// The distance that slope and curvature belong to: d, but not below 2⁻²³ r. It keeps d's derivatives on both sides
-  /// of that corner.
+  /// The distance that slope and curvature belong to: d, but within 2⁻²³ r … r. It keeps d's derivatives on both sides
+  /// of these corners.
   template <class T>
   T acting_distance(T d) const {
     const double least = 0x1p-23 * contact_radius.value, tau = 0.5 * contact_radius.value;
     if (plain(d) < least) set_plain(d, least);
+    if (plain(d) > contact_radius.value) set_plain(d, contact_radius.value);
     if (across) set_plain(d, plain(d) < tau ? tau : std::nextafter(tau, 0.0));
     return d;
   }
@@ -66,6 +67,8 @@ struct Meeting {
   bool acts() const { return distance.value > 0 && distance.value < contact_radius.value; }
   /// Whether d cannot be told from r.
   bool may_end() const { return std::abs(distance.value - contact_radius.value) <= distance_doubt; }
+  /// Whether d is r or more, and can be told from less.
+  bool is_beyond() const { return distance.value >= contact_radius.value && !may_end(); }
   /// Whether the contact points cannot be told from touching ones: neither d nor n is known.
   bool may_touch() const { return distance.value <= 2 * doubt; }
 
@@ -84,10 +87,16 @@ std::vector<Meeting> meetings(const compare::ContactForceCase& question, const W
 /// an activation with two stages.
 bool is_near_decision(const compare::ContactForceCase& question, const Meeting& exact);
 
+/// Where a stage's answer becomes 0.
+enum class Ends {
+  at_radius,  ///< from d = r on
+  nowhere     ///< only at d = 0, where there is no normal
+};
+
 /// Accepted answers of a stage over the meetings of a contact. `acting` answers for one that acts; `largest`: a force
 /// and a block, by their moduli in the scales, that no answer can exceed at this distance [m] or a larger one: where
 /// points cannot be told from touching ones, and of needles.
-std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings,
+std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, Ends end,
                                           const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting);
 

@@ -80,16 +80,17 @@ void add_friction(const FrictionTerm& term, double factor, const std::array<Trip
     add_outer(2 * factor * slope, component.slope, component.slope, sum.block);
 }
 
-/// Slope and curvature below 2⁻²³ r are those there, as in the stage contact_force.
+/// Slope and curvature below 2⁻²³ r are those there, and from r on those that wait at r, as in the stage contact_force.
 void add_contact(const Potential& potential, const ContactTerm& term, const Updated& updated, std::size_t place,
                  const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   const ClosestForm form = closest_form(term.sides, corners);
   const std::array<Triple<ByOwn<double>>, 4> x = with_own<ByOwn<double>>(corners, place);
   const Triple<ByOwn<double>> apart = separation(form.weight, x);
   const ByOwn<double> distance = sqrt(dot(apart, apart));
-  if (distance.value == 0 || distance.value >= term.contact_radius) return;
-  const Second<1> energy = along(std::max(distance.value, 0x1p-23 * term.contact_radius), [&](const Second<1>& d) {
-    return contact_activation(term.activation, d, term.contact_radius, term.mollifier * term.stiffness);
+  if (distance.value == 0) return;
+  const double acting = std::clamp(distance.value, 0x1p-23 * term.contact_radius, term.contact_radius);
+  const Second<1> energy = along(acting, [&](const Second<1>& d) {
+    return activation_energy(term.activation, d, term.contact_radius, term.mollifier * term.stiffness);
   });
   add_force(energy.slope[0], distance.slope, sum);
   const double factor = majorant(form.weight, updated, place);

@@ -35,7 +35,7 @@ struct ActivationOf {
 /// folded in: g = k'_c (log τ − log d) + k_c/2 (r − τ)².
 template <class Stage>
 struct TwoStages : ActivationOf<TwoStages<Stage>> {
-  /// g' and g'' for 0 < d < r.
+  /// g' and g'' for 0 < d ≤ r.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
     if (d >= 0.5F * r) return {-k * (r - d), k};
     const float slope = Stage::logarithmic_stiffness(r, k) / d;
@@ -124,7 +124,11 @@ struct AnyActivation {
 
   /// g' and g'', as ActivationOf::slope.
   OGC_HD ActivationSlope slope(float d, float r, float k) const {
-    return d < r ? with_activation(activation, SlopeWithin{d, r, k}) : ActivationSlope{};
+    return d < r ? slope_within(d, r, k) : ActivationSlope{};
+  }
+  /// g' and g'' for 0 < d ≤ r: at r those that wait there, with which a contact beyond r majorises itself.
+  OGC_HD ActivationSlope slope_within(float d, float r, float k) const {
+    return with_activation(activation, SlopeWithin{d, r, k});
   }
   /// g [J].
   OGC_HD float energy(float d, float r, float k) const { return with_activation(activation, EnergyAt{d, r, k}); }

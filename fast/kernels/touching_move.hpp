@@ -1,0 +1,54 @@
+// What contacts leave of a vertex's move in the guess loop (method.md §5.2): one that touches does not fall into its
+// partner, and rubs on it. So a sweep begins with about the forces that it ends with, and what slides far does not stop
+// at each detection.
+#pragma once
+
+#include "fast/kernels/sweep.hpp"
+
+namespace ogc::fast {
+
+/// The contacts that a round of the guess loop found, and the moves that vertices want.
+struct GuessContacts {
+  const int* offsets = nullptr;                ///< by vertex, vertices + 1: its row in `contacts`; null: nothing is held
+  const ContactIncidence* contacts = nullptr;  ///< the stream of the detection
+  const Vec* position = nullptr;               ///< X_prev by vertex [m]
+  const Vec* target = nullptr;                 ///< y by vertex [m]
+  const Vec* taken = nullptr;                  ///< by vertex, from moves in the round before [m]
+  float radius = 0;                            ///< r [m]
+
+  /// Where another vertex is taken to go [m].
+  OGC_HD Vec expected(int v) const { return target[v] - position[v] + taken[v]; }
+};
+
+/// The move of a vertex [m] without its part of what closes a contact, beyond what the others open, and with the slip
+/// that friction takes for it: at most μ times as much.
+OGC_HD inline Vec held_by(const GuessContacts& here, const ContactIncidence& contact, const Vec& move) {
+  Vec x[4], others{};
+  for (int k = 0; k < 4; ++k) x[k] = here.position[decoded(contact.index[k])];
+  const ContactWeights weights = contact_weights(contact.kind, x);
+  const ContactShape shape = contact_shape(weighted_sum(weights, x), here.radius);
+  const float own = weights.of(contact.own), size = fabsf(own);
+  if (!shape.acts || !(size > 0)) return move;
+  for (int k = 0; k < 4; ++k) {
+    if (k == contact.own || weights.slot[k] == 0) continue;
+    others = others + weights.slot[k] * here.expected(decoded(contact.index[k]));
+  }
+  const float opening = dot(shape.normal, others), closing = -own * dot(shape.normal, move);
+  const float taken = (closing - (opening > 0 ? opening : 0.0f)) / size;
+  if (!(taken > 0)) return move;
+  Vec held = move + (own < 0 ? -taken : taken) * shape.normal;
+  if (!(contact.friction > 0)) return held;
+  const Vec relative = own * held + others, slip = relative - dot(shape.normal, relative) * shape.normal;
+  const float length = square_root(dot(slip, slip)), limit = contact.friction * taken * size;
+  if (length > 0) held = held - ((limit < length ? limit / length : 1.0f) / own) * slip;
+  return held;
+}
+
+/// What all contacts of a vertex leave of its move, one after the other [m].
+OGC_HD inline Vec held_move(const GuessContacts& here, int v, const Vec& move) {
+  Vec held = move;
+  for (int i = here.offsets[v]; i < here.offsets[v + 1]; ++i) held = held_by(here, here.contacts[i], held);
+  return held;
+}
+
+}  // namespace ogc::fast
