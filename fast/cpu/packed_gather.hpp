@@ -22,8 +22,8 @@ ForceAndBlockOf<P> together(const ForceAndBlock* a) {
            each([](Sum s) { return s.block.yz; }), each([](Sum s) { return s.block.zz; })}};
 }
 
-/// StVenantKirchhoff of each, added where it is counted.
-template <class P>
+/// A membrane's triangles, added where they are counted.
+template <class Model, class P>
 void add_triangles(const SweepView& view, const Items<MembraneIncidence, P>& items, const SurfaceMaterial& material,
                    const Vector<P>& own, ForceAndBlockOf<P>& sum) {
   using Incidence = MembraneIncidence;
@@ -43,7 +43,7 @@ void add_triangles(const SweepView& view, const Items<MembraneIncidence, P>& ite
              items.each([&](const Incidence& i) { return view.strain_start[i.triangle].yy; })};
   }
   ForceAndBlockOf<P> with = sum;
-  StVenantKirchhoff::add(stencil, material, b - own, c - own, start, with);
+  Model::add(stencil, material, b - own, c - own, start, with);
   sum = selected<P>(items.counted, with, sum);
 }
 
@@ -151,10 +151,12 @@ template <int W, bool is_frozen>
   if (other.triangles.sums != nullptr) {
     lanes.add_part(other.triangles);
   } else {
-    lanes.add_part(view.membrane + vertex.membrane_begin, vertex.membrane_count,
-                   [&](const Items<MembraneIncidence, P>& items, ForceAndBlockOf<P>& sum) {
-                     add_triangles(view, items, material, here, sum);
-                   });
+    with_membrane(view.models[vertex.body].membrane, [&]<class Model>(Model) {
+      lanes.add_part(view.membrane + vertex.membrane_begin, vertex.membrane_count,
+                     [&](const Items<MembraneIncidence, P>& items, ForceAndBlockOf<P>& sum) {
+                       add_triangles<Model>(view, items, material, here, sum);
+                     });
+    });
   }
   if (other.hinges.sums != nullptr) {
     lanes.add_part(other.hinges);

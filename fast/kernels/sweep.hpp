@@ -17,7 +17,7 @@
 #include "fast/kernels/friction_force.hpp"
 #include "fast/kernels/inertia.hpp"
 #include "fast/kernels/models/discrete_hinge.hpp"
-#include "fast/kernels/models/st_venant_kirchhoff.hpp"
+#include "fast/kernels/models/membrane_models.hpp"
 #include "fast/kernels/plane_lists.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/kernels/truncate.hpp"
@@ -133,8 +133,8 @@ struct SweepView {
   int iteration = 0;                            ///< number of this one; nothing is written where it is not its turn
   float contact_radius = 0;                     ///< r [m]
   float friction_limit = 0;                     ///< ε_v h [m]
-  // Read by GatherEveryModel alone (sweep_models.hpp).
   const SurfaceModels* models = nullptr;        ///< by body
+  // Read by GatherEveryModel alone (sweep_models.hpp).
   const IsometricStencil* isometric = nullptr;  ///< beside `hinges`; null where no body has the model
   const SpringRow* spring_rows = nullptr;       ///< by slot; null where there is no spring
   const SpringIncidence* springs = nullptr;     ///< row by row, as spring_rows says
@@ -187,10 +187,12 @@ OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneI
   return reads;
 }
 
-/// Adds a triangle of the default model.
+/// Adds a triangle whose strain is damped.
 OGC_HD inline void add_membrane_incidence(const MembraneIncidence& incidence, const MembraneReads& reads,
-                                          const SurfaceMaterial& material, const Vec& own, ForceAndBlock& sum) {
-  StVenantKirchhoff::add(incidence.stencil, material, reads.b - own, reads.c - own, reads.strain_start, sum);
+                                          const SurfaceMaterial& material, compare::MembraneModel model,
+                                          const Vec& own, ForceAndBlock& sum) {
+  const Vec to_b = reads.b - own, to_c = reads.c - own;
+  with_membrane(model, AddDampedMembrane<float>{incidence.stencil, material, to_b, to_c, reads.strain_start, sum});
 }
 
 /// A hinge as the vertex at `own` sees it, with θᵗ where it is damped.
@@ -317,9 +319,9 @@ OGC_HD void prefetch_rows(const SweepView& view, const SweepVertex& vertex, cons
   team.prefetch(view.contacts + contacts.begin, contacts.count * static_cast<int>(sizeof(ContactIncidence)));
 }
 
-/// The sum over all stencils of one vertex, inertia left out, of scenes with default models alone (St.
-/// Venant–Kirchhoff, discrete hinges, activation `ogc`, damping of strains, no springs), in four parts: triangles,
-/// hinges, vertex–facet contacts, edge–edge contacts.
+/// The sum over all stencils of one vertex, inertia left out, of scenes with default models alone (any membrane,
+/// discrete hinges, activation `ogc`, damping of strains, no springs), in four parts: triangles, hinges, vertex–facet
+/// contacts, edge–edge contacts.
 template <class Weights>
 struct GatherSurfaces {
   static constexpr int parts = 4;  ///< parts of the sum: warps of a block where teams are spread (fast/cuda/team.cuh)
@@ -329,12 +331,13 @@ struct GatherSurfaces {
                                   const Team& team) const {
     const ContactParts<OgcActivation, Weights> contacts{view, view.contact_rows[slot], {}};
     const SurfaceMaterial material = view.materials[vertex.body];
+    const compare::MembraneModel model = view.models[vertex.body].membrane;
     prefetch_rows(view, vertex, contacts.row, team);
     return team.template sum<ForceAndBlock>(
         part(
             vertex.membrane_count, [&](int k) { return view.membrane[vertex.membrane_begin + k]; },
             [&](const MembraneIncidence& membrane, ForceAndBlock& sum) {
-              add_membrane_incidence(membrane, read_membrane(view, membrane, material), material, own, sum);
+              add_membrane_incidence(membrane, read_membrane(view, membrane, material), material, model, own, sum);
             }),
         part(
             vertex.hinge_count, [&](int k) { return view.hinges[vertex.hinge_begin + k]; },

@@ -54,8 +54,8 @@ struct ProbeMembrane {
     const SurfaceModels models = view.models[i];
     const MembraneIncidence& incidence = view.membrane[i];
     const Vec own = view.old[3 * i];
-    if (has_default_membrane(models) && models.membrane != compare::MembraneModel::none)
-      add_membrane_incidence(incidence, read_membrane(view, incidence, material), material, own, sum);
+    if (has_default_membrane(models))
+      add_membrane_incidence(incidence, read_membrane(view, incidence, material), material, models.membrane, own, sum);
     else
       add_any_membrane(view, incidence, material, models, {own, own - view.start[3 * i]}, sum);
     out.store(i, sum);

@@ -66,16 +66,19 @@ using MembraneStencil = MembraneStencilOf<float>;
 
 /// Adds −∂/∂x_a of A (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²), ΔG = G − Gᵗ, and the material part of its block.
 /// `strain_start` is Gᵗ.
-OGC_HD inline void add_strain_damping(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b,
-                                      const Vec& to_c, const Symmetric2& strain_start, ForceAndBlock& sum) {
-  const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
-  const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]),
-              own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
-  const Symmetric2 strain = green_strain(f);
-  const Symmetric2 viscous = membrane_stress(
-      material, Symmetric2{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
-  const float weight = stencil.area * material.membrane_damping,
-              around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
+template <class T>
+OGC_HD void add_strain_damping(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material,
+                               const Vector<T>& to_b, const Vector<T>& to_c, const Symmetric2Of<T>& strain_start,
+                               ForceAndBlockOf<T>& sum) {
+  const DeformationGradientOf<T> f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
+  const T own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]),
+          own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
+  const Symmetric2Of<T> strain = green_strain(f);
+  const Symmetric2Of<T> viscous = membrane_stress(
+      material,
+      Symmetric2Of<T>{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
+  const T weight = stencil.area * material.membrane_damping,
+          around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
   sum.add_force(-weight, (viscous.xx * own_x + viscous.xy * own_y) * f.first +
                              (viscous.xy * own_x + viscous.yy * own_y) * f.second);
   sum.add_outer(weight * (material.lame_lambda + material.lame_mu), own_x * f.first + own_y * f.second);

@@ -8,10 +8,9 @@ namespace ogc::fast {
 
 /// MembraneModel::none: triangles without energy, which no rest state holds.
 struct NoMembrane {
-  /// There is no stencil to add, so GatherDefault serves.
-  static constexpr bool is_default = true;
-  OGC_HD static void add(const MembraneStencil&, const SurfaceMaterial&, const Vec&, const Vec&, const Symmetric2&,
-                         ForceAndBlock&) {}
+  template <class T>
+  OGC_HD static void add(const MembraneStencilOf<T>&, const SurfaceMaterial&, const Vector<T>&, const Vector<T>&,
+                         const Symmetric2Of<T>&, ForceAndBlockOf<T>&) {}
   OGC_HD static void add_elastic(const MembraneStencil&, const SurfaceMaterial&, const Vec&, const Vec&,
                                  ForceAndBlock&) {}
   OGC_HD static double energy(const TriangleRest&, const SurfaceMaterial&, const Vec&, const Vec&) { return 0; }
@@ -28,10 +27,25 @@ OGC_HD auto with_membrane(compare::MembraneModel model, const Use& use) {
   __builtin_unreachable();
 }
 
-/// Whether GatherDefault has this membrane and its damping.
+/// Adds a triangle with damping of strains, given the functor of its model.
+template <class T>
+struct AddDampedMembrane {
+  /// As a model's `add` takes them.
+  const MembraneStencilOf<T>& stencil;
+  const SurfaceMaterial& material;
+  const Vector<T>&to_b, &to_c;
+  const Symmetric2Of<T>& strain_start;
+  ForceAndBlockOf<T>& sum;
+
+  template <class Model>
+  OGC_HD void operator()(Model) const {
+    Model::add(stencil, material, to_b, to_c, strain_start, sum);
+  }
+};
+
+/// Whether GatherDefault has the body's damping, and with it its membrane, whichever that is.
 OGC_HD inline bool has_default_membrane(const SurfaceModels& models) {
-  const auto is_default = [](auto model) { return decltype(model)::is_default; };
-  return models.damping == compare::DampingForm::strain && with_membrane(models.membrane, is_default);
+  return models.damping == compare::DampingForm::strain;
 }
 
 }  // namespace ogc::fast

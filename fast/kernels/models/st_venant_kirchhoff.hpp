@@ -7,8 +7,6 @@ namespace ogc::fast {
 
 /// MembraneModel::st_venant_kirchhoff.
 struct StVenantKirchhoff {
-  static constexpr bool is_default = true;  ///< GatherDefault and the packs of the CPU have it
-
   /// Adds −∂ψ/∂x_a and the 3×3 block: A (1 + k_d/h) ((λ+μ) (F∇N_a)(F∇N_a)ᵀ + μ ‖∇N_a‖² F Fᵀ) + A max(0, ∇N_aᵀ S ∇N_a)
   /// I, both with damping. `strain_start` is Gᵗ.
   template <class T>

@@ -15,56 +15,59 @@
 namespace ogc::fast {
 
 /// J, n and q; `ratio` 0 where the triangle has collapsed as far as single precision can tell.
-struct AreaRatio {
-  Vec normal;                    ///< n, a unit vector; 0 where the triangle has collapsed
-  float ratio = 0, density = 0;  ///< J [1], q [1/m²]
+template <class T>
+struct AreaRatioOf {
+  Vector<T> normal;        ///< n, a unit vector; 0 where the triangle has collapsed
+  T ratio{}, density{};    ///< J [1], q [1/m²]
 };
 
 /// J, n and q of a triangle with the edges b, c and the gradients ∇N_b, ∇N_c.
-OGC_HD inline AreaRatio area_ratio(const Vec& to_b, const Vec& to_c, const float* gradient_b, const float* gradient_c) {
-  Vec normal = cross(to_b, to_c);
-  float scale = fabsf(gradient_b[0] * gradient_c[1] - gradient_b[1] * gradient_c[0]);
-  const float density = scale;
+template <class T>
+OGC_HD AreaRatioOf<T> area_ratio(const Vector<T>& to_b, const Vector<T>& to_c, const T* gradient_b,
+                                 const T* gradient_c) {
+  Vector<T> normal = cross(to_b, to_c);
+  T scale = absolute(gradient_b[0] * gradient_c[1] - gradient_b[1] * gradient_c[0]);
+  const T density = scale;
   // Of a triangle a millionth as large the square of the area underflows.
-  if (!(dot(normal, normal) >= 0x1p-90f)) {
-    normal = cross(0x1p40f * to_b, 0x1p40f * to_c);
-    scale *= 0x1p-80f;
+  const Mask<T> is_tiny = dot(normal, normal) < 0x1p-90f;
+  if (!is_false(is_tiny)) {
+    const T large = T{} + 0x1p40f;
+    normal = select(is_tiny, cross(large * to_b, large * to_c), normal);
+    scale = select(is_tiny, 0x1p-80f * scale, scale);
   }
-  const float squared = dot(normal, normal);
-  if (!(squared >= 0x1p-126f)) return {{}, 0, density};
-  const float length = sqrtf(squared);
-  return {(1.0f / length) * normal, scale * length, density};
+  const T squared = dot(normal, normal);
+  const Mask<T> is_flat = squared < 0x1p-126f;
+  const T length = root(squared), zero{};
+  return {select(is_flat, Vector<T>{}, (1.0f / length) * normal), select(is_flat, zero, scale * length), density};
 }
 
 /// MembraneModel::stable_neo_hookean.
 struct StableNeoHookean {
-  static constexpr bool is_default = false;  ///< GatherDefault and the packs of the CPU lack it
-
-  /// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J.
-  OGC_HD static void add_elastic(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b,
-                                 const Vec& to_c, ForceAndBlock& sum) {
-    const float own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]),
-                own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
-    const float mu = material.lame_mu, area = stencil.area, around = mu * (own_x * own_x + own_y * own_y);
-    const DeformationGradient f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
-    const Vec along = own_x * f.first + own_y * f.second;
-    const AreaRatio at = area_ratio(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
+  /// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J: its normal
+  /// is 0, and with it all that J adds.
+  template <class T>
+  OGC_HD static void add_elastic(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material,
+                                 const Vector<T>& to_b, const Vector<T>& to_c, ForceAndBlockOf<T>& sum) {
+    const T own_x = -(stencil.gradient_b[0] + stencil.gradient_c[0]),
+            own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
+    const float mu = material.lame_mu, volume = material.lame_lambda + mu;
+    const T area = stencil.area, around = mu * (own_x * own_x + own_y * own_y);
+    const DeformationGradientOf<T> f = deformation_gradient(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
+    const Vector<T> along = own_x * f.first + own_y * f.second;
+    const AreaRatioOf<T> at = area_ratio(to_b, to_c, stencil.gradient_b, stencil.gradient_c);
+    const Vector<T> growth = at.density * cross(to_b - to_c, at.normal);
+    const T pull = volume * (at.ratio - 1.0f) - mu, one = T{} + 1.0f;
+    sum.add_force(-area, (T{} + mu) * along + pull * growth);
     sum.add_identity(area * around);
-    if (!(at.ratio > 0)) {
-      sum.add_force(-area, mu * along);
-      return;
-    }
-    const Vec growth = at.density * cross(to_b - to_c, at.normal);
-    const float volume = material.lame_lambda + mu, pull = volume * (at.ratio - 1.0f) - mu;
-    sum.add_force(-area, mu * along + pull * growth);
     sum.add_outer(area * volume, growth);
-    const float lift = pull * (dot(growth, growth) / at.ratio);
-    sum.add_outer(area * (lift > -around ? lift : -around), at.normal);
+    const T lift = pull * (dot(growth, growth) / select(at.ratio > T{}, at.ratio, one));
+    sum.add_outer(area * select(lift > -around, lift, -around), at.normal);
   }
 
   /// The same and the damping of strains. `strain_start` is Gᵗ.
-  OGC_HD static void add(const MembraneStencil& stencil, const SurfaceMaterial& material, const Vec& to_b,
-                         const Vec& to_c, const Symmetric2& strain_start, ForceAndBlock& sum) {
+  template <class T>
+  OGC_HD static void add(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material, const Vector<T>& to_b,
+                         const Vector<T>& to_c, const Symmetric2Of<T>& strain_start, ForceAndBlockOf<T>& sum) {
     add_elastic(stencil, material, to_b, to_c, sum);
     if (material.membrane_damping > 0) add_strain_damping(stencil, material, to_b, to_c, strain_start, sum);
   }
