@@ -114,7 +114,8 @@ struct BeginRegions {
 };
 
 /// for_each over all vertices: x ← y truncated about X_prev, and of a free vertex what its contacts leave of the way
-/// there. It slides along half-spaces as inertia alone would have it.
+/// there. It slides along half-spaces as inertia alone would have it. A prescribed vertex that touches stays from the
+/// second round on: sweeps move what is in its way.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev
@@ -147,7 +148,8 @@ struct GuessVertex {
     if (is_odd) here.taken += vertex_count;
     Vec& taken_now = taken[is_odd ? v : v + vertex_count];
     taken_now = {};
-    if (here.offsets == nullptr || prescribed_number[v] != -1) return target[v];
+    if (here.offsets == nullptr || prescribed_number[v] == -2) return target[v];
+    if (prescribed_number[v] >= 0) return control->rounds > 0 && touches(here, v) ? stay : target[v];
     const Vec move = target[v] - stay, held = held_move(here, v, move);
     if (held.x == move.x && held.y == move.y && held.z == move.z) return target[v];
     taken_now = held - move;

@@ -44,6 +44,17 @@ OGC_HD inline Vec held_by(const GuessContacts& here, const ContactIncidence& con
   return held;
 }
 
+/// Whether a vertex is part of a contact that acts.
+OGC_HD inline bool touches(const GuessContacts& here, int v) {
+  for (int i = here.offsets[v]; i < here.offsets[v + 1]; ++i) {
+    const ContactIncidence& contact = here.contacts[i];
+    Vec x[4];
+    for (int k = 0; k < 4; ++k) x[k] = here.position[decoded(contact.index[k])];
+    if (contact_shape(weighted_sum(contact_weights(contact.kind, x), x), here.radius).acts) return true;
+  }
+  return false;
+}
+
 /// What all contacts of a vertex leave of its move, one after the other [m].
 OGC_HD inline Vec held_move(const GuessContacts& here, int v, const Vec& move) {
   Vec held = move;

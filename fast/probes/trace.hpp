@@ -42,7 +42,7 @@ class StepTrace : public StepObserver {
       events_.push_back(event(kind, position, control));
   }
 
-  void after_listing() override {
+  void after_finding() override {
     backend_.synchronize();
     const auto last = std::find_if(events_.rbegin(), events_.rend(), [](const compare::StepEvent& event) {
       return event.kind == compare::StepEventKind::detection;

@@ -3,8 +3,8 @@
 // the host.
 //
 //   begin       where it is its turn trees sorted anew; y, Gᵗ, θᵗ, r_q; driven volumes at y, and their trees
-//   guess loop  repeat(guess): X_prev ← x, detect, x ← y truncated; up to guess_rounds times; then the contacts of the
-//               last detection are listed, those with volumes are found, and xᵗ and x where the sweep gathers them
+//   guess loop  repeat(guess): X_prev ← x, detect, x ← y or where contacts let it, truncated; up to guess_rounds times;
+//               then contacts with volumes are found, and xᵗ and x where the sweep gathers them
 //               (guess=pairs: one round; where balls cut many, all moves by a certificate of pairs, and a detection)
 //   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due,
 //               X_prev ← x, detect before the next
@@ -135,8 +135,8 @@ class StepObserver {
   /// Where an event of this kind may have ended; StepControl counts those that did. `position`: where x is now, on the
   /// backend.
   virtual void after(compare::StepEventKind kind, const Vec* position) = 0;
-  /// The guess loop's last detection has its lists, which the sweeps will read.
-  virtual void after_listing() = 0;
+  /// Contacts with volumes are found where the guess loop detected last.
+  virtual void after_finding() = 0;
   /// The guess loop is over, and frames of segments are turned.
   virtual void after_guess() = 0;
 };
@@ -330,7 +330,7 @@ class Step {
       guess_in_rounds();
     observe(compare::StepEventKind::guess);
     beside_volumes(state_.previous.data(), [] {});
-    if (observer_ != nullptr) observer_->after_listing();
+    if (observer_ != nullptr) observer_->after_finding();
     StepState<Backend>& s = state_;
     using BeginBoth = Beside<BeginSweep, TurnSegment>;
     const BeginBoth begin{s.vertex_count,

@@ -32,7 +32,7 @@ class WayRecorder : public StepObserver {
     state.reserve(previous.size());
     for (const Vec& x : previous) state.push_back({x.x, x.y, x.z});
   }
-  void after_listing() override {}
+  void after_finding() override {}
   void after_guess() override {}
 
   /// By detection X_prev [m].

@@ -160,6 +160,25 @@ TEST_CASE("a force pushes the two sides apart by the slope of the activation", "
   CHECK(sum.block.yy == Approx(10));
 }
 
+TEST_CASE("from r on there is no force, and the curvature that waits at r", "[unit]") {
+  const auto at = [](auto activation, float d) {
+    ForceAndBlock sum;
+    const float force = add_contact<decltype(activation), float>(activation, contact_shape({d, 0, 0}, 0.005f), 1, 1,
+                                                                  0.005f, 10, sum);
+    CHECK(force == 0);
+    CHECK(sum.force.x == 0);
+    return sum.block.xx;
+  };
+  for (const float d : {0.005f, std::nextafter(0.005f, 1.0f), 0.006f, 5.0f}) {
+    CHECK(at(OgcActivation{}, d) == 10);
+    CHECK(at(OgcAsPrinted{}, d) == 10);
+    CHECK(at(QuadraticActivation{}, d) == 10);
+    CHECK(at(CubicActivation{}, d) == 0);
+    CHECK(at(IpcLogActivation{}, d) == 0);
+    CHECK(at(AnyActivation{ContactActivation::ogc}, d) == 10);
+  }
+}
+
 TEST_CASE("nothing is NaN at zero distance, for collapsed edges and triangles, and at the smallest distances",
           "[unit]") {
   std::mt19937 random(34);

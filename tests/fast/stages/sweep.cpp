@@ -119,10 +119,10 @@ struct MadeStream {
     previous = at;
     const ContactView view = detection.view();
     return {{{at.data(), {previous.data(), view.bound}, previous.data(), &control}},
-            {{&control, detection.overflow()},
-             sweep.contact_rows(view.incidence_offsets, detection.loose_incidences(), detection.overflow()),
-             sweep.slots(),
-             sweep.resolve_contact(view, at.data())}};
+            {&control, detection.overflow()},
+            sweep.contact_rows(view.incidence_offsets, detection.loose_incidences(), detection.overflow()),
+            sweep.slots(),
+            sweep.resolve_contact(view, at.data())};
   }
 };
 
