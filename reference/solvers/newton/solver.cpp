@@ -130,12 +130,13 @@ double NewtonSolver::mean_force() const {
   return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
 }
 
-/// Torques on segments count as forces across their lengths; like forces, against those after the guess.
+/// Like forces, torques are held against those after the guess, or against what rounding leaves of them: a straight rod
+/// that falls freely has none at all.
 bool NewtonSolver::has_small_torque() {
   double sum = 0;
   for (std::size_t i = x_.size(); i < derivatives_.gradient.size(); ++i) sum += length(derivatives_.gradient[i]);
   if (reference_torque_ < 0) reference_torque_ = sum;
-  return sum <= std::max(newton_.tolerance * reference_torque_, 0x1p-40 * Potential::total(potential_.terms(x_)));
+  return sum <= std::max(newton_.tolerance * reference_torque_, derivatives_.torque_noise);
 }
 
 std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
