@@ -26,7 +26,8 @@ std::string guarantee(const RunSummary& summary) {
 }
 
 std::string momentum_lost(const RunSummary& summary) {
-  if (!summary.largest_momentum_lost) return "none: no guess loop that was looked at needed all its rounds";
+  if (!summary.largest_momentum_lost)
+    return "none by truncation: no guess loop that was looked at needed all its rounds";
   return "at most " + number(100 * *summary.largest_momentum_lost) + " % of what a step was to move, in the guess loop";
 }
 

@@ -189,9 +189,9 @@ TEST_CASE("yarn: of a smooth curve with segments of a tenth of r neighbours are 
   CHECK(count_of(narrow, 30 * r, false) > 0);
 }
 
-// From the fifth step on strands that touch, nearly parallel, jump between pairs of closest points; rounds of detections
-// that lead nowhere end a step then, which takes less than the 50 iterations that it has.
-TEST_CASE("yarn: Newton's steps of a knit that is stretched end, and the run says that its states were audited",
+// From the fifth step on strands that touch, nearly parallel, jump between pairs of closest points; rounds of
+// detections that lead nowhere end a step then, which takes less than the 50 iterations that it has.
+TEST_CASE("yarn: Newton's steps of a knit that is stretched end, and the run says that states were audited",
           "[property]") {
   const TemporaryFolder folder;
   const std::string eight = "run yarn_stretch --scale smoke --solver newton --steps 8 --audit every --out ";
