@@ -12,6 +12,7 @@
 #include "reference/geometry/primitive_distances.hpp"
 #include "reference/illustrations/activation_drawing.hpp"
 #include "reference/illustrations/illustrations.hpp"
+#include "reference/ipc/stopping.hpp"
 #include "reference/solvers/ledger.hpp"
 #include "reference/solvers/newton/minimiser.hpp"
 #include "reference/solvers/residual.hpp"

@@ -30,8 +30,9 @@ constexpr std::array<compare::SettingInfo, 10> rows{{
     {"ipc_ccd", "1", "IPC: whether the pairs near each other alone limit a move, or all pairs", 0, 1,
      Declared{choice, static_cast<double>(IpcCcd::partial)}, ccd_names},
     {"ipc_tolerance", "1/s",
-     "IPC, displacement: motion at which a step ends, in diagonals of the box a second; 0: all iterations are done", 0,
-     0x1p10, Declared{real, 1e-2}},
+     "IPC, displacement: motion at which a step ends, in diagonals of the smallest free body's box a second; 0: all "
+     "iterations are done",
+     0, 0x1p10, Declared{real, 1e-2}},
     {"ipc_velocity_tolerance", "m/s", "IPC, velocity: mean velocity at which a step ends; 0: all iterations are done",
      0, 0x1p10, Declared{real, 1e-3}},
     {"ipc_iterations", "1", "IPC: iterations in a step at most", 1, most_count, Declared{whole, 10000}},

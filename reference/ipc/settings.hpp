@@ -10,8 +10,8 @@ namespace ogc::reference {
 /// How IPC's barrier stiffness κ adapts: by distances (Li et al. 2020), or by gaps, which a thickness leaves of them
 /// (Li et al. 2021).
 enum class IpcAdaptation : std::uint8_t { distance, gap };
-/// When an IPC step has converged: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020), or root mean square of ‖p_v‖/h of
-/// the last three iterations (2021).
+/// When an IPC step has converged: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020; the diagonal is that of the
+/// smallest free body, moving_diagonal), or root mean square of ‖p_v‖/h of the last three iterations (2021).
 enum class IpcStopping : std::uint8_t { displacement, velocity };
 /// Which pairs bound an IPC step: the active ones and d̂/2 of motion for the others while that takes at most half of it
 /// (Li et al. 2020), or all (2021).
@@ -26,7 +26,7 @@ struct IpcSettings {
   IpcAdaptation adaptation;  ///< how κ adapts
   IpcStopping stopping;      ///< which of the two rules ends a step
   IpcCcd ccd;                ///< which pairs bound a step
-  double tolerance;  ///< `displacement`: in diagonals of the rest box a second [1/s]; 0: all iterations are done
+  double tolerance;  ///< `displacement`: in diagonals of moving_diagonal a second [1/s]; 0: all iterations are done
   double velocity_tolerance;  ///< `velocity` [m/s]; 0: all iterations are done
   std::int64_t iterations;    ///< a step at most; it then ends where it is, as in the published codes
 };

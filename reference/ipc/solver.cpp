@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "compare/problem/error.hpp"
-#include "reference/geometry/box_tree.hpp"
 #include "reference/ipc/intersections.hpp"
+#include "reference/ipc/stopping.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -34,13 +34,6 @@ double largest_component(const State& p) {
     for (const double c : a)
       if (!(std::abs(c) <= largest)) largest = std::abs(c);
   return largest;
-}
-
-double rest_diagonal(const compare::Scene& scene) {
-  Box box;
-  for (const compare::Vec3& p : scene.rest_positions)
-    include(box, compare::Vec3f{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-  return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
 BarrierShape shape_of(const compare::Scene& scene, const IpcSettings& settings) {
@@ -86,6 +79,7 @@ IpcSolver::IpcSolver(const compare::Scene& scene, const compare::Topology& topol
       shape_(shape_of(scene, ipc_)),
       forces_(scene, topology, shape_),
       mesh_{topology_, exclusions_, forces_.potential().rest().edge_length_squared},
+      moving_diagonal_(moving_diagonal(scene)),
       guard_({rest_diagonal(scene), 0}, shape_, ipc_.adaptation),
       free_(forces_.potential().mobility()) {
   scale_ = {rest_diagonal(scene), mean_inertia(forces_.potential())};
@@ -230,29 +224,34 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   if (!p) return Outcome::indefinite;
   ++metrics_.iterations;
   ++iterations_;
-  metrics_.residual = largest_component(*p) / settings_.time_step / scale_.diagonal;
+  metrics_.residual = largest_component(*p) / settings_.time_step / moving_diagonal_;
   if (!std::isfinite(metrics_.residual)) return Outcome::not_finite;
-  const bool done = converged(*p);
+  const bool is_noise = iterations_ > 1 && largest_component(*p) <= 0x1p-52 * largest_component(x_);
+  const bool done = is_noise || converged(*p);
+  // Algorithm 1 takes the step that is small enough, too (README.md): what is left is then of the second order.
+  const bool is_taken = !done || (ipc_.stopping == IpcStopping::displacement && !is_noise);
+  if (is_taken && !take(*p, done)) return Outcome::stuck;
   if (done && pulled_home()) return Outcome::converged;
-  if (!done) {
-    const Bounded bound = bounded(*p);
-    const double share = searched(*p, bound);
-    if (options_.iterations) rows_.back().share = share, rows_.back().largest_change = largest_motion(*p);
-    if (share < smallest_share) {
-      note((descend_ ? "a step along the gradient" : "Newton's step") + std::string(" came to ") + number(share) +
-           " of itself" +
-           (bound.pair ? ", held by " + describe(topology_, *bound.pair, compare::ElementNames(scene_))
-                       : std::string()) +
-           (descend_ ? "" : "; the next one follows the gradient"));
-      if (descend_) return Outcome::stuck;
-      descend_ = true;
-    } else {
-      descend_ = false;
-    }
-    adapt_stiffness();
-    release_pull();
-  }
   return metrics_.iterations >= ipc_.iterations ? std::optional(Outcome::limit) : std::nullopt;
+}
+
+/// False where neither Newton's step nor the one along the gradient after it comes to anything. The last step of a
+/// solve may come to nothing: nothing was left to do.
+bool IpcSolver::take(const State& p, bool is_last) {
+  const Bounded bound = bounded(p);
+  const double share = searched(p, bound);
+  if (options_.iterations) rows_.back().share = share, rows_.back().largest_change = largest_motion(p);
+  const bool is_nothing = share < smallest_share && !is_last, was_gradient = descend_;
+  if (is_nothing)
+    note((was_gradient ? "a step along the gradient" : "Newton's step") + std::string(" came to ") + number(share) +
+         " of itself" +
+         (bound.pair ? ", held by " + describe(topology_, *bound.pair, compare::ElementNames(scene_)) : std::string()) +
+         (was_gradient ? "" : "; the next one follows the gradient"));
+  descend_ = is_nothing;
+  if (is_nothing && was_gradient) return false;
+  adapt_stiffness();
+  release_pull();
+  return true;
 }
 
 std::optional<State> IpcSolver::direction() {
@@ -283,12 +282,10 @@ std::optional<State> IpcSolver::direction() {
   });
 }
 
-/// Both published rules want a step to be taken at least once. Where p is lost in the last bit of the positions no rule
-/// can ask for more.
+/// Both published rules want a step to be taken at least once.
 bool IpcSolver::converged(const State& p) {
-  if (iterations_ > 1 && largest_component(p) <= 0x1p-52 * largest_component(x_)) return true;
   if (ipc_.stopping == IpcStopping::displacement)
-    return iterations_ > 1 && largest_component(p) < ipc_.tolerance * scale_.diagonal * settings_.time_step;
+    return iterations_ > 1 && largest_component(p) < ipc_.tolerance * moving_diagonal_ * settings_.time_step;
   double sum = 0;
   for (const Triple<double>& a : p) sum += dot(a, a);
   const double h = settings_.time_step,

@@ -3,9 +3,9 @@
 //   barriers at xᵗ ── κ ── friction lagged ── prescribed vertices to their targets as far as CCD allows ──┐
 //        ┌────────────────────────────────────────────────────────────────────────────────────────────────┘
 //        ▼
-//     derivatives ── solve for p ── p small? ── bound by CCD ──┐
-//        ▲                                                     ▼
-//        └── adapt κ, or the pull ── halve until the energy falls and nothing intersects
+//     derivatives ── solve for p ── bound by CCD ── halve until the energy falls and nothing intersects ──┐
+//        ▲                                                                                                ▼
+//        └──────────────────────── adapt κ, or the pull ─────────────────────────────────────── p small? ─┘
 //
 // The bound is that of the official code: CCD of the active pairs alone, and d̂/2 of motion for all others (a CFL-like
 // rule); where that rule would take more than half of the step away, CCD of all pairs. One broad phase serves an
@@ -98,6 +98,7 @@ class IpcSolver {
   Outcome solve_once();
   /// One iteration; empty where it goes on.
   std::optional<Outcome> iterate();
+  bool take(const State& p, bool is_last);
   std::optional<State> direction();
   bool converged(const State& p);
   bool pulled_home();
@@ -128,6 +129,7 @@ class IpcSolver {
   StiffnessScale scale_;
   IpcForces forces_;
   PairMesh mesh_;
+  double moving_diagonal_;  ///< what a step's tolerance is a share of [m]
   StiffnessBounds bounds_;
   StiffnessGuard guard_;
   System free_;

@@ -331,7 +331,7 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   std::size_t first = 0;
   const auto add = [&](const auto& terms) {
     differentiate(std::span(terms), x, projection, result.stencil.data() + first,
-                  [&, first](std::size_t i) { measure(first + i, result); });
+                  [&, first](std::size_t i) { measure(first + i, 4, result); });
     first += terms.size();
   };
   add(membranes_);
@@ -340,7 +340,7 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   add(tetrahedra_);
   tbb::parallel_for(std::size_t{0}, rods_.stencil_count(), [&](std::size_t i) {
     result.stencil[first + i] = rods_.derivatives(i, x, projection);
-    measure(first + i, result);
+    measure(first + i, rods_.corners(i), result);
   });
   first += rods_.stencil_count();
   add(contacts_);
@@ -350,17 +350,17 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   return result;
 }
 
-/// Moduli, for what rounding does.
-void Potential::measure(std::size_t stencil, PotentialDerivatives& result) const {
+/// Moduli, for what rounding of positions does to forces.
+void Potential::measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const {
   const StencilDerivatives& derivatives = result.stencil[stencil];
   const auto vertex = vertices(stencil);
   double slopes = 0, curvatures = 0;
   std::array<double, 12> columns{};  // side by side: one sum would be a chain of additions
-  for (std::size_t k = 0; k < 4 && vertex[k] >= 0; ++k) {
+  for (std::size_t k = 0; k < corners && vertex[k] >= 0; ++k) {
     if (unknowns_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
     for (std::size_t row = 3 * k; row < 3 * k + 3; ++row) {
       slopes += std::abs(derivatives.gradient[row]);
-      for (std::size_t column = 0; column < 12; ++column)
+      for (std::size_t column = 0; column < 3 * corners; ++column)
         columns[column] += std::abs(derivatives.hessian[12 * row + column]);
     }
   }
@@ -392,6 +392,35 @@ void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const
   const double rounding = 0x1p-52 * largest_coordinate(x);
   result.energy_noise = rounding * slopes;
   result.force_noise = free_count_ > 0 ? rounding * curvatures / static_cast<double>(free_count_) : 0;
+  result.torque_noise = 0;
+  add_frame_noise(x, result);
+}
+
+/// Of rods: what rounding of frames does to forces, and of both kinds of unknowns to torques.
+void Potential::add_frame_noise(const State& x, PotentialDerivatives& result) const {
+  if (!rods_.is_used()) return;
+  const double largest = largest_coordinate(x);
+  double slopes = 0, forces = 0, torques = 0;
+  const std::size_t first = elastic_count() - rods_.stencil_count();
+  for (std::size_t i = 0; i < rods_.stencil_count(); ++i) {
+    const StencilDerivatives& derivatives = result.stencil[first + i];
+    const std::size_t positions = 3 * rods_.corners(i);
+    const auto vertex = rods_.vertices(i);
+    for (std::size_t row = 0; row < 12 && vertex[row / 3] >= 0; ++row) {
+      if (unknowns_[static_cast<std::size_t>(vertex[row / 3])] != Mobility::free) continue;
+      if (row >= positions) slopes += std::abs(derivatives.gradient[row]);
+      for (std::size_t column = 0; column < 12; ++column) {
+        const double curvature = std::abs(derivatives.hessian[12 * row + column]);
+        if (row >= positions)
+          torques += (column < positions ? largest : 1) * curvature;
+        else if (column >= positions)
+          forces += curvature;
+      }
+    }
+  }
+  result.energy_noise += 0x1p-52 * slopes;
+  if (free_count_ > 0) result.force_noise += 0x1p-52 * forces / static_cast<double>(free_count_);
+  result.torque_noise = 0x1p-52 * torques;
 }
 
 double Potential::elastic_energy(const State& x) const {

@@ -38,9 +38,10 @@ struct PotentialDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<double> slopes, curvatures;  ///< Σ |∂E| and Σ |∂²E| of each stencil's free vertices [N], [N/m]
   State gradient;                          ///< by unknown, vertices [N] then segments [N m]; 0 where not free
-  /// What rounding of the positions alone does to the mean of ‖gradient‖ and to the energy: 2⁻⁵² ‖x‖_∞ times the sums
-  /// of |∂²E| and of |∂E|.
-  double force_noise = 0, energy_noise = 0;  ///< [N], [J]
+  /// What rounding of the unknowns alone does to the mean of ‖gradient‖ over free vertices, to its sum over segments of
+  /// rods, and to the energy: 2⁻⁵² times the sums of |∂²E| and of |∂E|, each by the size of the unknown that is
+  /// rounded, ‖x‖_∞ of positions and 1 of frames, which are unit quaternions.
+  double force_noise = 0, torque_noise = 0, energy_noise = 0;  ///< [N], [N m], [J]
 };
 
 /// The incremental potential of a scene, step after step.
@@ -111,7 +112,9 @@ class Potential {
   void add_contact(const ContactStencil& stencil, const State& previous);
   void add_contact(const compare::VolumeContact& contact);
   double stencil_energy(std::size_t stencil, const State& x) const;
-  void measure(std::size_t stencil, PotentialDerivatives& result) const;
+  /// `corners`: how many of the stencil's first unknowns are vertices.
+  void measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const;
+  void add_frame_noise(const State& x, PotentialDerivatives& result) const;
   void sum_gradient(const State& x, PotentialDerivatives& result) const;
 
   const compare::Scene& scene_;

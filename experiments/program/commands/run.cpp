@@ -96,9 +96,10 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       "to the very bits of a run that was never cut off: frames, rows of steps.csv (but for times), final\n"
       "state; so do all solvers, IPC, too. What it refuses (another program, device or scene, damage, a\n"
       "run that still goes on) it says before it computes anything.\n"
-      "A scene larger than 20 m, r above two median edges, a lag above r, and a step that truncation takes more than "
-      "half of its momentum are\n"
-      "warned of once, with number and remedy: as they happen, in the last line, in --json and in run.json.\n"
+      "A scene larger than 20 m, r above two median edges, isometric bending on a rest shape that is not flat, a\n"
+      "tolerance of IPC above what gravity changes in a step, a lag above r, and a step of which truncation takes\n"
+      "more than half are warned of once, with number and remedy: as they happen, in the last line, in --json and\n"
+      "in run.json.\n"
       "Frames are packed and written beside the simulation, which waits where the disk is too slow. The\n"
       "summary and run.json say where the time went: start, steps, waiting for audits, for the disk.\n"
       "Exit status 1: a penetration, a broken bound, a number that is not finite.");

@@ -67,12 +67,14 @@ void run(const Options& options, const CommandContext& context) {
   const compare::Material material = is_solid ? soft_rubber() : layer_cloth();
   const double density = is_solid ? material.solid_density : material.density;
   const double fall = options.fall.value_or(default_fall(input.mesh));
-  const std::vector<Row> rows = rows_of(suggest(input.mesh, material, fall));
+  const Suggestion found = suggest(input.mesh, material, fall);
+  const std::vector<Row> rows = rows_of(found);
   const std::string command = command_line(options.mesh, lowest_point(input.mesh) - fall, rows);
   if (context.json) {
     Json json{{"mesh", options.mesh}, {"density", density}, {"fall", fall}, {"settings", Json::object()}};
     for (const auto& [setting, unit, suggested] : rows)
       json["settings"][setting] = {{"value", suggested.value}, {"unit", unit}, {"reason", suggested.reason}};
+    json["excess_extension"] = found.excess_extension;
     json["command"] = command;
     return print_result(json);
   }
@@ -100,11 +102,12 @@ void add_suggest_command(CLI::App& app, CommandContext& context) {
       "The contact radius follows from edges and gaps (nothing is in contact at the start where that can be), the\n"
       "stiffness from the weight of ten layers, or of as many as there are, and from the fall, the query radius and "
       "the\n"
-      "step from how far a vertex may move between two detections, the iterations from how far a stretch wave comes in "
-      "a\n"
-      "step and from how many layers lie on one another. The mesh is taken as cloth of 0.2 kg/m², "
-      "or, if\n"
-      "it has tetrahedra, as soft rubber; what is printed last runs it so. Lengths are in metres.\n\n"
+      "step from how far a vertex may move between two detections, the iterations from how much longer what hangs "
+      "gets\n"
+      "by sweeps that end early (at most 1 %, or what 100 iterations leave, which is said), from contacts, and from "
+      "how\n"
+      "many layers lie on one another. The mesh is taken as cloth of 0.2 kg/m², or, if it has tetrahedra, as soft\n"
+      "rubber; what is printed last runs it so. Lengths are in metres.\n\n"
       "Examples:\n"
       "  ogc suggest shirt.obj\n"
       "  ogc suggest shirt.obj --fall 0.5 --json");

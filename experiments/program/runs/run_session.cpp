@@ -127,7 +127,8 @@ RunSession::RunSession(RunRequest request, compare::Contestant contestant)
       settings_(request_.scene.settings),
       contestant_(std::move(contestant)),
       judge_(request_.scene, request_.sources),
-      warnings_(request_.scene) {
+      warnings_(request_.scene, parse_solver(request_.solver)),
+      momentum_(request_.scene) {
   frame_steps_ = frame_steps(settings_);
   summary_.has_volumes = judge_.has_volumes();
   start_state();
@@ -202,6 +203,7 @@ void RunSession::open_folder() {
   summary_.device = simulation_->device();
   summary_.folder = request_.folder.string();
   summary_.left_out_of_audits = left_out_of_audits(request_.scene);
+  summary_.audit = request_.audit;
   summary_.asks_meetings = request_.meetings.has_value();
   summary_.is_unbounded = settings_.bounds == compare::Bounds::off;
   summary_.first_step = summary_.last_step = step_;
@@ -215,6 +217,7 @@ void RunSession::open_folder() {
 
 void RunSession::begin_folder() {
   last_good_.bounds.assign(start_.positions.size(), 0);
+  momentum_.begin_after(start_.step, start_.velocities);
   compare::Provenance origin = provenance(request_, summary_.device);
   origin.warnings = warnings_.list();
   writer_ = std::make_unique<compare::RunWriter>(
@@ -232,10 +235,21 @@ void RunSession::reopen_folder() {
   writer_->keep_frames([this](std::int64_t step) {
     return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps;
   });
+  remember_starts(rows);
   count(rows);
   summary_.audited_states = static_cast<std::size_t>(request_.resume->audited_states);
   if (summary_.audited_states > 0) summary_.guarantee_kept = true;
   log_line("goes on after step " + std::to_string(step_) + " of " + std::to_string(settings_.steps));
+}
+
+/// From the frames, of steps whose loss counts: reading all of them takes long.
+void RunSession::remember_starts(const std::vector<StepMetrics>& rows) {
+  const compare::RunReader reader(request_.folder);
+  for (std::size_t i = 0; i < reader.frame_count(); ++i) {
+    const auto next = std::ranges::find(rows, reader.frame_step(i) + 1, &StepMetrics::step);
+    if (next != rows.end() && next->guess_rounds >= settings_.guess_rounds)
+      momentum_.begin_after(reader.frame_step(i), reader.frame(i).velocities);
+  }
 }
 
 RunSummary RunSession::run() {
@@ -321,6 +335,8 @@ void RunSession::offer_state(std::int64_t before) {
   step_ = snapshot.step;
   if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
   offered_step_ = step_;
+  // At frames alone, which a run that was cut off has, too, so that both say the same.
+  if (is_frame(step_)) momentum_.begin_after(step_, snapshot.velocities);
   offer(std::move(snapshot));
 }
 
@@ -335,7 +351,9 @@ void RunSession::add_rows(const std::vector<StepMetrics>& rows) {
 
 void RunSession::count(const std::vector<StepMetrics>& rows) {
   for (const StepMetrics& row : rows) {
-    for (const std::string& warning : warnings_.look_at(row)) log_line("warning: " + warning);
+    const std::optional<double> lost = momentum_.lost(row);
+    if (lost) summary_.largest_momentum_lost = std::max(*lost, summary_.largest_momentum_lost.value_or(0));
+    for (const std::string& warning : warnings_.look_at(row, lost)) log_line("warning: " + warning);
     step_times_.push_back(row.wall_ms);
     if (row.wall_ms > summary_.worst_ms) summary_.worst_ms = row.wall_ms, summary_.worst_step = row.step;
     summary_.last_vertex_facet_contacts = row.vertex_facet_contacts;
@@ -348,7 +366,6 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
     summary_.iterations += row.iterations;
     summary_.repeats += row.repeats;
     summary_.largest_share_cut = std::max(summary_.largest_share_cut, row.share_cut);
-    summary_.largest_momentum_lost = std::max(summary_.largest_momentum_lost, row.momentum_lost_guess);
     summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
     summary_.most_unresolved = std::max(summary_.most_unresolved, row.depth_unresolved);
     // beyond all floats where no vertex has a bound, as in scenes of nothing but volumes

@@ -17,6 +17,7 @@
 #include "experiments/program/output.hpp"
 #include "experiments/program/runs/jitter.hpp"
 #include "experiments/program/runs/measured_simulation.hpp"
+#include "experiments/program/runs/momentum_share.hpp"
 #include "experiments/program/runs/pace.hpp"
 #include "experiments/program/runs/warnings.hpp"
 
@@ -65,6 +66,7 @@ struct RunSummary {
   std::string scene, scale, solver, backend, device, folder, status;
   std::vector<std::string> warnings;  ///< about settings that are hardly meant (experiments/program/runs/warnings.hpp)
   std::string left_out_of_audits;     ///< in words; empty where nothing is
+  AuditMode audit = AuditMode::off;   ///< which states were to be audited
   std::string failure;                ///< what went wrong, naming primitives; empty where nothing did
   bool was_interrupted = false;       ///< Ctrl-C ended it
   bool is_unbounded = false;          ///< bounds=off: nothing is guaranteed
@@ -76,7 +78,9 @@ struct RunSummary {
   /// broad phases, then detections as StepMetrics counts them
   std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
-  double largest_share_cut = 0, largest_momentum_lost = 0, largest_lag = 0, smallest_distance = 0;
+  double largest_share_cut = 0, largest_lag = 0, smallest_distance = 0;
+  /// MomentumShare of the steps that follow a frame; empty where no such step did all rounds of its guess
+  std::optional<double> largest_momentum_lost;
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
   bool has_volumes = false;  ///< the following of audited states of this command
   std::size_t most_inside = 0, most_edges_meeting = 0, inside_at_start = 0;  ///< vertices, edges, vertices
@@ -116,6 +120,7 @@ class RunSession {
   void open_folder();
   void begin_folder();
   void reopen_folder();
+  void remember_starts(const std::vector<compare::StepMetrics>& rows);
   void save_checkpoint();
   void simulate();
   bool one_chunk();
@@ -143,6 +148,7 @@ class RunSession {
   std::unique_ptr<compare::Simulation> simulation_;
   StateJudge judge_;
   Warnings warnings_;
+  MomentumShare momentum_;
   std::unique_ptr<Auditor> auditor_;
   std::unique_ptr<compare::RunWriter> writer_;
   std::deque<compare::Snapshot> offered_;  ///< states that wait for their verdict

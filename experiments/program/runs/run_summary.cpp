@@ -11,12 +11,24 @@ namespace {
 
 std::string integer(std::int64_t value) { return std::to_string(value); }
 
+/// A run may end before it comes to a state that is to be audited.
+std::string not_checked(const RunSummary& summary) {
+  if (summary.audit == AuditMode::off) return "not checked (audit off)";
+  return "not checked (audit " + name_of(summary.audit) + ", but the run came to no state to audit)";
+}
+
 std::string guarantee(const RunSummary& summary) {
-  if (!summary.guarantee_kept) return "not checked (audit off)";
+  if (!summary.guarantee_kept) return not_checked(summary);
   if (!*summary.guarantee_kept) return "NO";
   if (summary.is_unbounded)
     return "no guarantee (bounds=off); " + counted(summary.audited_states, "state") + " audited";
   return "yes (" + counted(summary.audited_states, "state") + " audited exactly)";
+}
+
+std::string momentum_lost(const RunSummary& summary) {
+  if (!summary.largest_momentum_lost)
+    return "none by truncation: no guess loop that was looked at needed all its rounds";
+  return "at most " + number(100 * *summary.largest_momentum_lost) + " % of what a step was to move, in the guess loop";
 }
 
 std::string per_step(std::int64_t count, std::int64_t steps) {
@@ -59,10 +71,11 @@ Json to_json(const RunSummary& summary) {
   json["iterations"] = summary.iterations;
   json["repeats"] = summary.repeats;
   json["largest_share_cut"] = summary.largest_share_cut;
-  json["largest_momentum_lost"] = summary.largest_momentum_lost;
+  json["largest_momentum_lost"] = summary.largest_momentum_lost ? Json(*summary.largest_momentum_lost) : Json(nullptr);
   json["largest_lag_m"] = summary.largest_lag;
   json["smallest_distance_m"] = summary.smallest_distance;
-  json["audit"] = {{"states", summary.audited_states},
+  json["audit"] = {{"mode", name_of(summary.audit)},
+                   {"states", summary.audited_states},
                    {"failed_states", summary.failed_states},
                    {"intersections", summary.intersections},
                    {"beyond_bound", summary.certificate_violations},
@@ -103,7 +116,7 @@ std::string describe(const RunSummary& summary) {
       {"guess rounds", per_step(summary.guess_rounds, steps)},
       {"repeated steps", integer(summary.repeats) + " (a list grew)"},
       {"vertices cut", "at most " + number(100 * summary.largest_share_cut) + " % after a step's last iteration"},
-      {"momentum lost", "at most " + number(100 * summary.largest_momentum_lost) + " % of a step's, in the guess loop"},
+      {"momentum lost", momentum_lost(summary)},
       {"largest lag", number(summary.largest_lag) + " m of prescribed vertices"},
       {"smallest distance",
        std::isfinite(summary.smallest_distance) ? number(summary.smallest_distance) + " m" : "not measured"},
@@ -112,7 +125,7 @@ std::string describe(const RunSummary& summary) {
   };
   if (summary.has_volumes)
     rows.insert(rows.end() - 1, {"inside volumes", summary.audited_states == 0
-                                                       ? "not checked (audit off)"
+                                                       ? not_checked(summary)
                                                        : "at most " + counted(summary.most_inside, "vertex position") +
                                                              ", the deepest " + number(summary.deepest) + " m (state " +
                                                              integer(summary.deepest_step) + "); at most " +

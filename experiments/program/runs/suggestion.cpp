@@ -2,7 +2,9 @@
 #include "experiments/program/runs/suggestion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "compare/oracle/smallest_distances.hpp"
@@ -26,6 +28,11 @@ constexpr double weights_held =
 constexpr double detections_a_step = 4;     ///< that a step at the speed of the fall may take
 constexpr double longest_step = 1.0 / 100;  ///< [s] of the paper's scenes
 constexpr double fewest_iterations = 10, most_iterations = 100;
+/// Of the extension of what hangs, by which sweeps that end early may leave it longer.
+constexpr double most_excess = 0.01;
+/// Modes are not quite smooth, and colours are not rows: the exponent of method.md §7.7 is right to 0.9 to 1.2 times
+/// (tests/experiments/program/runs/suggestion.cpp).
+constexpr double least_rate = 0.9;
 /// Sweeps that a step of a stack at rest takes for each of its layers and each r that they fall in the step, g h²: a
 /// step begins with all of them fallen, and sweeps carry the ground's support up layer by layer. Stacks of 10 to 50
 /// aligned sheets keep their gaps with 16 where g h² is from r/64 to r/4, and are squeezed until they tremble with 12.
@@ -40,7 +47,8 @@ struct Measures {
   double mass = 0;    ///< mean of a vertex, of a solid of one on its surface [kg]
   double speed = 0;   ///< at the end of the fall [m/s]
   double layers = 1;  ///< that lie on one another, on average over what is below them
-  double wave = 0;    ///< speed of a stretch wave [m/s]
+  double stiffness = 0;  ///< q, of vertices over their mass, as stiffness_by_mass [1/s²]
+  double slowest = 0;    ///< ω² of the slowest stretch of the mesh hung by an end, as slowest_stretch [1/s²]
 };
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -69,6 +77,11 @@ double layers_of(const compare::Mesh& mesh) {
   return seen > around && around > 0 ? seen / around : 1;
 }
 
+double volume(const Vec3& o, const Vec3& p, const Vec3& q, const Vec3& r) {
+  const Vec3 u{p.x - o.x, p.y - o.y, p.z - o.z}, v{q.x - o.x, q.y - o.y, q.z - o.z}, w{r.x - o.x, r.y - o.y, r.z - o.z};
+  return std::abs(u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) + u.z * (v.x * w.y - v.y * w.x)) / 6;
+}
+
 /// ρ A of cloth, ρ V of a solid [kg].
 double mass_of(const compare::Mesh& mesh, const compare::Material& material) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
@@ -77,13 +90,7 @@ double mass_of(const compare::Mesh& mesh, const compare::Material& material) {
     for (const auto& [a, b, c] : mesh.triangles) mass += material.density * area(at(a), at(b), at(c));
     return mass;
   }
-  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    const Vec3 o = at(a), p = at(b), q = at(c), r = at(d), u{p.x - o.x, p.y - o.y, p.z - o.z},
-               v{q.x - o.x, q.y - o.y, q.z - o.z}, w{r.x - o.x, r.y - o.y, r.z - o.z};
-    const double six_volumes = u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) +
-                               u.z * (v.x * w.y - v.y * w.x);
-    mass += material.solid_density * std::abs(six_volumes) / 6;
-  }
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) mass += material.solid_density * volume(at(a), at(b), at(c), at(d));
   return mass;
 }
 
@@ -93,9 +100,48 @@ std::size_t surface_vertices(const compare::Topology& topology) {
   return count;
 }
 
-double wave_speed(const compare::Mesh& mesh, const compare::Material& material) {
-  return mesh.tetrahedra.empty() ? std::sqrt((2 * material.lame_mu + material.lame_lambda) / material.density)
-                                 : std::sqrt((2 * material.solid_mu + material.solid_lambda) / material.solid_density);
+/// Σ size ‖∇N‖² over the corners of a simplex, with ‖∇N‖ = G/(dimension · size) and G the size of the face opposite to
+/// a corner.
+template <std::size_t n>
+double gradients(double size, const std::array<double, n>& opposite) {
+  constexpr double dimension = n - 1;
+  double sum = 0;
+  for (const double face : opposite) sum += face * face / (dimension * dimension * size);
+  return sum;
+}
+
+/// q: Σ size ‖∇N‖² (μ + (λ + μ)/dimension), the stiffness of vertices whose neighbours stand still on average over
+/// directions, over the mass [1/s²]. Both are sums over all vertices, since that is how sweeps treat a smooth mode.
+double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& material) {
+  const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
+  const auto over = [](double mu, double lambda, double dimension) { return mu + (lambda + mu) / dimension; };
+  double sum = 0;
+  for (const auto& [i, j, k, l] : mesh.tetrahedra) {
+    const Vec3 a = at(i), b = at(j), c = at(k), d = at(l);
+    sum += gradients<4>(volume(a, b, c, d), {area(b, c, d), area(a, c, d), area(a, b, d), area(a, b, c)});
+  }
+  if (!mesh.tetrahedra.empty())
+    return over(material.solid_mu, material.solid_lambda, 3) * sum / mass_of(mesh, material);
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 a = at(i), b = at(j), c = at(k);
+    sum += gradients<3>(area(a, b, c), {distance(b, c), distance(a, c), distance(a, b)});
+  }
+  return over(material.lame_mu, material.lame_lambda, 2) * sum / mass_of(mesh, material);
+}
+
+/// A strip as long as the mesh is at most along an axis, L, one of whose ends is held: ω = π/(2L) √(E/ρ), with Young's
+/// modulus E in plane stress, of a solid in space.
+double slowest_stretch(const compare::Mesh& mesh, const compare::Material& material) {
+  Vec3 low = mesh.positions[0], high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const double mu = material.lame_mu, lambda = material.lame_lambda;
+  const double by_density = mesh.tetrahedra.empty() ? 4 * mu * (lambda + mu) / (lambda + 2 * mu) / material.density
+                                                    : elasticity_of(material).young / material.solid_density;
+  return std::pow(std::numbers::pi / (2 * longest), 2) * by_density;
 }
 
 Measures measure(const compare::Mesh& mesh, const compare::Material& material, double fall) {
@@ -113,7 +159,8 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
           mass_of(mesh, material) / static_cast<double>(surface_vertices(topology)),
           std::sqrt(2 * gravity * std::max(0.0, fall)),
           mesh.tetrahedra.empty() ? layers_of(mesh) : 1,
-          wave_speed(mesh, material)};
+          stiffness_by_mass(mesh, material),
+          slowest_stretch(mesh, material)};
 }
 
 /// `value` with two digits, not above it.
@@ -202,23 +249,50 @@ SuggestedNumber time_step_of(const Measures& mesh, double contact_radius, double
               " m/s, the end of the fall, a step is not longer than 4 γ_p r_q, what four detections let a vertex move"};
 }
 
+/// D and 1 + h² ω² of method.md §7.7.
+struct Sweeping {
+  double block, mode;
+  Sweeping(const Measures& mesh, double step)
+      : block(1 + step * step * mesh.stiffness), mode(1 + step * step * mesh.slowest) {}
+  /// The share by which so many sweeps leave an extension larger than it should be, and sweeps that leave 1 % or less.
+  double excess(double iterations) const { return mode / std::expm1(2 * iterations * mode / block); }
+  double enough() const { return block / (2 * mode * least_rate) * std::log1p(mode / most_excess); }
+};
+
+/// The longest step below `step` in which so many iterations leave 1 %; enough() grows with the step.
+double step_for(const Measures& mesh, double iterations, double step) {
+  double low = 0, high = step;
+  for (int halving = 0; halving < 50; ++halving) {
+    const double middle = (low + high) / 2;
+    (Sweeping(mesh, middle).enough() <= iterations ? low : high) = middle;
+  }
+  return low;
+}
+
+/// What sweeps cost: how much longer they leave what hangs, and what would help where that is more than it may be.
+std::string hanging(const Measures& mesh, double iterations, double step) {
+  const Sweeping sweeping(mesh, step);
+  const std::string text = "hung by an end the mesh stretches about " + number(100 * sweeping.excess(iterations)) +
+                           " % more than it should (method.md §7.7, D = " + number(sweeping.block) + ")";
+  if (iterations >= sweeping.enough()) return text;
+  return text + "; 1 % takes iterations=" + number(std::ceil(sweeping.enough())) +
+         ", or time_step=" + number(two_digits(step_for(mesh, iterations, step)), 2);
+}
+
 SuggestedNumber iterations_of(const Measures& mesh, const Suggestion& found) {
   const double stiffness = found.contact_stiffness.value, step = found.time_step.value;
-  const double rings = step * mesh.wave / mesh.edge;
-  const double contacts = step * std::sqrt(stiffness / mesh.mass);
+  const double contacts = 2 * step * std::sqrt(stiffness / mesh.mass);
   const double layers = layer_sweeps(mesh, found.contact_radius.value, step);
-  const double wanted = 10 * std::ceil(std::max({2 * rings, 2 * contacts, layers}) / 10);
-  const std::string why = contacts > rings
-                              ? "h √(k_c/m) = " + number(contacts) + ": a contact is so much stiffer than inertia"
-                              : number(rings) + " rings of triangles, the way of a stretch wave in a step";
-  const char* limits = wanted < fewest_iterations ? "; at least 10"
-                       : wanted > most_iterations ? "; at most 100, as a shorter step helps more"
-                                                  : "";
-  if (layers > 2 * std::max(rings, contacts) && layers > fewest_iterations)
-    return {std::min(wanted, most_iterations),
-            number(mesh.layers) + " layers lie on one another, and sweeps carry the ground's support up one by one"};
-  return {std::clamp(wanted, fewest_iterations, most_iterations),
-          "twice " + why + ", and a sweep carries a change by a ring or more" + limits};
+  const double hung = Sweeping(mesh, step).enough();
+  const double wanted = 10 * std::ceil(std::max({hung, contacts, layers}) / 10),
+               iterations = std::clamp(wanted, fewest_iterations, most_iterations);
+  std::string why;
+  if (layers > std::max({hung, contacts, fewest_iterations}))
+    why = number(mesh.layers) + " layers lie on one another, and sweeps carry the ground's support up one by one; ";
+  else if (contacts > std::max(hung, fewest_iterations))
+    why = "twice h √(k_c/m) = " + number(contacts / 2) + ": a contact is so much stiffer than inertia; ";
+  if (wanted > most_iterations) why += "at most 100, as a shorter step helps more; ";
+  return {iterations, why + hanging(mesh, iterations, step)};
 }
 
 }  // namespace
@@ -235,6 +309,7 @@ Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material,
   const double contact_radius = result.contact_radius.value;
   result.time_step = within_setting("time_step", time_step_of(measures, contact_radius, result.query_radius.value));
   result.iterations = iterations_of(measures, result);
+  result.excess_extension = Sweeping(measures, result.time_step.value).excess(result.iterations.value);
   return result;
 }
 

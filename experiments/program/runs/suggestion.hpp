@@ -24,6 +24,9 @@ struct Suggestion {
   SuggestedNumber contact_stiffness;  ///< k_c [N/m]
   SuggestedNumber time_step;          ///< h [s]
   SuggestedNumber iterations;         ///< sweeps a step [1]
+  /// by which share those sweeps leave the extension of the mesh under its weight, hung by an end, larger than it
+  /// should be (method.md §7.7)
+  double excess_extension = 0;
 };
 
 /// For a valid mesh with triangles, `material`'s density, membrane (of a mesh with tetrahedra: its solid_… constants)

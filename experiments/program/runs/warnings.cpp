@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "experiments/program/output.hpp"
+#include "experiments/program/runs/curved_rest.hpp"
 #include "experiments/program/runs/thin_solids.hpp"
+#include "reference/contestant.hpp"
 
 namespace ogc::experiments {
 
@@ -12,6 +14,10 @@ namespace {
 
 using compare::Vec3;
 
+/// Of what gravity changes in a step a tenth may be left undone, where nobody knows better.
+constexpr double share_of_gravity = 0.1;
+
+double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 std::string bounds_warning(const compare::Scene& scene) {
@@ -63,25 +69,37 @@ std::string radius_warning(const compare::Scene& scene) {
          " m, one edge, or a coarser mesh (ogc suggest says more)";
 }
 
+/// Where a step may leave undone what gravity changes in it, what rests and what has begun to slide look alike.
+std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
+  if (solver != Solver::ipc) return "";
+  const double speed = reference::ipc_end_speed(scene), gained = length(scene.gravity) * scene.settings.time_step;
+  if (gained == 0 || speed <= gained) return "";
+  const bool by_velocity = compare::get_setting(scene.settings, "ipc_stopping") != 0;
+  const std::string setting = by_velocity ? "ipc_velocity_tolerance" : "ipc_tolerance";
+  const double least = compare::get_setting(scene.settings, setting) * share_of_gravity * gained / speed;
+  return setting + " ends a step of IPC where nothing would move faster than " + number(speed) +
+         " m/s, and gravity changes speeds by " + number(gained) +
+         " m/s in a step: what should begin to move may stay; take " + setting + "=" + number(least, 1);
+}
+
 }  // namespace
 
-Warnings::Warnings(const compare::Scene& scene)
+Warnings::Warnings(const compare::Scene& scene, Solver solver)
     : radius_(scene.settings.contact_radius), guess_rounds_(scene.settings.guess_rounds) {
-  for (std::string text : {bounds_warning(scene), box_warning(scene), radius_warning(scene), thin_solid_warning(scene)})
+  for (std::string text : {bounds_warning(scene), box_warning(scene), radius_warning(scene), thin_solid_warning(scene),
+                           curved_rest_warning(scene), tolerance_warning(scene, solver)})
     if (!text.empty()) of_scene_.push_back(std::move(text));
 }
 
-/// A guess loop that ends before its last round was stopped by contacts or by nothing: what it loses then is theirs,
-/// and right.
-std::vector<std::string> Warnings::look_at(const compare::StepMetrics& row) {
+std::vector<std::string> Warnings::look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost) {
   std::vector<std::string> first;
   const auto note = [&](std::optional<Worst>& worst, double value, auto text) {
     const bool is_first = !worst;
     if (is_first || value > worst->value) worst = Worst{row.step, value};
     if (is_first) first.push_back(text());
   };
-  if (row.guess_rounds >= guess_rounds_ && row.momentum_lost_guess > most_momentum_lost)
-    note(momentum_, row.momentum_lost_guess, [this] { return momentum_text(); });
+  if (momentum_lost && *momentum_lost > most_momentum_lost)
+    note(momentum_, *momentum_lost, [this] { return momentum_text(); });
   if (row.largest_lag > radius_) note(lag_, row.largest_lag, [this] { return lag_text(); });
   return first;
 }
@@ -95,8 +113,8 @@ std::vector<std::string> Warnings::list() const {
 
 std::string Warnings::momentum_text() const {
   return "step " + std::to_string(momentum_->step) + " lost " + number(100 * momentum_->value) +
-         " % of its momentum to truncation, above " + number(100 * most_momentum_lost) + " %, after all " +
-         std::to_string(guess_rounds_) +
+         " % of what was to move, by mass and way, to truncation, above " + number(100 * most_momentum_lost) +
+         " %, after all " + std::to_string(guess_rounds_) +
          " rounds of the guess: what moves is faster than bounds let it; take a smaller time_step, or a larger "
          "query_radius_cap, contact_radius or guess_rounds";
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "experiments/program/runs/solvers.hpp"
 
 namespace ogc::experiments {
 
@@ -15,18 +16,19 @@ inline constexpr double largest_diagonal = 20;
 /// Median edges of a body that r may reach: beyond them a vertex is in contact with what it is sewn to, several rings
 /// of neighbours away.
 inline constexpr double most_edges_a_radius = 2;
-/// Share of a step's momentum that truncation may take.
+/// Share of what a step is to move that truncation may take (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
 /// What is said of a run at most once.
 class Warnings {
  public:
-  /// Looks at the scene, which must be valid, as it starts: its box, r against the edges of each body with triangles,
-  /// and against the thickness of each solid at rest.
-  explicit Warnings(const compare::Scene& scene);
-  /// Looks at a step: momentum that the guess loop lost though it did all its rounds, and the lag of prescribed
-  /// vertices. Returns what the first step of its kind gives reason to say; the list keeps the worst.
-  std::vector<std::string> look_at(const compare::StepMetrics& row);
+  /// Looks at the scene, which must be rounded and valid, as it starts: its box, r against the edges of each body with
+  /// triangles, and against the thickness of each solid at rest, rest shapes that isometric bending does not know, and
+  /// of IPC the speed at which a step ends against what gravity changes in one.
+  explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
+  /// Looks at a step: what the guess loop lost though it did all its rounds (MomentumShare; empty: not known), and the
+  /// lag of prescribed vertices. Returns what the first step of its kind gives reason to say; the list keeps the worst.
+  std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
   /// All that there is to say so far, one text a kind: what, where, how much, what to do.
   std::vector<std::string> list() const;
 

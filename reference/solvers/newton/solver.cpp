@@ -21,7 +21,7 @@ constexpr int most_judgements = 4;
 constexpr double most_pinned = 1e6;
 /// Each round costs a factorisation; from the third on they rarely lower the energy more.
 constexpr int most_pin_rounds = 6;
-/// A line search that accepts less of a direction with cut vertices has come to a standstill in its balls.
+/// A line search that accepts less of a direction has come to a standstill, in its balls or at a kink of its contacts.
 constexpr double least_share = 1e-3;
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
@@ -130,12 +130,13 @@ double NewtonSolver::mean_force() const {
   return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
 }
 
-/// Torques on segments count as forces across their lengths; like forces, against those after the guess.
+/// Like forces, torques are held against those after the guess, or against what rounding leaves of them: a straight rod
+/// that falls freely has none at all.
 bool NewtonSolver::has_small_torque() {
   double sum = 0;
   for (std::size_t i = x_.size(); i < derivatives_.gradient.size(); ++i) sum += length(derivatives_.gradient[i]);
   if (reference_torque_ < 0) reference_torque_ = sum;
-  return sum <= std::max(newton_.tolerance * reference_torque_, 0x1p-40 * Potential::total(potential_.terms(x_)));
+  return sum <= std::max(newton_.tolerance * reference_torque_, derivatives_.torque_noise);
 }
 
 std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
@@ -189,8 +190,10 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
     rows_.back().vertices_cut = static_cast<std::int64_t>(cut_);
   }
   if (share == 0 && fresh_) return Outcome::no_decrease;
-  detect_next_ = steps_ == NewtonSteps::whole || share == 0 || (share < least_share && cut_ > 0) ||
-                 detection_due(cut_) || (newton_.tolerance > 0 && cut_ > 0);
+  const bool stands_still = steps_ == NewtonSteps::searched && share < least_share;
+  detect_next_ = steps_ == NewtonSteps::whole || stands_still || detection_due(cut_) ||
+                 (newton_.tolerance > 0 && cut_ > 0);
+  judge_next_ = stands_still && cut_ == 0 && newton_.tolerance > 0;
   fresh_ = false;
   if (cut_ == 0 && direction.largest <= newton_.step_tolerance * settings_.time_step) return Outcome::converged;
   return {};

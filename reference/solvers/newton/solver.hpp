@@ -47,8 +47,9 @@
 //
 // OGC's force jumps where a contact point leaves its block for one that is not in contact (Fig. 22), so that there may
 // be no state at all whose force vanishes with the contacts detected at it: solves then alternate between two sets of
-// contacts, each converged with its own. After a few of these rounds that don't halve the residual found there the step
-// ends, with the residual of the contacts at its end, above the tolerance: steps.csv shows it.
+// contacts, each converged with its own, or come to a standstill at a kink of one: strands that cross, nearly parallel,
+// jump from one pair of closest points to another. After a few of these rounds that don't halve the residual found
+// there the step ends, with the residual of the contacts at its end, above the tolerance: steps.csv shows it.
 #pragma once
 
 #include <functional>

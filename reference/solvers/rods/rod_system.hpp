@@ -74,6 +74,8 @@ class RodSystem {
   // segment e, three unknowns: positions that hold it mean q exp(ω/2), others q.
   std::size_t stencil_count() const { return terms_.size() + joints_.size(); }
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
+  /// How many of these, the first ones, are vertices: two of a segment, none of a joint.
+  std::size_t corners(std::size_t stencil) const { return stencil < terms_.size() ? 2 : 0; }
   /// Damping included [J].
   double energy(std::size_t stencil, const std::vector<Triple<double>>& x) const;
   /// At ω = 0.

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"
@@ -187,6 +189,16 @@ TEST_CASE("a step that is not finite stops the run with its number and keeps the
     CHECK(frame_steps(folder) == std::vector<std::int64_t>{0, 3, 6});
     CHECK(summary.guarantee_kept == (mode == experiments::AuditMode::off ? std::nullopt : std::optional(true)));
   }
+}
+
+TEST_CASE("a run that ends before a state is audited says so, and calls an audit off only where it is", "[unit]") {
+  const tests::TemporaryFolder ended, off;
+  const experiments::RunSummary none = run(Fault::not_finite, ended, experiments::AuditMode::end);
+  CHECK(none.audited_states == 0);
+  CHECK(tests::contains(describe(none), {"not checked (audit end, but the run came to no state to audit)"}));
+  CHECK(to_json(none).at("audit").at("mode") == "end");
+  CHECK(
+      tests::contains(describe(run(Fault::not_finite, off, experiments::AuditMode::off)), {"not checked (audit off)"}));
 }
 
 TEST_CASE("a step whose own certificate fails breaks the guarantee, audited or not", "[unit]") {

@@ -33,12 +33,9 @@ void throw_down(compare::Scene& scene, double speed) {
   for (compare::Vec3& v : scene.velocities) v = {0, -speed, 0};
 }
 
-/// A row of which a solver did all rounds and lost that share.
-compare::StepMetrics step_that_lost(double share, std::int64_t step = 1) {
+compare::StepMetrics numbered(std::int64_t step) {
   compare::StepMetrics row;
   row.step = step;
-  row.guess_rounds = compare::Settings{}.guess_rounds;
-  row.momentum_lost_guess = share;
   return row;
 }
 
@@ -69,18 +66,35 @@ std::vector<std::string> warnings_of(compare::Scene scene) {
 
 TEST_CASE("a step that loses more than half of its momentum to truncation is warned of, once, by the worst", "[unit]") {
   Warnings warnings(sheet());
-  CHECK(warnings.look_at(step_that_lost(0.5)).empty());
-  CHECK(warnings.look_at(step_that_lost(0.6, 7)).size() == 1);
-  CHECK(warnings.look_at(step_that_lost(0.9, 8)).empty());
-  CHECK(warnings.look_at(step_that_lost(0.7, 9)).empty());
+  CHECK(warnings.look_at(numbered(1), 0.5).empty());
+  CHECK(warnings.look_at(numbered(2), std::nullopt).empty());
+  CHECK(warnings.look_at(numbered(7), 0.6).size() == 1);
+  CHECK(warnings.look_at(numbered(8), 0.9).empty());
+  CHECK(warnings.look_at(numbered(9), 0.7).empty());
   REQUIRE(warnings.list().size() == 1);
   CHECK_THAT(warnings.list()[0], Contains("step 8 lost 90 %") && Contains("time_step"));
-  // Contacts ended this loop: what it lost is right.
-  Warnings resting(sheet());
-  compare::StepMetrics row = step_that_lost(1);
-  row.guess_rounds = 2;
-  CHECK(resting.look_at(row).empty());
-  CHECK(resting.list().empty());
+}
+
+// The sheet's diagonal is √2 m; h = 10 ms, in which gravity changes speeds by 98.1 mm/s.
+TEST_CASE("a tolerance of IPC above what gravity changes in a step is warned of, by its number and another one",
+          "[unit]") {
+  compare::Scene scene = sheet();
+  const auto of = [&](Solver solver) { return Warnings(scene, solver).list(); };
+  CHECK(of(Solver::ipc).empty());
+  set_setting(scene.settings, "ipc_tolerance", 0.068);
+  CHECK(of(Solver::ipc).empty());
+  set_setting(scene.settings, "ipc_tolerance", 0.07);
+  REQUIRE(of(Solver::ipc).size() == 1);
+  CHECK_THAT(of(Solver::ipc)[0], Contains("ipc_tolerance ends a step of IPC") && Contains("0.099 m/s") &&
+                                     Contains("0.0981 m/s") && Contains("take ipc_tolerance=0.007"));
+  CHECK(of(Solver::newton).empty());
+  set_setting(scene.settings, "ipc_stopping", "velocity");
+  CHECK(of(Solver::ipc).empty());
+  set_setting(scene.settings, "ipc_velocity_tolerance", 0.2);
+  REQUIRE(of(Solver::ipc).size() == 1);
+  CHECK_THAT(of(Solver::ipc)[0], Contains("take ipc_velocity_tolerance=0.01"));
+  scene.gravity = {};
+  CHECK(of(Solver::ipc).empty());
 }
 
 TEST_CASE("a run without bounds says at its first and last line that nothing is guaranteed", "[unit]") {

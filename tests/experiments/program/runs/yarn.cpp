@@ -189,6 +189,19 @@ TEST_CASE("yarn: of a smooth curve with segments of a tenth of r neighbours are 
   CHECK(count_of(narrow, 30 * r, false) > 0);
 }
 
+// From the fifth step on strands that touch, nearly parallel, jump between pairs of closest points; rounds of
+// detections that lead nowhere end a step then, which takes less than the 50 iterations that it has.
+TEST_CASE("yarn: Newton's steps of a knit that is stretched end, and the run says that states were audited",
+          "[property]") {
+  const TemporaryFolder folder;
+  const std::string eight = "run yarn_stretch --scale smoke --solver newton --steps 8 --audit every --out ";
+  const ProgramResult result = run_ogc(eight + (folder / "run").string());
+  INFO(result.err);
+  CHECK(result.status == 0);
+  CHECK(contains(result.out, {"yes (8 states audited exactly)"}));
+  for (const compare::StepMetrics& row : compare::read_steps(folder / "run").rows) CHECK(row.iterations < 50);
+}
+
 TEST_CASE("penalty: the run says first and last that nothing is guaranteed, and refuses bounds", "[unit]") {
   const TemporaryFolder folder;
   const std::string out = " --out " + (folder / "run").string();

@@ -1,0 +1,74 @@
+// What a guess loop lost, against values by hand: a share of what was to move, also where directions cancel.
+#include "experiments/program/runs/momentum_share.hpp"
+
+#include "experiments/scenes/shapes.hpp"
+#include "tests/catch.hpp"
+
+using namespace ogc;
+using namespace ogc::experiments;
+
+namespace {
+
+/// Two equal sheets of 3 × 3 vertices, far apart, without gravity.
+compare::Scene two_sheets() {
+  compare::Scene scene;
+  scene.name = "two_sheets";
+  append_body(scene, {.name = "left", .material = {}}, grid(3, 1, 0));
+  append_body(scene, {.name = "right", .material = {}}, grid(3, 1, 5));
+  scene.gravity = {0, 0, 0};
+  round_to_single(scene);
+  return scene;
+}
+
+std::vector<compare::Vec3f> velocities(float left, float right) {
+  std::vector<compare::Vec3f> all(9, {0, left, 0});
+  all.insert(all.end(), 9, {0, right, 0});
+  return all;
+}
+
+/// A row of which a solver did all rounds and lost so much of the step's own momentum.
+compare::StepMetrics row_of(std::int64_t step, double lost) {
+  compare::StepMetrics row;
+  row.step = step;
+  row.guess_rounds = compare::Settings{}.guess_rounds;
+  row.momentum_lost_guess = lost;
+  return row;
+}
+
+}  // namespace
+
+// Of what flies up at 1 m/s and down at 0.9 m/s a twentieth is left in the sum, (1 − 0.9)/(1 + 0.9); where all of the
+// way down is lost that is 0.9/0.1 of the sum, and 0.9/1.9 of what was to move.
+TEST_CASE("what is lost is a share of what was to move, whatever cancels in the sum", "[unit]") {
+  MomentumShare share(two_sheets());
+  share.begin_after(4, velocities(1, -0.9f));
+  CHECK(share.lost(row_of(5, 9)).value() == Approx(0.9 / 1.9).epsilon(1e-6));
+  share.begin_after(5, velocities(1, 1));
+  CHECK(share.lost(row_of(6, 0.3)).value() == Approx(0.3).epsilon(1e-6));
+}
+
+TEST_CASE("nothing is said of steps whose start is not known, whose guess ended early, or in which nothing was to move",
+          "[unit]") {
+  MomentumShare share(two_sheets());
+  share.begin_after(4, velocities(1, 1));
+  CHECK(share.lost(row_of(4, 0.5)) == std::nullopt);
+  CHECK(share.lost(row_of(6, 0.5)) == std::nullopt);
+  compare::StepMetrics early = row_of(5, 0.5);
+  --early.guess_rounds;
+  CHECK(share.lost(early) == std::nullopt);
+  share.begin_after(5, velocities(0, 0));
+  CHECK(share.lost(row_of(6, 0)) == 0.0);
+}
+
+// What gravity adds in h = 10 ms counts: 98.1 mm/s down beside 98.1 mm/s up is nothing.
+TEST_CASE("what gravity changes in the step is part of what was to move, and fixed bodies are not", "[unit]") {
+  compare::Scene scene = two_sheets();
+  scene.gravity = {0, -9.81, 0};
+  MomentumShare share(scene);
+  share.begin_after(0, velocities(0.0981f, 0));
+  CHECK(share.lost(row_of(1, 1)).value() == Approx(1).epsilon(1e-5));
+  scene.bodies[0].fixed = true;
+  MomentumShare other(scene);
+  other.begin_after(0, velocities(-50, 0));
+  CHECK(other.lost(row_of(1, 0.25)).value() == Approx(0.25).epsilon(1e-5));
+}
