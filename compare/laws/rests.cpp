@@ -74,8 +74,13 @@ std::vector<Scene> weight_scenes(LawSize) {
   return {scene, dropped};
 }
 
+/// With a hundred sweeps. Its sheets have ten contacts a vertex with each other and one with the floor, so that the
+/// stack sinks and rises as one body against blocks that are many times as stiff: a sweep takes about 7 % of that,
+/// where one of a sheet alone takes nearly all.
 std::vector<Scene> stack_scenes(LawSize size) {
-  return {stacked_sheets("stack_at_rest", 3, size == LawSize::least ? 200 : 400)};
+  Scene scene = stacked_sheets("stack_at_rest", 3, size == LawSize::least ? 200 : 400);
+  scene.settings.iterations = 100;
+  return {scene};
 }
 
 }  // namespace

@@ -21,7 +21,6 @@ OPEN = {
     ("slope_slides", "vbd"): KINK,
     ("sliding_stops", "vbd"): KINK,
     ("conveyor", "vbd"): KINK,
-    ("stack_at_rest", "vbd"): KINK,
     ("slope_frictionless", "vbd"): GUESS,
     ("pinned_sheet", "vbd"): "a sweep that starts at y with a higher potential than the last state, and ends early",
     ("cord_falls", "newton"): "Newton with a stiff rod does not converge in step 1",
