@@ -42,6 +42,7 @@ NOT_RUN = {
     r"--scale (paper|small)\b": "minutes",
     r"--cases \d{6,}|ogc compare( |$)(?!.*(--problem|truncate))": "minutes; the judge's own tests ask every stage",
     r"data=input": "a data set that is not part of this repository",
+    r"ogc laws --quick": "a test of its own asks them, and knows which are broken today",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
     r"mine\.(cpp|so)": "the reader's own file; a test builds and judges those of this page",
 }

@@ -41,6 +41,7 @@ PROJECT = {
     "compare/way.hpp": CONTESTANT,
     "compare/files": FILES,
     "compare/record": FILES + CONTESTANT,
+    "compare/laws": PROBLEM + CONTESTANT + ("compare/laws/",),
     # Each may include those before it; nobody includes a stage, which the list in cases/ points to.
     "compare/judge/cases": CASES,
     "compare/judge/engine": ENGINE,

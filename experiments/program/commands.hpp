@@ -23,6 +23,7 @@ void add_ablate_command(CLI::App& app, CommandContext& context);
 void add_contacts_command(CLI::App& app, CommandContext& context);
 void add_suggest_command(CLI::App& app, CommandContext& context);
 void add_audit_command(CLI::App& app, CommandContext& context);
+void add_laws_command(CLI::App& app, CommandContext& context);
 void add_compare_command(CLI::App& app, CommandContext& context);
 void add_minimise_command(CLI::App& app, CommandContext& context);
 void add_bench_command(CLI::App& app, CommandContext& context);
