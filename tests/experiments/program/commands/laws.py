@@ -14,22 +14,8 @@ except ImportError:
     jsonschema = None
 
 # (law, solver) that are broken today, and what of. One that holds must go from here.
-KINK = "a sweep that begins outside r sees no block there, and cycles; friction takes its force from the deepest point"
-GUESS = "from the second round of the guess loop on a touching vertex stays, and the sheet loses its speed"
-SHARE = "IPC stops at motions of 1 % of the box's diagonal a second"
 OPEN = {
-    ("slope_slides", "vbd"): KINK,
-    ("sliding_stops", "vbd"): KINK,
-    ("conveyor", "vbd"): KINK,
-    ("slope_frictionless", "vbd"): GUESS,
     ("pinned_sheet", "vbd"): "a sweep that starts at y with a higher potential than the last state, and ends early",
-    ("cord_falls", "newton"): "Newton with a stiff rod does not converge in step 1",
-    ("spin", "ipc"): SHARE,
-    ("slope_slides", "ipc"): SHARE,
-    ("slope_frictionless", "ipc"): SHARE,
-    ("block_slides", "ipc"): SHARE,
-    ("conveyor", "ipc"): SHARE,
-    ("pendulum", "ipc"): SHARE,
 }
 
 
