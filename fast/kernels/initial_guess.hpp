@@ -117,13 +117,13 @@ struct BeginRegions {
 /// there. It slides along half-spaces as inertia alone would have it. A prescribed vertex that touches stays from the
 /// second round on: sweeps move what is in its way.
 struct GuessVertex {
-  const Vec* target;        ///< y by vertex [m]
-  FeasibleRegions regions;  ///< about X_prev
-  GuessContacts contacts;   ///< `taken` of the first round, that of the second one behind it, and so on in turn
-  int vertex_count;         ///< length of one of both
-  Vec* taken;               ///< where contacts.taken is
-  Vec* position;            ///< x by vertex [m], written
-  StepControl* control;     ///< on the backend: its flag `active` and its rounds are read, cuts are counted
+  const Vec* target;             ///< y by vertex [m]
+  FeasibleRegions regions;       ///< about X_prev
+  GuessContacts contacts;        ///< `taken` of the first round, that of the second one behind it, and so on in turn
+  int vertex_count;              ///< length of one of both
+  Vec* taken;                    ///< where contacts.taken is
+  Vec* position;                 ///< x by vertex [m], written
+  StepControl* control;          ///< on the backend: its flag `active` and its rounds are read, cuts are counted
   const int* prescribed_number;  ///< as in BeginVertex
 
   OGC_HD void operator()(int v) const {

@@ -189,8 +189,8 @@ OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneI
 
 /// Adds a triangle whose strain is damped.
 OGC_HD inline void add_membrane_incidence(const MembraneIncidence& incidence, const MembraneReads& reads,
-                                          const SurfaceMaterial& material, compare::MembraneModel model,
-                                          const Vec& own, ForceAndBlock& sum) {
+                                          const SurfaceMaterial& material, compare::MembraneModel model, const Vec& own,
+                                          ForceAndBlock& sum) {
   const Vec to_b = reads.b - own, to_c = reads.c - own;
   with_membrane(model, AddDampedMembrane<float>{incidence.stencil, material, to_b, to_c, reads.strain_start, sum});
 }

@@ -9,7 +9,7 @@ namespace ogc::fast {
 
 /// The contacts that a round of the guess loop found, and the moves that vertices want.
 struct GuessContacts {
-  const int* offsets = nullptr;                ///< by vertex, vertices + 1: its row in `contacts`; null: nothing is held
+  const int* offsets = nullptr;  ///< by vertex, vertices + 1: its row in `contacts`; null: nothing is held
   const ContactIncidence* contacts = nullptr;  ///< the stream of the detection
   const Vec* position = nullptr;               ///< X_prev by vertex [m]
   const Vec* target = nullptr;                 ///< y by vertex [m]

@@ -297,9 +297,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     for (int since = since_sort_; count > 0;) {
       const bool sorts = since >= steps_between_sorts;
       const int times = sorts ? 1 : std::min(count, steps_between_sorts - since);
-      backend_.replay(recordings_[sorts ? 1 : 0][group_ > 1 ? 1 : 0], times, [this, sorts] {
-        step_.enqueue(group_, sorts ? Sorting::made : Sorting::left_out);
-      });
+      backend_.replay(recordings_[sorts ? 1 : 0][group_ > 1 ? 1 : 0], times,
+                      [this, sorts] { step_.enqueue(group_, sorts ? Sorting::made : Sorting::left_out); });
       since = sorts ? 1 : since + times;
       count -= times;
     }

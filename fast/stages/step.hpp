@@ -121,7 +121,7 @@ struct StepState {
   Buffer<float> angle_start;               ///< θᵗ by hinge [rad]
   Buffer<StepControl> control;             ///< one item
   Buffer<StepRow> rows;                    ///< by step of the frame
-  Buffer<Vec> taken;          ///< by vertex, twice as many: what contacts take from moves in the guess loop [m]
+  Buffer<Vec> taken;    ///< by vertex, twice as many: what contacts take from moves in the guess loop [m]
   Buffer<double> sums;  ///< as FinishStep reads them
 };
 
@@ -253,13 +253,13 @@ class Step {
     const ContactView view = detection_.view();
     const int* overflow = detection_.overflow();
     clock_.time(StepStage::detection, [&] {
-      detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
-                        settings_.bound_relaxation,
-                        StepLaunches{start_of_detection(target),
-                                     {control(), overflow},
-                                     sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
-                                     sweep_.slots(),
-                                     sweep_.resolve_contact(view, state_.previous.data())});
+      detection_.detect(
+          state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
+          StepLaunches{start_of_detection(target),
+                       {control(), overflow},
+                       sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
+                       sweep_.slots(),
+                       sweep_.resolve_contact(view, state_.previous.data())});
     });
   }
 

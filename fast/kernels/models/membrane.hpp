@@ -75,8 +75,7 @@ OGC_HD void add_strain_damping(const MembraneStencilOf<T>& stencil, const Surfac
           own_y = -(stencil.gradient_b[1] + stencil.gradient_c[1]);
   const Symmetric2Of<T> strain = green_strain(f);
   const Symmetric2Of<T> viscous = membrane_stress(
-      material,
-      Symmetric2Of<T>{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
+      material, Symmetric2Of<T>{strain.xx - strain_start.xx, strain.xy - strain_start.xy, strain.yy - strain_start.yy});
   const T weight = stencil.area * material.membrane_damping,
           around = weight * material.lame_mu * (own_x * own_x + own_y * own_y);
   sum.add_force(-weight, (viscous.xx * own_x + viscous.xy * own_y) * f.first +

@@ -17,8 +17,8 @@ namespace ogc::fast {
 /// J, n and q; `ratio` 0 where the triangle has collapsed as far as single precision can tell.
 template <class T>
 struct AreaRatioOf {
-  Vector<T> normal;        ///< n, a unit vector; 0 where the triangle has collapsed
-  T ratio{}, density{};    ///< J [1], q [1/m²]
+  Vector<T> normal;      ///< n, a unit vector; 0 where the triangle has collapsed
+  T ratio{}, density{};  ///< J [1], q [1/m²]
 };
 
 /// J, n and q of a triangle with the edges b, c and the gradients ∇N_b, ∇N_c.
@@ -43,8 +43,8 @@ OGC_HD AreaRatioOf<T> area_ratio(const Vector<T>& to_b, const Vector<T>& to_c, c
 
 /// MembraneModel::stable_neo_hookean.
 struct StableNeoHookean {
-  /// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J: its normal
-  /// is 0, and with it all that J adds.
+  /// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J: its
+  /// normal is 0, and with it all that J adds.
   template <class T>
   OGC_HD static void add_elastic(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material,
                                  const Vector<T>& to_b, const Vector<T>& to_c, ForceAndBlockOf<T>& sum) {

@@ -164,7 +164,7 @@ TEST_CASE("from r on there is no force, and the curvature that waits at r", "[un
   const auto at = [](auto activation, float d) {
     ForceAndBlock sum;
     const float force = add_contact<decltype(activation), float>(activation, contact_shape({d, 0, 0}, 0.005f), 1, 1,
-                                                                  0.005f, 10, sum);
+                                                                 0.005f, 10, sum);
     CHECK(force == 0);
     CHECK(sum.force.x == 0);
     return sum.block.xx;

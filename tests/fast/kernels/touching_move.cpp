@@ -39,7 +39,8 @@ void check(const Vec& found, const Vec& expected) {
 
 }  // namespace
 
-TEST_CASE("what contacts leave: without friction an approach is taken whole, the way along the partner stays", "[unit]") {
+TEST_CASE("what contacts leave: without friction an approach is taken whole, the way along the partner stays",
+          "[unit]") {
   Touching touching(0);
   check(touching.held(0, {0.3f, -0.2f, 0.1f}), {0.3f, 0, 0.1f});
   check(touching.held(0, {0.3f, 0.2f, 0.1f}), {0.3f, 0.2f, 0.1f});
@@ -53,7 +54,8 @@ TEST_CASE("what contacts leave: friction takes at most μ times the approach fro
   check(touching.held(0, {0.3f, 0, 0}), {0.3f, 0, 0});
 }
 
-TEST_CASE("what contacts leave: a partner that makes room is followed, one that comes near is not fled from", "[unit]") {
+TEST_CASE("what contacts leave: a partner that makes room is followed, one that comes near is not fled from",
+          "[unit]") {
   Touching touching(0);
   touching.move_partner({0, -0.125f, 0});
   check(touching.held(0, {0, -0.125f, 0}), {0, -0.125f, 0});

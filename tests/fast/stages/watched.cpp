@@ -320,7 +320,7 @@ TEST_CASE("a step that is timed, or observed, makes the launches of one that is 
   const auto count = [&](const std::type_index& functor) {
     return std::count(expected.begin(), expected.end(), functor);
   };
-  REQUIRE(count(typeid(GuessVertex)) > 1);  // several rounds
+  REQUIRE(count(typeid(GuessVertex)) > 1);                              // several rounds
   REQUIRE(count(typeid(RankAndResolve)) > count(typeid(GuessVertex)));  // also between iterations
   CHECK(count(typeid(RankAndResolve)) == count(typeid(DetectEdgeEdge)));
   CHECK((launches(true, false) == expected));
