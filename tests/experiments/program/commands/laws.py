@@ -15,7 +15,7 @@ except ImportError:
 
 # (law, solver) that are broken today, and what of. One that holds must go from here.
 OPEN = {
-    ("pinned_sheet", "vbd"): "a sweep that starts at y with a higher potential than the last state, and ends early",
+    ("pinned_sheet", "vbd"): "sweeps that end early leave forces that would have taken energy (method.md §7.8)",
 }
 
 
