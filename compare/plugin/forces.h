@@ -125,6 +125,7 @@ enum {
   OGC_POINT_TRIANGLE /* 0 | 1 2 3 */
 };
 
+/* From d = r on there is no force, and the block has the curvature that waits at r. */
 typedef struct ogc_contact_force_case {
   uint8_t sides;
   int32_t own;

@@ -184,7 +184,7 @@ typedef struct ogc_initial_guess_case {
   float time_step;
   ogc_vec3 previous;
   float bound;
-  uint8_t held;
+  uint8_t reserved; /* 0; contacts hold vertices in the stage `step` alone */
 } ogc_initial_guess_case;
 
 typedef struct ogc_initial_guess_in {

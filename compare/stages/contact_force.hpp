@@ -23,8 +23,8 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 /// E = e_k g(d), g the activation asked for (compare/stages/activation.hpp), d the distance of the contact points: the
 /// closest points of the closed faces, for nearly parallel edges those of closest_points. Force −e_k g'(d) w n on a
 /// vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are updated together, itself
-/// included: w² mostly (method.md §4.2, §7.4). A contact acts while 0 < d < r. Below 2⁻²³ r slope and curvature are
-/// those of 2⁻²³ r; at d = 0, which the bounds exclude, there is no normal, and both are 0.
+/// included: w² mostly (method.md §4.2, §7.4). Slope and curvature are those at d within 2⁻²³ r … r: from r on
+/// no force, and the block of r, k_c of `ogc`. At d = 0, which the bounds exclude, there is no normal, and both are 0.
 ///
 /// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for
 /// other sides and where one of the rest lengths is 0. Where both are, and the edges were nearly parallel at the last
@@ -64,7 +64,7 @@ inline constexpr double contact_force_tolerance = 47;
 /// curvature (2), an outer product (2).
 inline constexpr double contact_block_tolerance = 51;
 /// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a
-/// root (1), twice for weights that are not quite those of the closest points. Contacts within it of r, of another
+/// root (1), twice for weights that are not quite those of the closest points. Contacts within it of another
 /// feature, of touching or, with ogc_as_printed, of the jump at τ are grey. Where they cannot be told from touching,
 /// neither distance nor normal is known: any answer within that of d = 2⁻²³ r is accepted.
 inline constexpr double contact_grey = 16;

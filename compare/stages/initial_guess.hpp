@@ -18,8 +18,7 @@ struct InitialGuessCase {
   float time_step = 0;                  ///< h [s]
   Vec3f previous;                       ///< X_prev [m]; where x is, too
   float bound = 0;                      ///< b_v [m]
-  /// 1: from round 2 on and part of an active contact: stays where it is, and does not count as cut
-  std::uint8_t held = 0;
+  std::uint8_t reserved = 0;            ///< 0: a byte of the plug-ins' structure that says nothing
 };
 
 /// A segment with its frame. D and Dᵗ are 0, or within 2⁻⁵⁰ m … 2⁴⁰ m long, q is a unit quaternion within

@@ -51,6 +51,14 @@ struct StepOut {
   std::vector<Quaternion> orientation_start{}, turned{}, orientation{};
 };
 
+/// What contacts leave of one vertex's move in a round of the guess loop (method.md §5.2).
+struct HeldMove {
+  Vec3 move;                 ///< m, what is left of y − X_prev [m]
+  double accepted = 0;       ///< how far a right answer's m may be from it [m]
+  std::uint8_t touches = 0;  ///< 1: free, and a vertex of a contact; 0: it goes to y itself
+  std::uint8_t grey = 0;     ///< 1: a decision of a contact may go either way, and `accepted` holds both
+};
+
 /// What follows from the answer's own positions and counts.
 struct StepTruth {
   /// min(r + max ‖y − xᵗ‖, cap), in double; the scale is the radius itself [m]
@@ -58,6 +66,10 @@ struct StepTruth {
   std::vector<Vec3f> prescribed_target;  ///< by vertex; only where prescribed, 0 elsewhere
   /// as Algorithm 3 orders them, given each event's count of cut vertices (0 of those that the answer lacks)
   std::vector<StepEventKind> events;
+  /// By event, then by vertex; empty of events that are no rounds, and where guess=pairs asks contacts to hold nothing.
+  /// What contacts took in the rounds before is carried on, with its error, as it is right, since an answer shows
+  /// truncated positions alone.
+  std::vector<std::vector<HeldMove>> moves{};
   std::vector<Vec3> velocity;          ///< [m/s]
   std::vector<double> velocity_scale;  ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]
 };

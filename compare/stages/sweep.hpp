@@ -27,8 +27,8 @@ namespace ogc::compare {
 /// first, then segments that nothing holds, each as in the stage `orientation`, of whose ends prescribed ones are read
 /// at their new positions and free ones at their old, and of whose neighbours those of lower colour at their new
 /// quaternions; vertices read new quaternions alone. With damping by vertex frames are not damped. m/h², k_d/h and ε_v
-/// h are formed from the given numbers and rounded
-/// at most once.
+/// h are formed from the given numbers and rounded at most once. A listed contact that is beyond r where its positions
+/// are read pushes nothing, and keeps its block.
 struct SweepIn {
   const Scene* scene = nullptr;        ///< rounded; materials, settings (h, r, ε_v, lanes)
   const Topology* topology = nullptr;  ///< of the scene's mesh

@@ -34,7 +34,7 @@ static_assert(sizeof(ContactForceCase) == sizeof(ogc_contact_force_case) &&
 static_assert(sizeof(FrictionForceCase) == sizeof(ogc_friction_force_case) &&
               offsetof(FrictionForceCase, slip_limit) == offsetof(ogc_friction_force_case, slip_limit));
 static_assert(sizeof(InitialGuessCase) == sizeof(ogc_initial_guess_case) &&
-              offsetof(InitialGuessCase, held) == offsetof(ogc_initial_guess_case, held));
+              offsetof(InitialGuessCase, reserved) == offsetof(ogc_initial_guess_case, reserved));
 static_assert(sizeof(CcdCase) == sizeof(ogc_ccd_case) && offsetof(CcdCase, to) == offsetof(ogc_ccd_case, to));
 static_assert(sizeof(VolumeForceCase) == sizeof(ogc_volume_force_case) &&
               offsetof(VolumeForceCase, slip_limit) == offsetof(ogc_volume_force_case, slip_limit));

@@ -1,6 +1,6 @@
 // The judge's way in to the initial guess: the kernels of the guess loop, one vertex a case. Acceleration and step are
-// those of a scene, so each case gets kernels of its own, and a control of its own to count its cut; what is held is
-// marked, in a round that holds contacts.
+// those of a scene, so each case gets kernels of its own, and a control of its own to count its cut. No contact holds
+// it: what contacts leave of a move the stage step asks.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace ogc::fast {
 /// Both kernels of a round, one vertex a case.
 struct ProbeGuess {
   BeginVertex begin;        ///< with arrays by case
-  GuessVertex guess;        ///< in its second round, where contacts are held
+  GuessVertex guess;        ///< without contacts
   const Vec* acceleration;  ///< by case [m/s²]
   const float* step;        ///< by case: h [s]
   StepControl* control;     ///< by case
@@ -79,7 +79,7 @@ compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::In
   compare::InitialGuessOut out;
   const std::size_t n = in.cases.size();
   std::vector<StepControl> controls(n);
-  for (StepControl& control : controls) control.active = control.rounds = 1;
+  for (StepControl& control : controls) control.active = 1;
   typename Backend::template Buffer<StepControl> control;
   control.upload(controls.data(), n);
   Vec *target = memory.template out<Vec>(out.target, n), *position = memory.template out<Vec>(out.position, n);

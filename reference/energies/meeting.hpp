@@ -42,9 +42,10 @@ struct Meeting {
   /// Σ w_i x_i, the vector d n from the second side's contact point to the first's.
   Triple<Input> separation() const;
   /// The distance that slope and curvature belong to: d, but within 2⁻²³ r … r. It keeps d's derivatives on both sides
-  /// of these corners.
+  /// of these corners, and has none where d is surely beyond r, so that nothing depends on how far.
   template <class T>
   T acting_distance(T d) const {
+    if (is_beyond()) return T(contact_radius);
     const double least = 0x1p-23 * contact_radius.value, tau = 0.5 * contact_radius.value;
     if (plain(d) < least) set_plain(d, least);
     if (plain(d) > contact_radius.value) set_plain(d, contact_radius.value);
@@ -63,7 +64,7 @@ struct Meeting {
   /// What first order does not say of −g': of activations whose g' has no slope at r, how large it is within the doubt
   /// about r [N].
   double slope_doubt() const;
-  /// Whether the contact has a force: 0 < d < r.
+  /// Whether the contact has a force: 0 < d < r. Beyond r it has a block alone.
   bool acts() const { return distance.value > 0 && distance.value < contact_radius.value; }
   /// Whether d cannot be told from r.
   bool may_end() const { return std::abs(distance.value - contact_radius.value) <= distance_doubt; }

@@ -7,6 +7,7 @@
 
 #include "compare/problem/volumes.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
+#include "reference/solvers/guess_contacts.hpp"
 #include "reference/solvers/measure.hpp"
 #include "reference/solvers/variants/contact_sets.hpp"
 
@@ -153,14 +154,15 @@ void ContactStep::guess(GuessEnd end) {
   guessing_ = true;
   detect_here();
   potential_.lag_friction(x_);
+  HeldMoves moves(exclusions_.groups, settings_.contact_radius);
   for (std::int64_t round = 1; end == GuessEnd::rounds || !in_contact(); ++round) {
-    const std::vector<bool> touched = round > 1 ? touched_vertices(detected_.active, topology_)
-                                                : std::vector<bool>(x_.size(), false);
+    const State proposals = settings_.guess == compare::Guess::pairs
+                                ? target_
+                                : moves.round(guess_contacts(scene_, topology_, potential_.rest(),
+                                                             detected_.active.vertex_facet, detected_.active.edge_edge),
+                                              widened(detected_.previous), target_);
     std::size_t cut = 0;
-    for (const std::size_t v : movable_) {
-      if (touched[v]) continue;
-      move_towards_target(v, cut);
-    }
+    for (const std::size_t v : movable_) move_towards(proposals[v], v, cut);
     metrics_.guess_rounds = round;
     const bool many = asks(cut);
     if (settings_.guess == compare::Guess::pairs) {
@@ -204,10 +206,10 @@ bool ContactStep::nothing_near() const {
   return detected_.smallest_distance - 2 * largest > settings_.contact_radius;
 }
 
-void ContactStep::move_towards_target(std::size_t vertex, std::size_t& cut) {
+void ContactStep::move_towards(const Triple<double>& proposal, std::size_t vertex, std::size_t& cut) {
   const bool is_prescribed = potential_.mobility()[vertex] == Mobility::prescribed;
-  const FeasibleRegions::Inside inside = is_prescribed ? regions_.inside_on_path(vertex, x_[vertex], target_[vertex])
-                                                       : regions_.inside(vertex, x_[vertex], target_[vertex]);
+  const FeasibleRegions::Inside inside = is_prescribed ? regions_.inside_on_path(vertex, x_[vertex], proposal)
+                                                       : regions_.inside(vertex, x_[vertex], proposal);
   fresh_ = fresh_ && x_[vertex] == inside.x;
   x_[vertex] = inside.x;
   cut += inside.cut;
@@ -221,7 +223,7 @@ std::size_t ContactStep::move_prescribed() {
   std::size_t cut = 0;
   for (const std::size_t v : movable_) {
     if (potential_.mobility()[v] != Mobility::prescribed) continue;
-    move_towards_target(v, cut);
+    move_towards(target_[v], v, cut);
   }
   return cut;
 }

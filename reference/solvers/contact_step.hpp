@@ -40,7 +40,7 @@ class StepSolver {
 
 /// What ends the guess loop, besides few cut vertices and `guess_rounds`.
 enum class GuessEnd {
-  rounds,  ///< nothing else: vertices in contact stay where they are, the others go on (method.md §5.2)
+  rounds,  ///< nothing else: contacts hold what would close them, and all else goes on (method.md §5.2)
   /// the first contact, if it is at xᵗ before the first round: none is passed by in part, so that nothing is distorted
   contact
 };
@@ -119,7 +119,7 @@ class ContactStep {
   /// In place of the method's contacts, where `contact_set` names others.
   void replace_contacts();
   bool many(std::size_t cut) const;
-  void move_towards_target(std::size_t vertex, std::size_t& cut);
+  void move_towards(const Triple<double>& proposal, std::size_t vertex, std::size_t& cut);
   /// In place of a round that cut many vertices (guess=pairs).
   void guess_by_pairs();
 

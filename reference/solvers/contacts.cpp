@@ -44,15 +44,4 @@ const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, s
   return rest.meetings[body_at(0) * body_count + body_at(stencil.sides == ContactSides::edge_edge ? 2 : 1)];
 }
 
-std::vector<bool> touched_vertices(const ContactSets& sets, const compare::Topology& topology) {
-  std::vector<bool> touched(static_cast<std::size_t>(topology.vertex_count), false);
-  const auto touch = [&](const ContactStencil& stencil) {
-    for (const Index v : stencil.vertex)
-      if (v >= 0) touched[static_cast<std::size_t>(v)] = true;
-  };
-  for (const compare::VertexFacetContact& contact : sets.vertex_facet) touch(stencil_of(topology, contact));
-  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) touch(stencil_of(topology, contact));
-  return touched;
-}
-
 }  // namespace ogc::reference

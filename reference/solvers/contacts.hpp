@@ -44,7 +44,4 @@ std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, c
 const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count,
                                             std::span<const compare::Index> body, const ContactStencil& stencil);
 
-/// By vertex: whether it is part of a contact.
-std::vector<bool> touched_vertices(const ContactSets& sets, const compare::Topology& topology);
-
 }  // namespace ogc::reference

@@ -13,7 +13,9 @@
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/colouring.hpp"
 #include "reference/solvers/contacts.hpp"
+#include "reference/solvers/detection.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
+#include "reference/solvers/guess_contacts.hpp"
 #include "reference/solvers/initial_guess.hpp"
 #include "reference/solvers/potential.hpp"
 #include "reference/solvers/rods/rod_system.hpp"
@@ -41,6 +43,7 @@ class ReferenceStep {
         settings_(in.scene->settings),
         guesser_(guesser ? std::move(guesser) : PairGuesser(pair_guess)),
         exclusions_(compare::exclusions(*in.scene)),
+        moves_(exclusions_.groups, settings_.contact_radius),
         volumes_(*in.scene, *in.topology),
         is_volume_(compare::volume_flags(*in.scene)),
         start_(compare::to_single(in.scene->mesh.positions)),
@@ -61,7 +64,6 @@ class ReferenceStep {
     for (auto kind = order.next(); kind; kind = order.next()) {
       StepEvent event;
       event.kind = *kind;
-      held_.clear();
       if (*kind == StepEventKind::detection)
         detect(event);
       else if (*kind == StepEventKind::guess)
@@ -70,7 +72,7 @@ class ReferenceStep {
         sweep(event);
       const bool is_deep = *kind == StepEventKind::sweep &&
                            depth_of(volume_contacts_, *in_.topology, x_, settings_.contact_radius) == Depth::deep;
-      order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_, held_), is_deep);
+      order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_), is_deep);
       if (std::exchange(is_by_pairs_, false)) order.left_regions();
       event.position = x_;
       out_.events.push_back(std::move(event));
@@ -136,22 +138,29 @@ class ReferenceStep {
     return exclusions_.groups[v] > 0 || settings_.bounds == compare::Bounds::dat;
   }
 
-  /// Where v goes on its way to its target; counts a cut.
-  Vec3f truncated(std::size_t v, Index& cut) const {
+  /// Where v goes on its way to where it is proposed; counts a cut.
+  Vec3f truncated(std::size_t v, const Vec3f& proposal, Index& cut) const {
     const auto planes = planes_.of(static_cast<Index>(v));
     const compare::TruncateIn question{
-        {previous_[v]}, {out_.target[v]}, {bound_[v]}, half_spaces_of(planes, x_[v], does_not_slide(v))};
+        {previous_[v]}, {proposal}, {bound_[v]}, half_spaces_of(planes, x_[v], does_not_slide(v))};
     const compare::TruncateTruth truth = truncate(question);
-    if (truth.cut[0] == 0) return out_.target[v];
+    if (truth.cut[0] == 0) return proposal;
     ++cut;
     return stored_in_region(truth.position[0], question, 0);
   }
 
   void guess(StepEvent& event, const StepOrder& order) {
-    held_ = order.holds_contacts() ? touched_vertices(contacts_, *in_.topology) : std::vector<bool>(x_.size(), false);
-    for (std::size_t v = 0; v < x_.size(); ++v)
-      if (!held_[v]) x_[v] = truncated(v, event.cut);
-    if (settings_.guess == compare::Guess::pairs && order.asks_for_pairs(event.cut)) guess_by_pairs(event);
+    const bool is_by_pairs = settings_.guess == compare::Guess::pairs;
+    const std::vector<Vec3f> proposals = is_by_pairs ? out_.target : held_targets();
+    for (std::size_t v = 0; v < x_.size(); ++v) x_[v] = truncated(v, proposals[v], event.cut);
+    if (is_by_pairs && order.asks_for_pairs(event.cut)) guess_by_pairs(event);
+  }
+
+  /// Where contacts let each vertex go.
+  std::vector<Vec3f> held_targets() {
+    const std::vector<GuessContact> contacts = guess_contacts(*in_.scene, *in_.topology, out_.rest,
+                                                              contacts_.vertex_facet, contacts_.edge_edge);
+    return rounded(moves_.round(contacts, widened(previous_), widened(out_.target)));
   }
 
   /// In place of the round whose balls cut many.
@@ -211,6 +220,7 @@ class ReferenceStep {
   bool is_by_pairs_ = false;  ///< the last guess was
   bool is_swept_ = false;     ///< the guess loop is over
   compare::Exclusions exclusions_;
+  HeldMoves moves_;
   SceneVolumes volumes_;
   std::vector<bool> is_volume_;  ///< by vertex
   std::vector<compare::VolumeContact> volume_contacts_;
@@ -219,7 +229,6 @@ class ReferenceStep {
   std::vector<float> bound_;
   compare::VertexPlanes planes_;
   ContactSets contacts_;
-  std::vector<bool> held_;  ///< by vertex: contact holds it in the round of the guess that just took place
   compare::StepOut out_;
 };
 

@@ -6,12 +6,14 @@
 #include "compare/problem/volumes.hpp"
 #include "compare/stages/volume_force.hpp"
 #include "reference/solvers/guess/pair_guess.hpp"
+#include "reference/solvers/guess_contacts.hpp"
 #include "reference/solvers/step_order.hpp"
 
 namespace ogc::reference {
 namespace {
 
 using compare::Index;
+using compare::StepEventKind;
 using compare::Vec3;
 using compare::Vec3f;
 
@@ -28,31 +30,22 @@ bool leaves_balls(const compare::StepIn& in, const compare::StepOut& answer, std
   return false;
 }
 
-/// By vertex: whether a contact of the detection has it. An answer may be any: faces that are not there have none.
-std::vector<bool> touched_in(const compare::StepEvent& detection, const compare::Topology& topology) {
-  std::vector<bool> touched(static_cast<std::size_t>(topology.vertex_count), false);
-  const auto touch = [&](const auto& vertices) {
-    for (const Index v : vertices) touched[static_cast<std::size_t>(v)] = true;
-  };
-  const auto is_among = [](Index i, std::size_t count) { return i >= 0 && static_cast<std::size_t>(i) < count; };
-  const auto touch_face = [&](const compare::Face& face) {
-    const auto i = static_cast<std::size_t>(face.index);
-    switch (face.kind) {
-      case compare::FaceKind::vertex:
-        if (is_among(face.index, touched.size())) touched[i] = true;
-        break;
-      case compare::FaceKind::edge:
-        if (is_among(face.index, topology.edges.size())) touch(topology.edges[i]);
-        break;
-      case compare::FaceKind::triangle:
-        if (is_among(face.index, topology.triangles.size())) touch(topology.triangles[i]);
-        break;
-    }
-  };
-  for (const compare::VertexFacetContact& c : detection.vertex_facet.contacts)
-    touch_face({compare::FaceKind::vertex, c.vertex}), touch_face(c.face);
-  for (const compare::EdgeEdgeContact& c : detection.edge_edge.contacts) touch_face(c.first), touch_face(c.second);
-  return touched;
+/// By event, what contacts leave of moves. An answer without frictions has none.
+std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in, const compare::StepOut& answer,
+                                                       const std::vector<StepEventKind>& kinds) {
+  std::vector<std::vector<compare::HeldMove>> moves(kinds.size());
+  const std::size_t bodies = in.scene->bodies.size(), count = in.scene->mesh.positions.size();
+  if (in.scene->settings.guess == compare::Guess::pairs || answer.rest.meetings.size() != bodies * bodies) return moves;
+  HeldMoves rounds(rigid_groups(*in.scene), in.scene->settings.contact_radius);
+  for (std::size_t i = 1; i < std::min(kinds.size(), answer.events.size()); ++i) {
+    const compare::StepEvent& detection = answer.events[i - 1];
+    const bool is_round = kinds[i] == StepEventKind::guess && detection.kind == StepEventKind::detection;
+    if (!is_round || detection.position.size() != count || answer.target.size() != count) continue;
+    moves[i] = rounds.judged_round(guess_contacts(*in.scene, *in.topology, answer.rest, detection.vertex_facet.contacts,
+                                                  detection.edge_edge.contacts),
+                                   detection.position, answer.target);
+  }
+  return moves;
 }
 
 Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
@@ -61,11 +54,11 @@ double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 }  // namespace
 
 StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
-               const std::vector<Index>& groups, const compare::Settings& settings, const std::vector<bool>& held) {
+               const std::vector<Index>& groups, const compare::Settings& settings) {
   StepLag lag;
   if (!compare::has_planes(settings.bounds)) return lag;
   for (std::size_t v = 0; v < x.size(); ++v) {
-    if (groups[v] <= 0 || x[v] == target[v] || (!held.empty() && held[v])) continue;
+    if (groups[v] <= 0 || x[v] == target[v]) continue;
     ++lag.lagging;
     lag.has_advanced = lag.has_advanced || !(x[v] == previous[v]);
   }
@@ -122,7 +115,6 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
   StepOrder order(settings, compare::bounded_count(*in.topology, groups), compare::has_volumes(scene));
   const std::vector<Vec3f>* previous = &start;
   const std::vector<compare::VolumeContact>* volumes = nullptr;
-  std::vector<bool> touched(start.size(), false);
   for (auto kind = order.next(); kind; kind = order.next()) {
     const std::size_t i = truth.events.size();
     truth.events.push_back(*kind);
@@ -131,12 +123,9 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     if (is_there && *kind == compare::StepEventKind::detection) {
       previous = &answer.events[i].position;
       volumes = &answer.events[i].volumes.contacts;
-      touched = touched_in(answer.events[i], *in.topology);
     }
     StepLag lag;
-    if (is_there)
-      lag = lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings,
-                   *kind == compare::StepEventKind::guess && order.holds_contacts() ? touched : std::vector<bool>{});
+    if (is_there) lag = lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings);
     bool is_deep = false;
     if (is_there && *kind == compare::StepEventKind::sweep && volumes != nullptr) {
       const Depth depth = depth_of(*volumes, *in.topology, answer.events[i].position, settings.contact_radius);
@@ -150,6 +139,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
         (order.asks_for_pairs(cut) || leaves_balls(in, answer, i)))
       order.left_regions();
   }
+  truth.moves = held_moves(in, answer, truth.events);
   return truth;
 }
 

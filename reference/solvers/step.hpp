@@ -10,11 +10,10 @@
 
 namespace ogc::reference {
 
-/// Prescribed vertices at x that bounds keep behind their targets; nothing where bounds are no planes. `held`: by
-/// vertex, whether contact holds it in a round of the guess instead, which asks for nothing; empty: none.
+/// Prescribed vertices at x that bounds keep behind their targets; nothing where bounds are no planes.
 StepLag lag_of(const std::vector<compare::Vec3f>& x, const std::vector<compare::Vec3f>& previous,
                const std::vector<compare::Vec3f>& target, const std::vector<compare::Index>& groups,
-               const compare::Settings& settings, const std::vector<bool>& held = {});
+               const compare::Settings& settings);
 
 /// Whether a vertex lies deep inside a volume; doubtful where rounding to single precision decides.
 enum class Depth { shallow, doubtful, deep };
@@ -23,8 +22,8 @@ enum class Depth { shallow, doubtful, deep };
 Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compare::Topology& topology,
                const std::vector<compare::Vec3f>& x, double contact_radius);
 
-/// r_q, prescribed targets, the order of events, velocities. The answer's target, position and velocity must have one
-/// entry a vertex, its events may be any.
+/// r_q, prescribed targets, the order of events, moves of the guess loop, velocities. The answer's target, position and
+/// velocity must have one entry a vertex, its events may be any.
 compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answer);
 
 /// The step made of the reference's own stages: exact sets, bounds and targets, updates in double; positions stored in

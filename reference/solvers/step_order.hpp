@@ -61,9 +61,6 @@ class StepOrder {
   /// first iteration.
   void left_regions() { found_ = false; }
 
-  /// Whether a round of the guess loop holds vertices in contact: from the second on.
-  bool holds_contacts() const { return rounds_ > 0; }
-
  private:
   bool asks(compare::Index cut, const StepLag& lag) {
     const bool lag_asks = lag.lagging > 0 && (lag.has_advanced || !lag_asked_);

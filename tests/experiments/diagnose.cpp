@@ -67,7 +67,7 @@ TEST_CASE("whoever answers as a wrong form says fits it in every case, and is wr
   std::size_t forms = 0;
   for (const Stage stage : all_stages) {
     if (stage_info(stage).kind == CaseKind::followed)
-      continue;  // the exact contestant sweeps by itself, and a step has no forms
+      continue;  // the exact contestant sweeps and steps by itself
     if (stage == Stage::plane)
       continue;  // no answer follows from a form, which says what the judge would take: faults are named below
     const std::uint64_t each = is_mesh_stage(stage) ? 4 : 40;
@@ -130,6 +130,7 @@ TEST_CASE("planted faults that are known wrong forms are named, and others are n
       {"contact_force: share of the overlap forgotten", "overlap_share_missing"},
       {"contact_force: mollifier of the present edges", "mollifier_of_present_edges"},
       {"contact_force: weights of the two sides exchanged", "sides_exchanged"},
+      {"contact_force: no block from r on", "block_ends_at_radius"},
       {"contact_force: radius 0.01 % too large", ""},
       {"friction_force: slip since now, not since the start of the step", "slip_since_now"},
       {"friction_force: normal force without the mollifier", "mollifier_missing"},

@@ -51,6 +51,14 @@ void as_printed(const ContactForceCase& c, Vec3f& force, std::array<float, 6>& b
   for (float& b : block) b *= factor;
 }
 
+/// Nothing from d = r on, the block included, where no force is left.
+ForceOut ending_at_radius(const ContactForceIn& in, const std::function<ForceOut(const ContactForceIn&)>& right) {
+  ForceOut out = right(in);
+  for (std::size_t i = 0; i < in.cases.size(); ++i)
+    if (out.force[i] == Vec3f{}) out.block[i] = {};
+  return out;
+}
+
 /// Of the point of a contact, whose weight is 1, for whatever vertex is asked about.
 ForceOut of_the_point(const ContactForceIn& in, const std::function<ForceOut(const ContactForceIn&)>& right) {
   ContactForceIn other = in;
@@ -78,6 +86,12 @@ std::vector<Fault> contact_force_faults() {
        [](Contestant& contestant, const Authority&) {
          contestant.contact_force = [right = contestant.contact_force](const ContactForceIn& in) {
            return ForceOut{right(in).force, of_the_point(in, right).block};
+         };
+       }},
+      {"contact_force: no block from r on", Stage::contact_force,
+       [](Contestant& contestant, const Authority&) {
+         contestant.contact_force = [right = contestant.contact_force](const ContactForceIn& in) {
+           return ending_at_radius(in, right);
          };
        }},
       contact_asked("weights of the two ends of an edge exchanged",

@@ -236,12 +236,15 @@ std::vector<Fault> initial_guess_faults() {
                         const float h = c.time_step;
                         c.acceleration = {c.acceleration.x / h, c.acceleration.y / h, c.acceleration.z / h};
                       }),
-      guessed_wrongly("initial_guess: a held vertex moves", [](InitialGuessCase& c) { c.held = 0; }),
       guessed_wrongly("initial_guess: truncated about the start of the step",
                       [](InitialGuessCase& c) { c.previous = c.start; }),
       guess_fault("initial_guess: bound ignored by fast movers", ignore_bound_of_fast_movers),
-      guess_fault("initial_guess: held vertices counted as cut",
-                  [](const InitialGuessCase& c, std::size_t i, InitialGuessOut& out) { out.cut[i] |= c.held; }),
+      guess_fault("initial_guess: what moves far counted as cut",
+                  [](const InitialGuessCase& c, std::size_t i, InitialGuessOut& out) {
+                    const Vec3f &y = out.target[i], &p = c.previous;
+                    const double moved = std::hypot(double{y.x} - p.x, double{y.y} - p.y, double{y.z} - p.z);
+                    if (moved > 0.9 * c.bound) out.cut[i] = 1;
+                  }),
   };
 }
 
@@ -256,11 +259,6 @@ InitialGuessOut exact_guess(const InitialGuessIn& in, const InitialGuessTruth& t
   for (const Vec3& y : truth.target)
     out.target.push_back({static_cast<float>(y.x), static_cast<float>(y.y), static_cast<float>(y.z)});
   TruncateOut cut = truncate(cut_question(in, out));
-  for (std::size_t i = 0; i < in.cases.size(); ++i) {
-    if (!in.cases[i].held) continue;
-    cut.position[i] = in.cases[i].previous;
-    cut.cut[i] = 0;
-  }
   out.position = std::move(cut.position);
   out.cut = std::move(cut.cut);
   for (const auto& q : truth.orientation)

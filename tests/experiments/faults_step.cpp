@@ -66,6 +66,33 @@ void keep_first_previous(const StepIn&, StepOut& out) {
     if (is_detection(event)) event.position = out.events.front().position;
 }
 
+/// `change(event, v)` of each vertex of a vertex–facet contact in the n-th round of the guess loop and later.
+template <class Change>
+void change_rounds(StepOut& out, int first, Change change) {
+  for (std::size_t i = 1, round = 0; i < out.events.size() && out.events[i].kind == StepEventKind::guess; i += 2)
+    if (static_cast<int>(round++) >= first)
+      for (const VertexFacetContact& contact : out.events[i - 1].vertex_facet.contacts)
+        change(out.events[i], out.events[i - 1], static_cast<std::size_t>(contact.vertex));
+}
+
+/// From the second round on vertices that touch something stay where they are.
+void hold_from_second_round(const StepIn& in, StepOut& out) {
+  if (in.scene->settings.guess == Guess::pairs) return;
+  change_rounds(out, 1, [](StepEvent& guess, const StepEvent& detection, std::size_t v) {
+    guess.position[v] = detection.position[v];
+  });
+}
+
+/// Contacts take nothing: what touches goes to y, truncated.
+void fall_into_partners(const StepIn& in, StepOut& out) {
+  if (in.scene->settings.guess == Guess::pairs) return;
+  change_rounds(out, 0, [&](StepEvent& guess, const StepEvent& detection, std::size_t v) {
+    const Vec3f &p = detection.position[v], &y = out.target[v];
+    const TruncateTruth truth = reference::truncate({{p}, {y}, {detection.bound[v]}});
+    guess.position[v] = reference::stored_within(truth.position[0], p, detection.bound[v]);
+  });
+}
+
 /// Vertices that touch something stay in the first round, too.
 void hold_in_first_round(const StepIn& in, StepOut& out) {
   const std::vector<VertexFacetContact>& contacts = out.events[0].vertex_facet.contacts;
@@ -255,6 +282,8 @@ std::vector<Fault> step_faults() {
       spoiled("no detection between iterations", detect_before_iterations_only),
       spoiled("X_prev of the first detection kept", keep_first_previous),
       spoiled("guess loop holds contacts in its first round", hold_in_first_round),
+      spoiled("what touches stays from the second round of the guess loop on", hold_from_second_round),
+      spoiled("contacts take nothing in the guess loop", fall_into_partners),
       spoiled("velocity since the last detection", velocity_from_last_detection),
       spoiled("a vertex that was cut not counted",
               [](const StepIn&, StepOut& out) {

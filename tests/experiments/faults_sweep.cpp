@@ -6,7 +6,10 @@
 #include <numeric>
 
 #include "compare/problem/volumes.hpp"
+#include "reference/energies/closest_form.hpp"
 #include "reference/geometry/truncate.hpp"
+#include "reference/solvers/contacts.hpp"
+#include "reference/solvers/potential_batches.hpp"
 #include "reference/solvers/sweep.hpp"
 #include "tests/compare/judge/faults.hpp"
 
@@ -24,6 +27,7 @@ struct SweepCopy {
   std::vector<Vec3f> start, target;
   std::vector<float> bound;
   std::vector<VolumeContact> volumes;
+  std::vector<VertexFacetContact> vertex_facet;
 
   explicit SweepCopy(const SweepIn& from)
       : in(from),
@@ -32,13 +36,15 @@ struct SweepCopy {
         start(from.start.begin(), from.start.end()),
         target(from.target.begin(), from.target.end()),
         bound(from.bound.begin(), from.bound.end()),
-        volumes(from.volumes.begin(), from.volumes.end()) {
+        volumes(from.volumes.begin(), from.volumes.end()),
+        vertex_facet(from.vertex_facet.begin(), from.vertex_facet.end()) {
     in.scene = &scene;
     in.colour = colour;
     in.start = start;
     in.target = target;
     in.bound = bound;
     in.volumes = volumes;
+    in.vertex_facet = vertex_facet;
   }
   SweepCopy(const SweepCopy&) = delete;
   SweepCopy& operator=(const SweepCopy&) = delete;
@@ -114,6 +120,19 @@ Fault truncated_late() {
           }};
 }
 
+/// Contacts that are beyond r before the sweep have no block.
+void end_at_radius(SweepCopy& copy) {
+  const reference::State x = reference::widened({copy.in.old.begin(), copy.in.old.end()});
+  std::erase_if(copy.vertex_facet, [&](const VertexFacetContact& contact) {
+    const reference::ContactStencil stencil = reference::stencil_of(*copy.in.topology, contact);
+    const auto corners = reference::contact_corners(stencil.sides, stencil.vertex, x);
+    const reference::ClosestForm form = reference::closest_form(stencil.sides, corners);
+    const reference::Triple<double> apart = reference::separation(form.weight, corners);
+    return std::hypot(apart[0], apart[1], apart[2]) >= copy.scene.settings.contact_radius;
+  });
+  copy.in.vertex_facet = copy.vertex_facet;
+}
+
 /// Forces of vertex–facet contacts reach the vertex alone.
 void forget_facets(reference::SweepStencils& stencils) {
   for (auto& contacts : stencils.vertex_facet)
@@ -186,6 +205,7 @@ std::vector<Fault> sweep_faults() {
                       if (!copy.in.vertex_facet.empty())
                         copy.in.vertex_facet = copy.in.vertex_facet.first(copy.in.vertex_facet.size() - 1);
                     }),
+      asked_wrongly("contacts beyond r without a block", end_at_radius),
       asked_wrongly("plain Jacobi", [](SweepCopy& copy) { change_free(copy, [](Index) { return 0; }); }),
       asked_wrongly("neighbours of higher colour read from the new buffer",
                     [](SweepCopy& copy) {

@@ -1,7 +1,7 @@
 // Cases of contact_force and friction_force. Canonical frame: the contact point of the second side near the origin, the
 // normal about z, so that distance and slip along the normal are single coordinates. Ladders lead to the boundaries of
-// the closest features, to collapse as far as the question is legal, to parallel edges and the rule for them, to r, τ
-// and 0, and of friction to a slip of 0 and of ε_v h, and to a motion along the normal.
+// the closest features, to collapse as far as the question is legal, to parallel edges and the rule for them, to r and
+// far beyond it, to τ and 0, and of friction to a slip of 0 and of ε_v h, and to a motion along the normal.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -252,6 +252,12 @@ CaseData contact_parallel(Random& random) {
   return question;
 }
 CaseData contact_radius(Random& random) { return contact_case(random, near_radius(random)); }
+/// d = r (1 ± k u) for small k, where single precision decides between both sides, and up to 10⁴ r, as after a long way
+/// since the last detection.
+CaseData contact_beyond(Random& random) {
+  const double share = random.one_in(2) ? 1 + random.sign() * random.below(9) * 0x1p-24 : random.magnitude(0, 4);
+  return contact_case(random, inside(random, any_sides(random), share));
+}
 CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
 CaseData contact_touching(Random& random) { return contact_case(random, near_touching(random)); }
 
@@ -393,7 +399,7 @@ CaseData friction_together(Random& random) {
   return question;
 }
 
-constexpr std::array<Generator, 15> contact_table{{{"uniform", 30, true, contact_uniform},
+constexpr std::array<Generator, 16> contact_table{{{"uniform", 30, true, contact_uniform},
                                                    {"bits", 10, false, contact_bits},
                                                    {"dust", 8, false, contact_uniform},
                                                    {"lattice", 15, false, contact_lattice},
@@ -402,6 +408,7 @@ constexpr std::array<Generator, 15> contact_table{{{"uniform", 30, true, contact
                                                    {"ladder.needle", 8, false, contact_needle},
                                                    {"ladder.parallel", 10, false, contact_parallel},
                                                    {"ladder.radius", 6, false, contact_radius},
+                                                   {"ladder.beyond", 6, false, contact_beyond},
                                                    {"ladder.switch", 5, false, contact_switch},
                                                    {"ladder.touching", 7, false, contact_touching},
                                                    {"ladder.mollifier", 5, false, contact_mollifier},

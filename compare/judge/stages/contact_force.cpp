@@ -41,12 +41,29 @@ WrongForm without_weights(std::string name, std::string meaning, int of_force, i
       });
 }
 
+/// Beyond r alone the force and its scale are 0 where there is a block. Where d cannot be told from r the force is
+/// smaller than its error, and either block fits.
+WrongForm block_ends_at_radius() {
+  return told("block_ends_at_radius", "no block from d = r on, where the curvature at r is asked for",
+              &Authority::contact_force, [](const ContactForceIn&, ForceTruth& truth) {
+                for (std::vector<ForceAnswer>& accepted : truth.accepted) {
+                  ForceAnswer& exact = accepted.front();
+                  const double force = std::hypot(exact.force.x, exact.force.y, exact.force.z);
+                  if (exact.force_scale == 0)
+                    exact = {};
+                  else if (force <= contact_force_tolerance * unit_roundoff * exact.force_scale)
+                    accepted.push_back({});
+                }
+              });
+}
+
 std::vector<WrongForm> contact_force_forms() {
   std::vector<WrongForm> forms = common_forms(&Authority::contact_force);
   add_contact(forms, &Authority::contact_force, [](ContactForceCase& c) -> ContactForceCase& { return c; });
   forms.push_back(without_weights("weight_missing", "force and block without the weight of the vertex", 1, 2));
   forms.push_back(without_weights("weight_not_squared", "the block with w in place of w²", 0, 1));
   forms.push_back(without_weights("block_without_weight", "the block without w²", 0, 2));
+  forms.push_back(block_ends_at_radius());
   return forms;
 }
 

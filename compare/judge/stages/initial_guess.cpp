@@ -41,7 +41,6 @@ InitialGuessCase falling(Random& random, double speed) {
   // Of a later round: the vertex has gone a part of its way.
   const double part = random.one_in(2) ? 0 : random.unit();
   c.previous = single(sum(wide(c.start), scaled(wide(c.velocity), part * c.time_step)));
-  c.held = random.one_in(6);
   return c;
 }
 
@@ -59,8 +58,7 @@ InitialGuessCase bits(Random& random) {
                  static_cast<float>(random.sign()) * random.pattern(),
                  static_cast<float>(random.sign()) * random.pattern()};
   };
-  InitialGuessCase c{
-      vector(), vector(), vector(), 0, vector(), random.pattern(), static_cast<std::uint8_t>(random.one_in(6))};
+  InitialGuessCase c{vector(), vector(), vector(), 0, vector(), random.pattern()};
   c.time_step = static_cast<float>(std::ldexp(random.between(0.5, 1), -random.below(20)));
   return c;
 }
@@ -82,7 +80,6 @@ InitialGuessCase lattice(Random& random) {
   const std::array<float, 4> bounds{moved, std::nextafter(moved, 0.0f),
                                     std::nextafter(moved, std::numeric_limits<float>::infinity()), 2 * moved};
   c.bound = random.pick(std::span<const float>(bounds));
-  c.held = random.one_in(8);
   return c;
 }
 
@@ -231,18 +228,13 @@ void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGue
     const InitialGuessCase& c = in.cases[i];
     const Vec3f& y = out.target[i];
     tally.begin(cases[i].name);
-    tally.count(1, 1, cut.grey[i] && !c.held, cut.near[i] && !c.held);
+    tally.count(1, 1, cut.grey[i], cut.near[i]);
     const Vec3& exact = truth.target[i];
     const double error = std::max({std::abs(y.x - exact.x), std::abs(y.y - exact.y), std::abs(y.z - exact.z)});
     tally.error(
         0, is_finite(y) ? in_units(error, truth.target_scale[i]) : std::numeric_limits<double>::infinity(),
         [&] { return text("a coordinate is %.4g from the exact one, terms of %.4g", error, truth.target_scale[i]); });
     if (!is_finite(y)) continue;
-    if (c.held) {
-      if (out.cut[i] != 0 || !(out.position[i] == c.previous))
-        tally.mismatch("position: the vertex is held, but it was moved or counted as cut");
-      continue;
-    }
     if (out.cut[i] > 1 || (out.cut[i] != cut.cut[i] && !cut.grey[i])) {
       tally.mismatch("cut: " + std::to_string(out.cut[i]) + ", exact " + std::to_string(cut.cut[i]));
       continue;
@@ -270,13 +262,6 @@ WrongForm turn_asked(std::string name, std::string meaning, Change change) {
 
 Vec3f times(const Vec3f& v, float factor) { return {factor * v.x, factor * v.y, factor * v.z}; }
 
-/// Whether the answer is right about a vertex that is free.
-bool is_not_held(const Evidence& evidence, const Authority& authority) {
-  Evidence free = evidence;
-  case_of<GuessCase>(free.test.data).vertex.held = 0;
-  return agrees(free, authority);
-}
-
 std::vector<WrongForm> initial_guess_forms() {
   return {
       guess_asked("acceleration_missing", "y without h² a_ext", [](InitialGuessCase& c) { c.acceleration = {}; }),
@@ -287,8 +272,7 @@ std::vector<WrongForm> initial_guess_forms() {
       guess_asked("velocity_missing", "y without h vᵗ", [](InitialGuessCase& c) { c.velocity = {}; }),
       guess_asked("from_previous", "y from X_prev in place of xᵗ", [](InitialGuessCase& c) { c.start = c.previous; }),
       turn_asked("turn_missing", "frames stay as they were", [](TurnCase& c) { c.now = c.before; }),
-      turn_asked("turn_back", "the rotation from D to Dᵗ", [](TurnCase& c) { std::swap(c.now, c.before); }),
-      {"held_ignored", "vertices that are held move like all others", is_not_held}};
+      turn_asked("turn_back", "the rotation from D to Dᵗ", [](TurnCase& c) { std::swap(c.now, c.before); })};
 }
 
 struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Authority::initial_guess>,
@@ -321,7 +305,6 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
     problem.vector("an acceleration", c.acceleration);
     problem.number("a time step", c.time_step, least_length, 1);
     problem.number("a bound", c.bound, 0, vast);
-    problem.require(c.held <= 1, "held is neither 0 nor 1");
     if (!whole.turn) return;
     rod_cases::check_unit(problem, whole.turn->orientation);
     for (const Vec3f& d : {whole.turn->before, whole.turn->now}) {
@@ -349,8 +332,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
               {"acceleration", to_json(c.acceleration)},
               {"time_step", hexadecimal(c.time_step)},
               {"previous", to_json(c.previous)},
-              {"bound", hexadecimal(c.bound)},
-              {"held", c.held != 0}};
+              {"bound", hexadecimal(c.bound)}};
     if (whole.turn)
       json["turn"] = {
           {"before", to_json(whole.turn->before)},
@@ -360,8 +342,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
   }
   static Case read(const Json& data) {
     Case whole{{to_point(data.at("start")), to_point(data.at("velocity")), to_point(data.at("acceleration")),
-                number(data.at("time_step")), to_point(data.at("previous")), number(data.at("bound")),
-                data.at("held").get<bool>()},
+                number(data.at("time_step")), to_point(data.at("previous")), number(data.at("bound"))},
                {}};
     if (!data.contains("turn")) return whole;
     const Json& turn = data.at("turn");
@@ -385,8 +366,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
                               points("acceleration", "m/s²", std::array{c.acceleration}),
                               scalar("time_step", "s", c.time_step),
                               points("previous", "m", std::array{c.previous}),
-                              scalar("bound", "m", c.bound),
-                              word("held", c.held ? "yes" : "no")};
+                              scalar("bound", "m", c.bound)};
     if (!whole.turn) return all;
     all.push_back(points("before", "m", std::array{whole.turn->before}));
     all.push_back(points("now", "m", std::array{whole.turn->now}));
@@ -436,17 +416,14 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
     const Truth truth = a.initial_guess(in);
     std::string note;
     const std::optional<Out> out = answer_or_note(c.initial_guess, in, note);
-    const InitialGuessCase& asked_about = in.cases[0];
     const TruncateTruth cut = a.truncate(cut_question(in, out ? *out : Out{}));
-    const Vec3 held{asked_about.previous.x, asked_about.previous.y, asked_about.previous.z};
     std::vector<Quantity> given;
     if (out)
       given = outputs(points("target", "m", std::array{out->target.at(0)}),
                       points("position", "m", std::array{out->position.at(0)}), out->cut.at(0));
     return paired(given,
                   outputs(points("target", "m", std::array{truth.target[0]}),
-                          points("position", "m", std::array{asked_about.held ? held : cut.position[0]}),
-                          asked_about.held ? 0 : cut.cut[0]),
+                          points("position", "m", std::array{cut.position[0]}), cut.cut[0]),
                   note);
   }
   static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return initial_guess_forms(); }

@@ -3,6 +3,7 @@
 
 #include "compare/judge/cases/mutate.hpp"
 #include "compare/judge/engine/scene_json.hpp"
+#include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/parameter_ranges.hpp"
 #include "compare/judge/stages/stage_of.hpp"
 #include "compare/problem/validate.hpp"
@@ -20,6 +21,26 @@ Quantity event_names(const std::vector<StepEventKind>& kinds) {
   return words("events", std::move(names));
 }
 
+/// `change(move, is_first)`: what the form says of a vertex that touches, in the first round of the guess loop or in a
+/// later one.
+template <class Change>
+WrongForm with_moves(std::string name, std::string meaning, Change change) {
+  return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
+    Authority wrong = authority;
+    wrong.step = [right = authority.step, change](const StepIn& in, const StepOut& out) {
+      StepTruth truth = right(in, out);
+      bool is_first = true;
+      for (std::vector<HeldMove>& round : truth.moves) {
+        for (HeldMove& held : round)
+          if (held.touches != 0) change(held, is_first);
+        is_first = is_first && round.empty();
+      }
+      return truth;
+    };
+    return wrong;
+  });
+}
+
 struct Step : TakenWhole, Numbered {
   using Case = StepCase;
   static constexpr StageInfo info{.name = "step",
@@ -31,7 +52,8 @@ struct Step : TakenWhole, Numbered {
                                   .determinism = Determinism::cpu_to_gpu};
   static constexpr std::array metrics{MetricInfo{"query_radius", "u r_q", step_query_radius_tolerance},
                                       MetricInfo{"target", "u scale", initial_guess_target_tolerance},
-                                      MetricInfo{"velocity", "u |x − xᵗ|/h", step_velocity_tolerance}};
+                                      MetricInfo{"velocity", "u |x − xᵗ|/h", step_velocity_tolerance},
+                                      MetricInfo{"guess", "accepted error", 1}};
   static constexpr std::array parameters{ranges::contact_radius, ranges::time_step, ranges::bound_relaxation,
                                          ranges::contact_stiffness, ranges::friction};
   static std::string set(Case& c, std::span<const Override> values) {
@@ -129,8 +151,19 @@ struct Step : TakenWhole, Numbered {
     return paired(outputs(out->query_radius, kinds, points("velocity", "m/s", out->velocity)),
                   outputs(truth.query_radius, truth.events, points("velocity", "m/s", truth.velocity)), note);
   }
-  /// None: its events are judged as the stages that they are, and named.
-  static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return {}; }
+  /// Of the guess loop alone: all other events are judged as the stages that they are, and named.
+  static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) {
+    return {with_moves("touching_vertices_stay",
+                       "a vertex in contact stays where it is from the second round of the guess loop on",
+                       [](HeldMove& held, bool is_first) {
+                         if (is_first)
+                           held.touches = 0;
+                         else
+                           held = {.move = {}, .touches = 1};
+                       }),
+            with_moves("contacts_hold_nothing", "vertices in contact go to y like all others",
+                       [](HeldMove& held, bool) { held.touches = 0; })};
+  }
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "compare/judge/engine/exact_sum.hpp"
 #include "compare/judge/engine/rods/step_frames.hpp"
 #include "compare/judge/engine/units.hpp"
 #include "compare/judge/engine/volume_question.hpp"
@@ -208,7 +209,6 @@ class StepVerdict {
     });
     judge_volumes(i);
     if (!right()) return;
-    ++detections_;
     if (has_planes()) return judge_planes(i, question);
     const BoundIn bounds{in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
                          event.vertex_facet.d_min_triangle, static_cast<float>(in_.scene->settings.bound_relaxation)};
@@ -257,22 +257,6 @@ class StepVerdict {
       if (can_judge_plane(test_, question, answer, own))
         judge_plane(test_, question, authority_.plane(question, answer), answer, own);
     });
-  }
-
-  /// Vertices that are part of an active contact; each contact is active, as X_prev = x.
-  std::vector<std::uint8_t> touched() const {
-    std::vector<std::uint8_t> touched(start_.size(), 0);
-    const auto mark = [&](const Face& face) {
-      if (face.kind == FaceKind::vertex) touched[face.index] = 1;
-      if (face.kind == FaceKind::edge)
-        for (const Index v : in_.topology->edges[face.index]) touched[v] = 1;
-      if (face.kind == FaceKind::triangle)
-        for (const Index v : in_.topology->triangles[face.index]) touched[v] = 1;
-    };
-    for (const VertexFacetContact& c : detection_->vertex_facet.contacts)
-      mark({FaceKind::vertex, c.vertex}), mark(c.face);
-    for (const EdgeEdgeContact& c : detection_->edge_edge.contacts) mark(c.first), mark(c.second);
-    return touched;
   }
 
   /// With guess=pairs, where a detection follows: many vertices are not at y, or one has left its ball. Otherwise the
@@ -324,20 +308,25 @@ class StepVerdict {
            std::to_string(pair.second);
   }
 
-  /// y, truncated; in the first round for all vertices, later for those that touch nothing. A vertex that is not at y
-  /// was cut: no cut leads to y itself, which lies beyond the bound.
+  /// Vertices that a guess cut: those that are known to be, and those that may be.
+  struct Cuts {
+    Index certain = 0, doubtful = 0;
+  };
+
+  /// y, or where contacts let a vertex go, truncated. A vertex without contacts that is not at y was cut: no cut leads
+  /// to y itself, which lies beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
-    const std::vector<std::uint8_t> held = detections_ > 1 ? touched() : std::vector<std::uint8_t>(start_.size(), 0);
-    Index cut = 0;
+    const std::span<const HeldMove> moves = i < truth_.moves.size() ? std::span<const HeldMove>(truth_.moves[i])
+                                                                    : std::span<const HeldMove>{};
+    Cuts cuts;
     for (std::size_t v = 0; v < at_.size(); ++v) {
-      if (held[v]) {
-        if (!(event.position[v] == at_[v]))
-          tally_.mismatch(where(i) + vertex(v) + " is part of an active contact and did not stay");
+      if (!moves.empty() && moves[v].touches != 0) {
+        judge_held(i, v, moves[v], cuts);
         continue;
       }
       const bool is_cut = !(event.position[v] == out_.target[v]);
-      cut += is_cut;
+      cuts.certain += is_cut;
       // in the guess loop inertia alone holds it
       const auto planes = detection_->planes.of(static_cast<Index>(v));
       const TruncateIn question{{at_[v]},
@@ -348,9 +337,59 @@ class StepVerdict {
         judge_truncate({&test_, 1}, question, authority_.truncate(question), {{event.position[v]}, {is_cut}}, own);
       });
     }
-    if (event.cut != cut)
-      tally_.mismatch(where(i) + ": " + std::to_string(event.cut) + " vertices counted as cut, " + std::to_string(cut) +
-                      " are not at y");
+    if (event.cut < cuts.certain || event.cut > cuts.certain + cuts.doubtful)
+      tally_.mismatch(where(i) + ": " + std::to_string(event.cut) + " vertices counted as cut, exact " +
+                      std::to_string(cuts.certain) + " and " + std::to_string(cuts.doubtful) + " in doubt");
+  }
+
+  /// Whether the stored position lies in the region of the last detection, exactly.
+  bool is_in_region(std::size_t v, const Vec3f& x) const {
+    if (!obeys_bound(x, at_[v], detection_->bound[v])) return false;
+    return std::ranges::all_of(detection_->planes.of(static_cast<Index>(v)), [&](const VertexPlane& plane) {
+      return obeys_half_space(x, {plane.normal, plane.offset});
+    });
+  }
+
+  /// How far X_prev + m lies inside of the region [m]; negative: outside.
+  double clearance(std::size_t v, const Vec3& move) const {
+    double least = double{detection_->bound[v]} - std::hypot(move.x, move.y, move.z);
+    for (const VertexPlane& plane : detection_->planes.of(static_cast<Index>(v))) {
+      const Vec3f &n = plane.normal, &p = at_[v];
+      least = std::min(least, plane.offset - n.x * (p.x + move.x) - n.y * (p.y + move.y) - n.z * (p.z + move.z));
+    }
+    return least;
+  }
+
+  /// How far a position is from X_prev + s m, of all s in [first, last] the nearest.
+  double off_way(std::size_t v, const Vec3f& x, const Vec3& m, double first, double last) const {
+    const Vec3f& p = at_[v];
+    const Vec3 d{double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z};
+    const double squared = m.x * m.x + m.y * m.y + m.z * m.z, along = d.x * m.x + d.y * m.y + d.z * m.z;
+    const double s = squared > 0 ? std::clamp(along / squared, first, last) : last;
+    return std::hypot(d.x - s * m.x, d.y - s * m.y, d.z - s * m.z);
+  }
+
+  /// X_prev + m, truncated. The way into a ball is no expansion, so that what is known of m holds behind it; along
+  /// half-spaces a vertex may slide anywhere in its region, or stops on its way where nothing slides.
+  void judge_held(std::size_t i, std::size_t v, const HeldMove& held, Cuts& cuts) {
+    const Vec3f &x = out_.events[i].position[v], &p = at_[v];
+    ++decisions_;
+    grey_ += held.grey;
+    if (!is_finite(x) || !is_in_region(v, x)) return tally_.mismatch(where(i) + vertex(v) + " is not in its region");
+    const Vec3& m = held.move;
+    const double length = std::hypot(m.x, m.y, m.z), bound = detection_->bound[v],
+                 size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + std::min(bound, length),
+                 accepted = held.accepted + truncate_position_tolerance * unit_roundoff * size, room = clearance(v, m);
+    cuts.certain += room < -accepted;
+    cuts.doubtful += std::abs(room) <= accepted;
+    const bool is_free = room > accepted, has_half_spaces = !detection_->planes.of(static_cast<Index>(v)).empty();
+    if (has_half_spaces && !is_free && policy() != Bounds::dat) return;
+    const double share = length > bound ? bound / length : 1;
+    const double error = off_way(v, x, m, has_half_spaces && !is_free ? 0 : share, share);
+    tally_.error(3, error / accepted, [&] {
+      return where(i) + vertex(v) +
+             text(", which touches, is %.4g m from where contacts let it go, %.4g accepted", error, accepted);
+    });
   }
 
   void judge_iteration(std::size_t i) {
@@ -408,7 +447,6 @@ class StepVerdict {
   bool is_swept_ = false;                 ///< the guess loop is over
   const StepEvent* detection_ = nullptr;  ///< the last
   std::vector<Vec3f> displacement_;       ///< what divides its gaps, with bounds=dat
-  int detections_ = 0;
   std::uint64_t wrong_before_, decisions_ = 0, grey_ = 0;
 };
 

@@ -33,8 +33,7 @@ TruncateIn cut_question(const InitialGuessIn& in, const InitialGuessOut& out);
 /// Frames of the question's segments, each within its tolerance.
 void judge_turns(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth, const InitialGuessOut& out,
                  Tally& tally);
-/// `cut`: the truth about cut_question. What is held must stay; of all others position and cut are judged as in
-/// truncate.
+/// `cut`: the truth about cut_question, by which position and cut are judged as in truncate.
 void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth,
                          const TruncateTruth& cut, const InitialGuessOut& out, Tally& tally);
 

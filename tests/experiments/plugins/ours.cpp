@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fast/kernels/touching_move.hpp"
 #include "tests/experiments/plugins/ours.hpp"
 
 OGC_PLUGIN("ours", OGC_HOST_MEMORY)
@@ -183,6 +184,12 @@ std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& 
   return colour;
 }
 
+std::vector<fast::Vec> vectors(const std::vector<Vec3f>& all) {
+  std::vector<fast::Vec> result;
+  for (const Vec3f& p : all) result.push_back({p.x, p.y, p.z});
+  return result;
+}
+
 /// Algorithm 3, recorded.
 class Step {
  public:
@@ -194,7 +201,9 @@ class Step {
         left_out_(exclusions(scene_)),
         start_(points(in.start, count_)),
         velocity_(points(in.velocity, count_)),
-        x_(start_) {
+        x_(start_),
+        taken_(count_),
+        touches_(count_) {
     rest = ours().rest_state({&scene_, &topology_});
     colour = colours(rest, scene_.springs, groups_);
     set_targets(in);
@@ -237,7 +246,7 @@ class Step {
         1.0, breaks("threshold") ? std::floor(s.redetect_fraction * moving) : std::ceil(s.redetect_fraction * moving));
     for (std::int64_t round = 0;;) {
       detect();
-      if (guess(round > 0) < threshold || ++round >= s.guess_rounds) break;
+      if (guess(round == 0) < threshold || ++round >= s.guess_rounds) break;
     }
     bool found = true;
     std::int64_t since = 0;
@@ -258,26 +267,76 @@ class Step {
     events.push_back(detected_);
   }
 
-  std::vector<bool> touched() const {
-    std::vector<bool> touched(count_);
-    const auto touch = [&](const Face& face) {
-      if (face.kind == FaceKind::vertex) touched[face.index] = true;
-      if (face.kind == FaceKind::edge)
-        for (const Index v : topology_.edges[face.index]) touched[v] = true;
-      if (face.kind == FaceKind::triangle)
-        for (const Index v : topology_.triangles[face.index]) touched[v] = true;
+  /// The contacts of the last detection by vertex, as the kernel of the guess reads them.
+  std::vector<std::vector<fast::ContactIncidence>> incidences() const {
+    std::vector<std::vector<fast::ContactIncidence>> rows(count_);
+    const std::vector<Index> body = body_of_vertex(scene_);
+    const auto add = [&](fast::ContactKind kind, const std::array<Index, 4>& vertex, std::size_t other) {
+      fast::ContactIncidence contact;
+      contact.kind = kind;
+      std::copy(vertex.begin(), vertex.end(), contact.index);
+      contact.friction = rest.meetings[body[vertex[0]] * scene_.bodies.size() + body[vertex[other]]].friction;
+      for (std::uint8_t k = 0; k < 4; ++k) {
+        // Slots that the contact lacks repeat the first vertex.
+        if (groups_[vertex[k]] != -1 || (k > 0 && vertex[k] == vertex[0])) continue;
+        contact.own = k;
+        rows[vertex[k]].push_back(contact);
+      }
     };
-    for (const VertexFacetContact& c : detected_.vertex_facet.contacts) touched[c.vertex] = true, touch(c.face);
-    for (const EdgeEdgeContact& c : detected_.edge_edge.contacts) touch(c.first), touch(c.second);
-    return touched;
+    for (const VertexFacetContact& c : detected_.vertex_facet.contacts) {
+      const Index v = c.vertex;
+      if (c.face.kind == FaceKind::vertex) add(fast::ContactKind::point_point, {v, v, c.face.index, v}, 2);
+      if (c.face.kind == FaceKind::edge) {
+        const Edge& e = topology_.edges[c.face.index];
+        add(fast::ContactKind::point_segment, {v, v, e[0], e[1]}, 2);
+      }
+      if (c.face.kind == FaceKind::triangle) {
+        const Triangle& t = topology_.triangles[c.face.index];
+        add(fast::ContactKind::point_triangle, {v, t[0], t[1], t[2]}, 1);
+      }
+    }
+    for (const EdgeEdgeContact& c : detected_.edge_edge.contacts) {
+      const Index p = c.first.index, q = c.second.index;
+      if (c.second.kind == FaceKind::vertex) {
+        add(fast::ContactKind::point_point, {p, p, q, p}, 2);
+        continue;
+      }
+      const Edge& f = topology_.edges[q];
+      if (c.first.kind == FaceKind::vertex)
+        add(fast::ContactKind::point_segment, {p, p, f[0], f[1]}, 2);
+      else
+        add(fast::ContactKind::segment_segment, {topology_.edges[p][0], topology_.edges[p][1], f[0], f[1]}, 2);
+    }
+    return rows;
   }
 
-  Index guess(bool holds_contacts) {
-    const TruncateOut kept = ours().truncate({x_, target, detected_.bound});
-    const std::vector<bool> held = holds_contacts ? touched() : std::vector<bool>(count_);
+  /// Where contacts let each vertex go.
+  std::vector<Vec3f> proposals() {
+    const std::vector<std::vector<fast::ContactIncidence>> rows = incidences();
+    const std::vector<fast::Vec> position = vectors(x_), wanted = vectors(target), before = taken_;
+    fast::GuessContacts here;
+    here.position = position.data(), here.target = wanted.data(), here.taken = before.data();
+    here.radius = static_cast<float>(scene_.settings.contact_radius);
+    std::vector<Vec3f> all = target;
+    for (std::size_t v = 0; v < count_; ++v) {
+      const fast::Vec move = wanted[v] - position[v];
+      fast::Vec held = move;
+      touches_[v] = !rows[v].empty();
+      for (const fast::ContactIncidence& contact : rows[v]) held = fast::held_by(here, contact, held);
+      taken_[v] = held - move;
+      const fast::Vec end = position[v] + held;
+      if (held.x != move.x || held.y != move.y || held.z != move.z) all[v] = {end.x, end.y, end.z};
+    }
+    return all;
+  }
+
+  Index guess(bool is_first) {
+    const bool stay = breaks("touching vertices stay");
+    const std::vector<Vec3f> held = proposals();
+    const TruncateOut kept = ours().truncate({x_, stay ? target : held, detected_.bound});
     Index cut = 0;
     for (std::size_t v = 0; v < count_; ++v) {
-      if (held[v]) continue;
+      if (stay && !is_first && touches_[v]) continue;
       x_[v] = kept.position[v];
       cut += kept.cut[v];
     }
@@ -299,6 +358,8 @@ class Step {
   std::vector<Index> groups_;
   Exclusions left_out_;
   std::vector<Vec3f> start_, velocity_, x_;
+  std::vector<fast::Vec> taken_;  // from moves, in the round before
+  std::vector<bool> touches_;
   StepEvent detected_;
 };
 

@@ -75,7 +75,7 @@ TEST_CASE("the reference's contact block is g'' w^2 n n^T: along the force, posi
     const Weights w = weights(c.sides, x);
     const double d = distance_of(x, w), weight = w[static_cast<std::size_t>(c.own)], r = c.contact_radius;
     const compare::ForceAnswer answer = exact(c);
-    const double curvature = d < r ? (d < r / 2 ? c.stiffness * r * r / (4 * d * d) : c.stiffness) : 0;
+    const double curvature = d < r / 2 ? c.stiffness * r * r / (4 * d * d) : c.stiffness;
     REQUIRE(trace(answer) == Approx(curvature * weight * weight).margin(1e-9));
     const double size = std::hypot(answer.force.x, answer.force.y, answer.force.z);
     if (size < 1e-6) continue;
@@ -129,10 +129,24 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("nothing acts from r on and at 0, and nearer than 2^-23 r nothing grows", "[unit]") {
-  REQUIRE(exact(above(0.5f)).force == compare::Vec3{});
-  REQUIRE(exact(above(2)).force == compare::Vec3{});
+TEST_CASE("from r on there is no force, and the block is that at r, however far away", "[unit]") {
+  using enum compare::ContactActivation;
+  for (const float d : {0.5f, std::nextafter(0.5f, 1.0f), 0.51f, 2.0f, 1e4f})
+    for (const compare::ContactActivation activation : {ogc, ogc_as_printed, quadratic, ipc_log, cubic}) {
+      ContactForceCase c = above(d);
+      c.activation = activation;
+      const std::vector<compare::ForceAnswer> accepted = reference::contact_force(c);
+      REQUIRE(accepted.size() == 1);
+      const bool is_flat = activation == ipc_log || activation == cubic;
+      CHECK(exact(c).force == compare::Vec3{});
+      CHECK(exact(c).block == std::array<double, 6>{0, 0, 0, 0, 0, is_flat ? 0.0 : 8.0});
+      if (d > 0.505f) CHECK(exact(c).force_scale == 0);
+    }
+}
+
+TEST_CASE("at 0 nothing acts, and nearer than 2^-23 r nothing grows", "[unit]") {
   REQUIRE(exact(above(0)).force == compare::Vec3{});
+  REQUIRE(trace(exact(above(0))) == 0);
   ContactForceCase c;
   c.sides = ContactSides::point_point;
   c.contact_radius = 0.5f;
@@ -203,9 +217,8 @@ TEST_CASE("nearly parallel edges meet in the middle of their overlap", "[unit]")
 TEST_CASE("where a decision is grey both answers are accepted, the exact one first", "[unit]") {
   REQUIRE(reference::contact_force(above(0.3f)).size() == 1);
   const auto at_radius = reference::contact_force(above(std::nextafter(0.5f, 0.0f)));
-  REQUIRE(at_radius.size() == 2);
+  REQUIRE(at_radius.size() == 1);  // nothing jumps there
   REQUIRE(at_radius[0].force_scale > 0);
-  REQUIRE(at_radius[1].force_scale == 0);
   ContactForceCase beside = above(0.3f);
   beside.vertex[0] = {5, 5, 0.3f};  // above the middle of the side between the second and the third corner
   beside.own = 1;

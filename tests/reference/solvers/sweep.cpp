@@ -241,7 +241,7 @@ TEST_CASE("with inertia ahead of stiffness every sweep lowers the energy until n
 }
 
 TEST_CASE(
-    "a contact at its radius may act or not, and the vertex is grey; a stiff one is ill-conditioned and held to its "
+    "a contact at its radius has its block and no decision to take; a stiff one is ill-conditioned and held to its "
     "direction",
     "[unit]") {
   compare::Scene scene = scene_of({sheet(1, 0), sheet(1, 0.25)});
@@ -256,9 +256,10 @@ TEST_CASE(
   REQUIRE(!q.vertex_facet.contacts.empty());
   for (std::size_t v = 4; v < 8; ++v) q.target[v].z = 0.1f;
   compare::SweepOut out = q.swept();
-  for (std::size_t v = 4; v < 8; ++v) CHECK(q.truth(out).grey[v] == 1);
-  out.position[7].z = 0.1f;
+  for (std::size_t v = 4; v < 8; ++v) CHECK(q.truth(out).grey[v] == 0);
   CHECK(distance(q.truth(out).position[7], out.position[7]) <= q.truth(out).accepted[7]);
+  out.position[7].z = 0.1f;  // where it went without the block
+  CHECK(distance(q.truth(out).position[7], out.position[7]) > q.truth(out).accepted[7]);
 
   for (Vec3f& p : q.old) p.z = p.z > 0.1f ? 1e-4f : 0;
   out = q.swept();

@@ -137,16 +137,6 @@ TEST_CASE("initial_guess: the target, then position and cut for the target that 
   CHECK_FALSE(test.verdict().empty());
 }
 
-TEST_CASE("initial_guess: what is held stays bit for bit and is not cut", "[unit]") {
-  GuessFixture test;
-  test.in.cases[0].held = 1;
-  CHECK(test.verdict().starts_with("position"));
-  test.out.position[0] = {1, 0, 0};
-  CHECK(test.verdict().starts_with("position"));
-  test.out.cut[0] = 0;
-  CHECK(test.verdict().empty());
-}
-
 TEST_CASE("initial_guess: truncation is asked about the stored target, or about nothing where that is no point",
           "[unit]") {
   GuessFixture test;

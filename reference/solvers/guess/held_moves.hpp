@@ -1,0 +1,62 @@
+// What contacts leave of the moves of a guess loop, round after round (method.md §5.2, What contacts leave of a move);
+// for whole runs in double, and for the judge with how far an answer in single precision may be from it.
+#pragma once
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "compare/stages/contact_force.hpp"
+#include "compare/stages/step.hpp"
+#include "reference/energies/derivative.hpp"
+
+namespace ogc::reference {
+
+/// A contact, as one of its vertices meets it.
+struct Hold {
+  double weight = 0;        ///< of the vertex, not 0
+  Triple<double> normal{};  ///< n
+  Triple<double> others{};  ///< o = Σ w_u m_u over the other vertices [m]
+  double friction = 0;      ///< μ
+  /// q [m]; not positive where the contact takes nothing.
+  double taken(const Triple<double>& move) const;
+  /// s/w, by how much the vertex slides on its partner [m].
+  Triple<double> slide(const Triple<double>& move) const;
+};
+/// What the contact leaves of a move [m].
+Triple<double> held_by(const Hold& contact, const Triple<double>& move);
+
+/// A contact that may hold vertices: what meets, and its friction.
+struct GuessContact {
+  compare::ContactSides sides = compare::ContactSides::point_point;
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< in the order of the stage contact_force
+  double friction = 0;                                   ///< μ
+};
+
+/// The guess loop of one step, as far as contacts hold it.
+class HeldMoves {
+ public:
+  /// `groups`: by vertex, −1 of free ones, which alone are held. r [m].
+  HeldMoves(std::vector<compare::Index> groups, double contact_radius)
+      : groups_(std::move(groups)), radius_(contact_radius), taken_(groups_.size()), taken_error_(groups_.size(), 0) {}
+
+  /// A round about `previous`, with the contacts found there: where each vertex goes if nothing truncates it [m]; its
+  /// target to the bit where no contact takes anything.
+  std::vector<Triple<double>> round(std::span<const GuessContact> contacts, const std::vector<Triple<double>>& previous,
+                                    const std::vector<Triple<double>>& target);
+  /// The same round as the judge asks for it.
+  std::vector<compare::HeldMove> judged_round(std::span<const GuessContact> contacts,
+                                              const std::vector<compare::Vec3f>& previous,
+                                              const std::vector<compare::Vec3f>& target);
+
+ private:
+  bool is_free(compare::Index v) const { return groups_[static_cast<std::size_t>(v)] == -1; }
+
+  std::vector<compare::Index> groups_;
+  double radius_;
+  std::vector<Triple<double>> taken_;  ///< t by vertex [m]
+  std::vector<double> taken_error_;    ///< how far another's may be from it [m]
+};
+
+}  // namespace ogc::reference
