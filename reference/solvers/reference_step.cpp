@@ -72,7 +72,11 @@ class ReferenceStep {
         sweep(event);
       const bool is_deep = *kind == StepEventKind::sweep &&
                            depth_of(volume_contacts_, *in_.topology, x_, settings_.contact_radius) == Depth::deep;
-      order.took_place(event.cut, lag_of(x_, previous_, out_.target, exclusions_.groups, settings_), is_deep);
+      const bool is_round = *kind == StepEventKind::guess && settings_.guess != compare::Guess::pairs;
+      order.took_place(event.cut,
+                       lag_of(x_, previous_, out_.target, exclusions_.groups, settings_,
+                              is_round ? moves_.stays() : std::vector<bool>{}),
+                       is_deep);
       if (std::exchange(is_by_pairs_, false)) order.left_regions();
       event.position = x_;
       out_.events.push_back(std::move(event));

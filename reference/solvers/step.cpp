@@ -31,15 +31,14 @@ bool leaves_balls(const compare::StepIn& in, const compare::StepOut& answer, std
 }
 
 /// By event, what contacts leave of moves. An answer without frictions has none.
-std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in, const compare::StepOut& answer,
-                                                       const std::vector<StepEventKind>& kinds) {
-  std::vector<std::vector<compare::HeldMove>> moves(kinds.size());
+std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in, const compare::StepOut& answer) {
+  std::vector<std::vector<compare::HeldMove>> moves(answer.events.size());
   const std::size_t bodies = in.scene->bodies.size(), count = in.scene->mesh.positions.size();
   if (in.scene->settings.guess == compare::Guess::pairs || answer.rest.meetings.size() != bodies * bodies) return moves;
   HeldMoves rounds(rigid_groups(*in.scene), in.scene->settings.contact_radius);
-  for (std::size_t i = 1; i < std::min(kinds.size(), answer.events.size()); ++i) {
+  for (std::size_t i = 1; i < answer.events.size(); ++i) {
     const compare::StepEvent& detection = answer.events[i - 1];
-    const bool is_round = kinds[i] == StepEventKind::guess && detection.kind == StepEventKind::detection;
+    const bool is_round = answer.events[i].kind == StepEventKind::guess && detection.kind == StepEventKind::detection;
     if (!is_round || detection.position.size() != count || answer.target.size() != count) continue;
     moves[i] = rounds.judged_round(guess_contacts(*in.scene, *in.topology, answer.rest, detection.vertex_facet.contacts,
                                                   detection.edge_edge.contacts),
@@ -48,17 +47,24 @@ std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in
   return moves;
 }
 
+/// By vertex, whether a contact keeps it where it is or may; empty where no event is a round.
+std::vector<bool> staying(const std::vector<compare::HeldMove>& moves) {
+  std::vector<bool> stays;
+  for (const compare::HeldMove& held : moves) stays.push_back(held.touches != 0);
+  return stays;
+}
+
 Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
 }  // namespace
 
 StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
-               const std::vector<Index>& groups, const compare::Settings& settings) {
+               const std::vector<Index>& groups, const compare::Settings& settings, const std::vector<bool>& stays) {
   StepLag lag;
   if (!compare::has_planes(settings.bounds)) return lag;
   for (std::size_t v = 0; v < x.size(); ++v) {
-    if (groups[v] <= 0 || x[v] == target[v]) continue;
+    if (groups[v] <= 0 || x[v] == target[v] || (!stays.empty() && stays[v] && x[v] == previous[v])) continue;
     ++lag.lagging;
     lag.has_advanced = lag.has_advanced || !(x[v] == previous[v]);
   }
@@ -112,6 +118,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
   }
   truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest,
                                                            settings.query_radius_cap * settings.contact_radius);
+  truth.moves = held_moves(in, answer);
   StepOrder order(settings, compare::bounded_count(*in.topology, groups), compare::has_volumes(scene));
   const std::vector<Vec3f>* previous = &start;
   const std::vector<compare::VolumeContact>* volumes = nullptr;
@@ -125,7 +132,9 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
       volumes = &answer.events[i].volumes.contacts;
     }
     StepLag lag;
-    if (is_there) lag = lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings);
+    if (is_there)
+      lag = lag_of(answer.events[i].position, *previous, truth.prescribed_target, groups, settings,
+                   staying(truth.moves[i]));
     bool is_deep = false;
     if (is_there && *kind == compare::StepEventKind::sweep && volumes != nullptr) {
       const Depth depth = depth_of(*volumes, *in.topology, answer.events[i].position, settings.contact_radius);
@@ -139,7 +148,6 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
         (order.asks_for_pairs(cut) || leaves_balls(in, answer, i)))
       order.left_regions();
   }
-  truth.moves = held_moves(in, answer, truth.events);
   return truth;
 }
 

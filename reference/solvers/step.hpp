@@ -10,10 +10,11 @@
 
 namespace ogc::reference {
 
-/// Prescribed vertices at x that bounds keep behind their targets; nothing where bounds are no planes.
+/// Prescribed vertices at x that bounds keep behind their targets; nothing where bounds are no planes. `stays`: by
+/// vertex, whether a contact keeps it in a round of the guess instead, which asks for nothing; empty: none.
 StepLag lag_of(const std::vector<compare::Vec3f>& x, const std::vector<compare::Vec3f>& previous,
                const std::vector<compare::Vec3f>& target, const std::vector<compare::Index>& groups,
-               const compare::Settings& settings);
+               const compare::Settings& settings, const std::vector<bool>& stays = {});
 
 /// Whether a vertex lies deep inside a volume; doubtful where rounding to single precision decides.
 enum class Depth { shallow, doubtful, deep };

@@ -322,8 +322,11 @@ class StepVerdict {
     Cuts cuts;
     for (std::size_t v = 0; v < at_.size(); ++v) {
       if (!moves.empty() && moves[v].touches != 0) {
-        judge_held(i, v, moves[v], cuts);
-        continue;
+        if (groups_[v] == -1)
+          judge_held(i, v, moves[v], cuts);
+        else
+          judge_staying(i, v, moves[v]);
+        if (groups_[v] == -1 || moves[v].grey == 0 || event.position[v] == at_[v]) continue;
       }
       const bool is_cut = !(event.position[v] == out_.target[v]);
       cuts.certain += is_cut;
@@ -340,6 +343,14 @@ class StepVerdict {
     if (event.cut < cuts.certain || event.cut > cuts.certain + cuts.doubtful)
       tally_.mismatch(where(i) + ": " + std::to_string(event.cut) + " vertices counted as cut, exact " +
                       std::to_string(cuts.certain) + " and " + std::to_string(cuts.doubtful) + " in doubt");
+  }
+
+  /// A prescribed vertex that touches, from the second round on.
+  void judge_staying(std::size_t i, std::size_t v, const HeldMove& held) {
+    ++decisions_;
+    grey_ += held.grey;
+    if (held.grey == 0 && !(out_.events[i].position[v] == at_[v]))
+      tally_.mismatch(where(i) + vertex(v) + " is prescribed, touches, and did not stay");
   }
 
   /// Whether the stored position lies in the region of the last detection, exactly.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reference/energies/closest_form.hpp"
 #include "reference/energies/meeting.hpp"
@@ -39,6 +40,8 @@ Move held_by(const Hold& contact, const Move& move) {
 std::vector<Move> HeldMoves::round(std::span<const GuessContact> contacts, const std::vector<Move>& previous,
                                    const std::vector<Move>& target) {
   std::vector<std::vector<Hold>> holds(groups_.size());
+  const bool is_later = !std::exchange(is_first_, false);
+  stays_.assign(groups_.size(), false);
   for (const GuessContact& contact : contacts) {
     std::array<Move, 4> corners{}, expected{};
     Move all{};
@@ -53,9 +56,11 @@ std::vector<Move> HeldMoves::round(std::span<const GuessContact> contacts, const
       expected[k] = form.weight[k] * (target[vertex(k)] - previous[vertex(k)] + taken_[vertex(k)]);
       all = all + expected[k];
     }
-    for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t k = 0; k < count; ++k) {
+      if (is_later && is_prescribed(contact.vertex[k])) stays_[vertex(k)] = true;
       if (is_free(contact.vertex[k]) && form.weight[k] != 0)
         holds[vertex(k)].push_back({form.weight[k], (1 / distance) * apart, all - expected[k], contact.friction});
+    }
   }
   std::vector<Move> result = target;
   for (std::size_t v = 0; v < holds.size(); ++v) {
@@ -64,6 +69,7 @@ std::vector<Move> HeldMoves::round(std::span<const GuessContact> contacts, const
     for (const Hold& hold : holds[v]) move = held_by(hold, move);
     taken_[v] = move - wanted;
     if (move != wanted) result[v] = previous[v] + move;
+    if (stays_[v]) result[v] = previous[v];
   }
   return result;
 }
@@ -259,6 +265,21 @@ class Carried {
   std::vector<Source> sources_;
 };
 
+/// Whether a contact acts: for certain, or as far as its distance is known.
+struct Touch {
+  bool is_certain = true, is_possible = false;
+};
+
+Touch touch_of(const std::vector<Meeting>& ways) {
+  Touch touch;
+  for (const Meeting& way : ways) {
+    const bool is_doubtful = way.may_end() || way.may_touch() || way.needle;
+    touch.is_certain = touch.is_certain && way.acts() && !is_doubtful;
+    touch.is_possible = touch.is_possible || way.acts() || is_doubtful;
+  }
+  return touch;
+}
+
 /// Of a contact as the stage contact_force asks for it, where its energy is of no matter: 1 N/m, no mollifier.
 compare::ContactForceCase question_of(const GuessContact& contact, const std::vector<Vec3f>& positions, double radius) {
   compare::ContactForceCase question;
@@ -280,6 +301,8 @@ std::vector<compare::HeldMove> HeldMoves::judged_round(std::span<const GuessCont
                                                        const std::vector<Vec3f>& target) {
   std::vector<Asked> all;
   std::vector<std::vector<std::array<std::size_t, 2>>> rows(groups_.size());  // contact and place
+  std::vector<Touch> touches(groups_.size(), {.is_certain = false});          // of prescribed vertices
+  const bool is_later = !std::exchange(is_first_, false);
   for (const GuessContact& contact : contacts) {
     Asked asked{meetings(question_of(contact, previous, radius_)), {}, {}, contact.friction};
     for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(contact.sides)); ++k) {
@@ -288,6 +311,9 @@ std::vector<compare::HeldMove> HeldMoves::judged_round(std::span<const GuessCont
       asked.expected[k] = {wanted + taken_[u], taken_error_[u], false};
       asked.size[k] = norm(wanted) + norm(taken_[u]);
       if (is_free(contact.vertex[k])) rows[u].push_back({all.size(), k});
+      if (!is_later || !is_prescribed(contact.vertex[k])) continue;
+      const Touch touch = touch_of(asked.ways);
+      touches[u] = {touches[u].is_certain || touch.is_certain, touches[u].is_possible || touch.is_possible};
     }
     all.push_back(std::move(asked));
   }
@@ -302,6 +328,7 @@ std::vector<compare::HeldMove> HeldMoves::judged_round(std::span<const GuessCont
     // A doubt that hardly moves the answer is no decision: `accepted` holds it.
     const bool is_grey = move.is_grey && move.error > norm(wanted) / 16;
     result[v] = {{move.move[0], move.move[1], move.move[2]}, move.error, !rows[v].empty(), is_grey};
+    if (touches[v].is_possible) result[v] = {{}, 0, 1, !touches[v].is_certain};
   }
   return result;
 }

@@ -37,24 +37,33 @@ struct GuessContact {
 /// The guess loop of one step, as far as contacts hold it.
 class HeldMoves {
  public:
-  /// `groups`: by vertex, −1 of free ones, which alone are held. r [m].
+  /// `groups`: by vertex, −1 of free ones, which are held; above 0 of prescribed ones, which stay or do not. r [m].
   HeldMoves(std::vector<compare::Index> groups, double contact_radius)
-      : groups_(std::move(groups)), radius_(contact_radius), taken_(groups_.size()), taken_error_(groups_.size(), 0) {}
+      : groups_(std::move(groups)),
+        radius_(contact_radius),
+        stays_(groups_.size(), false),
+        taken_(groups_.size()),
+        taken_error_(groups_.size(), 0) {}
 
   /// A round about `previous`, with the contacts found there: where each vertex goes if nothing truncates it [m]; its
-  /// target to the bit where no contact takes anything.
+  /// target to the bit where no contact takes anything, `previous` where a prescribed vertex stays.
   std::vector<Triple<double>> round(std::span<const GuessContact> contacts, const std::vector<Triple<double>>& previous,
                                     const std::vector<Triple<double>>& target);
   /// The same round as the judge asks for it.
   std::vector<compare::HeldMove> judged_round(std::span<const GuessContact> contacts,
                                               const std::vector<compare::Vec3f>& previous,
                                               const std::vector<compare::Vec3f>& target);
+  /// By vertex: prescribed, and kept where it was by a contact in the last `round`.
+  const std::vector<bool>& stays() const { return stays_; }
 
  private:
   bool is_free(compare::Index v) const { return groups_[static_cast<std::size_t>(v)] == -1; }
+  bool is_prescribed(compare::Index v) const { return groups_[static_cast<std::size_t>(v)] > 0; }
 
   std::vector<compare::Index> groups_;
   double radius_;
+  bool is_first_ = true;               ///< no round has taken place
+  std::vector<bool> stays_;            ///< as stays() has it
   std::vector<Triple<double>> taken_;  ///< t by vertex [m]
   std::vector<double> taken_error_;    ///< how far another's may be from it [m]
 };

@@ -278,7 +278,7 @@ class Step {
       contact.friction = rest.meetings[body[vertex[0]] * scene_.bodies.size() + body[vertex[other]]].friction;
       for (std::uint8_t k = 0; k < 4; ++k) {
         // Slots that the contact lacks repeat the first vertex.
-        if (groups_[vertex[k]] != -1 || (k > 0 && vertex[k] == vertex[0])) continue;
+        if (groups_[vertex[k]] == 0 || (k > 0 && vertex[k] == vertex[0])) continue;
         contact.own = k;
         rows[vertex[k]].push_back(contact);
       }
@@ -322,6 +322,7 @@ class Step {
       const fast::Vec move = wanted[v] - position[v];
       fast::Vec held = move;
       touches_[v] = !rows[v].empty();
+      if (groups_[v] != -1) continue;
       for (const fast::ContactIncidence& contact : rows[v]) held = fast::held_by(here, contact, held);
       taken_[v] = held - move;
       const fast::Vec end = position[v] + held;
@@ -336,7 +337,7 @@ class Step {
     const TruncateOut kept = ours().truncate({x_, stay ? target : held, detected_.bound});
     Index cut = 0;
     for (std::size_t v = 0; v < count_; ++v) {
-      if (stay && !is_first && touches_[v]) continue;
+      if (!is_first && touches_[v] && (stay || groups_[v] > 0)) continue;
       x_[v] = kept.position[v];
       cut += kept.cut[v];
     }
