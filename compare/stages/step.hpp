@@ -53,11 +53,10 @@ struct StepOut {
 
 /// What contacts leave of one vertex's move in a round of the guess loop (method.md §5.2).
 struct HeldMove {
-  Vec3 move;            ///< m, what is left of y − X_prev [m]
-  double accepted = 0;  ///< how far a right answer's m may be from it [m]
-  /// 1: a vertex of a contact, free, or prescribed and in a later round than the first, where it stays; 0: it goes to y
-  std::uint8_t touches = 0;
-  std::uint8_t grey = 0;  ///< 1: a decision of a contact may go either way, and `accepted` holds both
+  Vec3 move;                 ///< m, what is left of y − X_prev [m]
+  double accepted = 0;       ///< how far a right answer's m may be from it [m]
+  std::uint8_t touches = 0;  ///< 1: of a contact, free or prescribed (which stays after round 1); 0: goes to y
+  std::uint8_t grey = 0;     ///< 1: a decision of a contact may go either way, and `accepted` holds both
 };
 
 /// What follows from the answer's own positions and counts.
