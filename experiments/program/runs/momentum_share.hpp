@@ -18,8 +18,8 @@ class MomentumShare {
   explicit MomentumShare(const compare::Scene& scene);
   /// The step after `step` begins with these velocities [m/s].
   void begin_after(std::int64_t step, const std::vector<compare::Vec3f>& velocities);
-  /// ‖Σ m (x − y)‖ / Σ m ‖y − xᵗ‖ after the guess loop, 0 to 1, where the row's step is known and did all its rounds of
-  /// the guess. Other guess loops were ended by contacts, whose forces give back what the guess lost, or lost nothing.
+  /// ‖Σ m (x − y)‖ / Σ m ‖y − xᵗ‖ after the guess loop, at most 1 but for what moving partners carry along, where the
+  /// row's step is known and did all its rounds. Contacts ended the other guess loops, and give back what these lost.
   std::optional<double> lost(const compare::StepMetrics& row) const;
 
  private:
