@@ -104,6 +104,12 @@ struct StepMetrics {
   double largest_lag = 0;                                 ///< of prescribed vertices behind their targets [m]
   double query_radius = 0;                                ///< r_q of the step [m]
   double residual = 0;                                    ///< Eq. 29
+  /// √(Σ m ‖Δx‖²) of free vertices in the last sweep or iteration, over that of the step; 0 where nothing moves [1]
+  double last_motion = std::numeric_limits<double>::quiet_NaN();
+  /// Eq. 29 with the step's own contacts, over free vertices that no bound holds, and what of it may come from rounded
+  /// positions [1]; free vertices that a bound holds. In some steps alone (method.md §6).
+  double left_residual = std::numeric_limits<double>::quiet_NaN(),
+         left_rounding = std::numeric_limits<double>::quiet_NaN(), left_held = std::numeric_limits<double>::quiet_NaN();
   double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
   double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q where nothing is near) [m]
   std::int64_t inverted_tetrahedra = 0;  ///< with J ≤ 0 at the end of the step

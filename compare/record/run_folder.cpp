@@ -110,6 +110,7 @@ StepGroups groups_of(const Scene& scene, const Manifest& manifest) {
           .sheets = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.is_volume() && b.is_solid(); }),
           .rods = has_rods(scene),
           .meetings = manifest.provenance.extra.contains("meetings"),
+          .convergence = true,
           .ledger = has_ledger(manifest)};
 }
 

@@ -38,7 +38,7 @@ constexpr std::array<StepColumn, 23> columns{{
 }};
 
 /// Behind those: of scenes with tetrahedra, of scenes with volumes, with such of tetrahedra, of scenes with rods, of
-/// runs that were asked.
+/// runs that were asked, of runs that say how far their steps were solved.
 constexpr std::array<StepColumn, 1> solid_columns{{
     {"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra},
 }};
@@ -59,6 +59,13 @@ constexpr std::array<StepColumn, 1> meeting_columns{{
     {"meetings", "1", &StepMetrics::meetings},
 }};
 
+constexpr std::array<StepColumn, 4> convergence_columns{{
+    {"last_motion", "1", &StepMetrics::last_motion},
+    {"left_residual", "1", &StepMetrics::left_residual},
+    {"left_rounding", "1", &StepMetrics::left_rounding},
+    {"left_held", "1", &StepMetrics::left_held},
+}};
+
 /// Those before a ledger's.
 std::vector<StepColumn> common_columns(const StepGroups& groups) {
   std::vector<StepColumn> all(columns.begin(), columns.end());
@@ -67,6 +74,7 @@ std::vector<StepColumn> common_columns(const StepGroups& groups) {
   if (groups.sheets) all.insert(all.end(), sheet_columns.begin(), sheet_columns.end());
   if (groups.rods) all.insert(all.end(), rod_columns.begin(), rod_columns.end());
   if (groups.meetings) all.insert(all.end(), meeting_columns.begin(), meeting_columns.end());
+  if (groups.convergence) all.insert(all.end(), convergence_columns.begin(), convergence_columns.end());
   return all;
 }
 
@@ -171,8 +179,8 @@ StepTable parse_header(const std::string& file, std::string_view line) {
   find_group(table.groups.volumes, volume_columns);
   find_group(table.groups.sheets, sheet_columns);
   find_group(table.groups.rods, rod_columns);
-  common = common_columns(table.groups).size();
-  table.groups.meetings = begins(common, column_title(meeting_columns.front()));
+  find_group(table.groups.meetings, meeting_columns);
+  find_group(table.groups.convergence, convergence_columns);
   common = common_columns(table.groups).size();
   table.groups.ledger = begins(common, column_title(ledger_columns.front()));
   if (table.groups.ledger)

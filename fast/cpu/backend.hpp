@@ -94,6 +94,10 @@ inline UpdateVertex<GatherPackedEverythingAndVolumes> on_packs(const UpdateVerte
   return {f.view, f.first_slot, f.asks_late};
 }
 
+inline MeasureVertex<GatherPacked> on_packs(const MeasureVertex<GatherDefault>& f) {
+  return {f.view, f.left, f.is_end};
+}
+
 /// Prefetches what f(i, team) is going to read where hardware does not predict it.
 template <class F>
 void look_ahead(const F&, int) {}

@@ -21,18 +21,29 @@ enum SumColumn : int {
   sum_gravity = 1,  ///< −Σ m a·x [J]
   sum_lost = 2,     ///< Σ m (x − y), three columns [kg m]
   sum_moved = 5,    ///< Σ m (y − xᵗ), three columns [kg m]
-  sum_membrane = 8,
-  sum_bending = 9 /* springs included */,
-  sum_vertex_facet = 10,  ///< and of contacts with volumes [J]
-  sum_edge_edge = 11,     ///< [J]
-  sum_solid = 12,         ///< [J]
-  sum_inverted = 13,      ///< tetrahedra with J ≤ 0
-  sum_rod = 14,           ///< stretch, shear, bend and twist of rods [J]
-  sum_stretch = 15,       ///< Σ ‖D‖/l − 1 over segments [1]
-  sum_columns = 16
+  sum_last = 8,     ///< Σ m ‖x − x before the last sweep‖² [kg m²]
+  sum_way = 9,      ///< Σ m ‖x − xᵗ‖² [kg m²]
+  sum_membrane = 10,
+  sum_bending = 11 /* springs included */,
+  sum_vertex_facet = 12,  ///< and of contacts with volumes [J]
+  sum_edge_edge = 13,     ///< [J]
+  sum_solid = 14,         ///< [J]
+  sum_inverted = 15,      ///< tetrahedra with J ≤ 0
+  sum_rod = 16,           ///< stretch, shear, bend and twist of rods [J]
+  sum_stretch = 17,       ///< Σ ‖D‖/l − 1 over segments [1]
+  sum_columns = 18
 };
 /// After the guess loop: the columns of vertices alone.
 inline constexpr int guess_columns = sum_membrane;
+
+/// Sums over free vertices of what a step leaves of forces, in this order.
+enum LeftColumn : int {
+  left_reference = 0,  ///< Σ ‖f*‖ [N]
+  left_force = 1,      ///< Σ ‖f‖ over those that no bound holds [N]
+  left_rounding = 2,   ///< how much of that rounded positions may make [N]
+  left_held = 3,       ///< those that a bound holds
+  left_columns = 4
+};
 
 /// One row of the device's ring; the host makes a compare::StepMetrics of it.
 struct StepRow {
@@ -52,6 +63,10 @@ struct StepRow {
   /// with rods: smallest distance of contacts that act [m], mean and largest ‖D‖/l − 1 of segments
   float smallest_contact = 0, largest_stretch = 0;
   double mean_stretch = 0;
+  double last_motion = 0;  ///< way of the last sweep over that of the step, by mass [1]
+  /// where forces were measured: Eq. 29 and what of it may be rounding [1]; vertices that a bound holds
+  double left_residual = 0, left_rounding = 0;
+  int left_held = 0;
 };
 
 /// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
@@ -111,6 +126,7 @@ struct CopyBound {
 /// committed).
 struct VertexTerm {
   const Vec* position;           ///< x by vertex [m]
+  const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null: there was none
   const Vec* start;              ///< xᵗ by vertex [m]
   const Vec* target;             ///< y by vertex [m]
   const float* mass;             ///< by vertex [kg]; 0 on fixed bodies
@@ -133,6 +149,12 @@ struct VertexTerm {
     sum[sum_moved] += m * (static_cast<double>(y.x) - s.x);
     sum[sum_moved + 1] += m * (static_cast<double>(y.y) - s.y);
     sum[sum_moved + 2] += m * (static_cast<double>(y.z) - s.z);
+    if (before == nullptr) return;
+    const Vec b = PaddedVecs{before}[v];
+    const double last[3] = {static_cast<double>(x.x) - b.x, static_cast<double>(x.y) - b.y,
+                            static_cast<double>(x.z) - b.z};
+    sum[sum_last] += m * (last[0] * last[0] + last[1] * last[1] + last[2] * last[2]);
+    sum[sum_way] += m * (moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]);
   }
 };
 
@@ -230,6 +252,9 @@ OGC_HD inline double momentum_lost(const double* sums) {
   return moved > 0 ? sqrt(lost / moved) : 0.0;
 }
 
+/// Share of a sum in another, 0 where that is 0.
+OGC_HD inline double share_of(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
+
 /// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is
 /// repeated).
 struct FinishStep {
@@ -238,6 +263,9 @@ struct FinishStep {
   const double* sums;    ///< the first guess_columns after the guess loop, then by SumColumn at the end
   StepRow* rows;         ///< by step of the frame, on the backend
   int segments = 0;      ///< of rods
+  /// by LeftColumn, on the backend; null where forces were not measured
+  const double* left = nullptr;
+  int free_vertices = 0;
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
@@ -271,8 +299,19 @@ struct FinishStep {
       row.largest_stretch = float_from_bits(c.longest_segment) - 1.0f;
       row.smallest_contact = c.nearest_contact;
     }
+    row.last_motion = sqrt(share_of(sums_end[sum_last], sums_end[sum_way]));
+    if (left != nullptr) add_left(row);
     rows[c.steps_done] = row;
     if (c.active != 0) ++c.steps_done;
+  }
+
+ private:
+  /// Means of Eq. 29: of f over vertices that nothing holds, of f* over all.
+  OGC_HD void add_left(StepRow& row) const {
+    const double reference = share_of(left[left_reference], free_vertices), unheld = free_vertices - left[left_held];
+    row.left_residual = share_of(share_of(left[left_force], unheld), reference);
+    row.left_rounding = share_of(share_of(left[left_rounding], unheld), reference);
+    row.left_held = static_cast<int>(left[left_held]);
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/metrics.hpp"
+#include "fast/kernels/sweep.hpp"
 
 namespace ogc::fast {
 
@@ -19,6 +20,24 @@ struct VertexSums {
 
   /// Those of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
+};
+
+/// What is left of forces, over free vertices.
+struct LeftSums {
+  const LeftForce* left;  ///< by slot
+  int count;              ///< slots
+
+  /// Those of one chunk, by LeftColumn.
+  OGC_HD void add(int chunk, int chunks, double* sums) const {
+    for (int i = chunk; i < count; i += chunks) {
+      const LeftForce own = left[i];
+      sums[left_reference] += own.reference;
+      sums[left_held] += own.is_held;
+      if (own.is_held != 0) continue;
+      sums[left_force] += own.left;
+      sums[left_rounding] += own.rounding;
+    }
+  }
 };
 
 /// Energy of the tetrahedra and how many are inverted.

@@ -420,4 +420,50 @@ struct UpdatePrescribed {
   }
 };
 
+/// What a step leaves of the force on a free vertex (Eq. 29). Forces in newtons.
+struct alignas(16) LeftForce {
+  float reference = 0;  ///< ‖f*‖, after the guess loop
+  float left = 0;       ///< ‖f‖ at the end
+  float rounding = 0;   ///< how much of it may come from positions that are rounded
+  int is_held = 0;      ///< 1: its next update would leave its region, so that its force stays
+};
+
+/// for_each_team over all slots: the force on each vertex where all of them are. The view reads and writes one buffer,
+/// to_fresh = 0; nothing is written there.
+template <class Gather>
+struct MeasureVertex {
+  static constexpr int parts = Gather::parts;  ///< of its sum
+  SweepView view;
+  LeftForce* left;  ///< by slot
+  bool is_end;      ///< of the step; else the reference is written
+
+  template <class Team>
+  OGC_HD void operator()(int slot, const Team& team) const {
+    const SweepVertex vertex = view.vertices[slot];
+    const Vec own = view.old[vertex.vertex], target = view.target[vertex.vertex];
+    ForceAndBlock total = Gather{}(view, slot, vertex, own, team);
+    if (!team.holds_total()) return;
+    add_inertia(vertex.inertia, own, target, total);
+    const float force = sqrtf(dot(total.force, total.force));
+    if (!is_end) {
+      if (team.leader()) left[slot].reference = force;
+      return;
+    }
+    const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
+    const bool is_free = is_within(view.regions[vertex.vertex], own + change, team);
+    if (!team.leader()) return;
+    left[slot].left = force;
+    left[slot].rounding = rounding_of_force(total.block, own);
+    left[slot].is_held = is_free ? 0 : 1;
+  }
+
+ private:
+  /// A stored coordinate is off by u |x| at most, u = 2⁻²⁴, the force by the block times that; neighbours, whose blocks
+  /// add up to about the own one, double it.
+  OGC_HD static float rounding_of_force(const Symmetric3& block, const Vec& x) {
+    const float largest = fmaxf(fmaxf(fabsf(x.x), fabsf(x.y)), fabsf(x.z));
+    return 2 * 0x1p-24f * largest * (block.xx + block.yy + block.zz);
+  }
+};
+
 }  // namespace ogc::fast

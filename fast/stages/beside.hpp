@@ -20,6 +20,11 @@ struct Beside {
   }
 };
 
+/// A loop beside which there is none.
+struct Nothing {
+  OGC_HD void operator()(int) const {}
+};
+
 /// One launch of both.
 template <class Backend, class F, class G>
 void for_each_beside(Backend& backend, int first, const F& f, int second, const G& g) {

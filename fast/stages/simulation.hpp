@@ -283,7 +283,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     using Clock = std::chrono::steady_clock;
     for (int k = 0; k < count; ++k) {
       const Clock::time_point start = Clock::now();
-      step_.enqueue(group_);
+      step_.enqueue(group_, Sorting::asked, is_measured(step_number_ + k + 1));
       if (!clock_.on()) backend_.synchronize();
       wall_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
       stage_ms.push_back(clock_.take());
@@ -291,16 +291,23 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     backend_.synchronize();
   }
 
-  /// A recording for the steps that sort the trees and one for those that do not: to ask the device in each step would
-  /// cost it ten launches. Which steps these are BeginStep counts as the host does here.
+  /// Whether the row of a step has the forces that it leaves: a matter of its number, so that a run that goes on has
+  /// the same rows.
+  bool is_measured(std::int64_t step) const { return step % steps_between_measures(scene_.settings.iterations) == 0; }
+
+  /// A recording for each kind of step, as it sorts the trees or not and measures forces or not: to ask the device in
+  /// each step would cost it ten launches. Which steps sort BeginStep counts as the host does here.
   void replay(int count) {
-    for (int since = since_sort_; count > 0;) {
-      const bool sorts = since >= steps_between_sorts;
-      const int times = sorts ? 1 : std::min(count, steps_between_sorts - since);
-      backend_.replay(recordings_[sorts ? 1 : 0][group_ > 1 ? 1 : 0], times,
-                      [this, sorts] { step_.enqueue(group_, sorts ? Sorting::made : Sorting::left_out); });
+    for (int since = since_sort_, done = 0; done < count;) {
+      const std::int64_t next = step_number_ + done + 1;
+      const bool sorts = since >= steps_between_sorts, measures = is_measured(next);
+      int times = 1;
+      if (!sorts && !measures)
+        while (done + times < count && since + times < steps_between_sorts && !is_measured(next + times)) ++times;
+      backend_.replay(recordings_[sorts ? 1 : 0][measures ? 1 : 0][group_ > 1 ? 1 : 0], times,
+                      [=, this] { step_.enqueue(group_, sorts ? Sorting::made : Sorting::left_out, measures); });
       since = sorts ? 1 : since + times;
-      count -= times;
+      done += times;
     }
   }
 
@@ -324,6 +331,11 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     result.elastic_energy = energies_ ? row.elastic : not_asked;
     result.contact_energy = energies_ ? row.contact : not_asked;
     result.gravity_energy = energies_ ? row.gravity : not_asked;
+    result.last_motion = row.last_motion;
+    const bool has_left = is_measured(step);
+    result.left_residual = has_left ? row.left_residual : not_asked;
+    result.left_rounding = has_left ? row.left_rounding : not_asked;
+    result.left_held = has_left ? row.left_held : not_asked;
     result.inverted_tetrahedra = row.inverted;
     result.volume_contacts = row.volume_contacts;
     result.vertices_inside = row.vertices_inside;
@@ -364,8 +376,9 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
 
   void lists_moved() {
     reserve();
-    for (auto& of_kind : recordings_)
-      for (auto& recording : of_kind) recording.clear();
+    for (auto& of_sorts : recordings_)
+      for (auto& of_measures : of_sorts)
+        for (auto& recording : of_measures) recording.clear();
   }
 
   std::vector<float> last_bounds() {
@@ -395,8 +408,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   std::size_t moving_;
   Step<Backend> step_;
   bool energies_;
-  /// of steps that sort and of others, with and without groups of iterations
-  typename Backend::Recording recordings_[2][2];
+  /// of steps that sort and of others, that measure and others, with and without groups of iterations
+  typename Backend::Recording recordings_[2][2][2];
   typename Backend::template Buffer<float> bounds_;
   std::int64_t step_number_ = 0;
   float query_radius_ = 0;

@@ -9,6 +9,7 @@
 //   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due,
 //               X_prev ← x, detect before the next
 //   finish      certificate; commit and sums only if clean; one row
+//   In some steps forces are measured after the guess loop and at the end (Eq. 29).
 //
 // A list that was too small, a number that is not finite or a broken bound clears `active`: what follows is a no-op or
 // is thrown away, and xᵗ, vᵗ stay. Only detections, sorts and iterations after a detection stand inside `when` and
@@ -19,78 +20,27 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "compare/problem/volumes.hpp"
 #include "compare/stages/step.hpp"
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/metrics.hpp"
 #include "fast/kernels/step_sums.hpp"
 #include "fast/kernels/volumes/sums.hpp"
 #include "fast/stages/detection.hpp"
+#include "fast/stages/left_forces.hpp"
 #include "fast/stages/pair_guess.hpp"
 #include "fast/stages/profile.hpp"
 #include "fast/stages/reduce.hpp"
 #include "fast/stages/rods.hpp"
 #include "fast/stages/step_detection.hpp"
+#include "fast/stages/step_settings.hpp"
 #include "fast/stages/sweep.hpp"
 #include "fast/stages/volumes.hpp"
 
 namespace ogc::fast {
-
-/// Numbers of a scene that a step needs, in single precision: all are set by `step_settings`.
-struct StepSettings {
-  float step = 0, contact_radius = 0, friction_limit = 0, bound_relaxation = 0;  ///< h [s], r [m], ε_v h [m], γ_p
-  float detection_radius = 0;                                                    ///< r and the margin of contacts [m]
-  Vec acceleration;                                                              ///< [m/s²]
-  int iterations = 0;                                                            ///< of a step
-  bool divides = false;     ///< whether displacements divide the gaps of pairs (bounds=dat)
-  bool energies = false;    ///< whether a row has the energies of elements and contacts
-  ControlSettings control;  ///< what the device decides by
-};
-
-/// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order
-/// ages slowly (fast/PERFORMANCE.md).
-inline constexpr int steps_between_sorts = 16;
-
-/// Who decides whether a step sorts its trees: the device, or the host when it records the step.
-enum class Sorting { asked, made, left_out };
-
-/// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in
-/// four iterations (counted in fast/PERFORMANCE.md). `redetections`: of `steps` steps, beside those of the guess loop.
-inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) {
-  return 4 * redetections < steps * iterations ? 5 : 1;
-}
-
-/// `moving`: K, as compare::bounded_count.
-inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
-  const compare::Settings& from = scene.settings;
-  StepSettings to;
-  to.step = static_cast<float>(from.time_step);
-  to.contact_radius = static_cast<float>(from.contact_radius);
-  to.detection_radius = static_cast<float>((1 + from.contact_margin) * from.contact_radius);
-  to.friction_limit = static_cast<float>(from.friction_velocity * from.time_step);
-  to.bound_relaxation = static_cast<float>(from.bound_relaxation);
-  to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y),
-                     static_cast<float>(scene.gravity.z)};
-  to.iterations = static_cast<int>(from.iterations);
-  to.divides = from.bounds == compare::Bounds::dat;
-  to.energies = energies;
-  to.control.contact_radius = to.detection_radius;
-  to.control.largest_query_radius = std::max(static_cast<float>(from.query_radius_cap * from.contact_radius),
-                                             to.detection_radius);
-  to.control.redetect_count = std::max(
-      1, static_cast<int>(std::ceil(from.redetect_fraction * static_cast<double>(moving))));
-  to.control.pair_guess_count = compare::has_volumes(scene) ? 1 : to.control.redetect_count;
-  to.control.redetect_every = static_cast<int>(from.redetect_every);
-  to.control.guess_rounds = static_cast<int>(from.guess_rounds);
-  to.control.sort_every = steps_between_sorts;
-  to.control.iterations = to.iterations;
-  return to;
-}
 
 /// Resident arrays of a simulation. The sweep gathers from `padded`, its two position buffers one after the other, and
 /// from `padded_start`; detection and all else read `position`, the same numbers closer together.
@@ -158,7 +108,8 @@ class Step {
         rods_(rods),
         clock_(clock),
         settings_(settings),
-        reduction_(backend, vertices) {}
+        reduction_(backend, vertices),
+        left_forces_(backend, vertices, sweep.slots()) {}
 
   /// Null ends it.
   void observe(StepObserver* observer) { observer_ = observer; }
@@ -169,14 +120,19 @@ class Step {
 
   /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows. `group`:
   /// iterations that are asked together whether a detection is due; it changes the time alone, as `sorting` does.
-  void enqueue(int group, Sorting sorting = Sorting::asked) {
+  /// `measures`: whether its row has the forces that it leaves.
+  void enqueue(int group, Sorting sorting = Sorting::asked, bool measures = false) {
     if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(sorting); });
     clock_.time(StepStage::initial_guess, [&] { guess_loop(); });
+    if (measures) clock_.time(StepStage::metrics, [&] { left_forces_.begin(sweep_, view(0)); });
     clock_.time(StepStage::sweep, [&] {
       for (int i = 0; i < settings_.iterations; i += group) iterate(i, std::min(group, settings_.iterations - i));
     });
-    clock_.time(StepStage::metrics, [&] { finish(); });
+    clock_.time(StepStage::metrics, [&] {
+      if (measures) left_forces_.end(sweep_, view(settings_.iterations));
+      finish(measures);
+    });
   }
 
   /// The contacts with volumes of who is at `position` (on the backend). Driven volumes are where the step has them
@@ -337,7 +293,7 @@ class Step {
                           {s.start.data(), s.position.data(), s.padded_start.data(), s.padded.data(), s.vertex_count},
                           rods_.count(),
                           rods_.begin(s.start.data(), s.position.data(), control())};
-    reduction_.template add<0, guess_columns>(vertex_sums(), begin.count(), begin);
+    reduction_.template add<0, guess_columns>(vertex_sums(nullptr), begin.count(), begin);
     if (observer_ != nullptr) observer_->after_guess();
   }
 
@@ -371,8 +327,8 @@ class Step {
     observe(compare::StepEventKind::sweep);
   }
 
-  /// `turn`: says whether it is this iteration's; null: it is. `start`: as in Sweep::iterate.
-  void sweep(int iteration, const int* turn, Start start) {
+  /// What an iteration reads and writes: of an even one x stands in the first buffer, of an odd one in the second.
+  SweepView view(int iteration) {
     StepState<Backend>& s = state_;
     SweepView view;
     sweep_.complete(view);
@@ -387,23 +343,29 @@ class Step {
     view.to_fresh = swapped ? -s.vertex_count : s.vertex_count;
     view.position = s.position.data();
     view.control = control();
-    view.turn = turn;
     view.iteration = iteration;
     if (volumes_.is_used()) view.volumes = volumes_.stream();
     rods_.complete(view.rods);
     view.contact_radius = settings_.contact_radius;
     view.friction_limit = settings_.friction_limit;
+    return view;
+  }
+
+  /// `turn`: says whether it is this iteration's; null: it is. `start`: as in Sweep::iterate.
+  void sweep(int iteration, const int* turn, Start start) {
+    SweepView view = this->view(iteration);
+    view.turn = turn;
     if (sweep_.freezes()) {
       sweep_.freeze(view, detection_.view(), detection_.lists().listed_count, detection_.overflow());
       start = Start::after_previous;
     }
     sweep_.iterate(view, start);
     if (volumes_.has_free())
-      backend_.for_each(volumes_.rows(), CountDeepInside{view.volumes, s.position.data(), settings_.contact_radius,
-                                                         turn, iteration, control()});
+      backend_.for_each(volumes_.rows(), CountDeepInside{view.volumes, view.position, settings_.contact_radius, turn,
+                                                         iteration, control()});
   }
 
-  void finish() {
+  void finish(bool measures) {
     StepState<Backend>& s = state_;
     const Vec* position = s.position.data();
     if (settings_.energies && volumes_.is_used())
@@ -424,7 +386,9 @@ class Step {
                                     .contacts = detection_.view(),
                                     .sums = s.sums.data(),
                                     .rows = s.rows.data(),
-                                    .segments = rods_.count()});
+                                    .segments = rods_.count(),
+                                    .left = measures ? left_forces_.totals() : nullptr,
+                                    .free_vertices = sweep_.slots()});
   }
 
   /// The certificate, and `sums` with those of rods.
@@ -448,9 +412,11 @@ class Step {
       add(sums);
   }
 
-  VertexSums vertex_sums() {
+  /// `before`: x before the last sweep; null: no sweep has been made.
+  VertexSums vertex_sums(const PaddedVec* before) {
     const StepState<Backend>& s = state_;
     return {{.position = s.position.data(),
+             .before = before,
              .start = s.start.data(),
              .target = s.target.data(),
              .mass = s.mass.data(),
@@ -465,7 +431,10 @@ class Step {
     return {{s.tetrahedra.data(), sweep_.solids(), s.position.data()}, s.tetrahedron_count};
   }
 
-  StateSums state_sums() { return {vertex_sums(), tetrahedron_sums()}; }
+  StateSums state_sums() {
+    const bool swapped = settings_.iterations % 2 == 0;  // the last iteration read the second buffer
+    return {vertex_sums(state_.padded.data() + (swapped ? state_.vertex_count : 0)), tetrahedron_sums()};
+  }
 
   EnergySums energy_sums() {
     const StepState<Backend>& s = state_;
@@ -494,6 +463,7 @@ class Step {
   StageClock<Backend>& clock_;
   StepSettings settings_;
   Reduction<Backend, guess_columns + sum_columns> reduction_;
+  LeftForces<Backend> left_forces_;
   StepObserver* observer_ = nullptr;
 };
 

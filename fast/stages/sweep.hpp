@@ -418,6 +418,19 @@ class Sweep {
     }
   }
 
+  /// The force on each free vertex, into `left`; as MeasureVertex. Sums have one width, as no position is made of them.
+  void measure(const SweepView& view, LeftForce* left, bool is_end) const {
+    constexpr int width = 8;
+    const auto with = [&](auto gather) {
+      backend_.template for_each_team<width>(slots(), MeasureVertex<decltype(gather)>{view, left, is_end},
+                                             Start::after_previous);
+    };
+    if (sum_ == SweepSum::surfaces)
+      with(GatherDefault{});
+    else
+      with(GatherAnythingWithRods{});
+  }
+
  private:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;

@@ -68,6 +68,7 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
   std::fill(stage_ms_.begin(), stage_ms_.end(), 0);
   reference_force_ = -1;
   cut_ = 0;
+  before_.clear();
   x_ = start_ = widened(start);
   target_ = inertial_targets(scene_, start, velocity, potential_.mobility(),
                              static_cast<double>(number) * settings_.time_step);
@@ -263,6 +264,7 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.wall_ms = elapsed_ms();
   if (options_.profile) metrics_.stage_ms = stage_ms_;
   metrics_.momentum_lost_end = momentum_lost({x_, start_, target_}, potential_);
+  metrics_.last_motion = last_motion({x_, start_, target_}, before_, potential_);
   metrics_.largest_lag = largest_lag(x_, target_, potential_.mobility());
   measure_energies(metrics_, {x_, start_, target_}, potential_, scene_, options_.energies);
   if (metrics_.status == compare::step_clean && settings_.bounds != compare::Bounds::off &&

@@ -100,6 +100,7 @@ class ContactStep {
   std::size_t bounded_ = 0;           ///< K, those of them that have a bound
 
   State start_, target_, x_;
+  State before_;  ///< x before the last iteration; empty: there was none
   Detected detected_;
   FeasibleRegions regions_;
   float query_radius_ = 0;

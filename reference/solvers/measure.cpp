@@ -71,6 +71,18 @@ double momentum_lost(const StepStates& states, const Potential& potential) {
   return length(moved) > 0 ? length(lost) / length(moved) : 0;
 }
 
+double last_motion(const StepStates& states, const State& before, const Potential& potential) {
+  if (before.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double last = 0, whole = 0;
+  for (std::size_t v = 0; v < states.x.size(); ++v) {
+    if (potential.mobility()[v] != Mobility::free) continue;
+    const Triple<double> swept = states.x[v] - before[v], moved = states.x[v] - states.start[v];
+    last += potential.mass()[v] * dot(swept, swept);
+    whole += potential.mass()[v] * dot(moved, moved);
+  }
+  return whole > 0 ? std::sqrt(last / whole) : 0;
+}
+
 double largest_lag(const State& x, const State& target, const std::vector<Mobility>& mobility) {
   double largest = 0;
   for (std::size_t v = 0; v < x.size(); ++v)

@@ -24,6 +24,9 @@ std::vector<compare::Vec3f> end_velocities(const std::vector<compare::Vec3f>& po
 
 /// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ over free vertices; 0 where nothing moves (method.md §5.3).
 double momentum_lost(const StepStates& states, const Potential& potential);
+/// √(Σ m ‖x − before‖²) / √(Σ m ‖x − xᵗ‖²) over free vertices; 0 where nothing moves (method.md §6). `before`: x before
+/// the last sweep or iteration; not-a-number where there was none.
+double last_motion(const StepStates& states, const State& before, const Potential& potential);
 /// The largest distance of a prescribed vertex behind its target [m].
 double largest_lag(const State& x, const State& target, const std::vector<Mobility>& mobility);
 /// Fills the energies, or not-a-number where they are not wanted.

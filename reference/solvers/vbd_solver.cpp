@@ -71,6 +71,7 @@ void VbdSolver::iterate() {
     systems_.read_contacts();
   }
   add_row(detects);
+  before_ = x_;
   cut_ = timed(sweeping, [&] { return sweep(); });
   if (meter_) rows_.back().vertices_cut = static_cast<std::int64_t>(cut_);
   ++metrics_.iterations;

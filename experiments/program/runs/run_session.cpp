@@ -485,7 +485,13 @@ void RunSession::finish() {
   summary_.status = failed() ? "failed: " + first_line : summary_.was_interrupted ? "interrupted" : "finished";
   summary_.median_ms = median(step_times_);
   if (step_times_.empty()) summary_.worst_ms = summary_.median_ms;
+  for (const std::string& warning : warnings_.look_back()) log_line("warning: " + warning);
+  const ForcesLeft& left = warnings_.forces_left();
+  summary_.measured_steps = left.steps();
+  summary_.left_residual = left.median_residual();
+  summary_.left_held = left.median_held();
   summary_.warnings = warnings_.list();
+  if (left.steps() > 0) writer_->set_extra("left_residual", number(left.median_residual(), 6));
   writer_->set_warnings(summary_.warnings);
   writer_->set_extra("final_hash", summary_.final_hash);
   writer_->set_extra("guarantee_kept", !summary_.guarantee_kept   ? "not checked"

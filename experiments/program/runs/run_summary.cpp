@@ -31,6 +31,12 @@ std::string momentum_lost(const RunSummary& summary) {
   return "at most " + number(100 * *summary.largest_momentum_lost) + " % of what a step was to move, in the guess loop";
 }
 
+std::string force_left(const RunSummary& summary) {
+  if (summary.measured_steps == 0) return "not measured (too few steps, no forces, or no solver that sweeps)";
+  return number(100 * summary.left_residual, 3) + " % of free vertices' force in the median of " +
+         counted(summary.measured_steps, "step") + "; bounds held " + number(summary.left_held) + " more";
+}
+
 std::string per_step(std::int64_t count, std::int64_t steps) {
   return steps > 0 ? number(static_cast<double>(count) / static_cast<double>(steps)) + " a step" : "none";
 }
@@ -72,6 +78,10 @@ Json to_json(const RunSummary& summary) {
   json["repeats"] = summary.repeats;
   json["largest_share_cut"] = summary.largest_share_cut;
   json["largest_momentum_lost"] = summary.largest_momentum_lost ? Json(*summary.largest_momentum_lost) : Json(nullptr);
+  json["left"] = summary.measured_steps == 0 ? Json(nullptr)
+                                             : Json{{"steps", summary.measured_steps},
+                                                    {"median_residual", summary.left_residual},
+                                                    {"median_held", summary.left_held}};
   json["largest_lag_m"] = summary.largest_lag;
   json["smallest_distance_m"] = summary.smallest_distance;
   json["audit"] = {{"mode", name_of(summary.audit)},
@@ -117,6 +127,7 @@ std::string describe(const RunSummary& summary) {
       {"repeated steps", integer(summary.repeats) + " (a list grew)"},
       {"vertices cut", "at most " + number(100 * summary.largest_share_cut) + " % after a step's last iteration"},
       {"momentum lost", momentum_lost(summary)},
+      {"force left", force_left(summary)},
       {"largest lag", number(summary.largest_lag) + " m of prescribed vertices"},
       {"smallest distance",
        std::isfinite(summary.smallest_distance) ? number(summary.smallest_distance) + " m" : "not measured"},

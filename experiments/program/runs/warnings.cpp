@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "experiments/program/output.hpp"
 #include "experiments/program/runs/curved_rest.hpp"
@@ -82,10 +83,29 @@ std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
          " m/s in a step: what should begin to move may stay; take " + setting + "=" + number(least, 1);
 }
 
+/// Not-a-number where there is none.
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 }  // namespace
 
+void ForcesLeft::look_at(const compare::StepMetrics& row) {
+  if (!(row.left_rounding <= most_force_left)) return;
+  residuals_.push_back(row.left_residual);
+  held_.push_back(row.left_held);
+}
+
+double ForcesLeft::median_residual() const { return median(residuals_); }
+double ForcesLeft::median_held() const { return median(held_); }
+
 Warnings::Warnings(const compare::Scene& scene, Solver solver)
-    : radius_(scene.settings.contact_radius), guess_rounds_(scene.settings.guess_rounds) {
+    : radius_(scene.settings.contact_radius),
+      guess_rounds_(scene.settings.guess_rounds),
+      iterations_(scene.settings.iterations) {
   for (std::string text : {bounds_warning(scene), box_warning(scene), radius_warning(scene), thin_solid_warning(scene),
                            curved_rest_warning(scene), tolerance_warning(scene, solver)})
     if (!text.empty()) of_scene_.push_back(std::move(text));
@@ -100,6 +120,7 @@ std::vector<std::string> Warnings::look_at(const compare::StepMetrics& row, std:
   };
   if (momentum_lost && *momentum_lost > most_momentum_lost)
     note(momentum_, *momentum_lost, [this] { return momentum_text(); });
+  forces_left_.look_at(row);
   if (row.largest_lag > radius_) note(lag_, row.largest_lag, [this] { return lag_text(); });
   return first;
 }
@@ -108,7 +129,13 @@ std::vector<std::string> Warnings::list() const {
   std::vector<std::string> texts = of_scene_;
   if (momentum_) texts.push_back(momentum_text());
   if (lag_) texts.push_back(lag_text());
+  for (std::string& text : look_back()) texts.push_back(std::move(text));
   return texts;
+}
+
+std::vector<std::string> Warnings::look_back() const {
+  if (!(forces_left_.median_residual() >= most_force_left)) return {};
+  return {force_text()};
 }
 
 std::string Warnings::momentum_text() const {
@@ -117,6 +144,13 @@ std::string Warnings::momentum_text() const {
          " %, after all " + std::to_string(guess_rounds_) +
          " rounds of the guess: what moves is faster than bounds let it; take a smaller time_step, or a larger "
          "query_radius_cap, contact_radius or guess_rounds";
+}
+
+std::string Warnings::force_text() const {
+  return "the median step leaves free vertices with " + number(100 * forces_left_.median_residual(), 3) +
+         " % of their force (Eq. 29, " + counted(forces_left_.steps(), "step") + " measured), above " +
+         number(100 * most_force_left) + " %: sweeps end before they are done; take more iterations than " +
+         std::to_string(iterations_) + ", a smaller time_step, or --solver newton";
 }
 
 std::string Warnings::lag_text() const {

@@ -19,6 +19,26 @@ inline constexpr double most_edges_a_radius = 2;
 /// Share of what a step is to move that truncation may take (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
+/// Share of their force that free vertices may be left with in the median step (Eq. 29).
+inline constexpr double most_force_left = 0.1;
+
+/// What the steps of a run that were measured left of forces. Where rounding may make more than most_force_left of
+/// Eq. 29, there was no force to speak of, as in free fall; such steps do not count.
+class ForcesLeft {
+ public:
+  /// Takes a step's row, if it has them.
+  void look_at(const compare::StepMetrics& row);
+  /// Steps that count.
+  std::size_t steps() const { return residuals_.size(); }
+  /// Eq. 29 of the median step; not-a-number where no step counts.
+  double median_residual() const;
+  /// Of free vertices that a bound holds, in the median step.
+  double median_held() const;
+
+ private:
+  std::vector<double> residuals_, held_;
+};
+
 /// What is said of a run at most once.
 class Warnings {
  public:
@@ -29,6 +49,10 @@ class Warnings {
   /// Looks at a step: what the guess loop lost though it did all its rounds (MomentumShare; empty: not known), and the
   /// lag of prescribed vertices. Returns what the first step of its kind gives reason to say; the list keeps the worst.
   std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
+  /// Of the steps so far.
+  const ForcesLeft& forces_left() const { return forces_left_; }
+  /// What is said at the end, of the steps as a whole.
+  std::vector<std::string> look_back() const;
   /// All that there is to say so far, one text a kind: what, where, how much, what to do.
   std::vector<std::string> list() const;
 
@@ -40,10 +64,12 @@ class Warnings {
   };
   std::string momentum_text() const;
   std::string lag_text() const;
+  std::string force_text() const;
   std::vector<std::string> of_scene_;
   double radius_ = 0;
-  std::int64_t guess_rounds_ = 0;
+  std::int64_t guess_rounds_ = 0, iterations_ = 0;
   std::optional<Worst> momentum_, lag_;
+  ForcesLeft forces_left_;
 };
 
 }  // namespace ogc::experiments

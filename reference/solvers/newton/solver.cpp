@@ -180,6 +180,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribe
   const Direction direction = direction_of();
   if (!std::isfinite(direction.largest)) return Outcome::not_finite;
   if (options_.iterations && options_.condition) measure_condition(rows_.back());
+  before_ = x_;
   const double share = steps_ == NewtonSteps::searched ? accepted_share(direction) : whole_step(direction);
   ++metrics_.iterations;
   ++iterations_since_;

@@ -126,6 +126,25 @@ TEST_CASE(
   CHECK(std::isnan(table.rows[1].meetings));
 }
 
+TEST_CASE("how far a step was solved comes back behind all but a ledger, and files without it are read", "[unit]") {
+  const Scratch folder;
+  const StepGroups groups{.rods = true, .meetings = true, .convergence = true, .ledger = true};
+  const std::string header = step_header({}, groups);
+  CHECK(header.find(
+            ",meetings [1],last_motion [1],left_residual [1],left_rounding [1],left_held [1],energy_start [J],") !=
+        std::string::npos);
+  StepMetrics measured;
+  measured.last_motion = 0.5, measured.left_residual = 0.25, measured.left_rounding = 0.125, measured.left_held = 3;
+  const std::array rows{measured, StepMetrics{}};
+  const StepTable table = read_text(folder, header + step_lines(rows, 0, groups));
+  CHECK(table.groups == groups);
+  REQUIRE(table.rows.size() == 2);
+  CHECK(std::array{table.rows[0].last_motion, table.rows[0].left_residual, table.rows[0].left_rounding,
+                   table.rows[0].left_held} == std::array{0.5, 0.25, 0.125, 3.0});
+  CHECK(std::isnan(table.rows[1].left_residual));
+  CHECK(read_text(folder, step_header({}, {.rods = true})).groups == StepGroups{.rods = true});
+}
+
 TEST_CASE("a row without a ledger has not-a-number in each of its columns", "[unit]") {
   const Scratch folder;
   const StepTable table = read_text(

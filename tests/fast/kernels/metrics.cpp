@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "fast/kernels/step_sums.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc;
@@ -17,10 +18,12 @@ using Sums = std::array<double, sum_columns>;
 // under an acceleration of (−1, 2, −10).
 struct OneVertex {
   Vec position{2, 5, 9}, start{1, 2, 4}, target{4, 9, 16}, previous{1, 2, 4};
+  PaddedVec before{{2, 4, 11}};
   float mass = 3, bound = 10;
 
   VertexTerm term(const int& prescribed) const {
     return {.position = &position,
+            .before = &before,
             .start = &start,
             .target = &target,
             .mass = &mass,
@@ -54,6 +57,8 @@ TEST_CASE("kinetic and gravity energy and the momenta of a vertex", "[unit]") {
   CHECK(sums[sum_moved] == 3 * 3.0);
   CHECK(sums[sum_moved + 1] == 3 * 7.0);
   CHECK(sums[sum_moved + 2] == 3 * 12.0);
+  CHECK(sums[sum_last] == 3 * (1.0 + 4));
+  CHECK(sums[sum_way] == 3 * (1.0 + 9 + 25));
 }
 
 TEST_CASE("a vertex that is held has energies, and no momentum to lose", "[unit]") {
@@ -114,6 +119,7 @@ TEST_CASE("the row of a step holds what was counted; one that a list stopped or 
   end[sum_lost] = 1, end[sum_moved] = 2;
   for (int k = 0; k < 2; ++k) end[sum_kinetic + k] = 20.0 + k;
   for (int k = 0; k < 4; ++k) end[sum_membrane + k] = 30 * std::pow(2.0, k);
+  end[sum_last] = 1, end[sum_way] = 16;
   StepControl control;
   control.active = control.attempted = 1;
   control.steps_done = 1;
@@ -130,6 +136,7 @@ TEST_CASE("the row of a step holds what was counted; one that a list stopped or 
   CHECK(std::array{row.query_radius, row.smallest_bound, row.largest_lag} == std::array{7.0f, 8.0f, 9.0f});
   CHECK(std::array{row.lost_guess, row.lost_end, row.kinetic, row.gravity, row.elastic, row.contact} ==
         std::array{0.25, 0.5, 20.0, 21.0, 90.0, 360.0});
+  CHECK(row.last_motion == 0.25);
   control.status = compare::step_list_grew;
   FinishStep{&control, view, sums.data(), rows}(0);
   control.status = 0, control.attempted = 0;
@@ -156,4 +163,32 @@ TEST_CASE("the row of a step with rods has their energy, mean and largest stretc
   FinishStep{&control, view, sums.data(), &row, 4}(0);
   CHECK(std::array{row.elastic, row.mean_stretch} == std::array{3.0, 1.5});
   CHECK(std::array{row.largest_stretch, row.smallest_contact} == std::array{0.75f, 0.25f});
+}
+
+TEST_CASE("what a step leaves of forces: means over those that nothing holds, over all at its begin", "[unit]") {
+  const int contacts[2] = {};
+  ContactView view{};
+  view.vertex_facet_count = &contacts[0], view.edge_edge_count = &contacts[1];
+  const std::array<LeftForce, 4> forces{{{8, 1, 0.25f, 0}, {8, 3, 0.25f, 0}, {8, 100, 50, 1}, {8, 2, 0.25f, 0}}};
+  std::array<double, left_columns> left{};
+  for (int chunk = 0; chunk < 3; ++chunk) LeftSums{forces.data(), 4}.add(chunk, 3, left.data());
+  const std::array<double, guess_columns + sum_columns> sums{};
+  StepControl control;
+  control.active = control.attempted = 1;
+  StepRow row;
+  const auto finish = [&](const double* of_step) {
+    control.steps_done = 0;
+    FinishStep{
+        .control = &control, .contacts = view, .sums = sums.data(), .rows = &row, .left = of_step, .free_vertices = 4}(
+        0);
+  };
+  finish(left.data());
+  CHECK(row.left_residual == 2.0 / 8);
+  CHECK(row.left_rounding == 0.25 / 8);
+  CHECK(row.left_held == 1);
+  finish(nullptr);
+  CHECK(std::array{row.left_residual, row.left_rounding} == std::array{0.0, 0.0});
+  left = {0, 1, 1, 4};  // no force to compare with, and nobody free: no quotient of zeros
+  finish(left.data());
+  CHECK(std::array{row.left_residual, row.left_rounding} == std::array{0.0, 0.0});
 }

@@ -75,6 +75,31 @@ TEST_CASE("a step that loses more than half of its momentum to truncation is war
   CHECK_THAT(warnings.list()[0], Contains("step 8 lost 90 %") && Contains("time_step"));
 }
 
+TEST_CASE("steps that leave a tenth of the free vertices' force are warned of at the end, by their median", "[unit]") {
+  Warnings warnings(sheet());
+  const auto look_at = [&](double residual, double rounding, double held) {
+    compare::StepMetrics row = numbered(1);
+    row.left_residual = residual, row.left_rounding = rounding, row.left_held = held;
+    CHECK(warnings.look_at(row, std::nullopt).empty());
+  };
+  CHECK(warnings.look_at(numbered(1), std::nullopt).empty());  // not measured
+  CHECK(warnings.forces_left().steps() == 0);
+  look_at(0.05, 0.001, 3);
+  CHECK(warnings.list().empty());
+  look_at(0.5, 0.001, 7);
+  look_at(0.3, 0.001, 9);
+  CHECK(warnings.forces_left().median_residual() == 0.3);
+  CHECK(warnings.forces_left().median_held() == 7);
+  REQUIRE(warnings.list().size() == 1);
+  CHECK(warnings.list() == warnings.look_back());
+  CHECK_THAT(warnings.list()[0], Contains("30 %") && Contains("3 steps") && Contains("iterations"));
+  for (int k = 0; k < 3; ++k) look_at(0.9, 1, 0);  // of free fall
+  CHECK(warnings.forces_left().steps() == 3);
+  for (int k = 0; k < 2; ++k) look_at(0.01, 0.001, 0);
+  CHECK(warnings.forces_left().median_residual() == 0.05);
+  CHECK(warnings.list().empty());
+}
+
 // The sheet's diagonal is √2 m; h = 10 ms, in which gravity changes speeds by 98.1 mm/s.
 TEST_CASE("a tolerance of IPC above what gravity changes in a step is warned of, by its number and another one",
           "[unit]") {

@@ -1,0 +1,43 @@
+// Eq. 29 where the run is (method.md §6): the force on each free vertex after the guess loop and at the end of a step,
+// with the step's own sets, summed up.
+#pragma once
+
+#include "fast/kernels/step_sums.hpp"
+#include "fast/stages/reduce.hpp"
+#include "fast/stages/sweep.hpp"
+
+namespace ogc::fast {
+
+/// The forces that one step leaves.
+template <class Backend>
+class LeftForces {
+ public:
+  /// For a mesh of `vertices`, `slots` of which are free.
+  LeftForces(Backend& backend, int vertices, int slots) : reduction_(backend, vertices), slots_(slots) {
+    left_.resize(static_cast<std::size_t>(slots));
+    totals_.resize(left_columns);
+  }
+  /// After the guess loop. `view` as an iteration reads it whose buffers are both at x.
+  void begin(const Sweep<Backend>& sweep, SweepView view) { measure(sweep, view, false); }
+  /// At the end; `view` as the next iteration would read it.
+  void end(const Sweep<Backend>& sweep, SweepView view) {
+    measure(sweep, view, true);
+    reduction_.template add<0, left_columns>(LeftSums{left_.data(), slots_}, 0, Nothing{});
+    reduction_.total(totals_.data(), 0, Nothing{}, 0, Nothing{});
+  }
+  /// By LeftColumn, on the backend; of the step that ended last.
+  const double* totals() const { return totals_.data(); }
+
+ private:
+  void measure(const Sweep<Backend>& sweep, SweepView view, bool is_end) {
+    view.to_fresh = 0;
+    sweep.measure(view, left_.data(), is_end);
+  }
+
+  Reduction<Backend, left_columns> reduction_;
+  int slots_;
+  typename Backend::template Buffer<LeftForce> left_;
+  typename Backend::template Buffer<double> totals_;
+};
+
+}  // namespace ogc::fast
