@@ -87,6 +87,10 @@ const std::map<std::string_view, Change> changes{
     {"cantilever_tetrahedron", times(&Material::solid_mu, 0.95)},
     {"cantilever_bar", times(&Material::solid_mu, 0.2)},
     {"pendulum", gravity_times(1.05)},
+    {"pinned_sheet",
+     [](Scene& scene) {
+       scene.motions[0].velocity = {1, 0, 0};  // who carries the corner along gives it energy
+     }},
 };
 
 /// A run whose states are all the start, at rest.
@@ -122,13 +126,29 @@ TEST_CASE("laws of rods hold of their closed answers, and of nothing a tenth off
   }
 }
 
-TEST_CASE("laws of a sheet that gains energy, of one that another moves, of one that a unit changes", "[unit]") {
+// The last step pulls an outer corner out by s: all that is left of forces there is f = M Δ/h² + ∇U − M a, as it was at
+// rest. What (5) of beams.cpp has for it is the limit of few sweeps, and of them alone.
+TEST_CASE("laws: energy is gained by what few sweeps leave, and by nothing else", "[unit]") {
   const Law& pinned = find_law("pinned_sheet");
-  Trajectory run = still(pinned.scenes(LawSize::least).at(0));
-  for (StepMetrics& row : run.rows) row.kinetic_energy = 1;
-  CHECK(verdict(pinned.read(std::span(&run, 1))) == Verdict::holds);
-  run.rows.back().elastic_energy = 0.02;
-  CHECK(verdict(pinned.read(std::span(&run, 1))) == Verdict::broken);
+  const std::vector<Scene> scenes = pinned.scenes(LawSize::least);
+  const auto gained = [&](const Scene& scene, double elastic, bool is_pulled) {
+    Trajectory run = still(scene);
+    run.by.is_solved = false;
+    for (StepMetrics& row : run.rows) row.kinetic_energy = 1;
+    run.rows.back().elastic_energy = elastic;
+    if (is_pulled) run.states.back().positions.back().z += 0.01;
+    return pinned.read(std::span(&run, 1)).at(0);
+  };
+  CHECK(verdict(gained(scenes[0], 0.005, false)) == Verdict::holds);
+  CHECK(verdict(gained(scenes[0], 0.02, false)) == Verdict::broken);
+  const double limit = gained(scenes[0], 0.02, true).limit;
+  CHECK(limit > 0.02);
+  CHECK(verdict(gained(scenes[0], 0.99 * limit, true)) == Verdict::limit);
+  CHECK(verdict(gained(scenes[0], 1.01 * limit, true)) == Verdict::broken);
+  CHECK(gained(scenes[1], 0.02, true).limit == 0);
+}
+
+TEST_CASE("laws of a cord that hangs, of a sheet that another moves, of one that a unit changes", "[unit]") {
   const Law& thrown = find_law("cord_falls");
   Trajectory hung = still(thrown.scenes(LawSize::least).at(0));
   CHECK(verdict(thrown.read(std::span(&hung, 1))) == Verdict::broken);
@@ -147,8 +167,8 @@ TEST_CASE("laws: every one is tested here, and has its row in compare/laws.md", 
   std::ifstream file(OGC_SOURCE_DIR "/compare/laws.md");
   std::ostringstream page;
   page << file.rdbuf();
-  const std::vector<std::string_view> scripted{"cord_falls",   "cantilever_rod", "catenary",         "cord_in_channel",
-                                               "pinned_sheet", "far_apart",      "lengths_by_powers"};
+  const std::vector<std::string_view> scripted{"cord_falls",      "cantilever_rod", "catenary",
+                                               "cord_in_channel", "far_apart",      "lengths_by_powers"};
   CHECK(laws().size() == changes.size() + scripted.size());
   for (const Law& law : laws()) {
     INFO(law.name);

@@ -1,5 +1,4 @@
-"""Asks every law at its least size, as CI does: no row is broken but those below, each of which is, and what the
-program prints is what its schema says.
+"""Asks every law at its least size, as CI does: no row is broken, and what the program prints is what its schema says.
 
 Usage: laws.py OGC. Without jsonschema the schema is not looked at, and that is said.
 """
@@ -13,11 +12,6 @@ try:
 except ImportError:
     jsonschema = None
 
-# (law, solver) that are broken today, and what of. One that holds must go from here.
-OPEN = {
-    ("pinned_sheet", "vbd"): "sweeps that end early leave forces that would have taken energy (method.md §7.8)",
-}
-
 
 def ogc(program, *arguments):
     done = subprocess.run([program, "laws", *arguments], capture_output=True, text=True, check=False)
@@ -27,11 +21,8 @@ def ogc(program, *arguments):
 
 def check(program):
     status, found = ogc(program, "--quick", "--json")
-    assert status == (1 if found["broken"] else 0), (status, found["broken"])
-    broken = {(row["law"], row["solver"]): row for row in found["rows"] if row["verdict"] == "broken"}
-    for key, row in broken.items():
-        assert key in OPEN, (key, row["why"], [each for each in row["readings"] if each["verdict"] == "broken"])
-    assert not set(OPEN) - set(broken), f"these hold: take them from OPEN: {sorted(set(OPEN) - set(broken))}"
+    broken = [row for row in found["rows"] if row["verdict"] == "broken"]
+    assert not broken and status == 0 and not found["broken"], (status, broken)
     if jsonschema is None:
         print("jsonschema is missing: the schema was not looked at")
         return found
