@@ -71,6 +71,7 @@ Scene strip(Index rows, std::int64_t iterations, std::int64_t steps) {
   Scene scene = empty_scene("hanging_strip", 0.005, steps, iterations);
   Material material = cloth(0);
   material.density = strip_density;
+  material.membrane = MembraneModel::st_venant_kirchhoff;  // whose T stands above
   material.lame_mu = strip_mu;
   material.lame_lambda = 0;
   append_body(scene, {.name = "strip", .material = material}, sheet(rows, 3, cell, 0));

@@ -35,10 +35,10 @@ struct RodMaterial {
 /// Constants of one body: of its surface (method.md §4.5 to §4.10), and of its volume where it has tetrahedra
 /// (method.md §8), and of its loose edges where it is a rod.
 struct Material {
-  double density = 0.2;                                         ///< mass per rest area [kg/m²]
-  MembraneModel membrane = MembraneModel::st_venant_kirchhoff;  ///< energy of triangles
-  double lame_mu = 10, lame_lambda = 10;                        ///< plane-stress Lamé constants times thickness [N/m]
-  BendingModel bending = BendingModel::discrete_hinge;          ///< energy of hinges
+  double density = 0.2;                                        ///< mass per rest area [kg/m²]
+  MembraneModel membrane = MembraneModel::stable_neo_hookean;  ///< energy of triangles
+  double lame_mu = 10, lame_lambda = 10;                       ///< plane-stress Lamé constants times thickness [N/m]
+  BendingModel bending = BendingModel::discrete_hinge;         ///< energy of hinges
   /// k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)², isometric: of k_b/2 · 3/(A₀+A₁) ‖Σ K_i x_i‖² [J]
   double bending_stiffness = 5e-7;
   double membrane_damping = 0;                ///< k_d of ψ_d = (k_d/h) ψ(G − Gᵗ) [s]

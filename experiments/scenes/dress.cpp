@@ -34,7 +34,7 @@ compare::Material wool() {
   constexpr double tension = youngs_modulus * thickness;  // E·t [N/m]
   compare::Material material = driven_surface();
   material.density = 543.29 * thickness;
-  material.membrane = compare::MembraneModel::st_venant_kirchhoff;
+  material.membrane = compare::MembraneModel::stable_neo_hookean;
   material.lame_mu = tension / (2 * (1 + poisson));
   material.lame_lambda = tension * poisson / (1 - poisson * poisson);
   material.bending = compare::BendingModel::discrete_hinge;

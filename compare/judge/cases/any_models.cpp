@@ -33,8 +33,9 @@ void choose_models(Random& random, Scene& scene) {
   scene.settings.activation = static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size())));
   if (random.one_in(3)) scene.settings.damping = DampingForm::per_vertex;
   for (Body& body : scene.bodies) {
-    if (body.material.membrane != MembraneModel::none && random.one_in(2))
-      body.material.membrane = MembraneModel::stable_neo_hookean;
+    if (body.material.membrane != MembraneModel::none)
+      body.material.membrane = random.one_in(2) ? MembraneModel::stable_neo_hookean
+                                                : MembraneModel::st_venant_kirchhoff;
     if (body.material.bending != BendingModel::none && random.one_in(2))
       body.material.bending = BendingModel::isometric_quadratic;
   }

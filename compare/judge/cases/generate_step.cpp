@@ -46,6 +46,7 @@ struct StepBuilder {
   /// about it.
   Material material() {
     Material m;
+    m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has both
     m.density = 0.2 * random.magnitude(-0.5, 0.5);
     const double inertia = m.density * spacing * spacing / (scene.settings.time_step * scene.settings.time_step);
     m.lame_mu = inertia * random.magnitude(-1, 2.5);

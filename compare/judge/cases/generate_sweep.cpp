@@ -39,6 +39,7 @@ struct Motion {
 
 Material material(Random& random) {
   Material m;
+  m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has both
   m.density = random.magnitude(-1, 0);
   m.lame_mu = random.magnitude(0, 2);
   m.lame_lambda = random.one_in(4) ? 0 : random.magnitude(0, 2);

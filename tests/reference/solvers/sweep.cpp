@@ -77,7 +77,9 @@ struct Question {
 compare::Scene scene_of(std::initializer_list<compare::Mesh> meshes) {
   compare::Scene scene;
   scene.name = "test";
-  for (const compare::Mesh& mesh : meshes) append_body(scene, {.name = "sheet", .material = {}}, mesh);
+  compare::Material material;
+  material.membrane = compare::MembraneModel::st_venant_kirchhoff;  // whose energy is written out below
+  for (const compare::Mesh& mesh : meshes) append_body(scene, {.name = "sheet", .material = material}, mesh);
   scene.settings.contact_radius = 0.25;
   scene.settings.friction_velocity = 1;
   return scene;
