@@ -34,6 +34,8 @@ def picture(bodies, camera, size=(640, 480)):
                   else {"scalars": front, "rgb": True})
         plotter.add_mesh(mesh, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1, **colour)
     extent = np.linalg.norm(np.ptp(np.concatenate([points for points, *_ in bodies]), axis=0))
+    # a camera that is near sees a part of what there is, and corners are as deep as what it sees
+    extent = min(extent, 2 * np.linalg.norm(np.subtract(camera[0], camera[1])))
     plotter.enable_ssao(radius=0.05 * extent, bias=0.001 * extent, kernel_size=64, blur=True)
     plotter.enable_anti_aliasing("ssaa")
     plotter.camera_position = [tuple(camera[0]), tuple(camera[1]), tuple(camera[2])]

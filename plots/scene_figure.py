@@ -10,6 +10,8 @@ from plots import render, style, yarn
 from plots.run_folder import RunError, commits_in_words
 
 UNEVEN = 100  # the longest step over the median one, from which times are drawn by their logarithms
+NEAR = (1280, 560)  # pixels of a picture that is as wide as the figure
+BOUNDS = {"planes": "bounds by planes", "dat": "bounds by planes of Divide and Truncate", "off": "without bounds"}
 YARNS = ("#0072B2", "#D55E00", "#009E73")
 
 
@@ -144,6 +146,17 @@ def draw_frames(figure, grid, run, steps, camera):
             axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
 
 
+def draw_near(axes, run, frame, camera):
+    """The frame from near, as wide as the figure."""
+    axes.axis("off")
+    axes.set_title(f"step {frame.step}, from near")
+    usable, reason = render.available()
+    if usable:
+        axes.imshow(render.picture(bodies_of(run, frame), camera(frame.positions), NEAR))
+    else:
+        axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
+
+
 def draw_movie(run, camera, out, most=160, frames_per_second=24, shortest=5):
     """MP4 of a finished run's stored frames, of every second, third … where there are more than `most`; so slow that it
     lasts `shortest` seconds where few were brought home. Throws RunError like `draw`."""
@@ -160,27 +173,30 @@ def headline(run):
     m = run.manifest
     words = {True: f"exact audit of {m.get('audited_states')} states: no intersection", False: "exact audit: FAILED"}
     kept = words.get(m.get("guarantee_kept"), "not audited")
-    return (f"{m['scene']['name']}, {m['backend']} ({m['device']}), {len(run.column('step'))} steps: median "
-            f"{np.median(wall):.3g} ms, "
+    bounds = BOUNDS.get(m["settings"].get("bounds", {}).get("value"))
+    return (f"{m['scene']['name']}{f', {bounds}' if bounds else ''}, {m['backend']} ({m['device']}), "
+            f"{len(run.column('step'))} steps: median {np.median(wall):.3g} ms, "
             f"worst {wall.max():.3g} ms a step; {kept}; {commits_in_words([run])}")
 
 
-def draw(run, frames, camera, claims, out, profiled=None, driven=False):
+def draw(run, frames, camera, claims, out, profiled=None, driven=False, near=None):
     """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or
     failed its audit.
 
     `profiled`: the same scene run with --profile, for the times by stage; `run` itself where it is None. `driven`: lag
-    in place of detections.
+    in place of detections. `near`: a camera for the last of the `frames`, as a function of its positions.
     """
     run.require_finished()
     plt = style.use()
-    figure = plt.figure(figsize=(11, 8.2))
-    grid = figure.add_gridspec(3, 4, height_ratios=[1, 1, 0.95])
+    figure = plt.figure(figsize=(11, 12.6 if near else 8.2))
+    grid = figure.add_gridspec(4 if near else 3, 4, height_ratios=[1, 1, 0.95, 1.9][:4 if near else 3])
     draw_time(figure.add_subplot(grid[0, :2]), run, claims, profiled or run)
     (draw_lag if driven else draw_detections)(figure.add_subplot(grid[0, 2:]), run)
     draw_contacts(figure.add_subplot(grid[1, :2]), run)
     draw_distance(figure.add_subplot(grid[1, 2:]), run)
     draw_frames(figure, [grid[2, i] for i in range(4)], run, frames, camera)
+    if near:
+        draw_near(figure.add_subplot(grid[3, :]), run, run.frame_at_step(frames[-1]), near)
     figure.suptitle(headline(run), fontsize=9)
     out = Path(out)
     try:

@@ -23,7 +23,9 @@ def words(run, frame):
     cloths = [body for body in run.manifest["scene"]["bodies"] if is_cloth(body)]
     count = f"{len(cloths)} cloths, " if len(cloths) > 1 else ""
     vertices = sum(body["vertex_count"] for body in cloths)
-    return f"{run.manifest['scene']['name'].replace('_', ' ')}: {count}{vertices:,} vertices, t = {frame.time:.3g} s"
+    bounds = " with planes" if run.manifest["settings"].get("bounds", {}).get("value") == "planes" else ""
+    return (f"{run.manifest['scene']['name'].replace('_', ' ')}{bounds}: {count}{vertices:,} vertices, "
+            f"t = {frame.time:.3g} s")
 
 
 def draw(runs, out):

@@ -1,5 +1,5 @@
-"""Fig. 12 as far as it exists: a square cloth twisted by its two ends; time, contacts, distances, and four frames over
-the run."""
+"""Fig. 12: a square cloth twisted by its two ends, with planes; time, contacts, distances, and four frames over the
+run."""
 
 from paper_figures.workflow.common import main
 

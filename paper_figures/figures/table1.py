@@ -93,6 +93,7 @@ def penetration(run):
 def sizes(run):
     scene = run.manifest["scene"]
     return {"vertices": scene["vertices"], "triangles": scene["triangles"],
+            "membrane": " and ".join(sorted(run.membranes)),
             "iterations": run.manifest["settings"]["iterations"]["value"]}
 
 
@@ -158,8 +159,8 @@ def text(value):
     return f"{value:,}" if isinstance(value, int) else str(value)
 
 
-SHOWN = ("scene", "backend", "vertices", "iterations", "average [ms]", "paper average [ms]", "average / paper's",
-         "maximum [ms]", "paper maximum [ms]",
+SHOWN = ("scene", "backend", "vertices", "membrane", "iterations",
+         "average [ms]", "paper average [ms]", "average / paper's", "maximum [ms]", "paper maximum [ms]",
          "maximum / paper's", "contacts, average", "contacts, maximum", "steps", "of steps", "repeated steps",
          "windows [ms]", "audited states",
          "audit [s]", STALE, FRESH, "device memory [MiB]", "device",

@@ -42,9 +42,15 @@ def counterpart(run, accepted):
 def question(run):
     """What a run was asked: of settings their values, whatever words explain them."""
     asked = {key: run.manifest.get(key) for key in QUESTION}
-    bodies = [{**body, "contact": contact_of(body)} for body in asked["scene"]["bodies"]]
+    bodies = [{**body, "contact": contact_of(body), "material": material_of(body)} for body in asked["scene"]["bodies"]]
     return {**asked, "settings": {name: entry["value"] for name, entry in asked["settings"].items()},
             "scene": {**asked["scene"], "bodies": bodies}}
+
+
+def material_of(body):
+    """Without the membrane where the body has no triangles, or tetrahedra: nothing reads it."""
+    has_membrane = body.get("triangle_count") and not body.get("tetrahedron_count")
+    return {key: value for key, value in body["material"].items() if has_membrane or key != "membrane"}
 
 
 def differences(run, old, allowed):
@@ -118,7 +124,7 @@ def movable(claim):
 def compare_smaller(claim, new, kept):
     """The claim's number at a smaller scale, new and accepted: its band, moved to the accepted number."""
     wanted = {key: value for key, value in {"scene": claim["scene"], **claim.get("run", {})}.items()
-              if key not in ("steps", "device", "audited")}
+              if key not in ("steps", "device", "audited", "audited_states")}
     for scale in STATES:
         found = new.measure(claim["measure"], {**wanted, "scale": scale})
         try:

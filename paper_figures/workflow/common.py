@@ -26,7 +26,7 @@ def baseline_arguments(description, scales=("smoke", "small", "paper"), backends
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
     parser.add_argument("--scale", default="small", choices=scales)
     parser.add_argument("--membrane", default=commands.NEO_HOOKEAN,
-                        help="of all solvers alike; st_venant_kirchhoff is that of the scenes")
+                        help="of all solvers alike (default: that of the scenes)")
     if len(backends) > 1:
         parser.add_argument("--backend", default="cpu", choices=backends, help="of OGC's run; IPC's is on the CPU")
     return parser
@@ -40,10 +40,11 @@ def ipc_windows(arguments, scene, whole, starts, steps=20):
     return [run_job(arguments.ogc, job, arguments.folder) for job in jobs]
 
 
-def main(scene, frames, camera, driven=False):
+def main(scene, frames, camera, driven=False, near=None):
     """Draws the figure of one run of `scene`; `frames` are steps, moved together where the run is shorter than the last
     of them. `camera`: eye, target, up, or a function that says so of a run. `driven`: by a motion that may be faster
-    than bounds allow; its lag is shown in place of detections."""
+    than bounds allow; its lag is shown in place of detections. `near`: a camera for the last frame, as a function of
+    its positions."""
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
     parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
@@ -64,7 +65,7 @@ def main(scene, frames, camera, driven=False):
                              run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}
         out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
         draw(run, [round(step * min(1, last / frames[-1])) for step in frames], camera, claims, out,
-             Run(arguments.profiled) if arguments.profiled else None, driven)
+             Run(arguments.profiled) if arguments.profiled else None, driven, near)
     except RunError as error:
         sys.exit(f"{Path(sys.argv[0]).name}: {error}")
     print(out)

@@ -41,7 +41,7 @@ class EvidenceError(Exception):
 @dataclass(frozen=True)
 class Measured:
     """A number and where it comes from; `source` is a path below the folder of the results, `about` what else must be
-    known to read it."""
+    known to read it, `membrane` the model of its cloth, empty where it has none or nobody says."""
 
     value: float
     source: str
@@ -49,6 +49,7 @@ class Measured:
     commit: str
     ended: str
     about: str = ""
+    membrane: str = ""
 
 
 def opened(path):
@@ -88,6 +89,13 @@ def columns_of(path, stamp):
 def is_driven(body):
     """Whether nothing of the body is simulated: it is fixed, or all of it follows a prescribed motion."""
     return body["fixed"] or body.get("prescribed_vertices") == body["vertex_count"]
+
+
+def membranes_of(manifest):
+    """Models of the membranes that are simulated: nothing else than cloth reads a body's, and two figures may have one
+    scene with different materials."""
+    return {body["material"]["membrane"] for body in manifest["scene"]["bodies"] if not is_driven(body)
+            and body.get("triangle_count") and not body.get("tetrahedron_count")}
 
 
 def contact_of(body):
@@ -192,9 +200,10 @@ class RunEvidence:
 
     def matches(self, wanted):
         """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
-        membrane, activation, bounds, contact, redetect_fraction (rounded to single precision in the manifest), and
-        steps: so many from the scene's start, not a window. A start that --jitter moved is another question, and so are
-        bounds other than the paper's, and bodies that may be entered, where the claim does not name them."""
+        audited_states (at least so many), membrane, activation, bounds, contact, redetect_fraction (rounded to single
+        precision in the manifest), and steps: so many from the scene's start, not a window. A start that --jitter moved
+        is another question, and so are bounds other than the paper's, and bodies that may be entered, where the claim
+        does not name them."""
         m = self.manifest
         bounds = m["settings"].get("bounds", {}).get("value", PAPER_BOUNDS)
         if "jitter" in m and "jitter" not in wanted or bounds != wanted.get("bounds", PAPER_BOUNDS):
@@ -209,6 +218,7 @@ class RunEvidence:
                    "contact": lambda name: self.contact == name,
                    "redetect_fraction":
                        lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
+                   "audited_states": lambda n: self.audited_states >= n,
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,
                    "scene": lambda name: m["scene"]["name"] == name}
         return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())
@@ -237,12 +247,12 @@ class RunEvidence:
 
     @property
     def membranes(self):
-        """Of the moving bodies: two figures may have one scene with different materials."""
-        return {body["material"]["membrane"] for body in self.manifest["scene"]["bodies"] if not is_driven(body)}
+        return membranes_of(self.manifest)
 
     def measured(self, value, about=""):
         m = self.manifest
-        return Measured(float(value), self.source, m["device"], m["commit"][:10], m["ended"], about)
+        return Measured(float(value), self.source, m["device"], m["commit"][:10], m["ended"], about,
+                        " and ".join(sorted(self.membranes)))
 
 
 def run_at(folder):
@@ -323,13 +333,15 @@ class Evidence:
             return next((found for found in (self.measure(each, wanted) for each in spec) if found), None)
         if "table" in spec:
             return self._of_table(spec, wanted.get("scale"))
+        wanted = {**wanted, **({"membrane": spec["membrane"]} if "membrane" in spec else {})}
         if "ratio" in spec:
             return self._ratio(spec, wanted)
         wanted = {**wanted, **spec.get("run", {})}
         runs = self.runs_as(wanted)
         if "guarantee" in spec:
             # One failed audit outweighs every run that kept the guarantee, whatever its last step and its material.
-            alike = {key: value for key, value in wanted.items() if key not in ("steps", "membrane")}
+            others = ("steps", "audited_states", *(() if "membrane" in spec else ("membrane",)))
+            alike = {key: value for key, value in wanted.items() if key not in others}
             runs += [run for run in self.failed if run.matches(alike)]
         if not runs:
             return None
@@ -353,13 +365,16 @@ class Evidence:
         devices = found.device, b.manifest["device"]
         on = f"each on {devices[0]}" if len(set(devices)) == 1 else " over ".join(devices)
         ended = max(a.manifest["ended"], b.manifest["ended"])
-        return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on)
+        return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on, found.membrane)
 
     def _of_table(self, spec, scale):
         """A cell, or the quotient of two; `column` is then one for both, or a list of one for each: where runs vary,
-        [smallest, largest] says what every run of the first is of every run of the second."""
+        [smallest, largest] says what every run of the first is of every run of the second. `membrane`: that of the
+        rows."""
+        asked = {"membrane": spec["membrane"]} if "membrane" in spec else {}
         for table in reversed([t for t in self.tables if t.name == spec["table"] and t.scale == scale]):
-            rows = [_row(table, spec[key]) for key in (("over", "under") if "over" in spec else ("where",))]
+            places = ("over", "under") if "over" in spec else ("where",)
+            rows = [_row(table, {**spec[place], **asked}) for place in places]
             if any(row is None for row in rows):
                 continue
             columns = [spec["column"]] * len(rows) if isinstance(spec["column"], str) else spec["column"]
@@ -373,7 +388,8 @@ class Evidence:
             value = cells[0] / cells[1] if len(cells) > 1 else cells[0]
             is_time = "[ms]" in spec["column"] or rows[0].get("unit") == "ms"
             on = f"each on {rows[0]['device']}" if len(cells) > 1 and is_time else ""
-            return Measured(value, table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""), on)
+            return Measured(value, table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""), on,
+                            rows[0].get("membrane", ""))
         return None
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from paper_figures.workflow.evidence import membranes_of
 from paper_figures.workflow.jobs import Job, RunFailure
 from plots.columns import column_and_unit
 from plots.run_folder import Run, RunError
@@ -52,6 +53,7 @@ def provenance(run):
     command = m["command"] if isinstance(m["command"], str) else " ".join(m["command"])
     return {"solver": m["solver"], "backend": m["backend"], "device": m["device"],
             "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""),
+            "membrane": " and ".join(sorted(membranes_of(m))),
             "command": "ogc " + re.sub(r"(?<= )/\S*/", "", command.partition(" ")[2])}
 
 

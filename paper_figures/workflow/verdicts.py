@@ -64,6 +64,10 @@ def load(folder=CLAIMS):
         for claim in document["claims"]:
             _check(claim, path)
             common = {"scene": document["scene"], "figures": document["figures"], "kind": kind_of(claim)}
+            if common["kind"] == RESULT and "measure" in claim:
+                own = claim.get("choices", [])
+                said = {choice["says"] for choice in own}
+                common["choices"] = [*own, *(each for each in document.get("choices", []) if each["says"] not in said)]
             result.append({**claim, **common, "band_set": claim.get("band_set", document["bands_set"])})
     twice = {claim["id"] for claim in result if sum(other["id"] == claim["id"] for other in result) > 1}
     unknown = {claim["instead"] for claim in result if "instead" in claim} - {claim["id"] for claim in result}
@@ -123,20 +127,22 @@ def judge(claim, evidence):
     measured = evidence.measure(claim["measure"], wanted)
     if measured is None or _is_empty(claim["measure"], measured):
         return Judgement(claim, "not yet run", None, _elsewhere(claim, evidence))
+    membrane = [f"membrane: {measured.membrane}"] if measured.membrane and claim["kind"] == RESULT else []
     if "band" not in claim:
-        return Judgement(claim, "not comparable", measured,
-                         f"ours over the paper's: {measured.value / claim['value']:.3g}")
+        words = [f"ours over the paper's: {measured.value / claim['value']:.3g}", *membrane]
+        return Judgement(claim, "not comparable", measured, "; ".join(words))
     also = [other for other in claim.get("also", []) if "band" in other]
     hit = within(measured.value, claim["value"], claim["band"])
     others = [other["place"] for other in also if within(measured.value, other["value"], other["band"])]
     known = _known_before(claim, evidence, wanted)
-    note = [measured.about] if measured.about else []
+    note = [*([measured.about] if measured.about else []), *membrane]
     note += [f"as in {', '.join(others)}; the paper says it in two ways"] if others and not hit else []
     note += [f"the band was set on {claim['band_set'][:10]}, when this was known: {known}"] if known else []
     yes, no = (VERDICTS if claim["kind"] == RESULT else AS_SET)[:2]
     if hit or others:
         return Judgement(claim, yes, measured, "; ".join(note), bool(known))
-    varied = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])]
+    varied = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])
+              if "membrane" not in choice or measured.membrane not in ("", choice["membrane"])]
     otherwise = _other_choices(claim, varied)
     if "not_varied" in claim:
         words = [f"outside of the band: {measured.value:.3g} ({measured.source})", *otherwise]
@@ -192,7 +198,7 @@ def _elsewhere(claim, evidence):
 def at_another_scale(claim, evidence, scale):
     """What the claim's measure gives at another scale than the claim is about, or None: no verdict."""
     wanted = {"scene": claim["scene"], **claim.get("run", {}), "scale": scale}
-    wanted = {key: value for key, value in wanted.items() if key not in ("steps", "device")}
+    wanted = {key: value for key, value in wanted.items() if key not in ("steps", "device", "audited_states")}
     try:
         return evidence.measure(claim["measure"], wanted)
     except EvidenceError:  # a table older than the column

@@ -39,7 +39,8 @@ def row_of(row, run):
         parts = ()
     if not parts or min(parts) < 0:  # the fit can't tell them apart
         parts = ("",) * len(COSTS)
-    return {"scene": row, "vertices": scene["vertices"], "steps": run.step_count,
+    return {"scene": row, "membrane": " and ".join(sorted(run.membranes)), "vertices": scene["vertices"],
+            "steps": run.step_count,
             "mean [ms]": run.mean("wall"), "worst [ms]": run.largest("wall"),
             "paper, mean [ms]": paper(name, backend, "average")[0],
             "paper, worst [ms]": paper(name, backend, "maximum")[0],
@@ -52,15 +53,21 @@ def row_of(row, run):
             "device": run.manifest["device"], "commit": run.manifest["commit"][:10], "source": run.source}
 
 
+def newest(runs):
+    """The newest run with each membrane, the newest of all first."""
+    found = {tuple(run.membranes): run for run in runs}
+    return [run for run in reversed(runs) if run in found.values()]
+
+
 def table(folder):
-    """Of each row of Table 1 the run on a GPU that judges its claims, as CSV."""
+    """Of each row of Table 1 the run on a GPU that judges its claims, and the newest with another membrane, as CSV."""
     evidence = Evidence(folder)
     asked = {claim["scene"]: claim["run"] for claim in verdicts.load() if claim["id"].endswith(".cuda_average")}
     wanted = {row: {"scene": commands.scene_of(row), **asked[commands.scene_of(row)],
                     "bounds": "planes" if row.endswith(commands.WITH_PLANES) else "ball",
                     "contact": "volume" if row.endswith(commands.WITH_VOLUMES) else "surface"} for row in ROWS}
     found = {row: evidence.runs_as(wanted[row]) for row in ROWS}
-    rows = [row_of(row, runs[-1]) for row, runs in found.items() if runs]
+    rows = [row_of(row, run) for row, runs in found.items() for run in newest(runs)]
     if not rows:
         raise EvidenceError(f"{folder} holds no whole run of Table 1: accept one")
     out = io.StringIO()

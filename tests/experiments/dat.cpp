@@ -12,6 +12,10 @@ TEST_CASE("bounds=dat: scenes pass through nothing, each state audited exactly",
   INFO(name);
   compare::Scene scene = make_scene(name, Scale::smoke);
   scene.settings.bounds = compare::Bounds::dat;
+  if (name == "dress")  // which needs more steps than these to come near itself with its own membrane
+    for (compare::Body& body : scene.bodies)
+      if (body.material.membrane != compare::MembraneModel::none)
+        body.material.membrane = compare::MembraneModel::st_venant_kirchhoff;
   const StateJudge judge(scene);
   const auto simulation = fast::start_cpu(scene, {});
   const std::int64_t steps = scene.settings.steps, stride = name == "twist" ? 10 : 1;

@@ -21,6 +21,7 @@ from pathlib import Path
 
 import yaml
 
+from paper_figures.workflow.evidence import membranes_of
 from paper_figures.workflow.runs import write_table
 from plots import ablation, style
 
@@ -106,6 +107,14 @@ def origin(folder):
             "device": manifest["device"]}
 
 
+def membrane(folder, point):
+    """The model of the cloth's membranes at a point; empty where there is no cloth."""
+    own = [path for path in sorted(folder.glob("*/run.json")) if "membrane=" not in path.parent.name]
+    found = " and ".join(sorted(membranes_of(json.loads(own[0].read_text())))) if own else ""
+    chosen = [word.partition("=")[2] for word in point.split(",") if word.startswith("membrane=")]
+    return chosen[0] if chosen else found
+
+
 def rows(folder, study, scene):
     """Rows of the study's table: a metric and point of a scene."""
     made_by = origin(folder)
@@ -115,14 +124,16 @@ def rows(folder, study, scene):
             varied = names[1:names.index(ablation.AFTER_AXES)]
             point = ",".join(f"{name}={row[name]}" for name in varied if row[name]) or "default"
             yield {"study": study, "scene": scene, "metric": row["metric"], "point": point,
-                   **{name: row[name] for name in names[len(varied) + 1:]}, **made_by}
+                   **{name: row[name] for name in names[len(varied) + 1:]}, **made_by,
+                   "membrane": membrane(folder, point)}
     for point, runs in of_points(folder).items():
         if not any(run["guarantee_kept"] in JUDGED for run in runs):
             continue  # nothing was audited: no run is known to have kept it, or not
         kept = sum(run["guarantee_kept"] == "yes" for run in runs)
         ended = sum(run["status"] == "finished" for run in runs)
         yield {"study": study, "scene": scene, "metric": KEPT, "point": point, "unit": "1", "runs": len(runs),
-               "finished": ended, **dict.fromkeys(("median", "smallest", "largest"), kept), **made_by}
+               "finished": ended, **dict.fromkeys(("median", "smallest", "largest"), kept), **made_by,
+               "membrane": membrane(folder, point)}
 
 
 def of_points(folder):

@@ -28,7 +28,7 @@ def make_run(folder, backend, rows, first=1, **changes):
     manifest = {"status": "finished", "dirty": False, "commit": "0123456789abcdef", "device": backend + " device",
                 "ended": "2026-01-01T00:00:00Z", "backend": backend,
                 "scale": "paper", "solver": "vbd", "guarantee_kept": True, "audited_states": "7",
-                "scene": {"name": "twist", "vertices": 10000, "triangles": 19602},
+                "scene": {"name": "twist", "vertices": 10000, "triangles": 19602, "bodies": []},
                 "settings": {"steps": {"value": 9600}, "iterations": {"value": 10}}, **changes}
     (folder / "run.json").write_text(json.dumps(manifest))
     lines = ["step [1],wall [ms],vertex_facet_contacts [1],edge_edge_contacts [1],repeats [1]"]

@@ -35,7 +35,7 @@ def made_up(folder, met, stretch, bounds="off", first=1):
     """A run from step `first` on with k_s = 2 N, k_c = 10 N/m and r = 0.1 m."""
     folder.mkdir(parents=True)
     rod = {"stretch": {"value": 2}, "diameter": {"value": 0.1}}
-    body = {"material": {"rod": rod, "contact_stiffness": {"value": 10}}}
+    body = {"fixed": False, "vertex_count": 2, "material": {"rod": rod, "contact_stiffness": {"value": 10}}}
     values = {"bounds": bounds, "contact_radius": 0.1, "time_step": 0.5}
     (folder / "run.json").write_text(json.dumps(
         {"status": "finished", "scale": "smoke", "commit": "0123456789abcdef", "device": "device", "backend": "cpu",

@@ -148,7 +148,8 @@ case "$OGC_STOP" in "$2") exit 130;; esac
 for out; do :; done
 echo "$2" >> "$(dirname "$0")/calls"
 mkdir -p "$out/default,seed=1"
-echo '{"commit": "0123456789ab", "dirty": false, "device": "2 threads"}' > "$out/default,seed=1/run.json"
+echo '{"commit": "0123456789ab", "dirty": false, "device": "2 threads", "scene": {"bodies": [{"fixed": false,
+  "vertex_count": 4, "triangle_count": 2, "material": {"membrane": "rubber"}}]}}' > "$out/default,seed=1/run.json"
 printf 'metric,iterations,unit,runs,finished,median,smallest,largest\\n' > "$out/ablation_medians.csv"
 printf 'median_step,,ms,2,2,3,2,4\\nmedian_step,5,ms,2,2,7,6,8\\n' >> "$out/ablation_medians.csv"
 printf 'iterations,seed,status,guarantee_kept\\n,1,finished,yes\\n5,1,failed,no\\n' > "$out/ablation.csv"
@@ -209,10 +210,11 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
         self.assertEqual((self.runs / "calls").read_text().split(), [scenes[0], *scenes])  # ogc keeps what is done
         rows = (self.runs / "study/ablations.csv").read_text().splitlines()
         self.assertEqual(rows[:2],
-                         ["study,scene,metric,point,unit,runs,finished,median,smallest,largest,commit,device",
-                          f"{name},{scenes[0]},median_step,default,ms,2,2,3,2,4,0123456789,2 threads"])
+                         ["study,scene,metric,point,unit,runs,finished,median,smallest,largest,commit,device,membrane",
+                          f"{name},{scenes[0]},median_step,default,ms,2,2,3,2,4,0123456789,2 threads,rubber"])
         self.assertEqual(rows[3:5], [f"{name},{scenes[0]},guarantee_kept,{point},1,1,{kept},{kept},{kept},{kept},"
-                                     "0123456789,2 threads" for point, kept in (("default", 1), ("iterations=5", 0))])
+                                     "0123456789,2 threads,rubber"
+                                     for point, kept in (("default", 1), ("iterations=5", 0))])
         self.assertEqual(len(rows), 1 + 4 * len(scenes))
         self.assertIn(f"{scenes[2]}: median_step: iterations=5", (self.runs / f"study/{name}.txt").read_text())
         self.assertTrue((self.runs / f"study/{name}.png").is_file())
