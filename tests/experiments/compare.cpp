@@ -87,6 +87,24 @@ TEST_CASE("a right guess by pairs of another make passes the judge", "[agreement
 
 TEST_CASE("the judge catches every planted fault of a step", "[agreement]") { check_caught({Stage::step}); }
 
+// A guess that is changed alone makes the sweep behind it wrong, too.
+TEST_CASE("the judge says of a wrong rule for what contacts leave that it is the guess that is wrong", "[agreement]") {
+  const Authority authority = reference::authority();
+  int asked = 0;
+  for (const tests::Fault& fault : tests::faults()) {
+    if (fault.stage != Stage::step || !fault.name.ends_with(" in the guess loop")) continue;
+    Contestant wrong = tests::exact_contestant(authority);
+    fault.plant(wrong, authority);
+    const StageReport report = judge_stage(Stage::step, wrong, authority, few_cases(Stage::step));
+    INFO(fault.name);
+    CHECK(std::ranges::any_of(report.tally.mismatches, [](const Mismatch& mismatch) {
+      return mismatch.message.find(", which touches, is ") != std::string::npos;
+    }));
+    ++asked;
+  }
+  CHECK(asked == 5);
+}
+
 TEST_CASE("the judge catches every planted fault of a sweep", "[agreement]") { check_caught({Stage::sweep}); }
 
 TEST_CASE("the judge catches every planted fault of all other stages", "[agreement]") {

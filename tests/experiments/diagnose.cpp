@@ -93,6 +93,15 @@ TEST_CASE("whoever answers as a wrong form says fits it in every case, and is wr
   CHECK(forms > 150);
 }
 
+TEST_CASE("a right step is none of what its wrong forms say", "[agreement]") {
+  const Authority authority = reference::authority();
+  const Contestant right = tests::exact_contestant(authority);
+  for (const WrongForm& form : wrong_forms(Stage::step, {})) {
+    INFO(form.name);
+    CHECK(failing_of_many(Stage::step, right, form.wrong(authority)) > 0);
+  }
+}
+
 TEST_CASE("no two wrong forms of a stage have the same name", "[unit]") {
   for (const Stage stage : all_stages) {
     std::set<std::string> seen;

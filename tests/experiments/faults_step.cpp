@@ -6,12 +6,14 @@
 #include "reference/definitions/scene_volumes.hpp"
 #include "reference/geometry/pair_planes.hpp"
 #include "reference/geometry/truncate.hpp"
+#include "reference/solvers/guess_contacts.hpp"
 #include "reference/solvers/step.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {
 
 using namespace compare;
+using reference::operator+, reference::operator-, reference::operator*;
 
 namespace {
 
@@ -102,6 +104,63 @@ void hold_in_first_round(const StepIn& in, StepOut& out) {
     const Vec3 x = in.scene->mesh.positions[v];
     guess.position[v] = {static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z)};
   }
+}
+
+using Places = std::vector<reference::Triple<double>>;
+using GuessContacts = std::vector<reference::GuessContact>;
+
+/// Where contacts let go vertex v, wrongly: they, X_prev and y may be changed as that needs.
+using Wrong = std::function<void(GuessContacts&, const Places& previous, Places& target, std::size_t v)>;
+
+/// What contacts leave of moves in the first round, by another rule; of balls alone, so that the rule is what is wrong.
+/// `sign` −1: what is left of the way back, backwards.
+Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1) {
+  return spoiled(name, [wrong, sign](const StepIn& in, StepOut& out) {
+    const Settings& settings = in.scene->settings;
+    if (settings.guess == Guess::pairs || settings.bounds != Bounds::ball || out.events.size() < 2) return;
+    const StepEvent& detection = out.events[0];
+    const GuessContacts contacts = reference::guess_contacts(
+        *in.scene, *in.topology, out.rest, detection.vertex_facet.contacts, detection.edge_edge.contacts);
+    const std::vector<Index> groups = rigid_groups(*in.scene);
+    Places previous, target;
+    for (const Vec3f& x : detection.position) previous.push_back({x.x, x.y, x.z});
+    for (const Vec3f& y : out.target) target.push_back({y.x, y.y, y.z});
+    const auto place = [&](const GuessContacts& held_by, const Places& to, std::size_t v) {
+      return reference::HeldMoves(groups, settings.contact_radius).round(held_by, previous, to)[v];
+    };
+    for (std::size_t v = 0; v < groups.size(); ++v) {
+      if (groups[v] != -1) continue;
+      GuessContacts others = contacts;
+      Places to = target;
+      wrong(others, previous, to, v);
+      const auto x = previous[v] + sign * (place(others, to, v) - previous[v]);
+      if (x == place(contacts, target, v)) continue;
+      const Vec3f y{static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
+      const TruncateTruth truth = reference::truncate({{detection.position[v]}, {y}, {detection.bound[v]}});
+      out.events[1].position[v] = reference::stored_within(truth.position[0], detection.position[v],
+                                                           detection.bound[v]);
+    }
+  });
+}
+
+/// Every contact has this friction.
+Wrong friction_of(double friction) {
+  return [friction](GuessContacts& contacts, const Places&, Places&, std::size_t) {
+    for (reference::GuessContact& contact : contacts) contact.friction = friction;
+  };
+}
+
+void ignore_partners(GuessContacts&, const Places& previous, Places& target, std::size_t v) {
+  const auto own = target[v];
+  target = previous;
+  target[v] = own;
+}
+
+/// Without friction and with partners that stand, the way back loses what leaves them.
+void take_leaving(GuessContacts& contacts, const Places& previous, Places& target, std::size_t v) {
+  friction_of(0)(contacts, previous, target, v);
+  ignore_partners(contacts, previous, target, v);
+  target[v] = previous[v] - (target[v] - previous[v]);
 }
 
 /// Cut vertices of the first round slide, although bounds are those that scale.
@@ -284,6 +343,10 @@ std::vector<Fault> step_faults() {
       spoiled("guess loop holds contacts in its first round", hold_in_first_round),
       spoiled("what touches stays from the second round of the guess loop on", hold_from_second_round),
       spoiled("contacts take nothing in the guess loop", fall_into_partners),
+      held_wrongly("friction takes no slip in the guess loop", friction_of(0)),
+      held_wrongly("contacts take all slip in the guess loop", friction_of(0x1p20)),
+      held_wrongly("partners are taken to stand in the guess loop", ignore_partners),
+      held_wrongly("what leaves a contact is held back in the guess loop", take_leaving, -1),
       spoiled("velocity since the last detection", velocity_from_last_detection),
       spoiled("a vertex that was cut not counted",
               [](const StepIn&, StepOut& out) {

@@ -41,6 +41,19 @@ WrongForm with_moves(std::string name, std::string meaning, Change change) {
   });
 }
 
+/// `friction`: what the form takes every contact's μ for in the guess loop.
+WrongForm with_friction(std::string name, std::string meaning, float friction) {
+  return form_of(std::move(name), std::move(meaning), [friction](const Authority& authority) {
+    Authority wrong = authority;
+    wrong.step = [right = authority.step, friction](const StepIn& in, const StepOut& out) {
+      StepOut other = out;
+      for (auto& meeting : other.rest.meetings) meeting.friction = friction;
+      return right(in, other);
+    };
+    return wrong;
+  });
+}
+
 struct Step : TakenWhole, Numbered {
   using Case = StepCase;
   static constexpr StageInfo info{.name = "step",
@@ -162,7 +175,10 @@ struct Step : TakenWhole, Numbered {
                            held = {.move = {}, .touches = 1};
                        }),
             with_moves("contacts_hold_nothing", "vertices in contact go to y like all others",
-                       [](HeldMove& held, bool) { held.touches = 0; })};
+                       [](HeldMove& held, bool) { held.touches = 0; }),
+            with_friction("guess_without_friction", "contacts in the guess loop take no slip", 0),
+            with_friction("slip_taken_whole", "contacts in the guess loop take all slip, whatever Coulomb allows",
+                          0x1p20f)};
   }
 };
 
