@@ -265,6 +265,7 @@ Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) 
   scene.settings.contact_radius = 0.002;
   Material material = cloth(0);
   material.density = arc_density;
+  material.membrane = MembraneModel::st_venant_kirchhoff;  // N of (5) is that of its block
   material.lame_mu = material.lame_lambda = arc_lame;
   material.bending = BendingModel::discrete_hinge;
   material.bending_stiffness = arc_bending;
