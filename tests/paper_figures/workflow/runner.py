@@ -225,7 +225,7 @@ class Called(Scratch):
     def test_sigterm_is_a_limit_that_comes_now(self):
         command = [*self.COMMAND, "--out", self.folder, "--program", OGC, *self.OPTIONS, "fig12"]
         runner = subprocess.Popen(list(map(str, command)), cwd=SOURCE, stdout=subprocess.PIPE, text=True)
-        while not (self.folder / "table1-smoke-cpu/twist/whole/frames").is_dir():
+        while not (self.folder / "table1-smoke-cpu/twist_planes/whole/frames").is_dir():
             time.sleep(0.01)
         runner.terminate()
         said, _ = runner.communicate()
