@@ -49,10 +49,12 @@ TEST_CASE("what a step leaves of forces is what the reference finds, but for rou
   }
 }
 
-// As nothing touches, x after s and after s − 1 sweeps are ends of runs with so many iterations.
+// As nothing touches, x after s and after s − 1 sweeps are ends of runs with so many iterations. The cloth is bent by
+// its velocities, so that sweeps have something to do.
 TEST_CASE("the last sweep's motion is that of a run with one sweep more", "[unit]") {
   compare::Scene scene = make_scene("cloth_on_sphere", Scale::smoke);
   scene.settings.steps = 1;
+  for (std::size_t v = 0; v < scene.velocities.size(); ++v) scene.velocities[v].y = 5 * scene.mesh.positions[v].x;
   round_to_single(scene);
   const compare::Contestant fast = fast::contestant(fast::Backend::cpu);
   for (const std::int64_t iterations : {2, 3}) {
@@ -65,8 +67,7 @@ TEST_CASE("the last sweep's motion is that of a run with one sweep more", "[unit
     std::vector<compare::StepMetrics> rows, others;
     const std::vector<compare::Vec3f> last = end_of(iterations, rows), before = end_of(iterations - 1, others);
     const std::vector<compare::Vec3f> start = compare::to_single(scene.mesh.positions);
-    const compare::Topology topology = build_topology(scene);
-    const compare::Body& cloth = scene.bodies.back();
+    const compare::Body& cloth = scene.bodies.front();
     REQUIRE(cloth.name == "cloth");
     double swept = 0, moved = 0;
     const std::vector<double> mass = compare::law_measures::masses(scene);
@@ -78,7 +79,8 @@ TEST_CASE("the last sweep's motion is that of a run with one sweep more", "[unit
       };
       swept += squared(last[i], before[i]), moved += squared(last[i], start[i]);
     }
-    CHECK(rows.front().last_motion == Catch::Approx(std::sqrt(swept / moved)).epsilon(1e-12));
+    // fast's masses are single: their shares differ by 2u
+    CHECK(rows.front().last_motion == Approx(std::sqrt(swept / moved)).epsilon(2 * 0x1p-24));
     CHECK(rows.front().last_motion > 0);
   }
 }
