@@ -164,7 +164,8 @@ struct EndDetection {
   }
 };
 
-/// After a round of the guess loop: another one if enough vertices were cut and rounds are left.
+/// After a round of the guess loop: another one if enough vertices were cut, in round k so many times as many as after
+/// an iteration, and rounds are left.
 struct EndRound {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -172,7 +173,7 @@ struct EndRound {
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
     ++c.rounds;
-    const bool asked = take_request(c, settings.redetect_count);
+    const bool asked = take_request(c, c.rounds * settings.redetect_count);
     c.guess = c.active != 0 && asked && c.rounds < settings.guess_rounds ? 1 : 0;
   }
 };

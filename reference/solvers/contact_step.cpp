@@ -130,12 +130,13 @@ std::vector<Vec3f> ContactStep::displacements_at(const std::vector<Vec3f>& here)
   return guessing_ ? compare::displacements(here, to) : compare::displacements(detected_.previous, here);
 }
 
-bool ContactStep::many(std::size_t cut) const {
-  return cut > 0 && static_cast<double>(cut) >= settings_.redetect_fraction * static_cast<double>(bounded_);
+bool ContactStep::many(std::size_t cut, std::int64_t times) const {
+  const double least = std::max(1.0, std::ceil(settings_.redetect_fraction * static_cast<double>(bounded_)));
+  return static_cast<double>(cut) >= static_cast<double>(times) * least;
 }
 
-bool ContactStep::asks(std::size_t cut) {
-  const bool lag_asks = lagging_ > 0 && (advanced_ || !lag_asked_), many_are_cut = many(cut - lagging_);
+bool ContactStep::asks(std::size_t cut, std::int64_t times) {
+  const bool lag_asks = lagging_ > 0 && (advanced_ || !lag_asked_), many_are_cut = many(cut - lagging_, times);
   lag_asked_ = lag_asked_ || lag_asks;
   lagging_ = 0;
   advanced_ = false;
@@ -165,7 +166,7 @@ void ContactStep::guess(GuessEnd end) {
     std::size_t cut = 0;
     for (const std::size_t v : movable_) move_towards(proposals[v], v, cut);
     metrics_.guess_rounds = round;
-    const bool many = asks(cut);
+    const bool many = asks(cut, round);
     if (settings_.guess == compare::Guess::pairs) {
       if (many || (cut > 0 && compare::has_volumes(scene_))) guess_by_pairs();
       break;

@@ -66,9 +66,9 @@ class ContactStep {
   /// Friction is lagged to xᵗ in it, where contact forces are those of a converged step.
   void guess(GuessEnd end);
   bool in_contact() const;  ///< at the last detection
-  /// Whether vertices that were cut ask for a detection: many of them; with planes many free ones, or a prescribed one
-  /// behind its target, alone if the last detection let it advance, otherwise once a step.
-  bool asks(std::size_t cut);
+  /// Whether vertices that were cut ask for a detection: `times` as many as many are; with planes so many free ones, or
+  /// a prescribed one behind its target, alone if the last detection let it advance, otherwise once a step.
+  bool asks(std::size_t cut, std::int64_t times = 1);
   bool nothing_near() const;  ///< the contacts at x are none, without asking
   std::size_t move_prescribed();
   /// Where `settings` ask for a detection after an iteration that cut so many vertices.
@@ -119,7 +119,7 @@ class ContactStep {
   std::vector<compare::Vec3f> displacements_at(const std::vector<compare::Vec3f>& here) const;
   /// In place of the method's contacts, where `contact_set` names others.
   void replace_contacts();
-  bool many(std::size_t cut) const;
+  bool many(std::size_t cut, std::int64_t times) const;
   void move_towards(const Triple<double>& proposal, std::size_t vertex, std::size_t& cut);
   /// In place of a round that cut many vertices (guess=pairs).
   void guess_by_pairs();

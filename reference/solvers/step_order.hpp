@@ -43,13 +43,15 @@ class StepOrder {
         since_detection_ = 0;
         break;
       case compare::StepEventKind::guess:
-        guessing_ = asks(cut, lag) && settings_.guess == compare::Guess::rounds && ++rounds_ < settings_.guess_rounds;
+        ++rounds_;
+        guessing_ = asks(cut, lag, static_cast<double>(rounds_) * redetect_count_) &&
+                    settings_.guess == compare::Guess::rounds && rounds_ < settings_.guess_rounds;
         found_ = !guessing_;
         break;
       case compare::StepEventKind::sweep:
         ++iterations_;
         ++since_detection_;
-        found_ = !asks(cut, lag) && !(is_deep && cut > lag.lagging) &&
+        found_ = !asks(cut, lag, redetect_count_) && !(is_deep && cut > lag.lagging) &&
                  (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
         break;
     }
@@ -62,14 +64,14 @@ class StepOrder {
   void left_regions() { found_ = false; }
 
  private:
-  bool asks(compare::Index cut, const StepLag& lag) {
+  bool asks(compare::Index cut, const StepLag& lag, double least) {
     const bool lag_asks = lag.lagging > 0 && (lag.has_advanced || !lag_asked_);
     lag_asked_ = lag_asked_ || lag_asks;
-    return cut - lag.lagging >= redetect_count_ || lag_asks;
+    return cut - lag.lagging >= least || lag_asks;
   }
 
   const compare::Settings& settings_;
-  double redetect_count_;   ///< max(1, ⌈γ_e K⌉)
+  double redetect_count_;  ///< max(1, ⌈γ_e K⌉)
   double pair_guess_count_;
   bool guessing_ = true;    ///< in the guess loop
   bool lag_asked_ = false;  ///< a lag has asked for a detection in this step

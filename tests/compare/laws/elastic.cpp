@@ -16,6 +16,7 @@ namespace {
 Scene flap() {
   Scene scene;
   Material material;
+  material.membrane = MembraneModel::st_venant_kirchhoff;
   material.lame_mu = 3;
   material.lame_lambda = 2;
   material.bending_stiffness = 0.25;

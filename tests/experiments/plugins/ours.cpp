@@ -246,7 +246,10 @@ class Step {
         1.0, breaks("threshold") ? std::floor(s.redetect_fraction * moving) : std::ceil(s.redetect_fraction * moving));
     for (std::int64_t round = 0;;) {
       detect();
-      if (guess(round == 0) < threshold || ++round >= s.guess_rounds) break;
+      const Index cut = guess(round == 0);
+      ++round;
+      const double least = threshold * (breaks("rounds ask alike") ? 1.0 : static_cast<double>(round));
+      if (cut < least || round >= s.guess_rounds) break;
     }
     bool found = true;
     std::int64_t since = 0;

@@ -246,6 +246,7 @@ TEST_CASE("wrong plug-ins of the stages with scenes are found, and each wrong an
        {"crash", "sweep", "no answer: it crashed: signal 6"},
        {"one iteration less", "step", "events: "},
        {"threshold", "step", " is due"},
+       {"rounds ask alike", "step", " is due"},
        {"touching vertices stay", "step", "your answer equals `touching_vertices_stay`"},
        {"one detection too many", "step", "no answer: it counted "},
        {"no end", "step", "no answer: the contacts of detection 0 are said to end at -1"},

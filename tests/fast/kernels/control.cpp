@@ -38,6 +38,21 @@ TEST_CASE("another round of the guess needs enough cut vertices and a round left
   CHECK(c.guess == 0);  // too few
 }
 
+TEST_CASE("round k of the guess asks for another where k times as many as an iteration's were cut", "[unit]") {
+  ControlSettings settings;
+  settings.redetect_count = 3;
+  for (const int last : {1, 2, 5}) {
+    StepControl c = running();
+    for (int k = 1; k <= last; ++k) {
+      CHECK(c.guess == 1);
+      c.cut = k < last ? 3 * k : 3 * k - 1;
+      EndRound{&c, settings}(0);
+    }
+    CHECK(c.guess == 0);
+    CHECK(c.rounds == last);
+  }
+}
+
 TEST_CASE("an iteration asks for a detection at the threshold or when it is due, and says how many were cut",
           "[unit]") {
   ControlSettings settings;

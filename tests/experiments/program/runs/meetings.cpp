@@ -67,7 +67,7 @@ TEST_CASE(
   CHECK(!plain.at("audit").contains("meetings"));
   CHECK(with.at("audit").at("meetings") == 0);
   const std::string header = compare::read_bytes(folder / "plain/steps.csv");
-  CHECK(header.substr(0, header.find('\n') + 1) == compare::step_header({}));
+  CHECK(header.substr(0, header.find('\n') + 1) == compare::step_header({}, {.convergence = true}));
   for (const compare::StepMetrics& row : rows_of(folder / "with")) {
     CHECK(std::isnan(row.meetings) == (row.step < 3 || row.step > 9));
     if (row.step >= 3 && row.step <= 9) CHECK(row.meetings == 0);
