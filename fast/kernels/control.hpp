@@ -35,7 +35,7 @@ OGC_HD inline float float_from_bits(int bits) {
 
 /// Settings of the control, the same in each step.
 struct ControlSettings {
-  int redetect_count = 1;          ///< least number of cut vertices that asks for a detection: max(1, ⌈γ_e K⌉)
+  double redetect_vertices = 1;    ///< γ_e K
   int pair_guess_count = 1;        ///< least number that asks for a guess by pairs: that, or 1 where there are volumes
   int redetect_every = 0;          ///< iterations after which a detection is due in any case; 0: none ever is
   int iterations = 1 << 30;        ///< of a step; after the last no detection is made
@@ -43,6 +43,13 @@ struct ControlSettings {
   int sort_every = 1;              ///< steps that keep the order of the trees
   float contact_radius = 0;        ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
+
+  /// Least number of cut vertices that asks for a detection after an iteration, `times` 1, and after a round of the
+  /// guess loop, `times` its number.
+  OGC_HD int least_cut(int times = 1) const {
+    const double least = ceil(times * redetect_vertices);
+    return least > 1 ? static_cast<int>(least) : 1;
+  }
 };
 
 /// The state of a frame and of its step on the device.
@@ -94,9 +101,9 @@ struct StepControl {
 /// Whether the vertices that were cut ask for a detection; their counts begin anew. A prescribed vertex behind its
 /// target asks alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut, or
 /// one where a vertex is deep inside a volume.
-OGC_HD inline bool take_request(StepControl& c, int redetect_count) {
+OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
-             asks = c.cut >= redetect_count || (c.cut > 0 && c.deep_inside > 0);
+             asks = c.cut >= least_cut || (c.cut > 0 && c.deep_inside > 0);
   if (lag_asks) c.lag_asked = 1;
   c.cut_last = c.cut + c.lagging;
   c.cut = c.lagging = c.advanced = c.deep_inside = 0;
@@ -164,8 +171,7 @@ struct EndDetection {
   }
 };
 
-/// After a round of the guess loop: another one if enough vertices were cut, in round k so many times as many as after
-/// an iteration, and rounds are left.
+/// After a round of the guess loop: another one if enough vertices were cut and rounds are left.
 struct EndRound {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -173,7 +179,7 @@ struct EndRound {
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
     ++c.rounds;
-    const bool asked = take_request(c, c.rounds * settings.redetect_count);
+    const bool asked = take_request(c, settings.least_cut(c.rounds));
     c.guess = c.active != 0 && asked && c.rounds < settings.guess_rounds ? 1 : 0;
   }
 };
@@ -190,7 +196,7 @@ struct EndIteration {
     if (number >= 0 && c.turn != number) return;
     ++c.iterations;
     ++c.since_detection;
-    const bool asked = take_request(c, settings.redetect_count);
+    const bool asked = take_request(c, settings.least_cut());
     const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
     c.detect = c.active != 0 && c.iterations < settings.iterations && (due || asked) ? 1 : 0;
     stop_if_failed(c);

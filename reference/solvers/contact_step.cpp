@@ -131,8 +131,8 @@ std::vector<Vec3f> ContactStep::displacements_at(const std::vector<Vec3f>& here)
 }
 
 bool ContactStep::many(std::size_t cut, std::int64_t times) const {
-  const double least = std::max(1.0, std::ceil(settings_.redetect_fraction * static_cast<double>(bounded_)));
-  return static_cast<double>(cut) >= static_cast<double>(times) * least;
+  const double of_iteration = settings_.redetect_fraction * static_cast<double>(bounded_);
+  return cut > 0 && static_cast<double>(cut) >= static_cast<double>(times) * of_iteration;
 }
 
 bool ContactStep::asks(std::size_t cut, std::int64_t times) {

@@ -66,8 +66,8 @@ class ContactStep {
   /// Friction is lagged to xᵗ in it, where contact forces are those of a converged step.
   void guess(GuessEnd end);
   bool in_contact() const;  ///< at the last detection
-  /// Whether vertices that were cut ask for a detection: `times` as many as many are; with planes so many free ones, or
-  /// a prescribed one behind its target, alone if the last detection let it advance, otherwise once a step.
+  /// Whether vertices that were cut ask for a detection: `times` γ_e K of them, at least one; with planes so many free
+  /// ones, or a prescribed one behind its target, alone if the last detection let it advance, otherwise once a step.
   bool asks(std::size_t cut, std::int64_t times = 1);
   bool nothing_near() const;  ///< the contacts at x are none, without asking
   std::size_t move_prescribed();

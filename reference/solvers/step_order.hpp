@@ -24,8 +24,8 @@ class StepOrder {
  public:
   StepOrder(const compare::Settings& settings, compare::Index moving, bool has_volumes = false)
       : settings_(settings),
-        redetect_count_(std::max(1.0, std::ceil(settings.redetect_fraction * moving))),
-        pair_guess_count_(has_volumes ? 1 : redetect_count_) {}
+        redetect_vertices_(settings.redetect_fraction * moving),
+        pair_guess_count_(has_volumes ? 1 : least_cut(1)) {}
 
   /// Empty after the last iteration.
   std::optional<compare::StepEventKind> next() const {
@@ -44,14 +44,14 @@ class StepOrder {
         break;
       case compare::StepEventKind::guess:
         ++rounds_;
-        guessing_ = asks(cut, lag, static_cast<double>(rounds_) * redetect_count_) &&
-                    settings_.guess == compare::Guess::rounds && rounds_ < settings_.guess_rounds;
+        guessing_ = asks(cut, lag, rounds_) && settings_.guess == compare::Guess::rounds &&
+                    rounds_ < settings_.guess_rounds;
         found_ = !guessing_;
         break;
       case compare::StepEventKind::sweep:
         ++iterations_;
         ++since_detection_;
-        found_ = !asks(cut, lag, redetect_count_) && !(is_deep && cut > lag.lagging) &&
+        found_ = !asks(cut, lag, 1) && !(is_deep && cut > lag.lagging) &&
                  (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
         break;
     }
@@ -64,14 +64,18 @@ class StepOrder {
   void left_regions() { found_ = false; }
 
  private:
-  bool asks(compare::Index cut, const StepLag& lag, double least) {
+  double least_cut(std::int64_t times) const {
+    return std::max(1.0, std::ceil(static_cast<double>(times) * redetect_vertices_));
+  }
+
+  bool asks(compare::Index cut, const StepLag& lag, std::int64_t times) {
     const bool lag_asks = lag.lagging > 0 && (lag.has_advanced || !lag_asked_);
     lag_asked_ = lag_asked_ || lag_asks;
-    return cut - lag.lagging >= least || lag_asks;
+    return cut - lag.lagging >= least_cut(times) || lag_asks;
   }
 
   const compare::Settings& settings_;
-  double redetect_count_;  ///< max(1, ⌈γ_e K⌉)
+  double redetect_vertices_;  ///< γ_e K
   double pair_guess_count_;
   bool guessing_ = true;    ///< in the guess loop
   bool lag_asked_ = false;  ///< a lag has asked for a detection in this step

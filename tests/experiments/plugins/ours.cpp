@@ -242,20 +242,21 @@ class Step {
   void run() {
     const Settings& s = scene_.settings;
     const auto moving = static_cast<double>(bounded_count(topology_, groups_));
-    const double threshold = std::max(
-        1.0, breaks("threshold") ? std::floor(s.redetect_fraction * moving) : std::ceil(s.redetect_fraction * moving));
+    const auto threshold = [&](std::int64_t times) {
+      const double share = static_cast<double>(times) * (s.redetect_fraction * moving);
+      return std::max(1.0, breaks("threshold") ? std::floor(share) : std::ceil(share));
+    };
     for (std::int64_t round = 0;;) {
       detect();
       const Index cut = guess(round == 0);
       ++round;
-      const double least = threshold * (breaks("rounds ask alike") ? 1.0 : static_cast<double>(round));
-      if (cut < least || round >= s.guess_rounds) break;
+      if (cut < threshold(breaks("rounds ask alike") ? 1 : round) || round >= s.guess_rounds) break;
     }
     bool found = true;
     std::int64_t since = 0;
     for (std::int64_t i = breaks("one iteration less") ? 1 : 0; i < s.iterations; ++i) {
       if (!found) detect(), since = 0;
-      found = sweep() < threshold && (s.redetect_every == 0 || ++since < s.redetect_every);
+      found = sweep() < threshold(1) && (s.redetect_every == 0 || ++since < s.redetect_every);
     }
   }
 

@@ -21,7 +21,7 @@ StepControl running() {
 
 TEST_CASE("another round of the guess needs enough cut vertices and a round left", "[unit]") {
   ControlSettings settings;
-  settings.redetect_count = 3;
+  settings.redetect_vertices = 3;
   settings.guess_rounds = 2;
   StepControl c = running();
   CHECK(c.guess == 1);
@@ -38,25 +38,28 @@ TEST_CASE("another round of the guess needs enough cut vertices and a round left
   CHECK(c.guess == 0);  // too few
 }
 
-TEST_CASE("round k of the guess asks for another where k times as many as an iteration's were cut", "[unit]") {
+TEST_CASE("round k of the guess asks for another where k γ_e K vertices were cut, at least one", "[unit]") {
   ControlSettings settings;
-  settings.redetect_count = 3;
+  settings.redetect_vertices = 2.5;
+  constexpr int least[] = {3, 5, 8, 10, 13};  // ⌈2.5 k⌉
   for (const int last : {1, 2, 5}) {
     StepControl c = running();
     for (int k = 1; k <= last; ++k) {
       CHECK(c.guess == 1);
-      c.cut = k < last ? 3 * k : 3 * k - 1;
+      c.cut = least[k - 1] - (k < last ? 0 : 1);
       EndRound{&c, settings}(0);
     }
     CHECK(c.guess == 0);
     CHECK(c.rounds == last);
   }
+  settings.redetect_vertices = 0;
+  CHECK(settings.least_cut(7) == 1);
 }
 
 TEST_CASE("an iteration asks for a detection at the threshold or when it is due, and says how many were cut",
           "[unit]") {
   ControlSettings settings;
-  settings.redetect_count = 5;
+  settings.redetect_vertices = 5;
   StepControl c = running();
   const int overflow = 0;
   const auto iterate = [&](int cut) {
@@ -79,7 +82,7 @@ TEST_CASE("an iteration asks for a detection at the threshold or when it is due,
 
 TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once a step where it does not", "[unit]") {
   ControlSettings settings;
-  settings.redetect_count = 5;
+  settings.redetect_vertices = 5;
   StepControl c = running();
   const int overflow = 0;
   const auto iterate = [&](bool advances) {
@@ -101,7 +104,7 @@ TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once 
 
 TEST_CASE("iterations take turns, none while a detection is due, and after the last no detection is", "[unit]") {
   ControlSettings settings;
-  settings.redetect_count = 5;
+  settings.redetect_vertices = 5;
   settings.iterations = 3;
   StepControl c = running();
   const int overflow = 0;
@@ -195,7 +198,7 @@ TEST_CASE("each coordinate that is not a number or infinite is noticed", "[unit]
 
 TEST_CASE("with a detection due after every iteration each one asks for it, and begins to count anew", "[unit]") {
   ControlSettings settings;
-  settings.redetect_count = 5;
+  settings.redetect_vertices = 5;
   settings.redetect_every = 1;
   StepControl c = running();
   c.cut = 2;

@@ -74,9 +74,11 @@ TEST_CASE("without a cut a step detects once, guesses once and sweeps", "[unit]"
 
 TEST_CASE("the guess loop goes on while enough vertices are cut and rounds are left", "[unit]") {
   compare::Settings few = settings(1);
-  CHECK(order(few, 100, {1, 1, 0}) == std::vector{find, guess, find, guess, find, guess, sweep});
+  CHECK(order(few, 100, {1, 2, 2}) == std::vector{find, guess, find, guess, find, guess, sweep});
+  CHECK(order(few, 100, {1, 1}) == std::vector{find, guess, find, guess, sweep});
+  CHECK(order(few, 10, {1, 1, 0}) == std::vector{find, guess, find, guess, find, guess, sweep});
   few.guess_rounds = 2;
-  CHECK(order(few, 100, {1, 1, 0}) == std::vector{find, guess, find, guess, sweep});
+  CHECK(order(few, 100, {1, 2, 0}) == std::vector{find, guess, find, guess, sweep});
   few.guess_rounds = 1;
   CHECK(order(few, 100, {100}) == std::vector{find, guess, sweep});
 }
