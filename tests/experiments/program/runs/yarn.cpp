@@ -152,8 +152,8 @@ TEST_CASE("yarn: a figure-eight knot that is pulled tight has no meeting", "[pro
   const auto run = audited(folder, "run", scene);
   CHECK(run.at("audit").at("meetings") == 0);
   CHECK(run.at("guarantee_kept") == true);
-  // Tight: shorter than at the start, where its stretch was 3, and pressed against itself at its four crossings, where a
-  // contact is as deep as a third of r and more.
+  // Tight: shorter than at the start, where its stretch was 3, and pressed against itself at its four crossings, by a
+  // third of r or more.
   const compare::StepMetrics last = compare::read_steps(folder / "run").rows.back();
   CHECK(last.mean_stretch < 2);
   CHECK(last.smallest_contact_distance < 2e-3 * 2 / 3);
