@@ -54,6 +54,8 @@ TEST_CASE("sweeps end at the minimiser up to single precision, and those of a fo
       {"cloth_on_sphere", 22}, {"three_cloths_on_sphere", 22}, {"twist", 600}};
   for (const auto& [name, step] : steps) {
     compare::Scene scene = make_scene(name, Scale::smoke);
+    // In cloth that collapses contacts press more, so that a wrong one moves more.
+    for (compare::Body& body : scene.bodies) body.material.membrane = compare::MembraneModel::st_venant_kirchhoff;
     round_to_single(scene);
     const compare::Snapshot start = state_after(fast, scene, step);
     const ToMinimiser found = distance_to_minimiser(fast, scene, start, most_sweeps);
