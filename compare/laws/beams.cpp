@@ -35,14 +35,16 @@
 //
 //     E' − E = −f·Δ − ‖v' − v‖²_M/2 − c,   c = U(x) − U(x') + ∇U(x')·Δ,   −f·Δ = (M (v' − v)/h − M a + ∇U(x'))·Δ. (5)
 //
-// c ≥ 0 where U is convex. U is not: in a hinge that turns and a triangle that shrinks c may be less than 0. That E
-// gains no more than what (5) has without c, read off the states, is a claim on U and on the energies that rows
-// report. A solved step has f = 0, and no step gains. What sweeps leave is a limit where they are fewer than method.md
-// §7.7 has them for a hundredth of a stretch, N = D ln(101)/2: of N f is a hundredth of the elastic force, and takes
-// on its way less than that part of U, which stays below the largest kinetic energy. So N sweeps have no limit, nor
-// has Newton. In D = 1 + h² q, q is a third of the trace of a vertex's stiffness over its mass: of membranes A (λ +
-// 3μ) ‖∇N‖² a corner, in a lattice of spacing a 4 (λ + 3μ) a vertex; of hinges c ‖∇θ‖² a corner, up to 18 k_b/a² for
-// each of two sides and 48 k_b/a² for a diagonal.
+// c ≥ 0 where U is convex. U is not: where a hinge turns or a triangle shrinks c may be less than 0. The law claims all
+// the same that E gains no more than what (5) has without c. Its limit is that sum, read off the states; so a wrong U,
+// or a wrong energy in a row, breaks it.
+//
+// A solved step has f = 0, and no step gains. Few sweeps leave f, and may gain up to the limit. N = D ln(101)/2 sweeps
+// leave a hundredth of a stretch (method.md §7.7), so that f is a hundredth of the elastic force; on its way f takes
+// less than that part of U, which stays below the largest kinetic energy. So N sweeps have no limit, nor has Newton. In
+// D = 1 + h² q, q is a third of the trace of a vertex's stiffness over its mass. A membrane's corner has A (λ + 3μ)
+// ‖∇N‖², which in a lattice of spacing a adds up to 4 (λ + 3μ) a vertex. A hinge's corner has c ‖∇θ‖²: up to 18 k_b/a²
+// for each of two sides and 48 k_b/a² for a diagonal.
 #include <algorithm>
 #include <cmath>
 #include <complex>

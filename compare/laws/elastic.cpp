@@ -1,7 +1,7 @@
-// Derivatives are taken by rule: a `Moving` number has its rate along d beside it.
+// Derivatives follow the rules of sums and products: a `Moving` number carries its rate along d.
 //
-// Membrane. With the products g of a triangle's two edges, ḡ those at rest, C = ḡ⁻¹ (g − ḡ)/2 has the traces of the
-// Green strain, tr C = tr G and tr C² = ‖G‖².
+// The membrane's energy needs tr G and ‖G‖² of the Green strain G. Let g hold the products of a triangle's two edges,
+// and ḡ those at rest. Then C = ḡ⁻¹ (g − ḡ)/2 has tr C = tr G and tr C² = ‖G‖².
 #include "compare/laws/elastic.hpp"
 
 #include <array>
@@ -71,7 +71,7 @@ Moving membrane(const Points& now, const Points& rest, const Triangle& t, const 
   return area * (of.lame_lambda / 2 * (trace * trace) + of.lame_mu * squared);
 }
 
-/// θ of a hinge, of either sign, the same for all positions.
+/// The angle θ of a hinge. Its sign is a convention, which is the same at all positions.
 Moving hinge_angle(const Points& at, const Edge& edge, const Hinge& hinge) {
   const MovingVec along = at[edge[1]] - at[edge[0]];
   const MovingVec first = normal(along, at[hinge.opposite[0]] - at[edge[0]]);

@@ -28,8 +28,8 @@ std::span<const StepColumn> step_columns();
 /// Which groups of columns stand behind those, in this order: of scenes with solids `inverted_tetrahedra`; of scenes
 /// with volumes `volume_contacts`, `vertices_inside`, `deepest`; of those with volumes of tetrahedra, which lie in
 /// sheets, `depth_unresolved`; of scenes with rods `smallest_contact_distance`, `mean_stretch`, `largest_stretch`; of
-/// runs that were asked `meetings`; `last_motion`, `left_residual`, `left_rounding`, `left_held`, which runs of older
-/// versions lack; of runs with a ledger its columns.
+/// runs that were asked `meetings`; `last_motion`, `left_residual`, `left_rounding`, `left_held`, which a file may
+/// lack; of runs with a ledger its columns.
 struct StepGroups {
   bool solids = false, volumes = false, sheets = false, rods = false, meetings = false, convergence = false,
        ledger = false;

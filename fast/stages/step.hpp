@@ -327,7 +327,7 @@ class Step {
     observe(compare::StepEventKind::sweep);
   }
 
-  /// What an iteration reads and writes: of an even one x stands in the first buffer, of an odd one in the second.
+  /// What an iteration reads and writes. An even one finds x in the first buffer, an odd one in the second.
   SweepView view(int iteration) {
     StepState<Backend>& s = state_;
     SweepView view;

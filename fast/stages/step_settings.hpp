@@ -29,14 +29,14 @@ inline constexpr int steps_between_sorts = 16;
 /// Who decides whether a step sorts its trees: the device, or the host when it records the step.
 enum class Sorting { asked, made, left_out };
 
-/// Steps from one to the next in which forces are measured: two sums of all vertices, each worth at most three sweeps
-/// (one on a device, up to three where packs do not compute it), shall be 2 % of the sweeps that there are.
+/// Steps from one to the next in which forces are measured. Measuring takes as long as six sweeps at most
+/// (compare/method.md §6), which shall be 2 % of all sweeps.
 inline std::int64_t steps_between_measures(std::int64_t iterations) {
   return (300 + iterations - 1) / std::max<std::int64_t>(1, iterations);
 }
 
 /// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in
-/// four iterations (counted in fast/PERFORMANCE.md). `redetections`: of `steps` steps, beside those of the guess loop.
+/// four iterations (counted in fast/PERFORMANCE.md). `redetections` are those of `steps` steps after the guess loop.
 inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) {
   return 4 * redetections < steps * iterations ? 5 : 1;
 }

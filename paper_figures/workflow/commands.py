@@ -183,7 +183,7 @@ MAT, MAT_PLANES = "mat_twist", "mat_twist_planes"
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
                "robot_shirt": 10, MAT: 4, "yarn_stretch": 41, "yarn_twist": 41}
 WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # end a row's name
-# With balls a twisted cloth that can't collapse locks unless the query radius is r (ablations.md, membranes).
+# With balls, twisted cloth that can't collapse locks unless the query radius is r (ablations.md, membranes).
 NEAR_PAIRS = {"twist": ("--set", "query_radius_cap=1")}
 VOLUMES = ("dress", "robot_shirt")  # scenes whose body, as a default, may be entered and pushes out
 ROWS = tuple(scene + end for scene in FRAME_STEPS

@@ -40,9 +40,11 @@ std::string first_mismatch(const StageReport& report) {
   return print_problem(report.tally.mismatches[0].name) + ": " + report.tally.mismatches[0].message;
 }
 
-/// All faults that are planted in these stages, or those that any generator shows, or those that need their own.
-enum class Shown { by_all, by_any, by_its_own };
-void check_caught(const std::vector<Stage>& stages, Shown shown = Shown::by_all) {
+/// Which faults are asked for: all, those that any generator shows, or those that need a generator of their own.
+enum class Shown { in_any_way, by_any, by_its_own };
+
+/// The judge catches the faults that are planted in these stages.
+void check_caught(const std::vector<Stage>& stages, Shown shown = Shown::in_any_way) {
   const Authority authority = reference::authority();
   for (const tests::Fault& fault : tests::faults()) {
     if (std::ranges::find(stages, fault.stage) == stages.end()) continue;
@@ -87,7 +89,7 @@ TEST_CASE("a right guess by pairs of another make passes the judge", "[agreement
   }
 }
 
-// Apart, because together they take minutes.
+// The faults of a step are two tests, because together they take minutes.
 TEST_CASE("the judge catches every planted fault of a step that any generator shows", "[agreement]") {
   check_caught({Stage::step}, Shown::by_any);
 }

@@ -109,7 +109,7 @@ void hold_in_first_round(const StepIn& in, StepOut& out) {
 using Places = std::vector<reference::Triple<double>>;
 using GuessContacts = std::vector<reference::GuessContact>;
 
-/// Where contacts let go vertex v, wrongly: they, X_prev and y may be changed as that needs.
+/// A wrong rule for where contacts let vertex v go. It may change the contacts and the targets y.
 using Wrong = std::function<void(GuessContacts&, const Places& previous, Places& target, std::size_t v)>;
 
 /// What contacts leave of moves in the first round, by another rule; of balls alone, so that the rule is what is wrong.

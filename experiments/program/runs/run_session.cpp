@@ -10,6 +10,7 @@
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate.hpp"
 #include "compare/record/steps_csv.hpp"
+#include "experiments/bench/rank_test.hpp"
 #include "experiments/program/audits/offenders.hpp"
 #include "experiments/program/interrupt.hpp"
 #include "experiments/program/progress.hpp"
@@ -33,14 +34,6 @@ bool finite(const Snapshot& snapshot) {
   return std::ranges::all_of(snapshot.positions, [](const compare::Vec3f& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
   });
-}
-
-/// Not a number where there is none.
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 /// Frames 60 times a second of the scene's time, unless the scene says otherwise.

@@ -81,7 +81,7 @@ struct RunSummary {
   double largest_share_cut = 0, largest_lag = 0, smallest_distance = 0;
   /// MomentumShare of the steps that follow a frame; empty where no such step did all rounds of its guess
   std::optional<double> largest_momentum_lost;
-  /// steps whose left forces were measured; of the median one Eq. 29 [1] and vertices that a bound holds
+  /// ForcesLeft: steps that count, and the medians of Eq. 29 [1] and of vertices that a bound holds
   std::size_t measured_steps = 0;
   double left_residual = 0, left_held = 0;
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "experiments/bench/rank_test.hpp"
 #include "experiments/program/output.hpp"
 #include "experiments/program/runs/curved_rest.hpp"
 #include "experiments/program/runs/thin_solids.hpp"
@@ -81,14 +81,6 @@ std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
   return setting + " ends a step of IPC where nothing would move faster than " + number(speed) +
          " m/s, and gravity changes speeds by " + number(gained) +
          " m/s in a step: what should begin to move may stay; take " + setting + "=" + number(least, 1);
-}
-
-/// Not-a-number where there is none.
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 }  // namespace

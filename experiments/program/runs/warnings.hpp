@@ -19,20 +19,20 @@ inline constexpr double most_edges_a_radius = 2;
 /// Share of what a step is to move that truncation may take (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
-/// Share of their force that free vertices may be left with in the median step (Eq. 29).
+/// A run warns where its median step leaves free vertices with this share of their force (Eq. 29).
 inline constexpr double most_force_left = 0.1;
 
-/// What the steps of a run that were measured left of forces. Where rounding may make more than most_force_left of
-/// Eq. 29, there was no force to speak of, as in free fall; such steps do not count.
+/// Collects the forces that the steps of a run leave. A step does not count where rounding may make more than
+/// most_force_left of Eq. 29: there was no force to speak of, as in free fall.
 class ForcesLeft {
  public:
   /// Takes a step's row, if it has them.
   void look_at(const compare::StepMetrics& row);
   /// Steps that count.
   std::size_t steps() const { return residuals_.size(); }
-  /// Eq. 29 of the median step; not-a-number where no step counts.
+  /// The residual of Eq. 29 that the median step leaves; not-a-number where no step counts.
   double median_residual() const;
-  /// Of free vertices that a bound holds, in the median step.
+  /// How many free vertices a bound holds in the median step; not-a-number where no step counts.
   double median_held() const;
 
  private:
@@ -49,7 +49,7 @@ class Warnings {
   /// Looks at a step: what the guess loop lost though it did all its rounds (MomentumShare; empty: not known), and the
   /// lag of prescribed vertices. Returns what the first step of its kind gives reason to say; the list keeps the worst.
   std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
-  /// Of the steps so far.
+  /// What the steps so far left.
   const ForcesLeft& forces_left() const { return forces_left_; }
   /// What is said at the end, of the steps as a whole.
   std::vector<std::string> look_back() const;

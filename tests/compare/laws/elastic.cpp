@@ -38,7 +38,7 @@ TEST_CASE("laws' elastic energy: a stretched triangle, a bent hinge, both by han
   const double s = 1.2, strain = (s * s - 1) / 2;
   x[3] = {s, 0, 0};
   CHECK(elastic(scene, x, none).energy == Approx(4 * strain * strain / 2));
-  // Turned by θ about the edge: c = 3 k_b · 1/(1/2 + 1/2), E = c θ²/2; as θ grows by 1 E grows by c θ.
+  // The second triangle turns by θ about the edge. Then c = 3 k_b · 1/(1/2 + 1/2), E = c θ²/2 and dE/dθ = c θ.
   const double angle = 0.7;
   x[3] = {std::cos(angle), std::sin(angle), 0};
   const std::vector<Vec3> turning{{}, {}, {}, {-std::sin(angle), std::cos(angle), 0}};

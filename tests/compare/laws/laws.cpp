@@ -126,8 +126,8 @@ TEST_CASE("laws of rods hold of their closed answers, and of nothing a tenth off
   }
 }
 
-// The last step pulls an outer corner out by s: all that is left of forces there is f = M Δ/h² + ∇U − M a, as it was at
-// rest. What (5) of beams.cpp has for it is the limit of few sweeps, and of them alone.
+// The last step pulls an outer corner out by s. All else is at rest, so that the step leaves f = M Δ/h² + ∇U − M a at
+// that corner alone. Equation (5) of beams.cpp makes a limit of f, which few sweeps may come to and many may not.
 TEST_CASE("laws: energy is gained by what few sweeps leave, and by nothing else", "[unit]") {
   const Law& pinned = find_law("pinned_sheet");
   const std::vector<Scene> scenes = pinned.scenes(LawSize::least);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
@@ -152,11 +153,16 @@ TEST_CASE("yarn: a figure-eight knot that is pulled tight has no meeting", "[pro
   const auto run = audited(folder, "run", scene);
   CHECK(run.at("audit").at("meetings") == 0);
   CHECK(run.at("guarantee_kept") == true);
-  // Tight: shorter than at the start, where its stretch was 3, and pressed against itself at its four crossings, by a
-  // third of r or more.
-  const compare::StepMetrics last = compare::read_steps(folder / "run").rows.back();
+  // Tight: shorter than at the start, where its stretch was 3, and pressed against itself at its four crossings. It
+  // swings on the springs of its contacts, which are half of r deep where it comes in.
+  const std::vector<compare::StepMetrics> rows = compare::read_steps(folder / "run").rows;
+  const compare::StepMetrics& last = rows.back();
   CHECK(last.mean_stretch < 2);
-  CHECK(last.smallest_contact_distance < 2e-3 * 2 / 3);
+  double nearest = last.smallest_contact_distance;
+  for (const compare::StepMetrics& row : std::span(rows).last(100))
+    nearest = std::min(nearest, row.smallest_contact_distance);
+  CHECK(nearest < 1e-3);
+  CHECK(last.smallest_contact_distance < scene.settings.contact_radius * 2 / 3);
   CHECK(last.edge_edge_contacts >= 4);
 }
 
