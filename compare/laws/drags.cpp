@@ -93,7 +93,7 @@ std::vector<Law> drags() {
            .group = "friction",
            .meaning = "a pinched sheet creeps as ε_v allows, no faster",
            .answer = "f₁(v/ε_v) = M g/(2 n μ k_c δ)",
-           .needs = Needs::contact_energy,
+           .needs_springs = true,
            .scenes = pinch_scenes,
            .read = read_pinch},
           {.name = "conveyor",

@@ -21,7 +21,6 @@ struct LawState {
 struct Answerer {
   bool is_solved = false;           ///< steps are solved to a tolerance, in double; otherwise `iterations` sweeps
   bool has_contact_energy = false;  ///< contacts are springs within r (method.md §4.2); otherwise barriers
-  bool has_rods = false;            ///< rods move
 };
 
 /// One scene, moved.
@@ -67,19 +66,12 @@ const Reading* worst(std::span<const Reading> readings);
 /// How much is asked: the least that can show the law broken, for CI, or all of it.
 enum class LawSize { least, whole };
 
-/// What a law takes for granted of whoever answers; others are not asked, and the row says so.
-enum class Needs {
-  nothing,         ///< everybody is asked
-  contact_energy,  ///< contacts that are springs of method.md §4.2
-  rods,            ///< and rods
-};
-
 /// A law by name.
 struct Law {
   std::string_view name, group;  ///< "slope_slides", "slopes"
   std::string_view meaning;      ///< what it proves, a clause
   std::string_view answer;       ///< the closed answer, a line
-  Needs needs = Needs::nothing;  ///< who can be asked
+  bool needs_springs = false;    ///< only who has contact energy is asked (Answerer); of others the row says so
   /// What is to be moved, one after the other; settings.steps says how far.
   std::vector<Scene> (*scenes)(LawSize size) = nullptr;
   /// Reads the trajectories of these scenes, in their order, each whole.

@@ -232,14 +232,14 @@ std::vector<Law> releases() {
            .group = "release",
            .meaning = "a contact pushes as its spring says, and lets go",
            .answer = spring,
-           .needs = Needs::contact_energy,
+           .needs_springs = true,
            .scenes = release_scenes,
            .read = read_heights},
           {.name = "bounces",
            .group = "release",
            .meaning = "a bounce is the spring's, and gains no energy",
            .answer = spring,
-           .needs = Needs::contact_energy,
+           .needs_springs = true,
            .scenes = bounce_scenes,
            .read = read_bounce}};
 }

@@ -102,11 +102,13 @@ IpcForces::IpcForces(const compare::Scene& scene, const compare::Topology& topol
     : scene_(scene),
       shape_(shape),
       potential_(scene, topology),
+      mobility_(potential_.unknowns()),
       elastic_vertices_(potential_.vertices()),
       body_(body_of_vertex(scene)) {}
 
-void IpcForces::begin_step(const State& start, const State& target) {
+void IpcForces::begin_step(const State& start, const State& target, std::int64_t number) {
   potential_.begin_step(start, target);
+  potential_.rods().begin_step(start, number);
   start_ = start;
   target_ = target;
   frictions_.clear();
@@ -156,7 +158,7 @@ IpcEnergy IpcForces::energy(const State& x, const BarrierSet& set, double stiffn
   result.rest = sum(result.friction);
   if (pull_)
     for (std::size_t v = 0; v < x.size(); ++v) {
-      if (potential_.mobility()[v] != Mobility::prescribed) continue;
+      if (mobility_[v] != Mobility::prescribed) continue;
       const Triple<double> lag = x[v] - target_[v];
       result.rest += 0.5 * pull_->stiffness * potential_.inertia(v) * dot(lag, lag) - dot(pull_->force[v], lag);
     }
@@ -180,16 +182,18 @@ IpcDerivatives IpcForces::derivatives(const State& x, const BarrierSet& set, dou
 }
 
 void IpcForces::add_gradient(IpcDerivatives& result, const State& x) const {
-  result.gradient.assign(x.size(), {});
+  result.gradient.assign(mobility_.size(), {});
   for (std::size_t i = 0; i < result.stencil.size(); ++i)
     for (std::size_t k = 0; k < 4 && result.vertices[i][k] >= 0; ++k) {
       Triple<double>& g = result.gradient[at(result.vertices[i][k])];
       for (std::size_t axis = 0; axis < 3; ++axis) g[axis] += result.stencil[i].gradient[3 * k + axis];
     }
-  for (std::size_t v = 0; v < x.size(); ++v) {
+  for (std::size_t v = 0; v < mobility_.size(); ++v) {
     if (!unknown(v)) {
       result.gradient[v] = {};
-    } else if (potential_.mobility()[v] == Mobility::free) {
+    } else if (v >= x.size()) {
+      continue;  // a frame, which has no inertia
+    } else if (mobility_[v] == Mobility::free) {
       result.gradient[v] = result.gradient[v] + potential_.inertia(v) * (x[v] - target_[v]);
     } else {
       result.gradient[v] = result.gradient[v] + pull_->stiffness * potential_.inertia(v) * (x[v] - target_[v]) -
@@ -216,7 +220,7 @@ std::vector<double> IpcForces::diagonal() const {
   std::vector<double> diagonal = potential_.inertias();
   if (pull_)
     for (std::size_t v = 0; v < diagonal.size(); ++v)
-      if (potential_.mobility()[v] == Mobility::prescribed) diagonal[v] *= pull_->stiffness;
+      if (mobility_[v] == Mobility::prescribed) diagonal[v] *= pull_->stiffness;
   return diagonal;
 }
 

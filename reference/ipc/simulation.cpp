@@ -5,7 +5,6 @@
 #include <tbb/task_arena.h>
 
 #include "compare/problem/error.hpp"
-#include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 #include "reference/ipc/solver.hpp"
 #include "reference/solvers/detection.hpp"
@@ -39,12 +38,14 @@ class IpcSimulation : public compare::Simulation {
         topology_(compare::build_topology(scene_)),
         profile_(options.profile),
         solver_(scene_, topology_, options) {
-    set_state(0, widened(compare::to_single(scene_.mesh.positions)), widened(compare::to_single(scene_.velocities)));
+    set_state(0, widened(compare::to_single(scene_.mesh.positions)), widened(compare::to_single(scene_.velocities)),
+              {});
   }
 
   std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
     std::vector<compare::StepMetrics> rows;
     for (std::int64_t k = 0; k < steps; ++k) {
+      solver_.set_orientations(orientations_);
       IpcStep step = solver_.step(position_, velocity_, number_ + 1);
       const bool good = step.metrics.status == compare::step_clean;
       rows.push_back(std::move(step.metrics));
@@ -52,6 +53,7 @@ class IpcSimulation : public compare::Simulation {
       ++number_;
       position_ = std::move(step.position);
       velocity_ = std::move(step.velocity);
+      orientations_ = solver_.orientations();
     }
     return rows;
   }
@@ -67,14 +69,17 @@ class IpcSimulation : public compare::Simulation {
             0,
             {},
             as_vectors(position_),
-            as_vectors(velocity_)};
+            as_vectors(velocity_),
+            {},
+            orientations_};
   }
 
   /// To the last bit where the snapshot is one of ours; a frame holds what was rounded.
   void restore(const compare::Snapshot& snapshot) override {
     if (snapshot.exact_positions.empty())
-      return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities));
-    set_state(snapshot.step, as_state(snapshot.exact_positions), as_state(snapshot.exact_velocities));
+      return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities), snapshot.orientations);
+    set_state(snapshot.step, as_state(snapshot.exact_positions), as_state(snapshot.exact_velocities),
+              snapshot.orientations);
   }
 
   std::vector<std::string> stage_names() const override {
@@ -83,7 +88,10 @@ class IpcSimulation : public compare::Simulation {
   std::string device() const override { return std::to_string(tbb::this_task_arena::max_concurrency()) + " threads"; }
 
  private:
-  void set_state(std::int64_t number, State position, State velocity) {
+  void set_state(std::int64_t number, State position, State velocity,
+                 const std::vector<compare::Quaternion>& orientations) {
+    solver_.set_orientations(orientations);
+    orientations_ = solver_.orientations();
     number_ = number;
     position_ = std::move(position);
     velocity_ = std::move(velocity);
@@ -96,6 +104,7 @@ class IpcSimulation : public compare::Simulation {
   IpcSolver solver_;
   std::int64_t number_ = 0;
   State position_, velocity_;
+  std::vector<compare::Quaternion> orientations_;  ///< rounded: a frame has no gap to lose
 };
 
 }  // namespace
@@ -108,7 +117,6 @@ std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, cons
         "setting 'contact_weights' can't be 'iteration' with IPC; give contact_weights=update or --solver vbd");
   refuse_volumes(scene, "ipc",
                  "whose barrier lets nothing enter a body: leave the body a surface (--set contact=surface)");
-  refuse_rods(scene, "ipc");
   return std::make_unique<IpcSimulation>(scene, options);
 }
 

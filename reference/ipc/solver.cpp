@@ -22,6 +22,7 @@ double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// p may have frames behind its vertices; they stay.
 State moved(const State& x, double share, const State& p) {
   State to = x;
   for (std::size_t v = 0; v < x.size(); ++v) to[v] = x[v] + share * p[v];
@@ -81,7 +82,7 @@ IpcSolver::IpcSolver(const compare::Scene& scene, const compare::Topology& topol
       mesh_{topology_, exclusions_, forces_.potential().rest().edge_length_squared},
       moving_diagonal_(moving_diagonal(scene)),
       guard_({rest_diagonal(scene), 0}, shape_, ipc_.adaptation),
-      free_(forces_.potential().mobility()) {
+      free_(forces_.potential().unknowns()) {
   scale_ = {rest_diagonal(scene), mean_inertia(forces_.potential())};
   bounds_ = reference::stiffness_bounds(shape_, scale_, ipc_.adaptation);
   if (ipc_.stiffness > 0) bounds_ = {ipc_.stiffness, ipc_.stiffness};
@@ -121,8 +122,15 @@ IpcStep IpcSolver::step(const State& start, const State& velocity, std::int64_t 
   start_stiffness();
   forces_.lag_friction(set_, x_, stiffness_);
   move_prescribed();
+  forces_.rods().turn(x_);
   return finish(solve());
 }
+
+void IpcSolver::set_orientations(std::span<const compare::Quaternion> orientations) {
+  forces_.rods().set_start(orientations);
+}
+
+std::vector<compare::Quaternion> IpcSolver::orientations() const { return forces_.potential().rods().orientations(); }
 
 double IpcSolver::elapsed_ms() const { return now_ms() - started_ms_; }
 
@@ -145,7 +153,7 @@ void IpcSolver::begin(const State& start, const State& velocity, std::int64_t nu
     const State to = widened(prescribed_targets(scene_, motion, static_cast<double>(number) * h));
     for (std::size_t k = 0; k < to.size(); ++k) target_[static_cast<std::size_t>(motion.vertices[k])] = to[k];
   }
-  forces_.begin_step(start_, target_);
+  forces_.begin_step(start_, target_, number);
 }
 
 std::vector<PrimitivePair> IpcSolver::near(const State& from, const State& to) {
@@ -212,7 +220,7 @@ IpcSolver::Outcome IpcSolver::solve_once() {
 
 IpcSolver::System& IpcSolver::system() {
   if (!forces_.pull()) return free_;
-  if (!pulled_) pulled_ = std::make_unique<System>(all_movable(forces_.potential().mobility()));
+  if (!pulled_) pulled_ = std::make_unique<System>(all_movable(forces_.potential().unknowns()));
   return *pulled_;
 }
 
@@ -224,9 +232,10 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   if (!p) return Outcome::indefinite;
   ++metrics_.iterations;
   ++iterations_;
-  metrics_.residual = largest_component(*p) / settings_.time_step / moving_diagonal_;
+  const double largest = largest_component(as_motion(*p));
+  metrics_.residual = largest / settings_.time_step / moving_diagonal_;
   if (!std::isfinite(metrics_.residual)) return Outcome::not_finite;
-  const bool is_noise = iterations_ > 1 && largest_component(*p) <= 0x1p-52 * largest_component(x_);
+  const bool is_noise = iterations_ > 1 && largest <= 0x1p-52 * largest_component(x_);
   const bool done = is_noise || converged(*p);
   // Algorithm 1 takes the step that is small enough, too (README.md): what is left is then of the second order.
   const bool is_taken = !done || (ipc_.stopping == IpcStopping::displacement && !is_noise);
@@ -240,7 +249,7 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
 bool IpcSolver::take(const State& p, bool is_last) {
   const Bounded bound = bounded(p);
   const double share = searched(p, bound);
-  if (options_.iterations) rows_.back().share = share, rows_.back().largest_change = largest_motion(p);
+  if (options_.iterations) rows_.back().share = share, rows_.back().largest_change = largest_motion(of_vertices(p));
   const bool is_nothing = share < smallest_share && !is_last, was_gradient = descend_;
   if (is_nothing)
     note((was_gradient ? "a step along the gradient" : "Newton's step") + std::string(" came to ") + number(share) +
@@ -254,13 +263,23 @@ bool IpcSolver::take(const State& p, bool is_last) {
   return true;
 }
 
+/// A frame that turns by ω moves what is fast to it by as much as the segment's length times ω.
+State IpcSolver::as_motion(State p) const {
+  for (std::size_t i = x_.size(); i < p.size(); ++i) p[i] = forces_.potential().rods().length(i - x_.size()) * p[i];
+  return p;
+}
+
+State IpcSolver::of_vertices(const State& p) const { return {p.begin(), p.begin() + std::ssize(x_)}; }
+
+/// Along the gradient frames stand: nothing on their diagonal says how far they would go.
 std::optional<State> IpcSolver::direction() {
   System& now = system();
   const std::vector<double> diagonal = forces_.diagonal();
-  State p(x_.size());
+  State p(diagonal.size());
   const std::vector<std::size_t>& unknowns = now.matrix.free_vertices();
   if (descend_) {
-    for (const std::size_t v : unknowns) p[v] = (-1 / diagonal[v]) * derivatives_.gradient[v];
+    for (const std::size_t v : unknowns)
+      if (v < x_.size()) p[v] = (-1 / diagonal[v]) * derivatives_.gradient[v];
     return p;
   }
   const bool is_new = timed(IpcStage::assembly, [&] {
@@ -285,9 +304,9 @@ std::optional<State> IpcSolver::direction() {
 /// Both published rules want a step to be taken at least once.
 bool IpcSolver::converged(const State& p) {
   if (ipc_.stopping == IpcStopping::displacement)
-    return iterations_ > 1 && largest_component(p) < ipc_.tolerance * moving_diagonal_ * settings_.time_step;
+    return iterations_ > 1 && largest_component(as_motion(p)) < ipc_.tolerance * moving_diagonal_ * settings_.time_step;
   double sum = 0;
-  for (const Triple<double>& a : p) sum += dot(a, a);
+  for (const Triple<double>& a : as_motion(p)) sum += dot(a, a);
   const double h = settings_.time_step,
                unknowns = static_cast<double>(std::max<std::size_t>(1, system().matrix.free_vertices().size()));
   speeds_.push_back(sum / (unknowns * h * h));
@@ -328,7 +347,7 @@ IpcSolver::Bounded IpcSolver::bounded(const State& p) {
   ++metrics_.continuous_detections;
   const StepBound active = timed(IpcStage::ccd,
                                  [&] { return step_bound(mesh_, set_.active, x_, p, shape_.thickness); });
-  const double fastest = largest_motion(p), free_share = fastest > 0 ? 0.5 * shape_.distance / fastest : 1;
+  const double fastest = largest_motion(of_vertices(p)), free_share = fastest > 0 ? 0.5 * shape_.distance / fastest : 1;
   Bounded bound{std::min(active.share, free_share), active.pair, {}};
   const bool full = ipc_.ccd == IpcCcd::full || free_share < 0.5 * active.share;
   bound.pairs = near(x_, moved(x_, full ? active.share : bound.share, p));
@@ -339,6 +358,12 @@ IpcSolver::Bounded IpcSolver::bounded(const State& p) {
   bound.share = all.share;
   if (all.pair) bound.pair = all.pair;
   return bound;
+}
+
+/// x, and behind it the share of p that frames turn by.
+State IpcSolver::with_frames(State x, double share, const State& p) const {
+  for (std::size_t i = x.size(); i < p.size(); ++i) x.push_back(share * p[i]);
+  return x;
 }
 
 bool IpcSolver::intersects(const State& x) {
@@ -357,10 +382,12 @@ double IpcSolver::searched(const State& p, const Bounded& bound) {
     ++metrics_.discrete_detections;
     BarrierSet set = timed(IpcStage::barriers, [&] { return barriers_at(mesh_, shape_, bound.pairs, trial); });
     if (!set.touching.empty()) continue;
-    const double difference = change(
-        before, timed(IpcStage::line_search, [&] { return forces_.energy(trial, set, stiffness_); }));
+    const double difference = change(before, timed(IpcStage::line_search, [&] {
+                                       return forces_.energy(with_frames(trial, share, p), set, stiffness_);
+                                     }));
     if (!(difference < 0 || (share == bound.share && difference <= noise)) || intersects(trial)) continue;
     if (on_accepted) on_accepted(difference, noise);
+    forces_.rods().turn_by(with_frames(trial, share, p));
     x_ = std::move(trial);
     set_ = std::move(set);
     return share;

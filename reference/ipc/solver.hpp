@@ -64,6 +64,9 @@ class IpcSolver {
 
   /// Throws compare::InputError that names the pairs which intersect or have no gap at x.
   void check_start(const State& x) const;
+  /// qᵗ of the next step, those of the scene's start where there are none; q after it, rounded.
+  void set_orientations(std::span<const compare::Quaternion> orientations);
+  std::vector<compare::Quaternion> orientations() const;
   /// The step with this number, from 1. Throws compare::ResourceError where memory runs out.
   IpcStep step(const State& start, const State& velocity, std::int64_t number);
 
@@ -78,7 +81,7 @@ class IpcSolver {
 
  private:
   enum class Outcome { converged, limit, indefinite, stuck, not_finite };
-  /// A system of the free vertices, or of those and the prescribed ones.
+  /// A system of the free vertices and frames, or of those and the prescribed ones.
   struct System {
     BlockMatrix matrix;
     Factor factor;
@@ -102,6 +105,9 @@ class IpcSolver {
   std::optional<State> direction();
   bool converged(const State& p);
   bool pulled_home();
+  State as_motion(State p) const;
+  State of_vertices(const State& p) const;
+  State with_frames(State x, double share, const State& p) const;
   Bounded bounded(const State& p);
   double searched(const State& p, const Bounded& bound);
   bool intersects(const State& x);

@@ -19,7 +19,7 @@ namespace {
 
 Trajectory moved(const Scene& asked, const Scene& simulated) {
   Trajectory run{.scene = asked,
-                 .by = {.is_solved = true, .has_contact_energy = true, .has_rods = true},
+                 .by = {.is_solved = true, .has_contact_energy = true},
                  .states = {{asked.mesh.positions, asked.velocities}},
                  .rows = {}};
   const auto simulation = reference::newton().start(simulated, {});
@@ -97,7 +97,7 @@ const std::map<std::string_view, Change> changes{
 Trajectory still(const Scene& scene) {
   const std::size_t steps = static_cast<std::size_t>(scene.settings.steps);
   return {.scene = scene,
-          .by = {.is_solved = true, .has_contact_energy = true, .has_rods = true},
+          .by = {.is_solved = true, .has_contact_energy = true},
           .states = std::vector<LawState>(steps + 1, {scene.mesh.positions, scene.velocities}),
           .rows = std::vector<StepMetrics>(steps)};
 }

@@ -65,6 +65,7 @@ inline void check_goes_on_from_any_snapshot(StartSolver start, compare::Scene sc
     CHECK(once.velocities == again.velocities);
     CHECK(once.exact_positions == again.exact_positions);
     CHECK(once.exact_velocities == again.exact_velocities);
+    CHECK(once.orientations == again.orientations);
   }
 }
 
