@@ -45,6 +45,9 @@ class Auditor {
       all.pairs_tested += share.pairs_tested;
     }
     std::sort(all.intersections.begin(), all.intersections.end());
+    // Two edges may each lie opposite in a triangle of the other, or in several.
+    const auto [first, last] = std::ranges::unique(all.intersections);
+    all.intersections.erase(first, last);
     return all;
   }
 
@@ -89,26 +92,58 @@ class Auditor {
 
   void test(const Edge& edge, IntersectionKind kind, Index name, Findings& found) const {
     const std::array<Vec3, 2> segment{positions_[at(edge[0])], positions_[at(edge[1])]};
-    tree_.for_each_meeting(box_of({segment[0], segment[1]}), [&](Index number) {
+    const Box box = box_of({segment[0], segment[1]});
+    tree_.for_each_meeting(box, [&](Index number) {
       const Triangle& t = topology_.triangles[at(number)];
-      if (!topology_.on_surface(t) || left_out(edge, t, exclusions_)) return;
+      if (!topology_.on_surface(t)) return;
+      const auto is_common = [&](Index v) { return v == edge[0] || v == edge[1]; };
+      const std::array<bool, 3> common{is_common(t[0]), is_common(t[1]), is_common(t[2])};
+      if (const int count = common[0] + common[1] + common[2]; count > 0) {
+        if (count == 1 && kind == IntersectionKind::edge_triangle)
+          test_opposite(name, box, common[0] ? Edge{t[1], t[2]} : Edge{t[0], common[1] ? t[2] : t[1]}, found);
+        return;
+      }
+      if (is_excluded(edge, t, exclusions_)) return;
       if (kind == IntersectionKind::edge_triangle) ++found.pairs_tested;
       const std::array<Vec3, 3> corners{positions_[at(t[0])], positions_[at(t[1])], positions_[at(t[2])]};
       if (segment_meets_triangle(segment, corners)) found.intersections.push_back({kind, name, number});
     });
   }
 
+  std::array<Vec3, 2> segment(const Edge& e) const { return {positions_[at(e[0])], positions_[at(e[1])]}; }
+
+  /// The edge and the side of a triangle that lies opposite to their one common vertex: they may cross in the plane of
+  /// both, with no end on any triangle.
+  void test_opposite(Index edge, const Box& box, const Edge& side, Findings& found) const {
+    const std::array<Vec3, 2> others = segment(side);
+    if (!box.meets(box_of({others[0], others[1]}))) return;
+    const Edge& own = topology_.edges[at(edge)];
+    if (is_excluded(own, side, exclusions_)) return;
+    ++found.pairs_tested;
+    if (!segments_meet(segment(own), others)) return;
+    const Index other = find_edge(topology_, side[0], side[1]);
+    found.intersections.push_back({IntersectionKind::edge_edge, std::min(edge, other), std::max(edge, other)});
+  }
+
+  /// Beyond the vertex that they share, if they do: the end of one lies on the other.
+  bool meet(const Edge& first, const Edge& second) const {
+    const auto lies_on = [&](Index v, const Edge& other) {
+      return v != other[0] && v != other[1] && segments_meet(segment({v, v}), segment(other));
+    };
+    if (std::ranges::find_first_of(first, second) == first.end()) return segments_meet(segment(first), segment(second));
+    return lies_on(first[0], second) || lies_on(first[1], second) || lies_on(second[0], first) ||
+           lies_on(second[1], first);
+  }
+
   void test_loose(Index edge, Findings& found) const {
-    const auto segment = [&](const Edge& e) { return std::array{positions_[at(e[0])], positions_[at(e[1])]}; };
     const Edge& own = topology_.edges[at(edge)];
     const std::array<Vec3, 2> ends = segment(own);
     loose_tree_.for_each_meeting(box_of({ends[0], ends[1]}), [&](Index i) {
       const Index other = loose_[at(i)];
       const Edge& partner = topology_.edges[at(other)];
-      if (other <= edge || left_out(own, partner, exclusions_)) return;
+      if (other <= edge || is_excluded(own, partner, exclusions_)) return;
       ++found.pairs_tested;
-      if (segments_meet(ends, segment(partner)))
-        found.intersections.push_back({IntersectionKind::edge_edge, edge, other});
+      if (meet(own, partner)) found.intersections.push_back({IntersectionKind::edge_edge, edge, other});
     });
   }
 

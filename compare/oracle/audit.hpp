@@ -14,8 +14,9 @@ namespace ogc::compare {
 enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle, edge_edge };  ///< what meets
 
 /// Edge `first` meets triangle `second` (touching counts) without sharing a vertex, vertex `first` lies on triangle
-/// `second` that does not contain it, or edges `first` < `second`, which are of no triangle, share a point and no
-/// vertex.
+/// `second` that does not contain it, or edges `first` < `second` meet, of which the triangles say nothing: both are of
+/// no triangle, or one meets the side of a triangle that lies opposite to their common vertex. Edges that share a vertex
+/// meet where the other end of one lies on the other.
 struct Intersection {
   IntersectionKind kind = IntersectionKind::edge_triangle;  ///< which faces meet
   Index first = -1, second = -1;                            ///< edge or vertex, triangle or edge
@@ -31,11 +32,12 @@ struct AuditOptions {
 struct AuditResult {
   std::vector<Intersection> intersections;  ///< ascending
   std::size_t count = 0;                    ///< of all intersections
-  std::size_t pairs_tested = 0;  ///< of edges with triangles, and of loose edges, whose boxes meet, but those left out
+  std::size_t pairs_tested = 0;  ///< of edges with triangles and with edges whose boxes meet, but those left out
 };
 
-/// Exact: no rounding decides, and the answer does not depend on the number of threads. `exclusions`: pairs that are
-/// left out beside those with a shared vertex. A collapsed triangle is the segment or point that it covers, an edge of
+/// Exact: no rounding decides, and the answer does not depend on the number of threads. Two primitives with common
+/// vertices intersect where they meet beyond the face that these span (method.md §5.5). `exclusions`: pairs that are
+/// left out. A collapsed triangle is the segment or point that it covers, an edge of
 /// length zero a point. Isolated vertices belong to no surface and are left out. A vertex on a triangle is listed
 /// beside its edges, which touch the triangle too. That curves touch nowhere says nothing of the way to this state
 /// (compare/oracle/meetings.hpp). Throws InputError where a position is not finite or sizes do not

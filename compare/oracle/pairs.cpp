@@ -22,7 +22,11 @@ bool are_partners(std::span<const Index> first, std::span<const Index> second, c
 }  // namespace
 
 bool left_out(std::span<const Index> first, std::span<const Index> second, const ExclusionView& exclusions) {
-  if (std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) != first.end()) return true;
+  return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) != first.end() ||
+         is_excluded(first, second, exclusions);
+}
+
+bool is_excluded(std::span<const Index> first, std::span<const Index> second, const ExclusionView& exclusions) {
   if (are_partners(first, second, exclusions.partners)) return true;
   if (exclusions.groups.empty()) return false;
   const auto group_of = [&](Index v) { return exclusions.groups[static_cast<std::size_t>(v)]; };

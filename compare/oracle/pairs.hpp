@@ -7,8 +7,10 @@
 
 namespace ogc::compare {
 
-/// A pair of primitives, given by their vertices, is left out where they share a vertex, where all vertices carry one
-/// group ≥ 0, or where a vertex of one is an excluded partner of a vertex of the other (method.md §2.3).
+/// Whether a pair of primitives, given by their vertices, is excluded: all vertices carry one group ≥ 0, or a vertex of
+/// one is an excluded partner of a vertex of the other (method.md §2.3).
+bool is_excluded(std::span<const Index> first, std::span<const Index> second, const ExclusionView& exclusions);
+/// Whether it is excluded or shares a vertex.
 bool left_out(std::span<const Index> first, std::span<const Index> second, const ExclusionView& exclusions);
 
 /// Throws InputError where positions or groups (unless empty) have not one entry for each vertex, or a position is not

@@ -52,15 +52,20 @@ Offenders offenders_of(const compare::AuditResult& result, const compare::Topolo
   Offenders found;
   if (!result.intersections.empty()) found.first = result.intersections.front();
   for (const compare::Intersection& pair : result.intersections) {
+    const auto add_triangles = [&](std::span<const Index> around) {
+      found.triangles.insert(found.triangles.end(), around.begin(), around.end());
+    };
     if (pair.kind == compare::IntersectionKind::edge_edge) {
-      found.edges.insert(found.edges.end(), {pair.first, pair.second});
+      for (const Index e : {pair.first, pair.second}) {
+        found.edges.push_back(e);
+        add_triangles(topology.edge_triangles[at(e)]);
+      }
       continue;
     }
     const bool is_edge = pair.kind == compare::IntersectionKind::edge_triangle;
     (is_edge ? found.edges : found.vertices).push_back(pair.first);
     found.triangles.push_back(pair.second);
-    const auto around = is_edge ? topology.edge_triangles[at(pair.first)] : topology.vertex_triangles[at(pair.first)];
-    found.triangles.insert(found.triangles.end(), around.begin(), around.end());
+    add_triangles(is_edge ? topology.edge_triangles[at(pair.first)] : topology.vertex_triangles[at(pair.first)]);
   }
   for (auto* numbers : {&found.vertices, &found.edges, &found.triangles}) sort_once(*numbers);
   return found;

@@ -351,9 +351,9 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       ->capture_default_str();
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(
-      "An edge that meets a triangle with which it shares no vertex is an intersection, and so is a vertex on a "
-      "triangle without it, and a point that two edges of no triangle share; touching\n"
-      "counts. No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded "
+      "Two triangles, or edges, intersect where they meet beyond the corner or side that they share; touching counts, "
+      "and a triangle that is folded flat onto its neighbour counts, too.\n"
+      "No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded "
       "pairs, are left out. Of volumes, which may be entered, it says how many vertices are inside (by winding "
       "number), "
       "the deepest, and how many\n"

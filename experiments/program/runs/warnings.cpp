@@ -97,7 +97,8 @@ double ForcesLeft::median_held() const { return median(held_); }
 Warnings::Warnings(const compare::Scene& scene, Solver solver)
     : radius_(scene.settings.contact_radius),
       guess_rounds_(scene.settings.guess_rounds),
-      iterations_(scene.settings.iterations) {
+      iterations_(scene.settings.iterations),
+      free_(std::ranges::count(rigid_groups(scene), -1)) {
   for (std::string text : {bounds_warning(scene), box_warning(scene), radius_warning(scene), thin_solid_warning(scene),
                            curved_rest_warning(scene), tolerance_warning(scene, solver)})
     if (!text.empty()) of_scene_.push_back(std::move(text));
@@ -113,6 +114,10 @@ std::vector<std::string> Warnings::look_at(const compare::StepMetrics& row, std:
   if (momentum_lost && *momentum_lost > most_momentum_lost)
     note(momentum_, *momentum_lost, [this] { return momentum_text(); });
   forces_left_.look_at(row);
+  held_ = free_ > 0 && (row.vertices_cut >= free_ || row.share_cut >= 1) ? held_ + 1 : 0;
+  const bool is_first = longest_held_ < most_held_steps;
+  longest_held_ = std::max(longest_held_, held_);
+  if (is_first && held_ >= most_held_steps) first.push_back(held_text());
   if (row.largest_lag > radius_) note(lag_, row.largest_lag, [this] { return lag_text(); });
   return first;
 }
@@ -121,6 +126,7 @@ std::vector<std::string> Warnings::list() const {
   std::vector<std::string> texts = of_scene_;
   if (momentum_) texts.push_back(momentum_text());
   if (lag_) texts.push_back(lag_text());
+  if (longest_held_ >= most_held_steps) texts.push_back(held_text());
   for (std::string& text : look_back()) texts.push_back(std::move(text));
   return texts;
 }
@@ -143,6 +149,14 @@ std::string Warnings::force_text() const {
          " % of their force (Eq. 29, " + counted(forces_left_.steps(), "step") + " measured), above " +
          number(100 * most_force_left) + " %: sweeps end before they are done; take more iterations than " +
          std::to_string(iterations_) + ", a smaller time_step, or --solver newton";
+}
+
+std::string Warnings::held_text() const {
+  return counted(static_cast<std::size_t>(longest_held_), "step") + " in a row ended with every one of the " +
+         std::to_string(free_) + " free vertices" +
+         " cut by its bound: nothing moves as forces ask, and what hangs still is no equilibrium; look at the smallest "
+         "distances of the start (ogc audit), or take a smaller time_step or a larger query_radius_cap or "
+         "contact_radius";
 }
 
 std::string Warnings::lag_text() const {

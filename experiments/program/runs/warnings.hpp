@@ -19,6 +19,9 @@ inline constexpr double most_edges_a_radius = 2;
 /// Share of what a step is to move that truncation may take (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
+/// So many steps in a row that end with every free vertex cut by its bound are no accident.
+inline constexpr std::int64_t most_held_steps = 10;
+
 /// A run warns where its median step leaves free vertices with this share of their force (Eq. 29).
 inline constexpr double most_force_left = 0.1;
 
@@ -47,7 +50,7 @@ class Warnings {
   /// of IPC the speed at which a step ends against what gravity changes in one.
   explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
   /// Looks at a step: what the guess loop lost though it did all its rounds (MomentumShare; empty: not known), and the
-  /// lag of prescribed vertices. Returns what the first step of its kind gives reason to say; the list keeps the worst.
+  /// lag of prescribed vertices, and whether it is one of most_held_steps in a row that bounds end. Returns what the first step of its kind gives reason to say; the list keeps the worst.
   std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
   /// What the steps so far left.
   const ForcesLeft& forces_left() const { return forces_left_; }
@@ -64,10 +67,13 @@ class Warnings {
   };
   std::string momentum_text() const;
   std::string lag_text() const;
+  std::string held_text() const;
   std::string force_text() const;
   std::vector<std::string> of_scene_;
   double radius_ = 0;
   std::int64_t guess_rounds_ = 0, iterations_ = 0;
+  std::int64_t free_ = 0;                     ///< vertices that nothing but forces moves
+  std::int64_t held_ = 0, longest_held_ = 0;  ///< steps in a row that end with all of them cut
   std::optional<Worst> momentum_, lag_;
   ForcesLeft forces_left_;
 };

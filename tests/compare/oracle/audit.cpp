@@ -130,14 +130,15 @@ TEST_CASE("coplanar triangles that overlap are found even where no vertex lies o
                      [](const Intersection& i) { return i.kind == Kind::vertex_triangle; }));
 }
 
-TEST_CASE("primitives that share a vertex are no finding, whatever their positions", "[unit]") {
-  // two triangles on one edge, folded onto each other
+TEST_CASE("triangles that are folded onto each other along an edge are listed by their corners and sides", "[unit]") {
   const std::vector<Vec3> folded{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
-  const AuditResult result = audit(build_topology(4, std::array{Triangle{0, 1, 2}, Triangle{1, 0, 3}}), folded);
-  // Vertex 2 lies on triangle 1, which does not contain it, and the other way round; each edge shares a vertex with
-  // either triangle.
-  CHECK(result.intersections ==
-        std::vector{Intersection{Kind::vertex_triangle, 2, 1}, Intersection{Kind::vertex_triangle, 3, 0}});
+  const Topology topology = build_topology(4, std::array{Triangle{0, 1, 2}, Triangle{1, 0, 3}});
+  const auto edge = [&](Index a, Index b) { return find_edge(topology, a, b); };
+  // Vertex 2 lies on triangle 1, which does not contain it, and the other way round; sides meet in that corner.
+  CHECK(audit(topology, folded).intersections == std::vector{Intersection{Kind::vertex_triangle, 2, 1},
+                                                             Intersection{Kind::vertex_triangle, 3, 0},
+                                                             Intersection{Kind::edge_edge, edge(0, 2), edge(1, 3)},
+                                                             Intersection{Kind::edge_edge, edge(0, 3), edge(1, 2)}});
 }
 
 TEST_CASE("curves that touch or cross in a point are listed, by the edges of no triangle alone", "[unit]") {
@@ -190,8 +191,8 @@ TEST_CASE("collapsed triangles and loose edges are audited like the rest", "[uni
   const std::vector<Vec3> positions{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, -1}, {1, 1, 1}, {5, 5, 5}};
   const Topology topology = build_topology(6, std::vector<Triangle>{{0, 1, 2}}, std::array{Edge{3, 4}, Edge{4, 5}});
   CHECK(audit(topology, positions).intersections == std::vector{edge_meets(topology, 3, 4, 0)});
-  // everything in one point: two edges and three vertices on the triangle
-  CHECK(audit(topology, std::vector<Vec3>(6, Vec3{1, 1, 1})).count == 5);
+  // everything in one point: two edges and three vertices on the triangle, and the end of an edge on the next one
+  CHECK(audit(topology, std::vector<Vec3>(6, Vec3{1, 1, 1})).count == 6);
   CHECK(audit(build_topology(0, {}), {}).count == 0);
 }
 

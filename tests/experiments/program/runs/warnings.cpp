@@ -75,6 +75,32 @@ TEST_CASE("a step that loses more than half of its momentum to truncation is war
   CHECK_THAT(warnings.list()[0], Contains("step 8 lost 90 %") && Contains("time_step"));
 }
 
+TEST_CASE("ten steps in a row in which bounds cut every free vertex are warned of, and the longest row is told",
+          "[unit]") {
+  compare::Scene scene = sheet();
+  scene.motions = {{.name = "held", .vertices = {0}, .keyframes = {}}};  // of 9 vertices 8 are free
+  Warnings warnings(scene);
+  const auto look_at = [&](int steps, std::int64_t cut) {
+    std::size_t said = 0;
+    for (int k = 0; k < steps; ++k) {
+      compare::StepMetrics row = numbered(1);
+      row.vertices_cut = cut, row.share_cut = static_cast<double>(cut) / 9;
+      said += warnings.look_at(row, std::nullopt).size();
+    }
+    return said;
+  };
+  CHECK(look_at(9, 8) == 0);
+  CHECK(look_at(1, 7) == 0);
+  CHECK(look_at(9, 9) == 0);
+  CHECK(warnings.list().empty());
+  CHECK(look_at(1, 8) == 1);
+  CHECK(look_at(3, 8) == 0);
+  look_at(1, 0);
+  CHECK(look_at(11, 8) == 0);
+  REQUIRE(warnings.list().size() == 1);
+  CHECK_THAT(warnings.list()[0], Contains("13 steps in a row") && Contains("8 free vertices") && Contains("ogc audit"));
+}
+
 TEST_CASE("steps that leave a tenth of the free vertices' force are warned of at the end, by their median", "[unit]") {
   Warnings warnings(sheet());
   const auto look_at = [&](double residual, double rounding, double held) {
