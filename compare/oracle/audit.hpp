@@ -15,8 +15,8 @@ enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle, edg
 
 /// Edge `first` meets triangle `second` (touching counts) without sharing a vertex, vertex `first` lies on triangle
 /// `second` that does not contain it, or edges `first` < `second` meet, of which the triangles say nothing: both are of
-/// no triangle, or one meets the side of a triangle that lies opposite to their common vertex. Edges that share a vertex
-/// meet where the other end of one lies on the other.
+/// no triangle, or one meets the side of a triangle that lies opposite to their common vertex. Two edges with a common
+/// vertex meet where the other end of one lies on the other.
 struct Intersection {
   IntersectionKind kind = IntersectionKind::edge_triangle;  ///< which faces meet
   Index first = -1, second = -1;                            ///< edge or vertex, triangle or edge

@@ -27,6 +27,8 @@ Box box_of(std::initializer_list<Vec3> points) {
   return box;
 }
 
+std::size_t BoxTree::bytes(std::size_t boxes) { return boxes * (sizeof(Box) + sizeof(Item) + 2 * sizeof(Node)); }
+
 BoxTree::BoxTree(std::span<const Box> boxes) {
   if (boxes.empty()) return;
   std::vector<Item> items(boxes.size());

@@ -33,6 +33,8 @@ Box box_of(std::initializer_list<Vec3> points);
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes);
+  /// What making a tree over so many boxes takes at the most, with the boxes.
+  static std::size_t bytes(std::size_t boxes);
 
   /// Calls `visit(i)` for every box i that meets `query`, in the order of the tree.
   template <class Visit>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 #include "compare/oracle/box_tree.hpp"
 #include "compare/oracle/pairs.hpp"
@@ -22,18 +23,26 @@ class MotionAuditor {
  public:
   MotionAuditor(const Topology& topology, std::span<const Vec3> from, std::span<const Vec3> to,
                 const ExclusionView& exclusions)
-      : topology_(topology), from_(from), to_(to), exclusions_(exclusions) {}
+      : topology_(topology),
+        from_(from),
+        to_(to),
+        exclusions_(exclusions),
+        triangles_(tree_over(topology.triangles)),
+        edges_(tree_over(topology.edges)) {}
 
-  MeetingsResult run() const {
-    const BoxTree triangles = tree_over(topology_.triangles), edges = tree_over(topology_.edges);
+  /// Vertices and edges that ask.
+  std::size_t asking() const { return at(topology_.vertex_count) + topology_.edges.size(); }
+
+  /// What every `stride`-th of them finds.
+  MeetingsResult run(std::size_t stride = 1) const {
     tbb::enumerable_thread_specific<MeetingsResult> shares;
-    const std::size_t count = at(topology_.vertex_count) + topology_.edges.size();
+    const std::size_t count = (asking() + stride - 1) / stride;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const tbb::blocked_range<std::size_t>& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i)
-        if (static_cast<Index>(i) < topology_.vertex_count)
-          ask_vertex(static_cast<Index>(i), triangles, shares.local());
+      for (std::size_t k = range.begin(); k < range.end(); ++k)
+        if (const auto i = static_cast<Index>(k * stride); i < topology_.vertex_count)
+          ask_vertex(i, shares.local());
         else
-          ask_edge(static_cast<Index>(i) - topology_.vertex_count, edges, shares.local());
+          ask_edge(i - topology_.vertex_count, shares.local());
     });
     MeetingsResult all;
     for (const MeetingsResult& share : shares) {
@@ -62,20 +71,20 @@ class MotionAuditor {
     return BoxTree(boxes);
   }
 
-  void ask_vertex(Index v, const BoxTree& triangles, MeetingsResult& found) const {
+  void ask_vertex(Index v, MeetingsResult& found) const {
     if (topology_.vertex_edges[at(v)].empty() || !topology_.on_surface(v)) return;
     const std::array<Index, 1> vertex{v};
-    triangles.for_each_meeting(swept(vertex), [&](Index t) {
+    triangles_.for_each_meeting(swept(vertex), [&](Index t) {
       const Triangle& c = topology_.triangles[at(t)];
       if (!topology_.on_surface(c) || left_out(vertex, c, exclusions_)) return;
       decide({MeetingKind::vertex_triangle, v, t}, {v, c[0], c[1], c[2]}, found);
     });
   }
 
-  void ask_edge(Index e, const BoxTree& edges, MeetingsResult& found) const {
+  void ask_edge(Index e, MeetingsResult& found) const {
     const Edge& edge = topology_.edges[at(e)];
     if (!topology_.on_surface(edge)) return;
-    edges.for_each_meeting(swept(edge), [&](Index other) {
+    edges_.for_each_meeting(swept(edge), [&](Index other) {
       if (other <= e) return;
       const Edge& partner = topology_.edges[at(other)];
       if (!topology_.on_surface(partner) || left_out(edge, partner, exclusions_)) return;
@@ -98,7 +107,14 @@ class MotionAuditor {
   const Topology& topology_;
   std::span<const Vec3> from_, to_;
   ExclusionView exclusions_;
+  BoxTree triangles_, edges_;  ///< over swept faces
 };
+
+constexpr std::size_t sample_size = 2000;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -109,6 +125,21 @@ MeetingsResult meetings(const Topology& topology, std::span<const Vec3> from, st
   MeetingsResult result = MotionAuditor(topology, from, to, exclusions).run();
   result.meetings.resize(std::min(limit, result.meetings.size()));
   return result;
+}
+
+MeetingsCost meetings_cost(const Topology& topology, std::span<const Vec3> from, std::span<const Vec3> to,
+                           const ExclusionView& exclusions) {
+  check_state("meetings", topology, from, exclusions);
+  check_state("meetings", topology, to, exclusions);
+  const auto start = std::chrono::steady_clock::now();
+  const MotionAuditor auditor(topology, from, to, exclusions);
+  const double trees = seconds_since(start);
+  const std::size_t stride = std::max<std::size_t>(1, auditor.asking() / sample_size);
+  const MeetingsResult sample = auditor.run(stride);
+  const auto of_all = [&](double of_sample) { return of_sample * static_cast<double>(stride); };
+  return {of_all(static_cast<double>(sample.pairs_tested)), trees + of_all(seconds_since(start) - trees),
+          BoxTree::bytes(topology.triangles.size()) + BoxTree::bytes(topology.edges.size()) +
+              (from.size() + to.size()) * sizeof(Vec3) + stride * sample.count * sizeof(Meeting)};
 }
 
 std::string describe(const Meeting& meeting, const Topology& topology, const ElementNames& names) {

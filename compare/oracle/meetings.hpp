@@ -36,6 +36,17 @@ struct MeetingsResult {
 MeetingsResult meetings(const Topology& topology, std::span<const Vec3> from, std::span<const Vec3> to,
                         const ExclusionView& exclusions = {}, std::size_t limit = 1000);
 
+/// What `meetings` of a way would take, by what a sample of at most 2,000 of its vertices and edges took.
+struct MeetingsCost {
+  double pairs = 0;       ///< of pairs_tested
+  double seconds = 0;     ///< with the threads that asked
+  std::size_t bytes = 0;  ///< of memory beside the mesh's own, at the most
+};
+
+/// As `meetings`, whose errors it throws.
+MeetingsCost meetings_cost(const Topology& topology, std::span<const Vec3> from, std::span<const Vec3> to,
+                           const ExclusionView& exclusions = {});
+
 /// "edge (vertices 3, 7) meets edge (vertices 9, 10) after 0.25 of the motion".
 std::string describe(const Meeting& meeting, const Topology& topology, const ElementNames& names = {});
 

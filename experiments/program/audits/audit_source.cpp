@@ -49,6 +49,8 @@ class RunSource : public AuditSource {
     state.volumes = judge_.penetration(stored);
     state.in_volumes = judge_.describe(*state.volumes);
   }
+  std::string proof_of_ways() const override { return "the run's own audit proves its motion (run.json); "; }
+  compare::ExclusionView exclusions() const override { return judge_.exclusions(); }
   std::string left_out() const override { return left_out_of_audits(reader_.scene()); }
 
  private:

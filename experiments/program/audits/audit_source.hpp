@@ -41,6 +41,10 @@ class AuditSource {
   virtual AuditedState next() = 0;
   /// Judges a state exactly. Several threads may do so, with different states, while another one reads.
   virtual void judge(AuditedState& state) const = 0;
+  /// What proves the ways between its states, beside `ogc audit`, in words; empty where nothing.
+  virtual std::string proof_of_ways() const { return ""; }
+  /// Pairs that it leaves out.
+  virtual compare::ExclusionView exclusions() const { return {}; }
   /// What is left out besides what touches by its topology, in words; empty where nothing.
   virtual std::string left_out() const { return ""; }
 };

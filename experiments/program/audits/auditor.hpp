@@ -69,6 +69,8 @@ class StateJudge {
   /// Names what is wrong, one line a primitive; empty where nothing is.
   std::string describe(const Verdict& verdict) const;
   std::string describe(const compare::AuditResult& result) const;
+  /// Pairs that it leaves out.
+  const compare::Exclusions& exclusions() const { return exclusions_; }
   /// What elements of the scene are called in all of these.
   const compare::ElementNames& names() const { return names_; }
 

@@ -11,6 +11,8 @@
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate_mesh.hpp"
 #include "experiments/program/audits/audit_source.hpp"
+#include "experiments/program/audits/between.hpp"
+
 #include "experiments/program/audits/offenders.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/interrupt.hpp"
@@ -29,6 +31,7 @@ struct Options {
   AuditRequest request;
   std::string show;               ///< folder of the pictures; empty: none
   std::optional<double> deepest;  ///< [m] deeper inside a volume a state fails; empty: none does
+  bool between = false;           ///< asks the straight ways between states, too
 };
 
 /// How many states get pictures: the first ones tell what the others would.
@@ -120,7 +123,9 @@ State state_of(const AuditedState& audited) {
 /// All that was looked at before the end, an interruption, or a state that can't be read.
 struct Audits {
   std::vector<State> states;
-  std::vector<std::string> shown;  ///< what --show wrote, a line each
+  std::vector<std::string> shown;   ///< what --show wrote, a line each
+  std::optional<WaysBetween> ways;  ///< where they were asked
+  std::string proof_of_ways;        ///< the source's
   std::size_t planned = 0;
   std::string stopped;  ///< why the rest can't be read; empty where it could
 };
@@ -160,10 +165,14 @@ class Reading {
   bool failed_ = false;
 };
 
-/// States side by side, as many as there are threads: what one state takes is for the most part one thread's work.
-Audits audit_all(AuditSource& source, const std::string& show) {
+/// States side by side, as many as there are threads: what one state takes is for the most part one thread's work. Ways
+/// one after the other, each by all threads.
+Audits audit_all(AuditSource& source, const Options& options) {
+  const std::string& show = options.show;
   Audits audits;
   audits.planned = source.size();
+  audits.proof_of_ways = source.proof_of_ways();
+  if (options.between) audits.ways.emplace(source, options.request.limit);
   catch_interrupts();
   Progress progress(0, static_cast<std::int64_t>(source.size()), "frame");
   Reading reading(source);
@@ -178,8 +187,14 @@ Audits audit_all(AuditSource& source, const std::string& show) {
       audits.stopped = item->problem;
       return;
     }
-    if (!item->judged) return;
+    if (!item->judged || !audits.stopped.empty()) return;
     const AuditedState& audited = *item->state;
+    try {
+      if (audits.ways) audits.ways->look_at(audited);
+    } catch (const compare::InputError& error) {
+      audits.stopped = error.what();
+      return;
+    }
     audits.states.push_back(state_of(audited));
     if (!show.empty() && audited.result.count > 0 && audits.shown.size() < most_shown)
       audits.shown.push_back(show_offenders(show, audited.name, audited.result, *audited.topology, audited.positions));
@@ -212,8 +227,15 @@ std::string describe_distances(const std::vector<State>& states) {
          describe_pair("two edges without a common vertex", edges, "edge_edge");
 }
 
-/// Two states say nothing about curves (method.md §5.5), which pass through each other between them.
-std::string unseen(const std::vector<State>& states) {
+/// Two states say nothing about the way between them (method.md §5.5).
+std::string unseen_ways(const Audits& audits) {
+  if (audits.states.size() < 2 || audits.ways) return "";
+  return "what happened between these states was not looked at: surfaces may have passed through each other there; " +
+         audits.proof_of_ways + "--between asks the straight ways";
+}
+
+/// Curves pass through each other without a trace.
+std::string unseen_curves(const std::vector<State>& states) {
   const auto has = std::ranges::find_if(states, [](const State& state) { return state.loose_edges > 0; });
   if (has == states.end()) return "";
   const std::string edges = counted(has->loose_edges, "edge") + " without a triangle";
@@ -259,6 +281,14 @@ Totals totals_of(const std::vector<State>& states) {
   return totals;
 }
 
+/// What was not looked at, a line each.
+std::vector<std::string> unseen(const Audits& audits) {
+  std::vector<std::string> lines;
+  for (std::string line : {unseen_ways(audits), audits.ways ? "" : unseen_curves(audits.states)})
+    if (!line.empty()) lines.push_back(std::move(line));
+  return lines;
+}
+
 std::string headline(const Audits& audits, const Totals& totals) {
   const std::string states = counted(audits.states.size(), "state");
   std::string text = totals.says_nothing
@@ -268,6 +298,7 @@ std::string headline(const Audits& audits, const Totals& totals) {
                          : states + " audited exactly, " + counted(totals.intersections, "intersection");
   if (totals.intersecting > 0 && audits.planned > 1)
     text += " in " + counted(totals.intersecting, "state") + ", the first: " + totals.first;
+  if (audits.ways) text += "; " + audits.ways->headline();
   return text + (interrupted() ? "; interrupted, the rest was not looked at" : "") + "\n";
 }
 
@@ -275,10 +306,14 @@ void print(const Audits& audits, const Totals& totals, const std::string& left_o
   std::string text;
   for (const State& state : audits.states)
     if (state.count > 0) text += state.name + ": " + counted(state.count, "intersection") + "\n" + state.text + "\n";
+  for (const Way& way : audits.ways ? audits.ways->ways() : std::vector<Way>())
+    if (way.found.count > 0)
+      text += "from " + way.from + " to " + way.to + ": " + counted(way.found.count, "meeting") + "\n" + way.text +
+              "\n";
   text += headline(audits, totals);
   if (!audits.stopped.empty())
     text += counted(audits.planned - audits.states.size(), "further state") + " not audited: one can't be read\n";
-  if (const std::string note = unseen(audits.states); !note.empty()) text += note + "\n";
+  for (const std::string& line : unseen(audits)) text += line + "\n";
   if (!left_out.empty()) text += "left out: " + left_out + "\n";
   for (const std::string& line : audits.shown) text += line + "\n";
   text += describe_volumes(audits.states);
@@ -295,7 +330,12 @@ void print_json(const Options& options, const Audits& audits, const Totals& tota
   json["clean"] = totals.says_nothing && totals.intersections == 0 ? Json(nullptr) : Json(totals.intersections == 0);
   json["complete"] = !interrupted() && audits.stopped.empty();
   if (!audits.stopped.empty()) json["stopped"] = audits.stopped;
-  if (const std::string note = unseen(audits.states); !note.empty()) json["unseen"] = note;
+  if (const std::vector<std::string> lines = unseen(audits); !lines.empty()) json["unseen"] = lines;
+  if (audits.ways) {
+    json["meetings"] = audits.ways->meetings();
+    json["ways"] = Json::array();
+    for (const Way& way : audits.ways->ways()) json["ways"].push_back(way.json);
+  }
   if (!left_out.empty()) json["left_out"] = left_out;
   if (!options.show.empty()) json["shown"] = audits.shown;
   print_result(json);
@@ -303,7 +343,7 @@ void print_json(const Options& options, const Audits& audits, const Totals& tota
 
 int run(const Options& options, const CommandContext& context) {
   const std::unique_ptr<AuditSource> source = open_audit(options.request);
-  const Audits audits = audit_all(*source, options.show);
+  const Audits audits = audit_all(*source, options);
   const Totals totals = totals_of(audits.states);
   if (context.json) {
     print_json(options, audits, totals, source->left_out());
@@ -311,7 +351,7 @@ int run(const Options& options, const CommandContext& context) {
     print(audits, totals, source->left_out());
   }
   if (!audits.stopped.empty()) log_line("ogc: " + audits.stopped);
-  if (totals.intersections > 0) return exit_check_failed;
+  if (totals.intersections > 0 || (audits.ways && audits.ways->meetings() > 0)) return exit_check_failed;
   if (options.deepest && totals.deepest > *options.deepest) {
     log_line("ogc: a vertex is " + number(totals.deepest) + " m inside a volume, where --deepest allows " +
              number(*options.deepest) + " m");
@@ -343,6 +383,8 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       ->add_option("--deepest", options->deepest,
                    "A state with a vertex deeper than so much inside a volume fails (default: none does)")
       ->check(real_number(0, compare::most_length, "m"));
+  command->add_flag("--between", options->between,
+                    "Ask the straight ways between states, too: which faces meet while every vertex moves straight");
   add_mesh_options(*command, options->request.meshes);
   command
       ->add_option("--limit", options->request.limit,
@@ -357,7 +399,12 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "pairs, are left out. Of volumes, which may be entered, it says how many vertices are inside (by winding "
       "number), "
       "the deepest, and how many\n"
-      "edges meet. Exit status 1: there is an intersection, or a vertex beyond --deepest.\n"
+      "edges meet. Exit status 1: there is an intersection, a meeting, or a vertex beyond --deepest.\n"
+      "Between states, two sheets may have changed places. --between asks, without rounding, which faces meet while "
+      "each "
+      "vertex moves straight from one state to the next,\n"
+      "and says before it begins what that will take. Where a program turned something between two frames, or they are "
+      "many steps apart, it went another way, and a meeting may be none of its motion.\n"
       "The smallest distances of a vertex to a triangle without it, and of two edges without a common vertex, are "
       "found exactly too, and\n"
       "rounded down; of pairs equally near the one with the lowest numbers is named.\n"
@@ -373,8 +420,8 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "  ogc audit shirt.obj\n"
       "  ogc audit runs/twist-small-20250801-120000\n"
       "  ogc audit their_run/*.ply --show pictures\n"
-      "  ogc audit frames.npz --json --limit 20 > verdict.json\n"
-      "  ogc audit cloth.pc2 --mesh cloth.obj");
+      "  ogc audit cloth.pc2 --mesh cloth.obj --between\n"
+      "  ogc audit frames.npz --json --limit 20 > verdict.json");
   command->callback([options, &context] { context.status = run(*options, context); });
 }
 

@@ -49,8 +49,9 @@ class Warnings {
   /// triangles, and against the thickness of each solid at rest, rest shapes that isometric bending does not know, and
   /// of IPC the speed at which a step ends against what gravity changes in one.
   explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
-  /// Looks at a step: what the guess loop lost though it did all its rounds (MomentumShare; empty: not known), and the
-  /// lag of prescribed vertices, and whether it is one of most_held_steps in a row that bounds end. Returns what the first step of its kind gives reason to say; the list keeps the worst.
+  /// Looks at a step: what the guess loop lost though it did all its rounds (MomentumShare; empty: not known), the
+  /// lag of prescribed vertices, and whether bounds end most_held_steps in a row. Returns what the first step of its
+  /// kind gives reason to say; the list keeps the worst.
   std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
   /// What the steps so far left.
   const ForcesLeft& forces_left() const { return forces_left_; }

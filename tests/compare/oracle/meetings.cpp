@@ -222,6 +222,29 @@ TEST_CASE("meetings: a state of another mesh, or one that is not finite, is refu
   CHECK_THROWS_AS(meetings(topology, broken, x), InputError);
 }
 
+TEST_CASE("meetings: what a way will cost is told by all of a small mesh and by a sample of a large one", "[unit]") {
+  const Heap heap(7, 0.3);
+  const MeetingsCost small = meetings_cost(heap.topology, heap.from, heap.to);
+  CHECK(small.pairs == static_cast<double>(meetings(heap.topology, heap.from, heap.to).pairs_tested));
+  CHECK(small.seconds > 0);
+  CHECK(small.bytes > 2 * heap.from.size() * sizeof(Vec3));
+  // 6,000 rods in a row that all meet the box of the next one and of no other, each asked for its own pair.
+  std::vector<Vec3> from, to;
+  std::vector<Edge> rods;
+  for (Index k = 0; k < 6000; ++k) {
+    for (const double side : {0., 1.}) {
+      from.push_back({double(k), side, 0});
+      to.push_back({k + 1.5, side, 0});
+    }
+    rods.push_back({2 * k, 2 * k + 1});
+  }
+  const Topology row = build_topology(static_cast<Index>(from.size()), {}, rods);
+  CHECK(meetings(row, from, to).pairs_tested == 5999);
+  CHECK(meetings_cost(row, from, to).pairs == Approx(6000).epsilon(0.02));
+  from.pop_back();
+  CHECK_THROWS_AS(meetings_cost(row, from, to), InputError);
+}
+
 TEST_CASE("meetings: a braid of 65,000 edges a step on is proved in seconds", "[property]") {
   // Pairs of strands, wound about each other at 0.7 contact radii and slanted, so that boxes of near edges meet; each
   // vertex moves by 0.05 of a radius.
