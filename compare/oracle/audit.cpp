@@ -169,6 +169,28 @@ AuditResult audit(const Topology& topology, std::span<const Vec3> positions, con
   return result;
 }
 
+std::vector<Edge> vertex_pairs(const AuditResult& result, const Topology& topology) {
+  std::vector<Edge> pairs;
+  const auto add = [&](std::span<const Index> first, std::span<const Index> second) {
+    for (const Index a : first)
+      for (const Index b : second)
+        if (a != b) pairs.push_back({std::min(a, b), std::max(a, b)});
+  };
+  for (const Intersection& found : result.intersections) {
+    switch (found.kind) {
+      case IntersectionKind::edge_triangle:
+        add(topology.edges[at(found.first)], topology.triangles[at(found.second)]);
+        break;
+      case IntersectionKind::vertex_triangle: add({&found.first, 1}, topology.triangles[at(found.second)]); break;
+      case IntersectionKind::edge_edge: add(topology.edges[at(found.first)], topology.edges[at(found.second)]); break;
+    }
+  }
+  std::ranges::sort(pairs);
+  const auto [first, last] = std::ranges::unique(pairs);
+  pairs.erase(first, last);
+  return pairs;
+}
+
 std::string describe(const Intersection& pair, const Topology& topology, const ElementNames& names) {
   if (pair.kind == IntersectionKind::edge_edge)
     return names.edge(topology.edges[at(pair.first)]) + " meets " + names.edge(topology.edges[at(pair.second)]);

@@ -45,6 +45,10 @@ struct AuditResult {
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 
+/// Of the listed intersections each vertex of the one face with each of the other, the smaller first, ascending: who
+/// excludes these pairs (Scene::excluded_pairs) leaves out what meets, and whatever else has both of such a pair.
+std::vector<Edge> vertex_pairs(const AuditResult& result, const Topology& topology);
+
 /// "edge of body 'cloth' (vertices 3, 7) meets face 40 of body 'floor' (…)".
 std::string describe(const Intersection& pair, const Topology& topology, const ElementNames& names = {});
 /// One line for each that is listed, and how many more there are.

@@ -49,6 +49,7 @@ class RunSource : public AuditSource {
     state.volumes = judge_.penetration(stored);
     state.in_volumes = judge_.describe(*state.volumes);
   }
+  const compare::Scene* scene() const override { return &reader_.scene(); }
   std::string proof_of_ways() const override { return "the run's own audit proves its motion (run.json); "; }
   compare::ExclusionView exclusions() const override { return judge_.exclusions(); }
   std::string left_out() const override { return left_out_of_audits(reader_.scene()); }
@@ -88,6 +89,7 @@ class SequenceSource : public AuditSource {
     say(loaded);
     take_topology(mesh, its_name);
     AuditedState state{its_name, topology_, std::move(mesh.positions), {}, {}, {}, ""};
+    state.is_solid = !mesh.tetrahedra.empty();
     if (!loaded.source.file.empty()) state.names = compare::ElementNames(std::move(loaded.source));
     return state;
   }

@@ -13,6 +13,7 @@
 #include "compare/oracle/volume_audit.hpp"
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/mesh.hpp"
+#include "compare/problem/scene.hpp"
 
 namespace ogc::experiments {
 
@@ -27,6 +28,7 @@ struct AuditedState {
   std::string text;                                     ///< the listed intersections in words, one line each
   std::optional<compare::VolumePenetration> volumes{};  ///< where the scene has volumes
   std::string in_volumes{};                             ///< the same in words
+  bool is_solid = false;                                ///< of a mesh of tetrahedra
 };
 
 /// States to audit, of a run or of files of other programs.
@@ -41,6 +43,8 @@ class AuditSource {
   virtual AuditedState next() = 0;
   /// Judges a state exactly. Several threads may do so, with different states, while another one reads.
   virtual void judge(AuditedState& state) const = 0;
+  /// The scene whose states they are; null where they are meshes.
+  virtual const compare::Scene* scene() const { return nullptr; }
   /// What proves the ways between its states, beside `ogc audit`, in words; empty where nothing.
   virtual std::string proof_of_ways() const { return ""; }
   /// Pairs that it leaves out.

@@ -1,6 +1,7 @@
 // `ogc audit`: does anything intersect? Exactly, for a mesh of any origin, or for each frame of a run of any program.
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -82,7 +83,26 @@ const char* name_of(compare::IntersectionKind kind) {
   return "";
 }
 
-State state_of(const AuditedState& audited) {
+/// Pairs of vertices as `excluded_pairs` of a scene file has them: by bodies, numbered within each. A mesh is one body,
+/// which has the name that `ogc run MESH` gives it.
+Json excluded_json(const std::vector<compare::Edge>& pairs, const compare::Scene* scene, const AuditedState& audited) {
+  const auto body_of = [&](compare::Index v) -> std::pair<std::string, compare::Index> {
+    if (scene == nullptr) return {audited.is_solid ? "solid" : "cloth", 0};
+    const auto body = std::ranges::find_if(scene->bodies,
+                                           [&](const compare::Body& b) { return v < b.first_vertex + b.vertex_count; });
+    return {body->name, body->first_vertex};
+  };
+  std::map<std::array<std::string, 2>, Json> by_bodies;
+  for (const auto& [a, b] : pairs) {
+    const auto first = body_of(a), second = body_of(b);
+    by_bodies[{first.first, second.first}].push_back({a - first.second, b - second.second});
+  }
+  Json json = Json::array();
+  for (const auto& [bodies, vertices] : by_bodies) json.push_back({{"bodies", bodies}, {"vertices", vertices}});
+  return json;
+}
+
+State state_of(const AuditedState& audited, const compare::Scene* scene) {
   const compare::Topology& topology = *audited.topology;
   State state{.name = audited.name,
               .json = {{"state", audited.name}, {"count", audited.result.count}, {"intersections", Json::array()}},
@@ -98,6 +118,8 @@ State state_of(const AuditedState& audited) {
                              {"edges_meeting", audited.volumes->edges_meeting}};
   for (std::size_t e = 0; e < topology.edges.size(); ++e) state.loose_edges += topology.edge_triangles[e].empty();
   state.json["smallest_distances"] = to_json(audited.distances, topology, audited.names);
+  if (audited.result.count > 0)
+    state.json["excluded_pairs"] = excluded_json(vertex_pairs(audited.result, topology), scene, audited);
   for (const compare::Intersection& pair : audited.result.intersections) {
     const auto first = static_cast<std::size_t>(pair.first), second = static_cast<std::size_t>(pair.second);
     Json entry{{"kind", name_of(pair.kind)}};
@@ -195,7 +217,7 @@ Audits audit_all(AuditSource& source, const Options& options) {
       audits.stopped = error.what();
       return;
     }
-    audits.states.push_back(state_of(audited));
+    audits.states.push_back(state_of(audited, source.scene()));
     if (!show.empty() && audited.result.count > 0 && audits.shown.size() < most_shown)
       audits.shown.push_back(show_offenders(show, audited.name, audited.result, *audited.topology, audited.positions));
     if (source.size() > 1)
@@ -409,6 +431,8 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "found exactly too, and\n"
       "rounded down; of pairs equally near the one with the lowest numbers is named.\n"
       "Text names elements as the mesh's file counts them; numbers of the JSON are from 0, without unused vertices.\n\n"
+      "JSON has the vertices of what meets as excluded_pairs, as a scene file takes them: what is excluded may go on "
+      "meeting (experiments/garments.md).\n"
       "Frames of whatever solver: files are taken in natural order (frame_2 before frame_10), and a pattern in quotes "
       "is expanded here. A .npz\n"
       "(numpy.savez) holds positions [frames, vertices, 3] (or x, vertices, points, verts) in float32 or float64, and "

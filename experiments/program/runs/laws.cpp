@@ -32,8 +32,7 @@ std::string bounds_of(const LawRow& row) {
 }
 
 compare::Answerer answerer_of(Solver solver) {
-  return {.is_solved = solver != Solver::vbd,
-          .has_contact_energy = solver != Solver::ipc};
+  return {.is_solved = solver != Solver::vbd, .has_contact_energy = solver != Solver::ipc};
 }
 
 compare::LawState state_of(const compare::Snapshot& snapshot) {

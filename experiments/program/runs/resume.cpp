@@ -93,6 +93,7 @@ ResumedRun resumed_run(const std::filesystem::path& folder) {
   resumed.options.ledger = says_yes(provenance, "ledger");
   RunRequest& request = resumed.request;
   request.scene = run.scene();
+  request.tolerate_start = says_yes(provenance, "tolerate_start");
   request.scale = text_in(provenance, "scale");
   request.solver = provenance.solver;
   request.backend = provenance.backend;

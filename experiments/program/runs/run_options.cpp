@@ -167,6 +167,10 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->needs("--jitter")
       ->capture_default_str();
+  command.add_flag(
+      "--tolerate-start", options->tolerate_start,
+      "Begin although faces meet: their pairs of vertices are no contact, not bounded and not audited until "
+      "they are apart (experiments/garments.md); start_pairs.csv says how many are open at each frame");
   command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
   command.add_flag(
       "--residual", options->residual,
@@ -272,6 +276,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   require_settings(parse_solver(options.solver), options.assignments, request.scene.settings);
   check_jitter(options.jitter, request.scene.settings);
   request.jitter = options.jitter;
+  request.tolerate_start = options.tolerate_start;
   request.solver = options.solver;
   request.backend = options.backend;
   request.iterations = options.iterations || options.condition;

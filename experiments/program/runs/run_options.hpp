@@ -18,6 +18,7 @@ struct RunOptions {
   std::int64_t steps = 0;                ///< 0: the scene's
   /// likewise
   bool profile = false, iterations = false, condition = false, residual = false, ledger = false;
+  bool tolerate_start = false;                             ///< of --tolerate-start
   Jitter jitter;                                           ///< of --jitter and --seed
   compare::MeshOptions mesh;                               ///< of a mesh file in place of a scene
   std::optional<double> ground;                            ///< height of the ground below it [m]

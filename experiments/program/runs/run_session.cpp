@@ -30,12 +30,6 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 constexpr std::int64_t any_step = std::numeric_limits<std::int64_t>::max();
 
-bool finite(const Snapshot& snapshot) {
-  return std::ranges::all_of(snapshot.positions, [](const compare::Vec3f& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-  });
-}
-
 /// Frames 60 times a second of the scene's time, unless the scene says otherwise.
 std::int64_t frame_steps(const compare::Settings& settings) {
   if (settings.frame_steps > 0) return settings.frame_steps;
@@ -74,6 +68,7 @@ compare::Provenance provenance(const RunRequest& request, const std::string& dev
   origin.extra["residuals"] = request.residual ? "yes" : "no";
   if (request.ledger) origin.extra["ledger"] = "yes";
   if (request.meetings) origin.extra["meetings"] = text_of(*request.meetings);
+  if (request.tolerate_start) origin.extra["tolerate_start"] = "yes";
   if (request.from_state) origin.extra["from_state"] = request.from_state->string();
   if (request.jitter.largest > 0) {
     origin.extra["jitter"] = compare::shortest(request.jitter.largest);
@@ -119,75 +114,18 @@ RunSession::RunSession(RunRequest request, compare::Contestant contestant)
     : request_(checked(std::move(request))),
       settings_(request_.scene.settings),
       contestant_(std::move(contestant)),
-      judge_(request_.scene, request_.sources),
       warnings_(request_.scene, parse_solver(request_.solver)),
       momentum_(request_.scene) {
   frame_steps_ = frame_steps(settings_);
-  summary_.has_volumes = judge_.has_volumes();
   start_state();
+  if (request_.tolerate_start) name_pairs();
+  judge_with_pairs();
+  summary_.has_volumes = judge_->has_volumes();
   if (!request_.resume) check_start();
 }
 
-void RunSession::start_state() {
-  start_.positions = compare::to_single(request_.scene.mesh.positions);
-  start_.velocities = compare::to_single(request_.scene.velocities);
-  start_.orientations = request_.scene.orientations;
-  if (request_.from_state) {
-    const std::string file = request_.from_state->string();
-    compare::Frame frame = compare::read_frame(*request_.from_state);
-    if (frame.positions.size() != start_.positions.size() || frame.velocities.size() != start_.positions.size())
-      throw compare::InputError(file + ": holds " + std::to_string(frame.positions.size()) + " vertices, the scene '" +
-                                request_.scene.name + "' has " + std::to_string(start_.positions.size()) +
-                                "; give the scene and scale of the run that the frame comes from");
-    if (frame.step >= settings_.steps)
-      throw compare::InputError(file + ": is the state after step " + std::to_string(frame.step) +
-                                ", and the run ends at step " + std::to_string(settings_.steps) +
-                                "; give a larger --steps");
-    start_.step = frame.step;
-    start_.positions = std::move(frame.positions);
-    start_.velocities = std::move(frame.velocities);
-    start_.orientations = std::move(frame.orientations);
-  }
-  if (request_.resume)
-    start_ = request_.resume->state;
-  else
-    add_jitter(request_.jitter, request_.scene, start_.positions);
-  if (!finite(start_)) throw compare::InputError("the start holds a position that is not finite");
-  step_ = offered_step_ = start_.step;
-}
-
-void RunSession::check_start() {
-  const compare::AuditResult result = judge_.audit(start_.positions);
-  if (judge_.has_volumes()) {
-    const compare::VolumePenetration penetration = judge_.penetration(start_.positions);
-    summary_.inside_at_start = penetration.vertices_inside;
-    count(penetration, start_.step);
-    if (penetration.vertices_inside > 0)
-      log_line("ogc: " + request_.scene.name + " begins with " + judge_.describe(penetration) +
-               "; they are pushed out");
-  }
-  if (result.count == 0) return;
-  const std::string jittered = request_.jitter.largest > 0 ? ", moved by --jitter," : "";
-  throw compare::InputError("the scene '" + request_.scene.name + "'" + jittered + " starts with " +
-                            counted(result.count, "intersection") + " " + show("start", start_, result) +
-                            "\nNo method that starts from a penetration can promise to have none. Move these apart:\n" +
-                            judge_.describe(result));
-}
-
-/// Where the intersections of a state are, and the picture, or how to get one.
-std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
-  const compare::Topology topology = build_topology(request_.scene);
-  const std::vector<compare::Vec3> positions = compare::to_double(state.positions);
-  const std::string where = region_of(offenders_of(result, topology), topology, positions);
-  if (request_.show.empty()) return where + " (for a picture of them add --show DIR)";
-  return where + "\n" + show_offenders(request_.show, name, result, topology, positions);
-}
-
 void RunSession::open_folder() {
-  simulation_ = contestant_.start(request_.scene, {.profile = request_.profile,
-                                                   .energies = true,
-                                                   .iterations = request_.iterations,
-                                                   .condition = request_.condition});
+  start_simulation();
   if (request_.from_state || request_.resume || request_.jitter.largest > 0) simulation_->restore(start_);
   summary_.scene = request_.scene.name;
   summary_.scale = request_.scale;
@@ -201,7 +139,7 @@ void RunSession::open_folder() {
   summary_.is_unbounded = settings_.bounds == compare::Bounds::off;
   summary_.first_step = summary_.last_step = step_;
   summary_.smallest_distance = std::numeric_limits<double>::infinity();
-  auditor_ = std::make_unique<Auditor>(judge_, request_.audit_beside);
+  auditor_ = std::make_unique<Auditor>(*judge_, request_.audit_beside);
   last_good_ = start_;
   for (const std::string& warning : warnings_.list()) log_line("warning: " + warning);
   if (request_.resume) return reopen_folder();
@@ -249,6 +187,7 @@ RunSummary RunSession::run() {
   open_folder();
   try {
     if (!request_.resume) store_frame(last_good_);
+    if (pairs_) write_pairs();
     save_checkpoint();
     writer_->flush();
     summary_.seconds.start = since_begun();
@@ -288,7 +227,10 @@ void RunSession::simulate() {
     const auto contacts = static_cast<std::size_t>(summary_.last_vertex_facet_contacts +
                                                    summary_.last_edge_edge_contacts);
     progress.show(step_, number(recent) + " ms a step, " + counted(contacts, "contact") +
-                             ", frames written up to step " + std::to_string(writer_->written().last_step));
+                             ", frames written up to step " + std::to_string(writer_->written().last_step) +
+                             (pairs_ ? ", " + std::to_string(pairs_->open()) + " of " +
+                                           counted(pairs_->named(), "start pair") + " open"
+                                     : ""));
   }
   progress.end();
   if (interrupted() && !failed()) {
@@ -319,6 +261,7 @@ bool RunSession::one_chunk() {
   }
   collect(auditor_->take());
   if (!broken.empty() && !failed()) summary_.failure = broken;
+  if (pairs_ && !failed() && is_frame(step_)) close_pairs();
   return !failed();
 }
 
@@ -439,9 +382,9 @@ void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
                                 ? ""
                                 : "\nintersections " + show(state, snapshot, verdict.intersections);
   summary_.failure = "the audit of step " + std::to_string(verdict.step) + " failed (" + file.string() +
-                     "); the last good state is kept:" + shown + "\n" + judge_.describe(verdict);
+                     "); the last good state is kept:" + shown + "\n" + judge_->describe(verdict);
   if (request_.deepest && verdict.volumes.deepest > *request_.deepest)
-    summary_.failure += judge_.describe(verdict.volumes) + ", where --deepest allows " + number(*request_.deepest) +
+    summary_.failure += judge_->describe(verdict.volumes) + ", where --deepest allows " + number(*request_.deepest) +
                         " m\n";
 }
 
@@ -487,9 +430,8 @@ void RunSession::finish() {
   if (left.steps() > 0) writer_->set_extra("left_residual", number(left.median_residual(), 6));
   writer_->set_warnings(summary_.warnings);
   writer_->set_extra("final_hash", summary_.final_hash);
-  writer_->set_extra("guarantee_kept", !summary_.guarantee_kept   ? "not checked"
-                                       : *summary_.guarantee_kept ? "yes"
-                                                                  : "no");
+  if (pairs_) summary_.start_pairs = pairs_->named(), summary_.open_pairs = pairs_->open();
+  writer_->set_extra("guarantee_kept", guarantee_text(summary_));
   writer_->set_extra("audited_states", std::to_string(summary_.audited_states));
   if (summary_.has_volumes) {
     writer_->set_extra("vertices_inside_at_start", std::to_string(summary_.inside_at_start));

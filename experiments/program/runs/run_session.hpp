@@ -19,6 +19,7 @@
 #include "experiments/program/runs/measured_simulation.hpp"
 #include "experiments/program/runs/momentum_share.hpp"
 #include "experiments/program/runs/pace.hpp"
+#include "experiments/program/runs/start_pairs.hpp"
 #include "experiments/program/runs/warnings.hpp"
 
 namespace ogc::experiments {
@@ -47,6 +48,7 @@ struct RunRequest {
   bool audit_beside = false;                               ///< see Auditor
   std::optional<std::filesystem::path> from_state;         ///< a frame whose state the run begins with
   Jitter jitter;                                           ///< of the start
+  bool tolerate_start = false;                             ///< leaves what meets at the start out until it is apart
   std::optional<compare::Checkpoint> resume;               ///< of `folder`, whose run goes on (resume.hpp)
   double checkpoint_seconds = default_checkpoint_seconds;  ///< between two checkpoints, at least [s]
   std::optional<double> deepest;               ///< [m] deeper inside a volume a state fails; empty: none does
@@ -93,14 +95,18 @@ struct RunSummary {
   bool asks_meetings = false;                     ///< the following of the steps that were asked
   std::int64_t meetings = 0, first_meeting = -1;  ///< pairs that met on the way; the step of the first
   std::optional<bool> guarantee_kept;             ///< empty where nothing was audited and nothing is known to be wrong
-  std::string final_hash;                         ///< state_hash of the last good state
-  RunSeconds seconds;                             ///< of this command, which may have gone on with an earlier one's run
+  /// StartPairs: how many the guarantee leaves out, and how many of them are open at the end
+  std::size_t start_pairs = 0, open_pairs = 0;
+  std::string final_hash;  ///< state_hash of the last good state
+  RunSeconds seconds;      ///< of this command, which may have gone on with an earlier one's run
 };
 
 /// For programs.
 Json to_json(const RunSummary& summary);
 /// For people.
 std::string describe(const RunSummary& summary);
+/// For run.json: "yes", "no", "not checked", "but for 12 pairs, 3 still open".
+std::string guarantee_text(const RunSummary& summary);
 
 /// One run, from its folder to its summary.
 class RunSession {
@@ -117,7 +123,14 @@ class RunSession {
 
  private:
   void start_state();
+  void name_pairs();
+  void judge_with_pairs();
   void check_start();
+  void tell_pairs() const;
+  void start_simulation();
+  void close_pairs();
+  void count_pairs(std::int64_t step);
+  void write_pairs() const;
   void count(const compare::VolumePenetration& penetration, std::int64_t step);
   std::string show(const std::string& name, const compare::Snapshot& state, const compare::AuditResult& result) const;
   void open_folder();
@@ -143,13 +156,17 @@ class RunSession {
   void reject(const Verdict& verdict, const compare::Snapshot& snapshot);
   void store_frame(const compare::Snapshot& snapshot);
   void finish();
+  static bool finite(const compare::Snapshot& snapshot);
   bool failed() const { return !summary_.failure.empty(); }
 
   RunRequest request_;
   const compare::Settings& settings_;
   compare::Contestant contestant_;
+  std::optional<StartPairs> pairs_;                 ///< of a start that is tolerated
+  std::string pairs_csv_;                           ///< rows of start_pairs.csv
+  std::unique_ptr<compare::Scene> tolerant_scene_;  ///< the scene with open pairs; none where nothing is tolerated
   std::unique_ptr<compare::Simulation> simulation_;
-  StateJudge judge_;
+  std::unique_ptr<StateJudge> judge_;
   Warnings warnings_;
   MomentumShare momentum_;
   std::unique_ptr<Auditor> auditor_;

@@ -17,9 +17,18 @@ std::string not_checked(const RunSummary& summary) {
   return "not checked (audit " + name_of(summary.audit) + ", but the run came to no state to audit)";
 }
 
+/// What it leaves out of vertices that met at the start; empty where nothing.
+std::string but_for(const RunSummary& summary) {
+  if (summary.start_pairs == 0) return "";
+  return "but for " + counted(summary.start_pairs, "pair") + " of vertices that met at the start, " +
+         std::to_string(summary.open_pairs) + " still open";
+}
+
 std::string guarantee(const RunSummary& summary) {
-  if (!summary.guarantee_kept) return not_checked(summary);
+  if (!summary.guarantee_kept) return not_checked(summary) + (summary.start_pairs == 0 ? "" : "; " + but_for(summary));
   if (!*summary.guarantee_kept) return "NO";
+  if (summary.start_pairs > 0 && !summary.is_unbounded)
+    return "kept " + but_for(summary) + " (" + counted(summary.audited_states, "state") + " audited exactly)";
   if (summary.is_unbounded)
     return "no guarantee (bounds=off); " + counted(summary.audited_states, "state") + " audited";
   return "yes (" + counted(summary.audited_states, "state") + " audited exactly)";
@@ -48,6 +57,12 @@ std::string wall_time(const RunSeconds& seconds) {
 
 }  // namespace
 
+std::string guarantee_text(const RunSummary& summary) {
+  if (!summary.guarantee_kept) return "not checked";
+  if (!*summary.guarantee_kept) return "no";
+  return summary.start_pairs == 0 ? "yes" : but_for(summary);
+}
+
 Json to_json(const RunSummary& summary) {
   Json json{{"scene", summary.scene}};
   json["scale"] = summary.scale.empty() ? Json(nullptr) : Json(summary.scale);
@@ -56,7 +71,9 @@ Json to_json(const RunSummary& summary) {
   json["device"] = summary.device;
   json["folder"] = summary.folder;
   json["status"] = summary.status;
-  json["guarantee_kept"] = summary.guarantee_kept ? Json(*summary.guarantee_kept) : Json(nullptr);
+  const bool is_whole = summary.start_pairs == 0 || summary.guarantee_kept == false;
+  json["guarantee_kept"] = summary.guarantee_kept && is_whole ? Json(*summary.guarantee_kept) : Json(nullptr);
+  if (summary.start_pairs > 0) json["start_pairs"] = {{"named", summary.start_pairs}, {"open", summary.open_pairs}};
   json["final_hash"] = summary.final_hash;
   const RunSeconds& seconds = summary.seconds;
   json["seconds"] = {{"whole", seconds.whole},
