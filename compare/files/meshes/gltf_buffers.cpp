@@ -4,9 +4,9 @@
 #include <array>
 #include <filesystem>
 
-#include "compare/files/bytes.hpp"
 #include "compare/files/base64.hpp"
 #include "compare/files/byte_cursor.hpp"
+#include "compare/files/bytes.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
 
@@ -104,6 +104,14 @@ std::size_t GltfBuffers::whole(const Json& object, const char* key, const std::s
   return found->get<std::size_t>();
 }
 
+std::string GltfBuffers::read_beside(const std::string& uri, const std::string& owner) const {
+  try {
+    return read_bytes(std::filesystem::path(name_).parent_path() / decoded(uri));
+  } catch (const InputError& error) {
+    fail(owner + " can't be read: " + error.what());
+  }
+}
+
 std::string_view GltfBuffers::buffer(std::size_t i, const std::string& user) {
   const Json& object = entry("buffers", i, user);
   const std::string owner = "buffer " + std::to_string(i);
@@ -117,10 +125,9 @@ std::string_view GltfBuffers::buffer(std::size_t i, const std::string& user) {
       const std::size_t comma = uri.find(',');
       if (uri.starts_with("data:") && (comma == std::string::npos || !uri.substr(0, comma).ends_with(";base64")))
         fail(owner + " holds data that are not in base64");
-      const std::filesystem::path beside = std::filesystem::path(name_).parent_path() / decoded(uri);
       std::string read = uri.starts_with("data:")
                              ? decode_base64(std::string_view(uri).substr(comma + 1), name_ + ": " + owner)
-                             : read_bytes(beside);
+                             : read_beside(uri, owner);
       found = buffers_.emplace(i, std::move(read)).first;
     }
     bytes = found->second;

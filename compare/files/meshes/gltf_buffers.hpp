@@ -37,6 +37,7 @@ class GltfBuffers {
   std::string_view buffer(std::size_t i, const std::string& user);
   std::string_view view_of(const Json& accessor, std::size_t& stride, const std::string& user);
   void open_container(std::string_view bytes);
+  std::string read_beside(const std::string& uri, const std::string& owner) const;
 
   std::string name_;
   Json json_;

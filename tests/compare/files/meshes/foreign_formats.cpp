@@ -160,6 +160,8 @@ TEST_CASE("what is wrong with a glTF file is named with its primitive, accessor,
              Contains("node 2: 'scale' are not 3 numbers"));
   CHECK_THAT(gltf_error(replaced(replaced(whole, "[1,2,1]", "[1,1.7e308,1]"), "[0,1,0,0,-1", "[0,9,0,0,-1")),
              Contains("mesh 0, primitive 0, vertex 0: a coordinate is not finite"));
+  CHECK_THAT(gltf_error(square_gltf(R"("uri":"gone.bin",)")),
+             Contains("m.gltf: buffer 0 can't be read: gone.bin: no such file"));
   CHECK_THAT(gltf_error("{\"nodes\":"), Contains("m.gltf: no valid JSON"));
   CHECK_THAT(gltf_error("{}"), Contains("has no 'asset'"));
   CHECK_THAT(error_of(glb.substr(0, glb.size() - 3), "m.glb"),
