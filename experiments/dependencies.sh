@@ -6,7 +6,6 @@ packages=(
   python3 python3-venv python3-yaml
   libcgal-dev libgmp-dev libmpfr-dev libboost-dev libtbb-dev libhdf5-dev zlib1g-dev
   libeigen3-dev libsuitesparse-dev libopenblas-dev
-  libassimp-dev  # STL, OFF and glTF; the program builds without it, too
   nlohmann-json3-dev libcli11-dev libbenchmark-dev catch2
   libexpat1-dev libminizip-dev libpng-dev
   libegl1 libgl1 libgl1-mesa-dri libxrender1

@@ -40,7 +40,6 @@ KEPT = {
                      "reference_step", "sensitivity", "stencil_derivatives", "vertex_facet_by_definition",
                      "vertex_facet_with_tree"), ORACLE),
     **dict.fromkeys(("skin_state", "step_columns"), WINDOW),
-    "has_assimp": "tests skip what a build without assimp can't read",
     "read_mesh": "meshes alone, without where their elements come from: what tests read",
     "declaration": "an object whose constructor adds rows to the table of settings",
     **dict.fromkeys(("datum", "main", "ogc_activation", "ogc_barrier", "ogc_ccd", "ogc_closest_points",

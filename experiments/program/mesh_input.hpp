@@ -18,7 +18,8 @@ struct MeshInput {
   compare::ElementNames names;  ///< what messages call them
 };
 
-/// Adds --triangulate, --drop-unused (both on unless refused) and --weld. The options must outlive the parsing.
+/// Adds --triangulate, --drop-unused (both on unless refused), --strict and --weld. The options must outlive the
+/// parsing.
 void add_mesh_options(CLI::App& command, compare::MeshOptions& options);
 
 /// What was taken otherwise than it stands in the file, or should be known of it, a sentence each: what was cut, merged
@@ -29,5 +30,8 @@ std::vector<std::string> words_about(const compare::LoadedMesh& loaded, const st
 /// what `words_about` finds. Throws compare::InputError that names the file and, as the file counts them, the elements
 /// that no mesh may have (compare::validate).
 MeshInput read_mesh_input(const std::string& file, const compare::MeshOptions& options);
+
+/// Throws compare::InputError that names the tetrahedra that are flat or inverted: a solid of them can't be simulated.
+void expect_solid(const MeshInput& input);
 
 }  // namespace ogc::experiments

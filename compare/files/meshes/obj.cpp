@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "compare/files/meshes/text_lines.hpp"
+#include "compare/files/text_lines.hpp"
 #include "compare/files/numbers.hpp"
 #include "compare/problem/text.hpp"
 
@@ -18,14 +18,15 @@ constexpr std::array<std::string_view, 13> skipped{"vn",     "vt",     "vp",    
 
 class ObjParser {
  public:
-  ObjParser(std::string_view text, const std::string& name) : lines_(text, name) {
+  ObjParser(std::string_view text, const std::string& name)
+      : lines_(text, name, {.comment = '#', .backslash_joins = true}) {
     mesh_.source.file = name;
     mesh_.source.first = 1;
   }
 
   PolygonMesh parse() {
     while (lines_.next()) {
-      lines_.end_at('#');
+      line_ = lines_.number();
       statement();
     }
     for (std::size_t f = 0; f < mesh_.face_count(); ++f) check(mesh_.face(f), mesh_.source.face_lines[f]);
@@ -44,21 +45,21 @@ class ObjParser {
     } else if (keyword == "l") {
       polyline();
     } else {
-      lines_.fail("'" + std::string(keyword) + "' is not supported; keep v, f and l lines");
+      lines_.fail("'" + shown(keyword) + "' is not supported; keep v, f and l lines");
     }
   }
 
   void vertex() {
     const double x = lines_.coordinate(), y = lines_.coordinate(), z = lines_.coordinate();
     mesh_.positions.push_back({x, y, z});
-    mesh_.source.vertex_lines.push_back(lines_.number());
+    mesh_.source.vertex_lines.push_back(line_);
   }
 
   /// From 0; vertices may follow later, so the upper end is checked when the file is read.
   Index corner(std::string_view word) const {
     std::int64_t i = 0;
     if (!parse_number(word.substr(0, word.find('/')), i) || i == 0) {
-      lines_.fail("'" + std::string(word) + "' is no vertex; count from 1, or backwards from -1");
+      lines_.fail("'" + shown(word) + "' is no vertex; count from 1, or backwards from -1");
     }
     const auto count = static_cast<std::int64_t>(mesh_.positions.size());
     if (i < -count || i > std::numeric_limits<Index>::max())
@@ -71,7 +72,7 @@ class ObjParser {
     for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word()) face_.push_back(corner(word));
     if (face_.size() < 3) lines_.fail("a face has three corners or more");
     mesh_.add_face(face_);
-    mesh_.source.face_lines.push_back(lines_.number());
+    mesh_.source.face_lines.push_back(line_);
   }
 
   void polyline() {
@@ -81,7 +82,7 @@ class ObjParser {
     for (std::string_view word = second; !word.empty(); word = lines_.word()) {
       const Index to = corner(word);
       mesh_.loose_edges.push_back({std::min(from, to), std::max(from, to)});
-      mesh_.source.edge_lines.push_back(lines_.number());
+      mesh_.source.edge_lines.push_back(line_);
       from = to;
     }
   }
@@ -96,6 +97,7 @@ class ObjParser {
   }
 
   TextLines lines_;
+  std::size_t line_ = 0;  ///< where the statement begins
   PolygonMesh mesh_;
   std::vector<Index> face_;
 };

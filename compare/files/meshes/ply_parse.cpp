@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "compare/files/meshes/ply.hpp"
-#include "compare/files/meshes/text_lines.hpp"
+#include "compare/files/text_lines.hpp"
 #include "compare/files/numbers.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
@@ -42,6 +42,8 @@ class HeaderParser {
   HeaderParser(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
   Header parse() {
+    const std::size_t end = bytes_.find_first_of("\r\n");
+    if (end != std::string_view::npos && bytes_[end] == '\r' && bytes_.substr(end + 1, 1) != "\n") line_end_ = '\r';
     std::string_view first = next_line();
     if (next_word(first) != "ply") fail("does not begin with 'ply'; it is no PLY file");
     bool has_format = false;
@@ -57,7 +59,7 @@ class HeaderParser {
       } else if (keyword == "property") {
         property(line);
       } else if (keyword != "comment" && keyword != "obj_info") {
-        fail("'" + std::string(keyword) + "' does not belong there");
+        fail("'" + shown(keyword) + "' does not belong there");
       }
     }
     if (!has_format) fail("has no 'format' line");
@@ -72,7 +74,7 @@ class HeaderParser {
 
   std::string_view next_line() {
     ++line_;
-    const std::size_t end = bytes_.find('\n', header_.size);
+    const std::size_t end = bytes_.find(line_end_, header_.size);
     if (end == std::string_view::npos) fail("ends without 'end_header'; the file is truncated or no PLY file");
     const std::string_view line = bytes_.substr(header_.size, end - header_.size);
     header_.size = end + 1;
@@ -88,9 +90,9 @@ class HeaderParser {
     } else if (format == "binary_big_endian") {
       header_.format = Format::big_endian;
     } else {
-      fail("unknown format '" + std::string(format) + "'; use ascii, binary_little_endian or binary_big_endian");
+      fail("unknown format '" + shown(format) + "'; use ascii, binary_little_endian or binary_big_endian");
     }
-    if (version != "1.0") fail("unknown version '" + std::string(version) + "'; only 1.0 is known");
+    if (version != "1.0") fail("unknown version '" + shown(version) + "'; only 1.0 is known");
   }
 
   void element(std::string_view line) {
@@ -124,11 +126,12 @@ class HeaderParser {
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (word == names[i] || word == sized[i]) return static_cast<Scalar>(i);
     }
-    fail("unknown type '" + std::string(word) + "'");
+    fail("unknown type '" + shown(word) + "'");
   }
 
   std::string_view bytes_;
   const std::string& name_;
+  char line_end_ = '\n';  ///< the last byte of a line
   std::size_t line_ = 0;
   Header header_;
 };
@@ -140,7 +143,7 @@ class Scalars {
 
   // False where the data ends or, in ascii, the word is no number.
   bool read(Scalar type, double& value) {
-    if (format_ == Format::ascii) return parse_number(word(), value);
+    if (format_ == Format::ascii) return parse_number(last_word_ = word(), value);
     switch (type) {
       case Scalar::int8: return read_binary<std::int8_t>(value);
       case Scalar::uint8: return read_binary<std::uint8_t>(value);
@@ -154,6 +157,7 @@ class Scalars {
     return false;
   }
 
+  std::string_view last_word() const { return last_word_; }  // of ascii
   bool at_end() { return data_.find_first_not_of(" \t\r\n") == std::string_view::npos; }
   std::size_t bytes_left() const { return data_.size(); }
   // The line of the scalar that comes next, in ascii; called before it is read.
@@ -165,8 +169,8 @@ class Scalars {
  private:
   void skip_blanks() {
     const std::size_t blanks = std::min(data_.find_first_not_of(" \t\r\n\f\v"), data_.size());
-    line_ += static_cast<std::size_t>(
-        std::count(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(blanks), '\n'));
+    for (std::size_t i = 0; i < blanks; ++i)
+      line_ += data_[i] == '\n' || (data_[i] == '\r' && data_.substr(i + 1, 1) != "\n");
     data_.remove_prefix(blanks);
   }
 
@@ -187,7 +191,7 @@ class Scalars {
     return true;
   }
 
-  std::string_view data_;
+  std::string_view data_, last_word_;
   Format format_;
   std::size_t line_;
 };
@@ -242,11 +246,11 @@ class BodyParser {
   double scalar(const Element& element, std::size_t i, Scalar type) {
     double value = 0;
     if (scalars_.read(type, value)) return value;
-    if (scalars_.at_end() || header_.format != Format::ascii) {
+    if (header_.format != Format::ascii || scalars_.last_word().empty()) {
       fail(element, i,
            "the file ends here, with " + std::to_string(element.count) + " entries announced; it is truncated");
     }
-    fail(element, i, "what stands there is no number");
+    fail(element, i, "what stands there is no number: " + no_coordinate(scalars_.last_word()));
   }
 
   Index index(const Element& element, std::size_t i, double value) const {

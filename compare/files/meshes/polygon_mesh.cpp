@@ -1,14 +1,20 @@
-// Welds vertices, cuts faces, leaves out unused vertices: each where it is needed, with a sentence for the user.
+// Welds vertices, cuts faces, leaves out faces that are none and unused vertices, turns tetrahedra: each where it is
+// needed, with a sentence for the user.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <functional>
 #include <unordered_map>
 
 #include "compare/files/meshes/triangulate.hpp"
+#include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/scene.hpp"
 #include "compare/problem/tetrahedra.hpp"
+#include "compare/problem/zero_area.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -28,6 +34,22 @@ struct PositionHash {
   }
 };
 
+/// With dust at 0, in single precision.
+std::vector<Vec3> as_stages_see(const std::vector<Vec3>& positions) {
+  Mesh copy{positions, {}, {}};
+  clear_dust(copy);
+  return to_double(to_single(copy.positions));
+}
+
+/// Exactly; false where coordinates are too large or small for that, and no two corners coincide.
+bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (a == b || b == c || c == a) return true;
+  for (const Vec3& p : {a, b, c})
+    for (const double x : {p.x, p.y, p.z})
+      if (x != 0 && !(std::abs(x) >= 0x1p-450 && std::abs(x) <= 0x1p450)) return false;
+  return has_zero_area(a, b, c);
+}
+
 class MeshMaker {
  public:
   MeshMaker(PolygonMesh polygons, const MeshOptions& options) : in_(std::move(polygons)), options_(options) {}
@@ -35,13 +57,18 @@ class MeshMaker {
   LoadedMesh make() {
     out_.notes = std::move(in_.notes);
     if (options_.weld || !in_.source.shares_vertices) weld();
+    seen_ = in_.positions;
+    if (options_.rounded) seen_ = as_stages_see(in_.positions);
     cut();
+    leave_out_degenerate();
+    if (!options_.keep_unused) turn_inverted();
     out_.mesh.positions = std::move(in_.positions);
     out_.mesh.loose_edges = std::move(in_.loose_edges);
     out_.mesh.tetrahedra = std::move(in_.tetrahedra);
     if (out_.mesh.triangles.empty() && out_.mesh.loose_edges.empty() && out_.mesh.tetrahedra.empty())
-      throw InputError(in_.source.file + ": has " + counted(out_.mesh.positions.size(), "vertex position") +
-                       " and no face; give a mesh, not a cloud of points");
+      fail("has " + counted(out_.mesh.positions.size(), "vertex position") + " and no face" +
+           (in_.face_count() == 0 ? "; give a mesh, not a cloud of points"
+                                  : " that has an area; the first that has none: " + face_name(first_left_out_)));
     if (!options_.keep_unused) leave_out_unused();
     if (!out_.mesh.tetrahedra.empty()) out_.mesh.triangles = boundary_triangles(out_.mesh.tetrahedra);
     out_.source = std::move(in_.source);
@@ -92,23 +119,25 @@ class MeshMaker {
     for (const Index v : kept) in_.source.first_faces.push_back(first_face[at(v)]);
   }
 
+  /// Triangles with the numbers of their faces; those that name a vertex twice may be among them.
   void cut() {
     std::size_t cut_faces = 0, made = 0, first = 0;
-    std::vector<Index> numbers, corners;
+    std::vector<Index> corners;
     for (std::size_t f = 0; f < in_.face_count(); ++f) {
       corners.assign(in_.face(f).begin(), in_.face(f).end());
-      if (corners.size() > 3) {
-        if (cut_faces++ == 0) first = f;
+      const bool is_large = corners.size() > 3;
+      if (is_large) {
         corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
         while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
       }
       const std::size_t before = out_.mesh.triangles.size();
-      add_triangles(f, corners);
-      numbers.insert(numbers.end(), out_.mesh.triangles.size() - before, static_cast<Index>(f));
-      if (in_.face(f).size() > 3) made += out_.mesh.triangles.size() - before;
+      const bool is_face = add_triangles(f, corners);
+      numbers_.insert(numbers_.end(), out_.mesh.triangles.size() - before, static_cast<Index>(f));
+      if (!is_large || !is_face) continue;
+      if (cut_faces++ == 0) first = f;
+      made += out_.mesh.triangles.size() - before;
     }
     if (cut_faces == 0) return;
-    in_.source.faces = std::move(numbers);
     const std::string more = counted(cut_faces, "face") + " of more than three corners";
     if (!options_.triangulate)
       fail("has " + more + ", the first: " + face_name(first) + " of " + std::to_string(in_.face(first).size()) +
@@ -116,15 +145,127 @@ class MeshMaker {
     note(more + (cut_faces == 1 ? " was" : " were") + " cut into " + counted(made, "triangle"));
   }
 
-  void add_triangles(std::size_t f, const std::vector<Index>& corners) {
-    if (corners.size() < 3) fail(face_name(f) + ": names less than three different vertices; remove it");
-    if (corners.size() == 3) return out_.mesh.triangles.push_back({corners[0], corners[1], corners[2]});
-    if (!options_.triangulate) return;
-    const std::vector<Triangle> triangles = triangulate(corners, in_.positions);
-    if (triangles.empty())
-      fail(face_name(f) + ": its " + std::to_string(corners.size()) +
-           " corners make no simple polygon: it has no area or crosses itself; mend it or cut it by hand");
-    out_.mesh.triangles.insert(out_.mesh.triangles.end(), triangles.begin(), triangles.end());
+  /// False where the corners make no face, which is left out then.
+  bool add_triangles(std::size_t f, const std::vector<Index>& corners) {
+    if (corners.size() < 3) return leave_out(f, collapsed_);
+    std::vector<Triangle>& triangles = out_.mesh.triangles;
+    if (corners.size() == 3) {
+      triangles.push_back({corners[0], corners[1], corners[2]});
+    } else if (options_.triangulate) {
+      const std::vector<Triangle> made = triangulate(corners, in_.positions);
+      if (made.empty() && lie_on_a_line(corners)) return leave_out(f, flat_);
+      if (made.empty())
+        fail(face_name(f) + ": its " + std::to_string(corners.size()) +
+             " corners make no simple polygon: it crosses itself; mend it or cut it by hand");
+      triangles.insert(triangles.end(), made.begin(), made.end());
+    }
+    return true;
+  }
+
+  bool lie_on_a_line(const std::vector<Index>& corners) const {
+    const auto place = [&](std::size_t k) -> const Vec3& { return in_.positions[at(corners[k])]; };
+    std::size_t other = 1;
+    while (other < corners.size() && place(other) == place(0)) ++other;
+    for (std::size_t k = other + 1; k < corners.size(); ++k)
+      if (!has_no_area(place(0), place(other), place(k))) return false;
+    return true;
+  }
+
+  /// A reason to leave a face out, and those that have it.
+  struct LeftOut {
+    const char* one;   ///< what such a face does
+    const char* more;  ///< what several do
+    std::size_t count = 0;
+    std::size_t last = static_cast<std::size_t>(-1);  ///< the face that was counted last
+  };
+
+  /// A face, or a part of one that was cut; it counts once. False, for callers that say so.
+  bool leave_out(std::size_t f, LeftOut& reason) {
+    if (reason.last != f) ++reason.count;
+    reason.last = f;
+    first_left_out_ = std::min(first_left_out_, f);
+    return false;
+  }
+
+  void leave_out_degenerate() {
+    const std::vector<Triangle>& triangles = out_.mesh.triangles;
+    const std::vector<bool> repeats = find_repeated();
+    std::vector<Triangle> kept;
+    std::vector<Index> numbers;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto& [a, b, c] = triangles[t];
+      const std::size_t f = at(numbers_[t]);
+      if (a == b || b == c || c == a) {
+        leave_out(f, collapsed_);
+      } else if (!options_.keep_unused && has_no_area(seen_[at(a)], seen_[at(b)], seen_[at(c)])) {
+        leave_out(f, flat_);
+      } else if (repeats[t]) {
+        leave_out(f, repeated_);
+      } else {
+        kept.push_back(triangles[t]);
+        numbers.push_back(numbers_[t]);
+      }
+    }
+    out_.mesh.triangles = std::move(kept);
+    if (numbers.size() != in_.face_count() || !std::ranges::is_sorted(numbers, std::less_equal{}))
+      in_.source.faces = std::move(numbers);
+    say_left_out();
+  }
+
+  /// Of triangles with the same vertices all but the first.
+  std::vector<bool> find_repeated() const {
+    std::vector<std::pair<Triangle, std::size_t>> sorted;
+    sorted.reserve(out_.mesh.triangles.size());
+    for (Triangle t : out_.mesh.triangles) {
+      std::ranges::sort(t);
+      sorted.emplace_back(t, sorted.size());
+    }
+    std::ranges::sort(sorted);
+    std::vector<bool> repeats(sorted.size());
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+      if (sorted[i].first == sorted[i - 1].first) repeats[sorted[i].second] = true;
+    return repeats;
+  }
+
+  void say_left_out() {
+    std::string reasons;
+    std::size_t all = 0;
+    for (const LeftOut* reason : {&collapsed_, &flat_, &repeated_}) {
+      if (reason->count == 0) continue;
+      all += reason->count;
+      reasons += (reasons.empty() ? "" : ", ") + std::to_string(reason->count) + " " +
+                 (reason->count == 1 ? reason->one : reason->more);
+    }
+    if (all == 0) return;
+    const std::string first = "the first: " + face_name(first_left_out_);
+    if (options_.strict)
+      fail("has " + counted(all, "face") + " that " + (all == 1 ? "is" : "are") + " none: " + reasons + "; " + first +
+           "; leave --strict out, or remove them");
+    note(counted(all, "face") + (all == 1 ? " was" : " were") + " left out: " + reasons + "; " + first);
+  }
+
+  /// Tetrahedra of files with another convention for the order of vertices. What is inverted in part is left as it is:
+  /// whoever simulates it refuses it.
+  void turn_inverted() {
+    if (in_.tetrahedra.empty()) return;
+    const std::vector<Vec3> seen = as_stages_see(in_.positions);
+    const auto is_turned = [&](const Tetrahedron& t) {
+      return orientation(seen[at(t[0])], seen[at(t[1])], seen[at(t[2])], seen[at(t[3])]);
+    };
+    bool has_inverted = false;
+    for (const Tetrahedron& t : in_.tetrahedra) {
+      const int side = is_turned(t);
+      if (side > 0) return;
+      has_inverted |= side < 0;
+    }
+    if (!has_inverted) return;
+    const std::string all = in_.tetrahedra.size() == 1
+                                ? "the tetrahedron is"
+                                : "all " + std::to_string(in_.tetrahedra.size()) + " tetrahedra are";
+    if (options_.strict) fail(all + " inverted; leave --strict out, or exchange two vertices of each");
+    for (Tetrahedron& t : in_.tetrahedra) std::swap(t[2], t[3]);
+    note(all + " inverted and " + (in_.tetrahedra.size() == 1 ? "was" : "were") +
+         " turned: the last two vertices of each were exchanged");
   }
 
   void leave_out_unused() {
@@ -170,6 +311,12 @@ class MeshMaker {
   PolygonMesh in_;
   MeshOptions options_;
   LoadedMesh out_;
+  std::vector<Vec3> seen_;      ///< positions that decide what has an area
+  std::vector<Index> numbers_;  ///< of faces, by triangle
+  LeftOut collapsed_{"names less than three different vertices", "name less than three different vertices"},
+      flat_{"has no area", "have no area"},
+      repeated_{"has the same vertices as another", "have the same vertices as others"};
+  std::size_t first_left_out_ = static_cast<std::size_t>(-1);
 };
 
 }  // namespace
@@ -177,6 +324,18 @@ class MeshMaker {
 void PolygonMesh::add_face(std::span<const Index> face) {
   corners.insert(corners.end(), face.begin(), face.end());
   face_ends.push_back(static_cast<Index>(corners.size()));
+}
+
+void keep_solid(PolygonMesh& mesh) {
+  const std::size_t faces = mesh.face_count(), edges = mesh.loose_edges.size();
+  if (mesh.tetrahedra.empty() || faces + edges == 0) return;
+  mesh.notes.push_back(mesh.source.file + ": " + counted(faces, "face") + " and " + counted(edges, "line") +
+                       " were left out: the surface is the boundary of the tetrahedra");
+  mesh.corners.clear();
+  mesh.face_ends.clear();
+  mesh.loose_edges.clear();
+  mesh.source.face_lines.clear();
+  mesh.source.edge_lines.clear();
 }
 
 LoadedMesh make_mesh(PolygonMesh polygons, const MeshOptions& options) {

@@ -37,8 +37,12 @@ struct MeshOptions {
   bool drop_unused = true;  ///< leave out vertices that belong to no face and no edge
   bool weld = false;  ///< merge vertices with exactly equal coordinates; formats without shared vertices (STL, glTF)
                       ///< are always welded
-  /// neither leave them out nor refuse them: where another file counts the vertices of this one
+  /// neither leave them out nor refuse them, and ask nothing of positions: where another file counts the vertices of
+  /// this one, and has the positions
   bool keep_unused = false;
+  bool strict = false;  ///< refuse what is no face (collapsed, without area, there twice) and inverted tetrahedra
+  /// what has no area once dust is 0 and coordinates are rounded to single precision is left out, too: as stages see it
+  bool rounded = false;
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 
@@ -50,7 +54,13 @@ struct LoadedMesh {
   std::vector<std::string> notes;  ///< what was changed on the way, for the user
 };
 
-/// Throws InputError that names the first face or vertex that the options do not take, and faces that can't be cut.
+/// Where there are tetrahedra, leaves faces and loose edges out, with a word: the surface of a solid follows from them.
+void keep_solid(PolygonMesh& mesh);
+
+/// Left out, with a word: faces that name less than three different vertices or have no area (decided exactly), all but
+/// the first of those with the same vertices, whichever way round, and vertices that nothing uses then. Tetrahedra that
+/// are inverted, all of them, are turned. Throws InputError that names the first face or vertex that the options do not
+/// take, and faces that can't be cut.
 LoadedMesh make_mesh(PolygonMesh polygons, const MeshOptions& options = {});
 
 }  // namespace ogc::compare

@@ -6,7 +6,8 @@
 #include <array>
 #include <optional>
 
-#include "compare/files/meshes/inflate.hpp"
+#include "compare/files/base64.hpp"
+#include "compare/files/inflate.hpp"
 #include "compare/files/numbers.hpp"
 #include "compare/files/scalars.hpp"
 #include "compare/problem/error.hpp"
@@ -41,7 +42,7 @@ class Bytes {
       return bytes;
     }
     std::string bytes = std::move(ready_);
-    while (bytes.size() < count && decode_group(bytes)) {}
+    while (bytes.size() < count && decode_base64_group(data_, bytes, where_)) {}
     if (bytes.size() < count) ends(count);
     ready_ = bytes.substr(count);
     bytes.resize(count);
@@ -53,31 +54,6 @@ class Bytes {
   [[noreturn]] void ends(std::size_t count) const {
     throw InputError(where_ + ": ends before byte " + std::to_string(taken_) + " + " + std::to_string(count) +
                      " of its data; the file is truncated");
-  }
-
-  static int digit(char c) {
-    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t digit = alphabet.find(c);
-    return digit == std::string_view::npos ? -1 : static_cast<int>(digit);
-  }
-
-  /// One group of four characters; false where there is none.
-  bool decode_group(std::string& bytes) {
-    unsigned value = 0;
-    int digits = 0, padding = 0;
-    while (digits + padding < 4) {
-      data_.remove_prefix(std::min(data_.find_first_not_of(blanks), data_.size()));
-      if (data_.empty() || data_.front() == '<') return false;
-      const char c = data_.front();
-      const int number = digit(c);
-      if (number < 0 && c != '=')
-        throw InputError(where_ + ": '" + c + "' is no character of base64; the file is damaged");
-      data_.remove_prefix(1);
-      number < 0 ? ++padding : ++digits;
-      value = value << 6 | static_cast<unsigned>(std::max(number, 0));
-    }
-    for (int k = 0; k < 3 - padding; ++k) bytes.push_back(static_cast<char>(value >> (16 - 8 * k) & 0xff));
-    return true;
   }
 
   std::string_view data_;

@@ -227,7 +227,7 @@ class SceneReader {
     std::optional<PolygonMesh> polygons = read_polygons(node);
     if (!polygons) return std::nullopt;
     try {
-      BodyMesh body{*polygons, make_mesh(*polygons)};
+      BodyMesh body{*polygons, make_mesh(*polygons, {.rounded = true})};
       if (!is_valid(node, body.loaded)) return std::nullopt;
       notes_.insert(notes_.end(), body.loaded.notes.begin(), body.loaded.notes.end());
       return body;

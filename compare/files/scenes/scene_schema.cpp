@@ -104,8 +104,8 @@ Json body_schema() {
       {"name", value("string", "letters, digits, _ and -; default: that of the mesh's file")},
       {"fixed", value("boolean", "never moves; default false")},
       {"mesh", value("string",
-                     ".ply or .obj file, of tetrahedra .msh, relative to this file; start positions [m]. The surface "
-                     "of tetrahedra is their boundary")},
+                     "mesh file (.ply, .obj, .stl, .off, .gltf, .glb, .vtp, of tetrahedra .msh, .mesh, .vtu, .vtk), "
+                     "relative to this file; start positions [m]. The surface of tetrahedra is their boundary")},
       {"rest_mesh", value("string", "the same faces or tetrahedra at their rest positions [m]; default: the mesh")},
       {"velocity", vector("of all vertices at the start [m/s]; default 0")},
       {"velocities",

@@ -182,7 +182,7 @@ std::unique_ptr<compare::MeshSequence> open_frames(const AuditRequest& request) 
                      " belongs to one .npz, .npy or .pc2 file; meshes bring triangles of their own");
   std::vector<fs::path> files;
   if (request.paths.size() == 1 && type_of(first) == fs::file_type::directory) {
-    files = compare::mesh_files_in(first, {".obj", ".ply", ".vtp", ".msh", ".stl", ".off", ".gltf", ".glb"});
+    files = compare::mesh_files_in(first, compare::mesh_extensions());
   } else {
     for (const std::string& path : request.paths) add_matching(path, files);
   }

@@ -392,9 +392,8 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
   command
       ->add_option(
           "MESH|FRAMES|RUN", options->request.paths,
-          "A mesh (.obj, .ply, .vtp, .msh, .stl, .off, .gltf, .glb), several of them as frames, a folder of them, "
-          "frames in one file (.npz, "
-          ".npy, .pc2), or a run folder")
+          "A mesh (.obj, .ply, .vtp, .vtu, .vtk, .msh, .mesh, .stl, .off, .gltf, .glb), several of them as frames, a "
+          "folder of them, frames in one file (.npz, .npy, .pc2), or a run folder")
       ->required();
   command->add_option("--mesh", options->request.topology,
                       "A mesh with the triangles of frames in a .npy or .pc2 file, or in a .npz without any");

@@ -104,7 +104,8 @@ void run(const Options& options, const CommandContext& context) {
 void add_contacts_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("contacts", "Contact sets, distances and conservative bounds of a mesh");
-  command->add_option("MESH", options->mesh, "An .obj, .ply, .stl, .off, .gltf or .glb file");
+  command->add_option("MESH", options->mesh,
+                      "A mesh file: .obj, .ply, .stl, .off, .gltf, .glb, .vtp, .vtu, .vtk, .msh or .mesh");
   add_mesh_options(*command, options->taken);
   command
       ->add_option("--radius", options->contact_radius,

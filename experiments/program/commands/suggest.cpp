@@ -63,6 +63,7 @@ std::string command_line(const std::string& mesh, double ground, const std::vect
 
 void run(const Options& options, const CommandContext& context) {
   const MeshInput input = read_mesh_input(options.mesh, options.reading);
+  expect_solid(input);
   const bool is_solid = !input.mesh.tetrahedra.empty();
   const compare::Material material = is_solid ? soft_rubber() : layer_cloth();
   const double density = is_solid ? material.solid_density : material.density;

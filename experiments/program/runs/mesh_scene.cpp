@@ -105,6 +105,7 @@ double lowest_point(const compare::Mesh& mesh) { return box_of(mesh).low.y; }
 compare::SceneFile mesh_scene(const std::string& file, const compare::MeshOptions& options,
                               std::optional<double> ground, const std::vector<std::string>& assignments) {
   MeshInput input = read_mesh_input(file, options);
+  expect_solid(input);
   if (!input.mesh.loose_edges.empty())
     throw compare::InputError(file + ": " + input.names.loose_edge(0, input.mesh.loose_edges[0]) +
                               " belongs to no face; cloth is made of triangles: remove such edges");

@@ -38,7 +38,8 @@ void check_scene_options(const RunOptions& options, const std::string& data) {
   const bool is_mesh = compare::is_mesh_file(options.scene);
   if (!is_mesh && (options.ground || options.mesh != compare::MeshOptions{}))
     throw compare::InputError(
-        "--ground, --weld, --no-triangulate and --no-drop-unused belong to a mesh file in place of the scene, "
+        "--ground, --weld, --strict, --no-triangulate and --no-drop-unused belong to a mesh file in place of the "
+        "scene, "
         "for example ogc run shirt.obj");
   if (!is_mesh && !is_scene_file(options.scene)) return;
   if (!data.empty())

@@ -218,7 +218,62 @@ TEST_CASE("broken PLY files are refused with the element and the reason", "[unit
   CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 nan 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
                     Contains("vertex 1: a coordinate is not finite"));
   CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 ? 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
-                    Contains("vertex 1: what stands there is no number"));
+                    Contains("vertex 1: what stands there is no number: '?' is no finite"));
+  CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 -1.#IND 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
+                    Contains("vertex 1: what stands there is no number: '-1.#IND' is no finite coordinate but what "
+                             "programs for Windows print"));
+}
+
+TEST_CASE("numbers of Windows that are none are refused as such, and are no comments", "[unit]") {
+  const auto parse = [](const std::string& x) { return parse_obj("v 0 0 " + x + "\n", "bad.obj"); };
+  for (const std::string word : {"-1.#IND", "1.#INF", "1.#QNAN", "1.#QNAN0", "-1.#IND00", "1.#R", "-1.#J"})
+    CHECK_THROWS_WITH(parse(word), Contains("bad.obj: line 1: '" + word +
+                                            "' is no finite coordinate but what programs for Windows print for "
+                                            "infinity or for no number"));
+  for (const char* comment : {"1#corner", "1.#corner", "1. #IND", "1 # 1.#IND", "1.#"})
+    CHECK(parse(comment).positions == std::vector<Vec3>{{0, 0, 1}});
+}
+
+TEST_CASE("lines of OBJ that go on behind a backslash are one, and errors name the line of the word", "[unit]") {
+  const std::string text =
+      "# a comment does not go on \\\nv 0 \\\n 0 0\nv 1 0\\\r\n 0\nv 1 1 0 \\\n 0.5 0.5 0.5\nv 0 1 0\nvn 0 0 \\\n 1\n"
+      "f 1/1 2/1 \\\n\\\n 3/1\nf 1 3 \\\n 4\n";
+  const PolygonMesh mesh = parse_obj(text, "m.obj");
+  CHECK(mesh.positions == square);
+  CHECK(make_mesh(mesh).mesh.triangles == two_triangles);
+  CHECK(mesh.source.face_lines == std::vector<std::size_t>{11, 14});
+  CHECK_THROWS_WITH(parse_obj("v 0 \\\n zero 0\n", "m.obj"), Contains("m.obj: line 2: 'zero' is no finite"));
+  CHECK_THROWS_WITH(parse_obj("v 0 0 \\", "m.obj"), Contains("m.obj: line 1: '' is no finite"));
+}
+
+TEST_CASE("lines end with a line feed, a carriage return or both, and a byte order mark is none of a file's words",
+          "[unit]") {
+  const Mesh mesh{square, two_triangles, {}};
+  const auto with_ends = [](std::string text, const std::string& end) {
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += end.size())
+      text.replace(at, 1, end);
+    return text;
+  };
+  const std::string off = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+  for (const std::string end : {"\n", "\r", "\r\n"}) {
+    for (const std::string mark : {"", "\xef\xbb\xbf"}) {
+      INFO(mark << end);
+      const auto read = [&](const std::string& text, const std::string& name) {
+        return make_mesh(parse_polygon_mesh(mark + with_ends(text, end), name));
+      };
+      CHECK(read(print_obj(mesh), "m.obj").mesh == mesh);
+      CHECK(read(off, "m.off").mesh == mesh);
+      const LoadedMesh ply = read(print_ply(mesh, PlyEncoding::ascii), "m.ply");
+      CHECK(ply.mesh == mesh);
+      CHECK(ply.source.face_lines == std::vector<std::size_t>{14, 15});
+    }
+  }
+  CHECK_THROWS_WITH(parse_polygon_mesh(std::string("\xff\xfev\0 \0", 6), "m.obj"),
+                    Contains("m.obj: begins as text in UTF-16"));
+  std::string binary = print_ply(mesh, PlyEncoding::binary);  // with a line feed as the first byte of its data
+  const std::size_t end = binary.find("end_header\n") + 11;
+  binary = with_ends(binary.substr(0, end), "\r") + "\n" + binary.substr(end + 1);
+  CHECK(of_ply(binary).positions[0].x != 0);
 }
 
 TEST_CASE("a header that announces more than the file holds takes no memory for it", "[unit]") {

@@ -121,7 +121,10 @@ TEST_CASE("each thing that is wrong with an MSH is named with its line", "[unit]
   CHECK_THAT(error_of(""), Contains("m.msh: has no $MeshFormat"));
   CHECK_THAT(error_of(replaced(old_format, "2.2 0", "3.0 0")),
              Contains("line 2: format 3.0 is not read, only 2.2 and 4.1"));
-  CHECK_THAT(error_of(replaced(new_format, "4.1 0", "4.1 1")), Contains("line 2: the file is binary"));
+  CHECK_THAT(error_of(replaced(new_format, "4.1 0", "4.1 1")),
+             Contains("byte 24: the number 1, which tells the order"));
+  CHECK_THAT(error_of(replaced(new_format, "4.1 0", "4.1 2")), Contains("line 2: 2 stands where 0 for text or 1"));
+  CHECK_THAT(error_of("$NOD\n1\n1 0 0 0\n$ENDNOD\n"), Contains("line 1: '$NOD' stands in format 1 of Gmsh"));
   CHECK_THAT(error_of(old_format.substr(0, old_format.find("7 4 2"))),
              Contains("ends after line 17, where an element should stand: the file is truncated"));
   CHECK_THAT(error_of(new_format.substr(0, new_format.find("$EndElements"))), Contains("where $EndElements should"));

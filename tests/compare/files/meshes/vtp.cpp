@@ -4,7 +4,7 @@
 #include <string>
 
 #include "compare/files/meshes/mesh_files.hpp"
-#include "compare/files/meshes/vtp_parse.hpp"
+#include "compare/files/meshes/vtk_mesh.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/record/vtp.hpp"
 #include "tests/catch.hpp"
@@ -39,7 +39,7 @@ const std::string square = "0 0 0  1 0 0  1 1 0  0 1 0";
 
 void refuses(const std::string& bytes, const std::string& reason) {
   INFO(reason);
-  CHECK_THROWS_WITH(parse_vtp(bytes, "broken.vtp"), Contains("broken.vtp: ") && Contains(reason));
+  CHECK_THROWS_WITH(parse_vtk_xml_mesh(bytes, "broken.vtp"), Contains("broken.vtp: ") && Contains(reason));
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ TEST_CASE("a mesh that this program wrote as VTP comes back bit for bit", "[unit
   const ogc::tests::Scratch scratch;
   const std::string bytes = vtp_bytes(
       {.mesh = mesh, .vertex_numbers = {4, 5, 6, 7}, .cell_numbers = {1, 2, 3}, .cell_counts = {1, 0, 1}});
-  CHECK(make_mesh(parse_vtp(bytes, "labelled")).mesh == mesh);
+  CHECK(make_mesh(parse_vtk_xml_mesh(bytes, "labelled")).mesh == mesh);
   CHECK_THROWS_WITH(write_mesh(scratch / "mesh.vtp", mesh), Contains(".obj or .ply"));
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("pieces are put together, strips become triangles of one sense, lines 
   const std::string strip = cells("Strips", "0 1 3 2", "4"), line = cells("Lines", "2 1 0", "3"),
                     vertices = cells("Verts", "0 1", "1 2");
   const std::string colours = "<PointData>" + array("Float32", "colour", "0 0 0 1") + "</PointData>";
-  const PolygonMesh polygons = parse_vtp(
+  const PolygonMesh polygons = parse_vtk_xml_mesh(
       file(piece(square, colours + cells("Polys", "0 1 2", "3")) + piece(square, vertices + line + strip)), "pieces");
   const Mesh found = make_mesh(polygons, {.keep_unused = true}).mesh;
   CHECK(found.positions.size() == 8);
@@ -68,13 +68,13 @@ TEST_CASE("pieces are put together, strips become triangles of one sense, lines 
 TEST_CASE("broken VTP files are refused with the array or cell and the reason", "[unit]") {
   refuses("solid cube", "line 1");
   refuses(file(piece(square, cells("Polys", "0 1 2", "3"))).substr(0, 200), "no VTK XML file");
-  refuses(file("", "UnstructuredGrid"), "Extract Surface");
+  refuses(file("", "ImageData"), "Extract Surface");
   refuses(file(""), "no points");
   refuses(file("<Piece></Piece>"), "no points");
   refuses(file(piece(square + " 7", "")), "13 numbers are no rows of three");
   refuses(file(piece("0 0 0  1 nan 0", "")), "point 1: a coordinate is not finite");
   refuses(file(piece("0 0 zero", "")), "value 2, 'zero', is no number");
-  refuses(file(piece(square, cells("Polys", "0 1", "2"))), "polygon 0: has 2 corners; a face has three or more");
+  refuses(file(piece(square, cells("Polys", "0 1", "2"))), "cell 0 is a polygon of 2 corners; it has 3 or more");
   refuses(file(piece(square, cells("Polys", "0 1 4", "3"))), "Polys 0: vertex 4 does not exist");
   refuses(file(piece(square, cells("Polys", "0 1 2", "4"))), "Polys 0: its offset");
   refuses(file("<Piece><Points><DataArray type=\"Text\" format=\"ascii\"/></Points></Piece>"), "unknown type 'Text'");
@@ -95,5 +95,5 @@ TEST_CASE("a VTP file cut anywhere, or with an absurd length, is refused", "[uni
   // The last array, the triangles' offsets, ends before the closing tags.
   const std::size_t end = bytes.find("\n</AppendedData>");
   for (std::size_t size = 0; size < end; size += 1 + size / 16)
-    CHECK_THROWS_AS(parse_vtp(bytes.substr(0, size), "cut.vtp"), InputError);
+    CHECK_THROWS_AS(parse_vtk_xml_mesh(bytes.substr(0, size), "cut.vtp"), InputError);
 }

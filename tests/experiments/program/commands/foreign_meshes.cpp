@@ -5,7 +5,6 @@
 #include <set>
 
 #include "compare/files/bytes.hpp"
-#include "compare/files/meshes/assimp_mesh.hpp"
 #include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
@@ -30,7 +29,7 @@ const std::vector<Writer> own_formats{{"plain.obj", plain_obj},
                                       {"ascii.ply", ascii_ply, true},
                                       {"little.ply", little_endian_ply},
                                       {"big.ply", big_endian_ply}};
-const std::vector<Writer> assimp_formats{
+const std::vector<Writer> other_formats{
     {"ascii.stl", ascii_stl}, {"binary.STL", binary_stl}, {"shape.off", off}, {"shape.glb", glb}};
 
 std::string write(const TemporaryFolder& folder, const StockShape& shape, const Writer& writer) {
@@ -72,21 +71,12 @@ TEST_CASE(
   CHECK(with_polygons >= 50);
 }
 
-TEST_CASE("STL, OFF and glTF are read by assimp, and welded; without it the message says how to get it", "[property]") {
+TEST_CASE("STL, OFF and glTF are read, and those without shared vertices welded", "[property]") {
   const TemporaryFolder folder;
   for (const StockShape& shape : stock_shapes()) {
-    for (const Writer& writer : assimp_formats) {
+    for (const Writer& writer : other_formats) {
       const std::string file = write(folder, shape, writer);
       INFO(file);
-      if (!compare::has_assimp()) {
-        CHECK_THROWS_WITH(compare::load_mesh(file), ContainsSubstring("apt-get install libassimp-dev"));
-        continue;
-      }
-      const auto is_large = [](const auto& face) { return face.size() > 9; };
-      if (writer.file == "shape.off" && std::ranges::any_of(shape.faces, is_large)) {
-        CHECK_THROWS_WITH(compare::load_mesh(file), ContainsSubstring("assimp") && ContainsSubstring("nine corners"));
-        continue;
-      }
       compare::LoadedMesh loaded = compare::load_mesh(file);
       compare::clear_dust(loaded.mesh);
       CHECK(compare::describe(compare::validate(loaded.mesh)) == "");
@@ -100,7 +90,6 @@ TEST_CASE("STL, OFF and glTF are read by assimp, and welded; without it the mess
 }
 
 TEST_CASE("elements of files without numbered vertices are named by their faces", "[unit]") {
-  if (!compare::has_assimp()) return;
   const TemporaryFolder folder;
   const StockShape crossing{"crossing",
                             {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, -0.5}, {0.5, 0.25, 0.5}, {0.25, 0.5, 0.5}},
@@ -110,11 +99,56 @@ TEST_CASE("elements of files without numbered vertices are named by their faces"
   CHECK(contains(result.out, {"edge (from a vertex of face 1 to a vertex of face 1) meets face 0"}));
 }
 
-TEST_CASE("a file that assimp can't read is refused with its reason", "[unit]") {
+TEST_CASE("a file that can't be read is refused with its reason", "[unit]") {
   const TemporaryFolder folder;
   const ProgramResult result = run_ogc("audit " + folder.write("broken.stl", "solid nothing\nfacet").string());
   CHECK(result.status == 2);
-  CHECK(contains(result.err, {"broken.stl"}));
+  CHECK(contains(result.err, {"broken.stl: line 2: the file ends here, within facet 0"}));
+}
+
+TEST_CASE("faces that are none are left out with a word by audit, contacts, suggest and run, and strictly refused",
+          "[unit]") {
+  const TemporaryFolder folder;
+  const StockShape plane = stock_shapes().front();
+  const std::string file =
+      folder.write("doubled.obj", plain_obj(plane) + "f 1 1 2\nf 1 2 1 3\nf 1 2 3\nf 3 2 1\n").string();
+  const std::string run = "run --steps 1 --out " + (folder / "run").string();
+  for (const std::string& command : std::vector<std::string>{"audit", "contacts --engine cpu", "suggest", run}) {
+    ProgramResult result = run_ogc(command + " " + file);
+    INFO(command << "\n" << result.err);
+    CHECK(result.status == 0);
+    CHECK(contains(result.err, {"doubled.obj: 4 faces were left out: 1 names less than three different vertices"}));
+    result = run_ogc(command + " --strict " + file);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, {"doubled.obj: has 4 faces that are none: ", "leave --strict out"}));
+  }
+}
+
+TEST_CASE("audit, suggest and run say the same of inverted tetrahedra", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string vertices =
+                        "MeshVersionFormatted 2\nDimension 3\nVertices 8\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                        "2 0 0 0\n3 0 0 0\n2 1 0 0\n2 0 1 0\nTetrahedra 2\n",
+                    turned = folder.write("turned.mesh", vertices + "1 2 4 3 0\n5 6 8 7 0\nEnd\n").string(),
+                    out = (folder / "run").string() + " ",
+                    mixed = folder.write("mixed.mesh", vertices + "1 2 3 4 0\n5 6 8 7 0\nEnd\n").string();
+  for (const std::string& command : std::vector<std::string>{"audit ", "suggest ", "run --steps 1 --out " + out}) {
+    ProgramResult result = run_ogc(command + turned);
+    INFO(command << "\n" << result.err);
+    CHECK(result.status == 0);
+    CHECK(contains(result.err, {"turned.mesh: all 2 tetrahedra are inverted and were turned"}));
+    CHECK(run_ogc(command + turned + " --strict").status == 2);
+    result = run_ogc(command + mixed);
+    CHECK(contains(result.err,
+                   {"mixed.mesh: 1 of 2 tetrahedra is inverted or flat, the first: tetrahedron 2 (vertices 5, "
+                    "6, 8, 7; line 14)"}));
+    if (command == "audit ") {
+      CHECK(result.status == 0);
+    } else {
+      CHECK(result.status == 2);
+      CHECK(contains(result.err, {"is inverted at rest", "exchange two of its vertices"}));
+    }
+  }
 }
 
 TEST_CASE("vertices at one place are mentioned with the option that merges them, and --weld does", "[unit]") {

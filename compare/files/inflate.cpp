@@ -1,4 +1,4 @@
-#include "compare/files/meshes/inflate.hpp"
+#include "compare/files/inflate.hpp"
 
 #include <zlib.h>
 

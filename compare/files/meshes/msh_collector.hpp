@@ -1,0 +1,76 @@
+// What Gmsh's formats hold, whether in text or in bytes: nodes by tag and elements by type.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/files/meshes/polygon_mesh.hpp"
+
+namespace ogc::compare {
+
+/// What Gmsh calls an element, and how many nodes it has.
+struct MshElementType {
+  int number;             ///< in files
+  std::size_t nodes;      ///< of an element
+  int dimension;          ///< 0 to 3
+  std::string_view name;  ///< of several
+};
+
+/// Gmsh's number for tetrahedra of four nodes.
+inline constexpr int msh_tetrahedron = 4;
+
+/// Gathers nodes and elements, and makes a mesh of them. A place is a line, or in a binary file a byte.
+class MshCollector {
+ public:
+  /// `name` is the file's and must outlive it.
+  MshCollector(const std::string& name, bool is_binary);
+
+  /// The type of that number. Throws InputError for those that are not known and for what is no tetrahedron of four
+  /// nodes but has volume.
+  const MshElementType& type_of(std::int64_t number, std::size_t place) const;
+  void add_node(std::int64_t tag, std::size_t place, const Vec3& position);  ///< one more node
+  /// One more element; what is no tetrahedron is counted.
+  void add_element(const MshElementType& type, std::int64_t tag, std::size_t place,
+                   std::span<const std::int64_t> nodes);
+  /// Tetrahedra by numbers of nodes. Throws InputError: no node or no tetrahedron, a tag that stands twice, is not
+  /// there or no positive Index.
+  PolygonMesh finish();
+
+  /// Throws InputError "FILE: line 7: what", or "byte 7".
+  [[noreturn]] void fail(std::size_t place, const std::string& what) const;
+
+ private:
+  struct Node {
+    std::int64_t tag;
+    std::size_t place;
+    Vec3 position;
+  };
+  struct Element {
+    std::array<std::int64_t, 4> nodes;
+    std::int64_t tag;
+    std::size_t place;
+  };
+
+  std::string elements_left_out() const;
+  Index file_number(std::int64_t tag, std::size_t place) const;
+  void place_nodes();
+  Index number_of(std::int64_t tag, std::size_t place) const;
+
+  const std::string& name_;
+  bool is_binary_;
+  std::vector<Node> nodes_;
+  std::vector<Element> elements_;
+  std::vector<std::size_t> left_out_;  ///< by type, in the order of the table
+  PolygonMesh mesh_;
+};
+
+/// The binary file that `bytes` are, of format 2.2 or 4.1 (`is_new`), whose header ends at byte `begin`, behind the
+/// line that says so. Throws as MshCollector does, and where the file ends too early or its counts are wrong.
+PolygonMesh parse_binary_msh(std::string_view bytes, const std::string& name, std::size_t begin, bool is_new,
+                             std::size_t size_of_count);
+
+}  // namespace ogc::compare

@@ -1,0 +1,17 @@
+// VTK's older format (.vtk), in text and in binary, with cells as versions before and from 5 write them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "compare/files/meshes/polygon_mesh.hpp"
+
+namespace ogc::compare {
+
+/// Points and cells of a data set of type POLYDATA or UNSTRUCTURED_GRID: tetrahedra, or faces and lines as of VTK's XML
+/// files (vtk_mesh.hpp). What belongs to points and cells is skipped. `name` stands in the errors. Throws InputError
+/// with file and line or byte: another data set, a count that the file has no room for, a file that ends too early, a
+/// vertex out of range, a number that is none, kinds of cells that are not read.
+PolygonMesh parse_vtk_legacy(std::string_view bytes, const std::string& name);
+
+}  // namespace ogc::compare

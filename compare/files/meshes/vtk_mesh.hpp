@@ -1,0 +1,16 @@
+// VTK's XML files, as ParaView, PyVista and this program write them: PolyData (.vtp) and UnstructuredGrid (.vtu).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "compare/files/meshes/polygon_mesh.hpp"
+
+namespace ogc::compare {
+
+/// Points, polygons, triangle strips (as triangles), lines (as loose edges) and tetrahedra of all pieces; beside
+/// tetrahedra the others are left out with a word, other data and single points are skipped. `name` stands in the
+/// errors. Throws InputError that names the array or cell, ResourceError where this program was built without expat.
+PolygonMesh parse_vtk_xml_mesh(std::string_view bytes, const std::string& name);
+
+}  // namespace ogc::compare
