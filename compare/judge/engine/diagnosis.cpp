@@ -19,6 +19,9 @@ std::string form_text(const Diagnosis& d) {
                                  " are not of this form";
   for (std::size_t i = 0; i < d.as_well.size(); ++i)
     text += (i == 0 ? "\n  these cases do not tell it from `" : ", `") + d.as_well[i] + "`";
+  for (const SecondMistake& second : d.seconds)
+    text += "\n  in " + cases(second.fits) + " of the rest it equals `" + second.name + "`" +
+            (second.together ? " together with that: " : ": ") + second.meaning;
   return text;
 }
 
@@ -32,9 +35,13 @@ std::string diagnosis_text(const Diagnosis& d) {
 }
 
 nlohmann::ordered_json diagnosis_json(const Diagnosis& d) {
+  auto seconds = nlohmann::ordered_json::array();
+  for (const SecondMistake& second : d.seconds)
+    seconds.push_back(
+        {{"name", second.name}, {"meaning", second.meaning}, {"fits", second.fits}, {"together", second.together}});
   return {{"name", d.name},       {"meaning", d.meaning},     {"as_well", d.as_well}, {"fits", d.fits},
           {"failing", d.failing}, {"otherwise", d.otherwise}, {"right", d.right},     {"forms", d.forms},
-          {"where", d.where},     {"elsewhere", d.elsewhere}};
+          {"where", d.where},     {"elsewhere", d.elsewhere}, {"seconds", seconds}};
 }
 
 }  // namespace ogc::compare

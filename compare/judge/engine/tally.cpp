@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 
 #include "compare/judge/cases/generators.hpp"
@@ -131,6 +132,24 @@ GeneratorTally Tally::generic_total() const {
   for (const auto& [name, row] : generators)
     if (find_generator(stage, name).generic) accumulate(sum, row);
   return sum;
+}
+
+std::vector<std::string> Tally::confined_to() const {
+  std::vector<std::pair<std::uint64_t, std::string>> failing;
+  std::uint64_t passing = 0, passing_groups = 0;
+  for (const auto& [name, row] : generators) {
+    if (row.mismatches > 0) {
+      failing.emplace_back(row.mismatches, name);
+    } else {
+      passing += row.cases;
+      ++passing_groups;
+    }
+  }
+  if (failing.size() > std::min<std::size_t>(most_confined, passing_groups) || passing < least_passing) return {};
+  std::ranges::sort(failing, std::greater{}, &std::pair<std::uint64_t, std::string>::first);
+  std::vector<std::string> names;
+  for (auto& [count, name] : failing) names.push_back(std::move(name));
+  return names;
 }
 
 double Tally::grey_share() const {

@@ -97,6 +97,11 @@ class Tally {
   GeneratorTally total() const;  ///< over all generators
   /// Sums over the generic generators.
   GeneratorTally generic_total() const;
+  /// The few generators that all mismatches come from, worst first, where there are others with as many cases that pass
+  /// (`least_passing`); empty where failures are spread, or there are none.
+  std::vector<std::string> confined_to() const;
+  static constexpr std::size_t most_confined = 3;      ///< more of them are no few
+  static constexpr std::uint64_t least_passing = 100;  ///< cases elsewhere
   /// Grey decisions over all decisions of the generic generators.
   double grey_share() const;
   /// Cases within 2¹⁰ ulp of a decision boundary over all cases.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -19,6 +20,8 @@ constexpr std::size_t most_failing = 120, most_failing_meshes = 24;
 constexpr std::size_t sampled = 600, sampled_of_mesh_stage = 2;
 // What all failing cases have in common says something where so many right ones lack it.
 constexpr std::uint64_t least_elsewhere = 10;
+// Mistakes that are named beside the first.
+constexpr std::size_t most_seconds = 3;
 
 /// How many cases of each generator the sample of a stage has.
 std::size_t cases_of_a_generator(CaseKind kind, std::size_t generators) {
@@ -80,15 +83,18 @@ class Diagnosing {
     result.right = evidence_.size() - result.failing;
     const std::vector<WrongForm> forms = wrong_forms(stage_, evidence_);
     result.forms = forms.size();
-    for (const WrongForm& form : forms) consider(form, result);
+    for (const bool vague : {false, true})
+      for (const WrongForm& form : forms)
+        if (form.is_vague == vague && (!vague || result.name.empty())) consider(form, result);
+    if (stage_info(stage_).kind == CaseKind::single) find_parts(forms, result);
     find_where(result);
     return result;
   }
 
  private:
-  bool fits(const WrongForm& form, const Evidence& one) const {
+  static bool fits(const WrongForm& form, const Evidence& one, const Authority& authority) {
     try {
-      return form.fits(one, authority_);
+      return form.fits(one, authority);
     } catch (const std::exception&) {
       return false;  // the changed question is none that the authority takes
     }
@@ -101,10 +107,10 @@ class Diagnosing {
     std::uint64_t fitting = 0, missed = 0, otherwise = 0;
     for (const Evidence& one : evidence_) {
       if (!one.fails) continue;
-      (fits(form, one) ? fitting : missed) += 1;
+      (fits(form, one, authority_) ? fitting : missed) += 1;
       if (missed + wanted > best.failing) return;
     }
-    for (const Evidence& one : evidence_) otherwise += !one.fails && !fits(form, one);
+    for (const Evidence& one : evidence_) otherwise += !one.fails && !fits(form, one, authority_);
     const std::uint64_t against = missed + otherwise, against_best = best.failing - best.fits + best.otherwise;
     if (!best.name.empty() && against > against_best) return;
     if (!best.name.empty() && against == against_best) {
@@ -116,6 +122,84 @@ class Diagnosing {
     best.as_well.clear();
     best.fits = fitting;
     best.otherwise = otherwise;
+  }
+
+  /// Of these cases those that the form fits, for authorities whom another form may have spoiled before.
+  static std::vector<const Evidence*> fitting(const WrongForm& form, const Authority& authority,
+                                              const std::vector<const Evidence*>& rest) {
+    std::vector<const Evidence*> found;
+    std::ranges::copy_if(rest, std::back_inserter(found),
+                         [&](const Evidence* one) { return fits(form, *one, authority); });
+    return found;
+  }
+
+  /// A form of the parts, alone or together with the first, and the cases that it fits.
+  struct Part {
+    const WrongForm* form = nullptr;
+    bool together = false;
+    std::vector<const Evidence*> cases{};
+  };
+
+  /// Whether few right cases speak against the form: one that is wrong nearly everywhere fits some cases by accident.
+  static bool is_spoken_for(const WrongForm& form, const Authority& authority,
+                            const std::vector<const Evidence*>& right) {
+    const auto fits = static_cast<double>(fitting(form, authority, right).size());
+    return fits >= least_share_of_right * static_cast<double>(right.size());
+  }
+
+  /// The form that fits most of the rest, vague ones only where no other fits `wanted` of them.
+  Part best_part(const std::vector<WrongForm>& forms, const WrongForm* first, const std::vector<const Evidence*>& rest,
+                 const std::vector<const Evidence*>& right, std::size_t wanted) const {
+    Part best;
+    const auto try_all = [&](bool vague, bool together) {
+      const Authority authority = together ? first->wrong(authority_) : authority_;
+      for (const WrongForm& form : forms) {
+        if (form.is_vague != vague || &form == first) continue;
+        std::vector<const Evidence*> cases = fitting(form, authority, rest);
+        if (cases.size() > best.cases.size() && is_spoken_for(form, authority, right))
+          best = {&form, together, std::move(cases)};
+      }
+    };
+    try_all(false, false);
+    if (first != nullptr && first->wrong) try_all(false, true);
+    if (best.cases.size() < wanted) try_all(true, false);
+    return best;
+  }
+
+  /// Names several forms, each for a part of the failing cases; behind one that is named, those that fit its rest.
+  void find_parts(const std::vector<WrongForm>& forms, Diagnosis& result) const {
+    std::vector<const Evidence*> rest, right;
+    for (const Evidence& one : evidence_) (one.fails ? rest : right).push_back(&one);
+    const auto share = [failing = static_cast<double>(rest.size())](std::size_t count) {
+      return static_cast<double>(count) / failing;
+    };
+    const auto wanted = std::max<std::size_t>(
+        least_fits, static_cast<std::size_t>(std::ceil(least_share_of_second * static_cast<double>(rest.size()))));
+    std::vector<Part> parts;
+    const auto take = [&](Part part) {
+      std::erase_if(rest, [&](const Evidence* one) { return std::ranges::find(part.cases, one) != part.cases.end(); });
+      parts.push_back(std::move(part));
+    };
+    if (!result.name.empty()) {
+      const auto named = std::ranges::find(forms, result.name, &WrongForm::name);
+      take({&*named, false, fitting(*named, authority_, rest)});
+    }
+    while (parts.size() <= most_seconds && rest.size() >= wanted) {
+      Part part = best_part(forms, parts.empty() ? nullptr : parts[0].form, rest, right, wanted);
+      if (part.cases.size() < wanted) break;
+      take(std::move(part));
+    }
+    if (parts.empty()) return;
+    if (result.name.empty()) {
+      const std::size_t first = parts[0].cases.size(), all = result.failing - rest.size();
+      if (share(first) < least_share_of_first && share(all) < least_share) return;
+      result.name = parts[0].form->name;
+      result.meaning = parts[0].form->meaning;
+      result.fits = first;
+      result.otherwise = right.size() - fitting(*parts[0].form, authority_, right).size();
+    }
+    for (std::size_t i = 1; i < parts.size(); ++i)
+      result.seconds.push_back({parts[i].form->name, parts[i].form->meaning, parts[i].cases.size(), parts[i].together});
   }
 
   /// The words of a case's inputs: names, and of numbers whether they are 0.

@@ -48,6 +48,20 @@ std::string print_rows(const std::vector<ReportRow>& rows) {
   return text;
 }
 
+/// Where all mismatches come from, if that is few groups of cases; empty otherwise.
+std::string confinement(const Tally& tally) {
+  const std::vector<std::string> names = tally.confined_to();
+  std::string text;
+  for (const std::string& name : names) {
+    const GeneratorTally& row = tally.generators.at(name);
+    text += (text.empty() ? "  all mismatches are in " : ", ") + name + " (" + std::to_string(row.mismatches) +
+            " in its " + std::to_string(row.cases) + " cases)";
+  }
+  return text.empty() ? ""
+                      : text + "; the other " + std::to_string(tally.generators.size() - names.size()) +
+                            " groups of cases pass\n";
+}
+
 /// The metrics whose tolerances are loose.
 std::string loose_metrics(const StageReport& report) {
   std::string names;
@@ -122,6 +136,7 @@ Json report_json(const StageReport& report) {
             {"contestant_seconds", tally.contestant_seconds},
             {"authority_seconds", tally.authority_seconds}};
   if (!report.note.empty()) json["note"] = report.note;
+  if (const auto confined = tally.confined_to(); !confined.empty()) json["confined_to"] = confined;
   if (report.diagnosis) json["diagnosis"] = diagnosis_json(*report.diagnosis);
   const auto infos = metrics(tally.stage);
   json["metrics"] = Json::array();
@@ -173,6 +188,7 @@ std::string report_table(std::span<const StageReport> reports) {
     if (report.skipped) continue;
     text += "\n" + std::string(stage_name(report.tally.stage)) + ": " + verdict(report) + "; worst cases:\n";
     if (!report.note.empty()) text += "  " + report.note + "\n";
+    text += confinement(report.tally);
     if (report.diagnosis) text += "  " + diagnosis_text(*report.diagnosis);
     if (const std::string loose = loose_metrics(report); !loose.empty())
       text += "  loose, never within a factor of 50 of what is accepted: " + loose + "\n";

@@ -1,11 +1,14 @@
 #include "compare/judge/report/wrong_forms.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 #include "compare/judge/cases/stage_traits.hpp"
 #include "compare/judge/engine/ask.hpp"
+#include "compare/judge/report/answers.hpp"
 
 namespace ogc::compare {
 
@@ -18,6 +21,15 @@ std::function<Out(const In&)> asked_once(const std::function<Out(const In&)>& co
     if (!*answer) *answer = contestant(in);
     return **answer;
   };
+}
+
+/// Whether a number of the answer is a NaN; an answer without one must be right.
+bool is_no_number_or_right(const Evidence& evidence, const Authority& authority) {
+  const std::vector<AnswerPair> outputs = answers_to(evidence.test, evidence.answered, authority).outputs;
+  const bool is_nan = std::ranges::any_of(outputs, [](const AnswerPair& pair) {
+    return std::ranges::any_of(pair.given.numbers, [](double x) { return std::isnan(x); });
+  });
+  return is_nan || agrees(evidence, authority);
 }
 
 }  // namespace
@@ -43,7 +55,13 @@ WrongForm form_of(std::string name, std::string meaning, std::function<Authority
 }
 
 std::vector<WrongForm> wrong_forms(Stage stage, std::span<const Evidence> evidence) {
-  return traits_of(stage).wrong_forms(evidence);
+  std::vector<WrongForm> forms = traits_of(stage).wrong_forms(evidence);
+  if (stage_info(stage).kind == CaseKind::single)
+    forms.push_back({.name = "not_a_number",
+                     .meaning = "an answer that is no number, all else right",
+                     .fits = is_no_number_or_right,
+                     .is_vague = true});
+  return forms;
 }
 
 }  // namespace ogc::compare

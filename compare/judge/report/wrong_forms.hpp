@@ -30,12 +30,15 @@ struct WrongForm {
   std::function<bool(const Evidence&, const Authority&)> fits;
   /// The authority that takes the form for the truth; empty where what the form says depends on the answer.
   std::function<Authority(const Authority&)> wrong{};
+  /// It says what the answers look like, not what was computed: tried where no other form is named.
+  bool is_vague = false;
 };
 
 /// The form of such an authority.
 WrongForm form_of(std::string name, std::string meaning, std::function<Authority(const Authority&)> wrong);
 
-/// The forms of a stage. Some have a parameter that is read off the answers (how many contacts a list keeps).
+/// The forms of a stage. Some have a parameter that is read off the answers (how many contacts a list keeps). A stage
+/// of single cases has `not_a_number` besides.
 std::vector<WrongForm> wrong_forms(Stage stage, std::span<const Evidence> evidence);
 
 /// The contestant, asked once a stage: what it answers first is what it answers to everything later. A failure is not

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "compare/judge/cases/dust.hpp"
 #include "compare/judge/cases/mutate.hpp"
@@ -14,6 +15,7 @@
 #include "compare/judge/engine/numbers_json.hpp"
 #include "compare/judge/engine/units.hpp"
 #include "compare/judge/report/form_tools.hpp"
+#include "compare/judge/stages/pairs.hpp"
 #include "compare/judge/stages/stage_of.hpp"
 
 namespace ogc::compare {
@@ -231,7 +233,8 @@ constexpr std::array<Generator, 13> ccd_table{{{"uniform", 12, true, uniform},
                                                {"ladder.needle", 8, false, needle},
                                                {"ladder.offset", 6, false, offset}}};
 
-bool starts_parallel(const CcdCase& c) {
+/// Of two edges at the start: ‖e × e'‖² [m⁴], and ‖e‖² ‖e'‖².
+std::pair<double, double> parallelism(const CcdCase& c) {
   const auto side = [&](std::size_t i, std::size_t j) {
     return Vec3{double{c.from[j].x} - c.from[i].x, double{c.from[j].y} - c.from[i].y,
                 double{c.from[j].z} - c.from[i].z};
@@ -239,7 +242,12 @@ bool starts_parallel(const CcdCase& c) {
   const Vec3 e = side(0, 1), f = side(2, 3);
   const Vec3 n{e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
   const auto square = [](const Vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; };
-  return square(n) <= 1e-6 * square(e) * square(f);
+  return {square(n), square(e) * square(f)};
+}
+
+bool starts_parallel(const CcdCase& c) {
+  const auto [cross, product] = parallelism(c);
+  return cross <= 1e-6 * product;
 }
 
 /// What `skips` holds of is never found to meet.
@@ -259,18 +267,25 @@ WrongForm asked_case(std::string name, std::string meaning, Change change) {
 }
 
 std::vector<WrongForm> ccd_forms() {
-  return {skipping("never", "nothing ever meets", [](const CcdCase&) { return true; }),
-          skipping("edges_skipped", "edges never meet", [](const CcdCase& c) { return c.kind == CcdKind::edge_edge; }),
-          skipping("vertices_skipped", "a vertex never meets a triangle",
-                   [](const CcdCase& c) { return c.kind == CcdKind::vertex_triangle; }),
-          skipping("parallel_edges_skipped", "edges that start nearly parallel never meet",
-                   [](const CcdCase& c) { return c.kind == CcdKind::edge_edge && starts_parallel(c); }),
-          asked_case("second_face_at_rest", "the second face is taken to stay where it is",
-                     [](CcdCase& c) {
-                       for (std::size_t k = 0; k < 4; ++k)
-                         if (!is_first(c.kind, k)) c.to[k] = c.from[k];
-                     }),
-          asked_case("backwards", "the motion from its end to its start", [](CcdCase& c) { std::swap(c.from, c.to); })};
+  std::vector<WrongForm> forms{
+      skipping("never", "nothing ever meets", [](const CcdCase&) { return true; }),
+      skipping("edges_skipped", "edges never meet", [](const CcdCase& c) { return c.kind == CcdKind::edge_edge; }),
+      skipping("vertices_skipped", "a vertex never meets a triangle",
+               [](const CcdCase& c) { return c.kind == CcdKind::vertex_triangle; }),
+      skipping("parallel_edges_skipped", "edges that start nearly parallel never meet",
+               [](const CcdCase& c) { return c.kind == CcdKind::edge_edge && starts_parallel(c); }),
+      asked_case("second_face_at_rest", "the second face is taken to stay where it is",
+                 [](CcdCase& c) {
+                   for (std::size_t k = 0; k < 4; ++k)
+                     if (!is_first(c.kind, k)) c.to[k] = c.from[k];
+                 }),
+      asked_case("backwards", "the motion from its end to its start", [](CcdCase& c) { std::swap(c.from, c.to); })};
+  for (const auto& [text, epsilon] : thresholds)
+    forms.push_back(
+        skipping("edges_skipped_where_cross_product_below_" + std::string(text),
+                 "edges never meet where ‖e × e'‖² is below an absolute " + std::string(text) + " m⁴",
+                 [e = epsilon](const CcdCase& c) { return c.kind == CcdKind::edge_edge && parallelism(c).first < e; }));
+  return forms;
 }
 
 struct Ccd : BatchStage<Ccd, &Contestant::ccd, &Authority::ccd>, NoParameters, InEveryRun {

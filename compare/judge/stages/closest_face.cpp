@@ -9,7 +9,7 @@
 #include "compare/judge/cases/placement.hpp"
 #include "compare/judge/engine/features.hpp"
 #include "compare/judge/engine/numbers_json.hpp"
-#include "compare/judge/report/form_tools.hpp"
+#include "compare/judge/stages/closest_face_forms.hpp"
 #include "compare/judge/stages/pairs.hpp"
 #include "compare/judge/stages/stage_of.hpp"
 
@@ -178,91 +178,6 @@ void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceT
 }
 
 namespace {
-
-/// `change(in, i, truth)` spoils the truth about each case; its rounded answer follows.
-template <class Change>
-WrongForm face_told(std::string name, std::string meaning, Change change) {
-  return told(std::move(name), std::move(meaning), &Authority::closest_face,
-              [change](const ClosestFaceIn& in, ClosestFaceTruth& truth) {
-                for (std::size_t i = 0; i < in.point.size(); ++i) {
-                  change(in, i, truth);
-                  truth.exact.distance[i] = static_cast<float>(truth.distance[i]);
-                  for (std::size_t k = 0; k < 3; ++k)
-                    truth.exact.weights[i][k] = static_cast<float>(truth.weights[i][k]);
-                }
-              });
-}
-
-/// Σ|δ| of the case.
-double size_of(const ClosestFaceIn& in, std::size_t i) {
-  double size = 0;
-  for (const Vec3f& corner : in.triangle[i]) {
-    const Vec3 d = difference(corner, in.point[i]);
-    size += std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-  }
-  return size;
-}
-
-WrongForm weights_swapped(int a, int b) {
-  const std::string which = std::to_string(a) + std::to_string(b);
-  return face_told("weights_swapped_" + which,
-                   "the weights of vertices " + std::to_string(a) + " and " + std::to_string(b) + " exchanged",
-                   [a, b](const ClosestFaceIn&, std::size_t i, ClosestFaceTruth& truth) {
-                     std::swap(truth.weights[i][a], truth.weights[i][b]);
-                   });
-}
-
-/// An interior point with a weight below epsilon counts as on the edge.
-void without_small_weights(ClosestFaceTruth& truth, std::size_t i, double epsilon) {
-  constexpr std::array opposite{TriangleFeature::edge_12, TriangleFeature::edge_20, TriangleFeature::edge_01};
-  if (truth.exact.feature[i] != TriangleFeature::interior) return;
-  const auto least = std::min_element(truth.weights[i].begin(), truth.weights[i].end());
-  if (*least >= epsilon) return;
-  truth.exact.feature[i] = opposite[static_cast<std::size_t>(least - truth.weights[i].begin())];
-  truth.accepted[i] = static_cast<std::uint8_t>(1u << static_cast<unsigned>(truth.exact.feature[i]));
-}
-
-std::vector<WrongForm> closest_face_forms() {
-  std::vector<WrongForm> forms{
-      weights_swapped(0, 1),
-      weights_swapped(1, 2),
-      weights_swapped(0, 2),
-      face_told("squared_distance", "d² for d",
-                [](const ClosestFaceIn&, std::size_t i, ClosestFaceTruth& truth) {
-                  truth.distance[i] *= truth.distance[i];
-                  truth.exact.distance_below[i] = surely_above(truth.distance[i], 0);
-                }),
-      face_told("not_rounded_down",
-                "`distance_below` as exact as `distance`, but rounded to nearest: it may lie above the exact distance",
-                [](const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
-                  truth.exact.distance_below[i] = surely_above(truth.distance[i], size_of(in, i));
-                }),
-      face_told(
-          "distance_below_is_zero", "`distance_below` is 0 everywhere: a bound, and no use",
-          [](const ClosestFaceIn&, std::size_t i, ClosestFaceTruth& truth) { truth.exact.distance_below[i] = 0; })};
-  for (const auto& [text, epsilon] : std::span(thresholds).first(length_thresholds)) {
-    forms.push_back(face_told("distance_floor_" + std::string(text),
-                              "distances never below an absolute epsilon of " + std::string(text) + " m",
-                              [e = epsilon](const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
-                                if (truth.distance[i] >= e) return;
-                                truth.distance[i] = e;
-                                truth.exact.distance_below[i] = surely_above(e, size_of(in, i));
-                              }));
-    forms.push_back(
-        face_told("floor_" + std::string(text) + "_of_distance_alone",
-                  "`distance` never below an absolute epsilon of " + std::string(text) + " m, `distance_below` right",
-                  [e = epsilon](const ClosestFaceIn&, std::size_t i, ClosestFaceTruth& truth) {
-                    truth.distance[i] = std::max(truth.distance[i], e);
-                  }));
-    forms.push_back(face_told(
-        "weights_below_" + std::string(text) + "_are_zero",
-        "an interior point with a weight below an absolute epsilon of " + std::string(text) + " counts as on the edge",
-        [e = epsilon](const ClosestFaceIn&, std::size_t i, ClosestFaceTruth& truth) {
-          without_small_weights(truth, i, e);
-        }));
-  }
-  return forms;
-}
 
 struct ClosestFace : BatchStage<ClosestFace, &Contestant::closest_face, &Authority::closest_face>, NoParameters {
   using Case = ClosestFaceCase;

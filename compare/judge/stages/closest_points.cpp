@@ -207,15 +207,19 @@ namespace {
 double squared(const Vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 double squared_length(const std::array<Vec3f, 2>& edge) { return squared(difference(edge[1], edge[0])); }
 
+/// The rounded answer from distance and parameters.
+void round_answer(ClosestPointsTruth& truth, std::size_t i) {
+  truth.exact.contact_distance[i] = static_cast<float>(truth.contact_distance[i]);
+  for (std::size_t k = 0; k < 2; ++k) truth.exact.parameters[i][k] = static_cast<float>(truth.parameters[i][k]);
+}
+
 template <class Change>
 WrongForm points_told(std::string name, std::string meaning, Change change) {
   return told(std::move(name), std::move(meaning), &Authority::closest_points,
               [change](const ClosestPointsIn&, ClosestPointsTruth& truth) {
                 for (std::size_t i = 0; i < truth.accepted.size(); ++i) {
                   change(truth, i);
-                  truth.exact.contact_distance[i] = static_cast<float>(truth.contact_distance[i]);
-                  for (std::size_t k = 0; k < 2; ++k)
-                    truth.exact.parameters[i][k] = static_cast<float>(truth.parameters[i][k]);
+                  round_answer(truth, i);
                 }
               });
 }
@@ -249,6 +253,45 @@ double parallelism(const std::array<Vec3f, 2>& first, const std::array<Vec3f, 2>
   return squared({a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x});
 }
 
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// Answers as the rule for nearly parallel edges has it, whatever their angle: the middle of the overlap, where there
+/// is one.
+void with_parallel_rule(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
+  const auto& [a, a_end] = in.first[i];
+  const auto& [b, b_end] = in.second[i];
+  const Vec3 e = difference(a_end, a), f = difference(b_end, b), to_b = difference(b, a);
+  const double ee = dot(e, e), ff = dot(f, f), from = dot(to_b, e) / ee, to = dot(difference(b_end, a), e) / ee;
+  const double low = std::max(0.0, std::min(from, to)), high = std::min(1.0, std::max(from, to));
+  if (!(low < high) || !(ff > 0)) return;
+  const double s = (low + high) / 2;
+  const Vec3 seen{s * e.x - to_b.x, s * e.y - to_b.y, s * e.z - to_b.z};
+  const double t = std::clamp(dot(seen, f) / ff, 0.0, 1.0);
+  truth.parameters[i] = {s, t};
+  // The parameters are dot products over squared lengths of the two edges.
+  const double size = modulus(a_end, a) + modulus(b, a) + modulus(b_end, a);
+  truth.parameter_condition[i] = 1 + size * (1 / std::sqrt(ee) + 1 / std::sqrt(ff)) * (1 + std::sqrt(ee / ff));
+  truth.contact_distance[i] = std::sqrt(squared({seen.x - t * f.x, seen.y - t * f.y, seen.z - t * f.z}));
+  truth.exact.first_feature[i] = truth.exact.second_feature[i] = EdgeFeature::interior;
+  truth.exact.nearly_parallel[i] = 1;
+  accept(truth, i);
+}
+
+/// The rule by an absolute threshold on ‖e × e'‖², in place of one on the sine.
+WrongForm parallel_by_threshold(const char* text, double epsilon) {
+  return told("nearly_parallel_where_cross_product_below_" + std::string(text),
+              "edges count as nearly parallel by an absolute threshold: ‖e × e'‖² below " + std::string(text) + " m⁴",
+              &Authority::closest_points, [epsilon](const ClosestPointsIn& in, ClosestPointsTruth& truth) {
+                for (std::size_t i = 0; i < truth.accepted.size(); ++i) {
+                  if (!(parallelism(in.first[i], in.second[i]) < epsilon))
+                    without_parallel_rule(truth, i);
+                  else if (!truth.exact.nearly_parallel[i])
+                    with_parallel_rule(in, truth, i);
+                  round_answer(truth, i);
+                }
+              });
+}
+
 std::vector<WrongForm> closest_points_forms() {
   std::vector<WrongForm> forms{
       points_told("parallel_rule_missing", "nearly parallel edges are treated as all others", without_parallel_rule),
@@ -256,6 +299,19 @@ std::vector<WrongForm> closest_points_forms() {
                   [](ClosestPointsTruth& truth, std::size_t i) {
                     truth.exact.second_feature[i] = other_end(truth.exact.second_feature[i]);
                     truth.parameters[i][1] = 1 - truth.parameters[i][1];
+                    accept(truth, i);
+                  }),
+      points_told("first_ends_swapped", "the first edge read from its other end",
+                  [](ClosestPointsTruth& truth, std::size_t i) {
+                    truth.exact.first_feature[i] = other_end(truth.exact.first_feature[i]);
+                    truth.parameters[i][0] = 1 - truth.parameters[i][0];
+                    accept(truth, i);
+                  }),
+      points_told("both_ends_swapped", "both edges read from their other ends",
+                  [](ClosestPointsTruth& truth, std::size_t i) {
+                    truth.exact.first_feature[i] = other_end(truth.exact.first_feature[i]);
+                    truth.exact.second_feature[i] = other_end(truth.exact.second_feature[i]);
+                    for (double& t : truth.parameters[i]) t = 1 - t;
                     accept(truth, i);
                   }),
       points_told("edges_swapped", "features and parameters of the two edges exchanged",
@@ -270,6 +326,7 @@ std::vector<WrongForm> closest_points_forms() {
         truth.exact.distance_below[i] = surely_above(truth.distance[i], 0);
       })};
   for (const auto& [text, epsilon] : thresholds) {
+    forms.push_back(parallel_by_threshold(text, epsilon));
     forms.push_back(asked("edges_of_squared_length_below_" + std::string(text) + "_are_points",
                           "an absolute threshold on squared lengths: an edge with ‖e‖² < " + std::string(text) +
                               " m² counts as its end 0",

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "compare/judge/stages/force_forms.hpp"
 #include "compare/judge/stages/force_stage.hpp"
+#include "compare/judge/stages/pairs.hpp"
 
 namespace ogc::compare {
 
@@ -31,6 +33,18 @@ void check_own(const ContactForceCase& c);
 inline float* contact_parameter(ContactForceCase& c, std::string_view name) {
   return name == ranges::contact_radius.name ? &c.contact_radius : &c.stiffness;
 }
+
+/// A triangle's corners in another order: corner k is taken for corner of[k].
+struct CornerOrder {
+  const char* name;                ///< "swapped_01"
+  std::array<std::int32_t, 3> of;  ///< by corner
+};
+/// All of them but the right one.
+inline constexpr std::array<CornerOrder, 5> corner_orders{{{"swapped_01", {1, 0, 2}},
+                                                           {"swapped_12", {0, 2, 1}},
+                                                           {"swapped_02", {2, 1, 0}},
+                                                           {"rotated_120", {1, 2, 0}},
+                                                           {"rotated_201", {2, 0, 1}}}};
 
 /// Forms of the contact inside a question: `contact(case)` finds it.
 template <class In, class Contact>
@@ -64,6 +78,18 @@ void add_contact(std::vector<WrongForm>& forms, ForceMember<In> stage, Contact c
   changed("sides_exchanged", "the weight and side of the other edge", [](ContactForceCase& c) {
     if (c.sides == ContactSides::edge_edge) c.own ^= 2;
   });
+  for (const auto& [name, of] : corner_orders)
+    changed("triangle_weights_" + std::string(name), "the weights of the triangle's corners exchanged in this way",
+            [order = of](ContactForceCase& c) {
+              if (c.sides == ContactSides::point_triangle && c.own > 0)
+                c.own = 1 + order[static_cast<std::size_t>(c.own - 1)];
+            });
+  for (const auto& [text, epsilon] : thresholds)
+    changed("mollifier_below_" + std::string(text),
+            "e_k by an absolute threshold: ε is " + std::string(text) + " m⁴ for edges of every length",
+            [squared = static_cast<float>(std::sqrt(1e3 * epsilon))](ContactForceCase& c) {
+              if (c.rest_squared[0] > 0) c.rest_squared = {squared, squared};
+            });
 }
 
 }  // namespace ogc::compare

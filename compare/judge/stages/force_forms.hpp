@@ -1,6 +1,7 @@
 // Wrong forms that force stages share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -43,6 +44,15 @@ inline void scale_block(ForceAnswer& answer, double factor) {
   answer.block_scale *= std::abs(factor);
 }
 
+/// Of the block.
+inline double trace(const ForceAnswer& answer) { return answer.block[0] + answer.block[3] + answer.block[5]; }
+
+/// The block with `coefficient` times a matrix full of ones where it had as much of I.
+inline void add_ones(ForceAnswer& answer, double coefficient) {
+  for (const std::size_t k : {1, 2, 4}) answer.block[k] += coefficient;
+  answer.block_scale = std::max(answer.block_scale, std::abs(coefficient));
+}
+
 /// What can go wrong with any force and block.
 template <class In>
 std::vector<WrongForm> common_forms(ForceMember<In> stage) {
@@ -67,8 +77,8 @@ std::vector<WrongForm> common_forms(ForceMember<In> stage) {
                     [](const Case&, ForceAnswer& answer) { answer.block[1] = answer.block[2] = answer.block[4] = 0; }),
           case_told("hessian_isotropic", "the block's trace on its diagonal: I in place of n nᵀ or I − n nᵀ", stage,
                     [](const Case&, ForceAnswer& answer) {
-                      const double trace = answer.block[0] + answer.block[3] + answer.block[5];
-                      answer.block = {trace, 0, 0, trace, 0, trace};
+                      const double all = trace(answer);
+                      answer.block = {all, 0, 0, all, 0, all};
                     })};
 }
 

@@ -14,6 +14,9 @@ std::vector<WrongForm> friction_force_forms() {
   forms.push_back(case_asked("slip_since_now", "slip since the present position, not since the start of the step: none",
                              stage, [](FrictionForceCase& c) { c.start = c.contact.vertex; }));
   forms.push_back(
+      case_told("ones_for_identity", "the block from a matrix full of ones where I belongs: 1 − n nᵀ for I − n nᵀ",
+                stage, [](const FrictionForceCase&, ForceAnswer& answer) { add_ones(answer, trace(answer) / 2); }));
+  forms.push_back(
       case_asked("friction_squared", "μ² for μ", stage, [](FrictionForceCase& c) { c.friction *= c.friction; }));
   return forms;
 }

@@ -176,6 +176,23 @@ std::vector<WrongForm> spring_forms() {
         if (c.ratio > 0 && c.ratio < 1) c.ratio = 1 - c.ratio;
       }));
   forms.push_back(
+      form("ones_for_identity", "the block from a matrix full of ones where I belongs: 1 − n nᵀ for I − n nᵀ", stage,
+           [](const std::function<ForceTruth(const SpringIn&)>& right, const SpringIn& in) {
+             ForceTruth truth = right(in);
+             SpringIn undamped = in;
+             for (SpringCase& c : undamped.cases) c.damping = 0;
+             const ForceTruth elastic = right(undamped);
+             for (SpringCase& c : undamped.cases) c.rest_length = 0;  // its block is w² k_s I
+             const ForceTruth full = right(undamped);
+             for (std::size_t i = 0; i < in.cases.size(); ++i) {
+               const SpringCase& c = in.cases[i];
+               const double of_identity = (trace(elastic.accepted[i][0]) - trace(full.accepted[i][0]) / 3) / 2,
+                            factor = c.damping_form == DampingForm::per_vertex ? 1 + double{c.damping} : 1;
+               for (ForceAnswer& answer : truth.accepted[i]) add_ones(answer, factor * of_identity);
+             }
+             return truth;
+           }));
+  forms.push_back(
       case_asked("edge_end_for_point", "an end of the edge in place of the point between", stage, [](SpringCase& c) {
         if (c.own < 2) c.ratio = 0;
       }));

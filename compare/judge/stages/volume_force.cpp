@@ -271,6 +271,18 @@ std::vector<WrongForm> volume_force_forms() {
   changed("weights_rotated", "the weight of the next corner",
           [](VolumeForceCase& c) { std::rotate(c.weights.begin(), c.weights.begin() + 1, c.weights.end()); });
   changed("friction_squared", "μ² for μ", [](VolumeForceCase& c) { c.friction *= c.friction; });
+  forms.push_back(form("ones_for_identity",
+                       "friction's block from a matrix full of ones where I belongs: 1 − n nᵀ for I − n nᵀ", stage,
+                       [](const std::function<ForceTruth(const VolumeForceIn&)>& right, const VolumeForceIn& in) {
+                         ForceTruth truth = right(in);
+                         VolumeForceIn smooth = in;
+                         for (VolumeForceCase& c : smooth.cases) c.friction = 0;
+                         const ForceTruth without = right(smooth);
+                         for (std::size_t i = 0; i < truth.accepted.size(); ++i)
+                           for (ForceAnswer& answer : truth.accepted[i])
+                             add_ones(answer, (trace(answer) - trace(without.accepted[i][0])) / 2);
+                         return truth;
+                       }));
   return forms;
 }
 

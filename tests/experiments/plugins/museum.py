@@ -24,6 +24,10 @@ MENDED = {
     "damping_on_approach_alone": ("now.length < start.length ? c.damping : 0", "c.damping"),
     "end_point_by_threshold": ("epsilon = 1e-5", "epsilon = 0"),
     "contacts_beyond_a_cap": ("slots = 4", "slots = 1 << 30"),
+    "signs_choose": ("positive(w) == 1)", "false)"),
+    "weights_rotated": ("std::rotate(w, w + 1, w + 3)", "std::rotate(w, w, w + 3)"),
+    "nan_of_needles": ("w.of[0] <= 0 || w.of[1] <= 0 || w.of[2] <= 0", "positive(w) < 3"),
+    "ones_for_identity": ("off_diagonal = 1", "off_diagonal = 0"),
 }
 
 

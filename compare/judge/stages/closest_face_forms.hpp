@@ -1,0 +1,14 @@
+// Known ways to get the stage closest_face wrong.
+#pragma once
+
+#include <vector>
+
+#include "compare/judge/report/wrong_forms.hpp"
+
+namespace ogc::compare {
+
+/// Weights and corners that are exchanged, an edge or a corner that is not the nearest, areas that add up, absolute
+/// thresholds, rounded decisions, and answers that are no numbers where a triangle is a needle.
+std::vector<WrongForm> closest_face_forms();
+
+}  // namespace ogc::compare

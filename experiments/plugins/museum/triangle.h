@@ -1,0 +1,92 @@
+// The closest point of a triangle, in double, for the exhibits that get one thing of it wrong.
+#ifndef OGC_MUSEUM_TRIANGLE_H
+#define OGC_MUSEUM_TRIANGLE_H
+
+#include "experiments/plugins/museum/geometry.h"
+
+namespace museum {
+
+// Barycentric weights.
+struct Weights {
+  double of[3] = {0, 0, 0};
+};
+
+// Of the foot on the triangle's plane; no numbers where the triangle has no area.
+inline Weights foot(Vec p, const Vec* t) {
+  const Vec n = cross(t[1] - t[0], t[2] - t[0]);
+  Weights w;
+  for (int k = 0; k < 3; ++k) w.of[k] = dot(cross(t[(k + 1) % 3] - p, t[(k + 2) % 3] - p), n) / dot(n, n);
+  return w;
+}
+
+// Of the closest point of the edge from corner k to the next one. Each weight by itself: 1 less the other one is 0 too
+// soon.
+inline Weights on_edge(Vec p, const Vec* t, int k) {
+  const int next = (k + 1) % 3;
+  const Vec e = t[next] - t[k];
+  const double from = dot(p - t[k], e), to = dot(t[next] - p, e);
+  Weights w;
+  if (from > 0 && to > 0)
+    w.of[k] = to / dot(e, e), w.of[next] = from / dot(e, e);
+  else
+    w.of[from > 0 ? next : k] = 1;
+  return w;
+}
+
+inline Vec point(const Vec* t, const Weights& w) { return w.of[0] * t[0] + w.of[1] * t[1] + w.of[2] * t[2]; }
+
+// Where the foot, of weights `w`, is not inside. An edge that it lies beyond is taken before its ends, whose distances
+// may be equal but for a rounding.
+inline Weights on_nearest_edge(Vec p, const Vec* t, const Weights& w) {
+  Weights best;
+  double nearest = INFINITY;
+  bool inside = false;
+  for (int k = 0; k < 3; ++k) {
+    const Weights on = on_edge(p, t, k);
+    const bool beyond = !(w.of[(k + 2) % 3] > 0) && on.of[k] > 0 && on.of[(k + 1) % 3] > 0;
+    const double distance = length(p - point(t, on));
+    if (beyond < inside || (beyond == inside && distance >= nearest)) continue;
+    nearest = distance, best = on, inside = beyond;
+  }
+  return best;
+}
+
+inline int positive(const Weights& w) { return (w.of[0] > 0) + (w.of[1] > 0) + (w.of[2] > 0); }
+
+// The right weights.
+inline Weights closest(Vec p, const Vec* t) {
+  const Weights w = foot(p, t);
+  return positive(w) == 3 ? w : on_nearest_edge(p, t, w);
+}
+
+// By which weights are not 0.
+inline uint8_t feature(const Weights& w) {
+  switch ((w.of[0] > 0) + 2 * (w.of[1] > 0) + 4 * (w.of[2] > 0)) {
+    case 1: return OGC_CORNER_0;
+    case 2: return OGC_CORNER_1;
+    case 4: return OGC_CORNER_2;
+    case 3: return OGC_EDGE_01;
+    case 6: return OGC_EDGE_12;
+    case 5: return OGC_EDGE_20;
+    default: return OGC_INTERIOR;
+  }
+}
+
+// Answers with the point that has the weights which `weights(p, t)` chooses.
+template <class Choose>
+int answer(const ogc_closest_face_in* in, ogc_closest_face_out* out, Choose weights) {
+  for (int64_t i = 0; i < in->n; ++i) {
+    const Vec p = vec(in->point[i]), t[3] = {vec(in->triangle[i][0]), vec(in->triangle[i][1]), vec(in->triangle[i][2])};
+    const Weights w = weights(p, t);
+    const double distance = length(p - point(t, w));
+    out->feature[i] = feature(w);
+    for (int k = 0; k < 3; ++k) out->weights[i][k] = float(w.of[k]);
+    out->distance[i] = float(distance);
+    out->distance_below[i] = below(distance, length(t[0] - p) + length(t[1] - p) + length(t[2] - p));
+  }
+  return 0;
+}
+
+}  // namespace museum
+
+#endif

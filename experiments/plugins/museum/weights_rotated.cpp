@@ -1,0 +1,14 @@
+// The right weights in another order: those of corners 1, 2, 0 where 0, 1, 2 are asked for. What is interpolated with
+// them, such as a force, goes to the wrong corners.
+#include "experiments/plugins/museum/triangle.h"
+
+OGC_PLUGIN("weights of the next corner", OGC_HOST_MEMORY)
+
+int ogc_closest_face(const ogc_closest_face_in* in, ogc_closest_face_out* out) {
+  museum::answer(in, out, museum::closest);
+  for (int64_t i = 0; i < in->n; ++i) {
+    float* w = out->weights[i];
+    std::rotate(w, w + 1, w + 3);  // the mistake
+  }
+  return 0;
+}
