@@ -13,6 +13,7 @@
 #include "compare/oracle/volume_audit.hpp"
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/mesh.hpp"
+#include "experiments/program/audits/rounding_doubt.hpp"
 
 namespace ogc::experiments {
 
@@ -27,6 +28,8 @@ struct AuditedState {
   std::string text;                                     ///< the listed intersections in words, one line each
   std::optional<compare::VolumePenetration> volumes{};  ///< where the scene has volumes
   std::string in_volumes{};                             ///< the same in words
+  std::filesystem::path file{};                         ///< that it was read from, where it has one of its own
+  std::optional<RoundingDoubt> doubt{};                 ///< what the file's digits leave open
 };
 
 /// States to audit, of a run or of files of other programs.
