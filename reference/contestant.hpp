@@ -16,6 +16,7 @@
 #include "reference/solvers/ledger.hpp"
 #include "reference/solvers/newton/minimiser.hpp"
 #include "reference/solvers/residual.hpp"
+#include "reference/solvers/variants/settings.hpp"
 
 namespace ogc::reference {
 

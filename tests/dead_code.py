@@ -43,8 +43,8 @@ KEPT = {
     "read_mesh": "meshes alone, without where their elements come from: what tests read",
     "declaration": "an object whose constructor adds rows to the table of settings",
     **dict.fromkeys(("datum", "main", "ogc_activation", "ogc_barrier", "ogc_ccd", "ogc_closest_face",
-                     "ogc_closest_points", "ogc_detect_vertex_facet", "ogc_friction_force", "ogc_spring", "ogc_tetrahedron", "ogc_truncate", "ogc_volume_force",
-                     "reference_point"), CALLED),
+                     "ogc_closest_points", "ogc_detect_vertex_facet", "ogc_friction_force", "ogc_spring",
+                     "ogc_tetrahedron", "ogc_truncate", "ogc_volume_force", "reference_point"), CALLED),
 }
 
 

@@ -120,7 +120,7 @@ STANDARD = set(
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 MACHINE_PATH = re.compile(r"(?<![\w.~$}\-])/(?:home|root|work|Users)/[\w.]")
 # `.git` is a file in a linked worktree.
-SKIPPED = {".git", "build", "runs", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake",
+SKIPPED = {".git", "build", "ogc-compare", "__pycache__", ".venv", "venv", ".cache", ".snakemake",
            ".pytest_cache"}
 
 
@@ -142,7 +142,8 @@ class House:
     def files(self):
         for path in self.root.rglob("*"):
             parts = path.relative_to(self.root).parts
-            if path.is_file() and not SKIPPED.intersection(parts) and not parts[0].startswith("build"):
+            is_made = parts[0] == "runs" or parts[0].startswith("build")
+            if path.is_file() and not SKIPPED.intersection(parts) and not is_made:
                 yield path
 
     def report(self, file, line, message):
@@ -307,6 +308,10 @@ PLANTED = {
     "experiments includes the inside": (
         {"fast/kernels/x.hpp": "", "experiments/x.cpp": '#include "fast/kernels/x.hpp"\n'},
         "experiments may not", "experiments/x.cpp:1",
+    ),
+    "experiments includes the inside, below a folder called runs": (
+        {"fast/kernels/x.hpp": "", "experiments/runs/x.cpp": '#include "fast/kernels/x.hpp"\n'},
+        "experiments may not", "experiments/runs/x.cpp:1",
     ),
     "a command includes the library": ({"experiments/x.cpp": '#include "fast/contact_sets.hpp"\n'},
                                        "experiments may not", "experiments/x.cpp:1"),

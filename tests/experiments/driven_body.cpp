@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/files/scenes/scene_files.hpp"
+#include "experiments/program/runs/warnings.hpp"
 #include "experiments/scenes/shapes.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"
@@ -59,4 +60,22 @@ TEST_CASE(
     CHECK(summary.at("guarantee_kept") == true);
     CHECK(summary.at("largest_lag_m") > 0.01);
   }
+}
+
+TEST_CASE("keys that begin away from their body get a word with the distance and the body's name", "[unit]") {
+  const auto warnings = [](const compare::Scene& scene) { return experiments::Warnings(scene).list(); };
+  compare::Scene scene = plate_into_cloth();
+  CHECK(warnings(scene).empty());
+  const auto vertices = static_cast<std::ptrdiff_t>(scene.motions[0].vertices.size());
+  compare::Keyframes& keys = scene.motions[0].keyframes;
+  for (auto p = keys.positions.begin(); p != keys.positions.begin() + vertices; ++p) p->y -= 0.25f;
+  REQUIRE(warnings(scene).size() == 1);
+  CHECK(contains(warnings(scene)[0], {"motion 'rise'", "0.25 m away from body 'plate'", "vertex 144"}));
+  // Of keys before and after the start those between which it lies: 0.25 of the way up to 0.5 from −0.25.
+  keys.times = {-0.25, 0.5};
+  CHECK(warnings(scene).empty());
+  keys.times = {-0.25, 0.25};
+  CHECK(contains(warnings(scene).at(0), {"0.125 m away"}));
+  keys.times = {-2, -1};
+  CHECK(contains(warnings(scene).at(0), {"0.5 m away"}));
 }

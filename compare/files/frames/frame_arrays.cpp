@@ -1,15 +1,15 @@
-// Sequences whose frames are rows of one array: NumPy's and point caches. Each frame is read where it is asked for, so
-// that memory holds one.
+// Sequences whose frames are arrays: NumPy's, all in one or one each, and point caches.
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <system_error>
 #include <utility>
 
+#include "compare/files/frames/frame_array.hpp"
 #include "compare/files/frames/input_file.hpp"
-#include "compare/files/frames/mesh_sequence.hpp"
-#include "compare/files/frames/npy.hpp"
+#include "compare/files/frames/natural_order.hpp"
 #include "compare/files/frames/zip.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
@@ -19,72 +19,17 @@ namespace {
 
 constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
 
-/// The extents of the frames in a file, and how their numbers are stored.
-struct FrameLayout {
-  std::uint64_t frames = 0, vertices = 0;
-  ScalarType type = ScalarType::float32;
-  std::endian order = std::endian::little;
-  std::uint64_t frame_bytes() const { return vertices * 3 * size_of(type); }
-};
+/// What the frames of a pass over an array in Fortran order may take: as much as its file, within these bounds [bytes].
+constexpr std::uint64_t least_room = 1 << 26, most_room = 1 << 30;
 
-/// `topology` with the array's number of vertices. Throws where a face names none of them.
-Mesh checked_faces(Mesh topology, const FrameLayout& layout, const std::string& where) {
-  const auto check = [&](const char* kind, const auto& faces) {
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      for (const Index v : faces[i])
-        if (v < 0 || static_cast<std::uint64_t>(v) >= layout.vertices)
-          throw InputError(where + ": " + kind + " " + std::to_string(i) + ": vertex " + std::to_string(v) +
-                           " does not exist; a frame has " + std::to_string(layout.vertices) + ", numbered from 0");
-  };
-  check("triangle", topology.triangles);
-  check("edge", topology.loose_edges);
-  topology.positions.clear();
-  return topology;
+std::uint64_t room_of(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  return std::clamp<std::uint64_t>(error ? 0 : size, least_room, most_room);
 }
 
-class FrameArray : public MeshSequence {
- public:
-  /// `keep` holds what `source` reads from.
-  FrameArray(std::string where, FrameLayout layout, Mesh topology, ByteSource source, std::shared_ptr<void> keep)
-      : where_(std::move(where)),
-        layout_(layout),
-        topology_(checked_faces(std::move(topology), layout, where_)),
-        source_(std::move(source)),
-        keep_(std::move(keep)) {}
-
-  std::size_t size() const override { return layout_.frames; }
-  std::string name(std::size_t i) const override { return "frame " + std::to_string(i); }
-
-  LoadedMesh next() override {
-    const std::string frame = name(next_++);
-    std::string bytes(layout_.frame_bytes(), '\0');
-    source_(bytes, frame);
-    Mesh mesh = topology_;
-    mesh.positions.resize(layout_.vertices);
-    const std::size_t width = size_of(layout_.type);
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      const auto coordinate = [&](std::size_t k) {
-        return scalar_at(bytes.data() + (3 * v + k) * width, layout_.type, layout_.order);
-      };
-      mesh.positions[v] = {coordinate(0), coordinate(1), coordinate(2)};
-      if (!std::isfinite(mesh.positions[v].x) || !std::isfinite(mesh.positions[v].y) ||
-          !std::isfinite(mesh.positions[v].z))
-        throw InputError(where_ + ": " + frame + ": vertex " + std::to_string(v) + ": a coordinate is not finite");
-    }
-    return {std::move(mesh), {}, {}};
-  }
-
- private:
-  std::string where_;
-  FrameLayout layout_;
-  Mesh topology_;
-  ByteSource source_;
-  std::shared_ptr<void> keep_;
-  std::size_t next_ = 0;
-};
-
 FrameLayout layout_of(const NpyHeader& header, std::uint64_t bytes, const std::string& where) {
-  FrameLayout layout{1, 0, header.type, header.order};
+  FrameLayout layout{1, 0, header.type, header.order, header.fortran_order};
   const auto& shape = header.shape;
   if ((shape.size() != 2 && shape.size() != 3) || shape.back() != 3 || !is_floating(header.type))
     throw InputError(where + ": is an array " + shape_text(shape) +
@@ -95,47 +40,114 @@ FrameLayout layout_of(const NpyHeader& header, std::uint64_t bytes, const std::s
   if (layout.vertices > most_vertices)
     throw InputError(where + ": has " + std::to_string(layout.vertices) + " vertices; " +
                      std::to_string(most_vertices) + " are the most");
+  if (layout.vertices == 0)
+    throw InputError(where + ": is an array " + shape_text(shape) + ", whose frames have no vertex");
   // Division, as the product of announced extents may be beyond 64 bits.
-  if (layout.vertices > 0 && layout.frames > bytes / layout.frame_bytes())
+  if (layout.frames > bytes / layout.frame_bytes())
     throw InputError(where + ": is an array " + shape_text(shape) + ", but only " +
                      std::to_string(bytes / layout.frame_bytes()) + " frames fit into its " + std::to_string(bytes) +
                      " bytes; it is truncated");
   return layout;
 }
 
+/// Names of positions and of triangles, the first that is there counts; `v_template` is SMPL's body at rest.
+constexpr std::array<std::string_view, 8> position_names{"positions", "x", "vertices", "points",
+                                                         "verts",     "v", "V",        "v_template"};
+constexpr std::array<std::string_view, 4> triangle_names{"triangles", "faces", "f", "F"};
+/// What stands before the number of a frame that has an array of its own: numpy.savez calls them arr_0, arr_1, ….
+constexpr std::array<std::string_view, 3> frame_names{"frame", "arr", ""};
+
 /// The first member that has one of the names; the names are the members' without ".npy".
-std::optional<std::string> member_named(const ZipFile& zip, std::initializer_list<std::string_view> names) {
+std::optional<std::string> member_named(const ZipFile& zip, std::span<const std::string_view> names) {
   for (const std::string_view name : names)
     for (const std::string& member : zip.members())
       if (member == std::string(name) + ".npy") return member;
   return std::nullopt;
 }
 
-ByteSource source_of(const std::shared_ptr<ZipFile>& zip) {
-  return [zip](std::span<char> bytes, const std::string& what) { zip->read(bytes, what); };
+/// Whether the member is "STEM7.npy" or "STEM_7.npy".
+bool is_numbered(std::string_view member, std::string_view stem) {
+  if (!member.starts_with(stem) || !member.ends_with(".npy")) return false;
+  member = member.substr(stem.size(), member.size() - stem.size() - 4);
+  if (member.starts_with('_') && !stem.empty()) member.remove_prefix(1);
+  return !member.empty() && std::ranges::all_of(member, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The numbered members of the first name that has any, in natural order.
+std::vector<std::string> numbered_members(const ZipFile& zip) {
+  std::vector<std::string> found;
+  const auto look = [&](std::span<const std::string_view> stems) {
+    for (const std::string_view stem : stems)
+      if (found.empty())
+        std::ranges::copy_if(zip.members(), std::back_inserter(found),
+                             [&](const std::string& member) { return is_numbered(member, stem); });
+  };
+  look(position_names);
+  look(frame_names);
+  std::ranges::sort(found, natural_less);
+  return found;
+}
+
+/// An array somewhere: its header, its bytes, and how to come to its first number.
+struct FoundArray {
+  std::string where;  ///< begins messages
+  NpyHeader header;
+  std::uint64_t bytes = 0;  ///< of the numbers, or more
+  ArrayOpener open;
+  std::uint64_t room = least_room;  ///< for frames of a pass
+};
+
+FoundArray array_in(const std::shared_ptr<ZipFile>& zip, const std::string& member, const std::filesystem::path& file) {
+  FoundArray array;
+  array.where = file.string() + ": '" + member + "'";
+  const ByteSource source = [zip](std::span<char> bytes, const std::string& what) { zip->read(bytes, what); };
+  array.open = [zip, member, source, where = array.where]() {
+    zip->open(member);
+    read_npy_header(source, where);
+    return source;
+  };
+  zip->open(member);
+  array.header = read_npy_header(source, array.where);
+  array.bytes = zip->size();
+  array.room = room_of(file);
+  return array;
+}
+
+FoundArray array_in(const std::filesystem::path& file) {
+  FoundArray array;
+  array.where = file.string();
+  array.open = [file]() -> ByteSource {
+    const auto input = std::make_shared<InputFile>(file);
+    const ByteSource source = [input](std::span<char> bytes, const std::string& what) { input->read(bytes, what); };
+    read_npy_header(source, input->name());
+    return source;
+  };
+  InputFile input(file);
+  array.header = read_npy_header([&](std::span<char> bytes, const std::string& what) { input.read(bytes, what); },
+                                 array.where);
+  array.bytes = input.size() - input.position();
+  array.room = room_of(file);
+  return array;
 }
 
 template <std::size_t Corners>
-std::vector<std::array<Index, Corners>> read_faces(const std::shared_ptr<ZipFile>& zip, const std::string& member,
-                                                   const std::string& name) {
-  const std::string where = name + ": '" + member + "'";
-  zip->open(member);
-  const ByteSource source = source_of(zip);
-  const NpyHeader header = read_npy_header(source, where);
+std::vector<std::array<Index, Corners>> read_faces(const FoundArray& array) {
+  const auto& [where, header, size, open, room] = array;
   if (header.shape.size() != 2 || header.shape[1] != Corners || is_floating(header.type))
     throw InputError(where + ": is an array " + shape_text(header.shape) +
                      (is_floating(header.type) ? " of floating-point numbers" : "") + "; " +
                      (Corners == 3 ? "triangles are [n, 3]" : "edges are [n, 2]") + " of whole numbers");
-  const std::size_t row = Corners * size_of(header.type);
-  if (header.shape[0] > zip->size() / row)
-    throw InputError(where + ": is an array " + shape_text(header.shape) + ", which its " +
-                     std::to_string(zip->size()) + " bytes don't hold");
-  std::string bytes(header.shape[0] * row, '\0');
-  source(bytes, "the faces");
-  std::vector<std::array<Index, Corners>> faces(header.shape[0]);
-  for (std::size_t i = 0; i < faces.size(); ++i)
+  const std::size_t width = size_of(header.type), row = Corners * width, count = header.shape[0];
+  if (count > size / row)
+    throw InputError(where + ": is an array " + shape_text(header.shape) + ", which its " + std::to_string(size) +
+                     " bytes don't hold");
+  std::string bytes(count * row, '\0');
+  open()(bytes, "the faces");
+  std::vector<std::array<Index, Corners>> faces(count);
+  for (std::size_t i = 0; i < count; ++i)
     for (std::size_t k = 0; k < Corners; ++k) {
-      const double value = scalar_at(bytes.data() + i * row + k * size_of(header.type), header.type, header.order);
+      const std::size_t place = header.fortran_order ? k * count + i : i * Corners + k;
+      const double value = scalar_at(bytes.data() + place * width, header.type, header.order);
       if (!(value >= 0 && value <= static_cast<double>(most_vertices)))
         throw InputError(where + ": row " + std::to_string(i) + ": vertex " + shortest(value) +
                          " does not exist; vertices are numbered from 0");
@@ -144,18 +156,16 @@ std::vector<std::array<Index, Corners>> read_faces(const std::shared_ptr<ZipFile
   return faces;
 }
 
-Mesh faces_of(const std::shared_ptr<ZipFile>& zip, const Mesh* topology, const std::string& name) {
-  const auto triangles = member_named(*zip, {"triangles", "faces"}), edges = member_named(*zip, {"edges"});
+/// Triangles and edges of an archive; nothing where it has neither.
+std::optional<Mesh> faces_of(const std::shared_ptr<ZipFile>& zip, const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 1> edge_names{"edges"};
+  const auto triangles = member_named(*zip, triangle_names), edges = member_named(*zip, edge_names);
+  if (!triangles && !edges) return std::nullopt;
   Mesh mesh;
-  if (triangles) mesh.triangles = read_faces<3>(zip, *triangles, name);
-  if (edges) mesh.loose_edges = read_faces<2>(zip, *edges, name);
+  if (triangles) mesh.triangles = read_faces<3>(array_in(zip, *triangles, file));
+  if (edges) mesh.loose_edges = read_faces<2>(array_in(zip, *edges, file));
   for (Edge& edge : mesh.loose_edges) std::ranges::sort(edge);
-  if (triangles || edges) return mesh;
-  if (topology == nullptr)
-    throw InputError(name +
-                     ": holds neither 'triangles' [n, 3] nor 'edges' [n, 2]; add them to the archive, or name a mesh "
-                     "that has them with --mesh");
-  return *topology;
+  return mesh;
 }
 
 const Mesh& needed(const Mesh* topology, const std::string& name) {
@@ -164,10 +174,53 @@ const Mesh& needed(const Mesh* topology, const std::string& name) {
   return *topology;
 }
 
+/// A mesh without positions, of an array of faces, has as many vertices as are there.
 void check_count(const Mesh& topology, std::uint64_t vertices, const std::string& name) {
-  if (topology.positions.size() != vertices)
+  if (!topology.positions.empty() && topology.positions.size() != vertices)
     throw InputError(name + ": a frame has " + std::to_string(vertices) + " vertices, the mesh of --mesh " +
                      std::to_string(topology.positions.size()) + "; give the mesh that was simulated");
+}
+
+/// The frames of arrays, one array after another; one alone counts its frames by itself.
+std::unique_ptr<MeshSequence> frames_of(const std::vector<FoundArray>& arrays, const std::vector<std::string>& names,
+                                        const Mesh& faces) {
+  const auto kept = std::make_shared<const Mesh>(faces);
+  std::vector<FramePart> parts;
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    const FoundArray& array = arrays[i];
+    const FrameLayout layout = layout_of(array.header, array.bytes, array.where);
+    check_count(faces, layout.vertices, array.where);
+    if (arrays.size() == 1) return frame_array(array.where, layout, faces, array.open, array.room);
+    parts.push_back({names[i], layout.frames, [array, layout, kept] {
+                       return frame_array(array.where, layout, *kept, array.open, array.room);
+                     }});
+  }
+  return chained(std::move(parts));
+}
+
+/// Whether it looks like triangles: of numpy.savez(file, vertices, triangles) both have numbers for names.
+bool are_faces(const FoundArray& array) {
+  const NpyHeader& header = array.header;
+  return !is_floating(header.type) && header.shape.size() == 2 && header.shape[1] == 3;
+}
+
+std::string held_by(const ZipFile& zip) {
+  std::string held;
+  for (const std::string& one : zip.members()) held += (held.empty() ? "" : ", ") + one;
+  const bool is_body = std::ranges::count(zip.members(), "poses.npy") > 0;
+  return (held.empty() ? "nothing" : shown(held, 400)) +
+         (is_body ? "; poses are parameters of a body model: let it compute the vertices, and store those" : "");
+}
+
+/// Takes the one array of faces out of the arrays, where there are no other faces.
+void take_faces(std::vector<FoundArray>& arrays, std::vector<std::string>& names, std::optional<Mesh>& faces) {
+  for (std::size_t i = 0; i < arrays.size() && !faces; ++i) {
+    if (!are_faces(arrays[i])) continue;
+    faces.emplace();
+    faces->triangles = read_faces<3>(arrays[i]);
+    arrays.erase(arrays.begin() + static_cast<std::ptrdiff_t>(i));
+    names.erase(names.begin() + static_cast<std::ptrdiff_t>(i));
+  }
 }
 
 }  // namespace
@@ -175,29 +228,46 @@ void check_count(const Mesh& topology, std::uint64_t vertices, const std::string
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology) {
   const auto zip = std::make_shared<ZipFile>(file);
   const std::string name = file.string();
-  const auto member = member_named(*zip, {"positions", "x", "vertices", "points", "verts"});
-  if (!member) {
-    std::string held;
-    for (const std::string& one : zip->members()) held += (held.empty() ? "" : ", ") + one;
-    throw InputError(name + ": holds no 'positions' (nor x, vertices, points or verts); it holds " +
-                     (held.empty() ? "nothing" : held));
-  }
-  Mesh faces = faces_of(zip, topology, name);
-  const std::string where = name + ": '" + *member + "'";
-  zip->open(*member);
-  const NpyHeader header = read_npy_header(source_of(zip), where);
-  const FrameLayout layout = layout_of(header, zip->size(), where);
-  if (!faces.positions.empty()) check_count(faces, layout.vertices, name);
-  return std::make_unique<FrameArray>(where, layout, std::move(faces), source_of(zip), zip);
+  std::vector<std::string> members;
+  if (const auto member = member_named(*zip, position_names))
+    members = {*member};
+  else
+    members = numbered_members(*zip);
+  std::optional<Mesh> faces = faces_of(zip, file);
+  std::vector<FoundArray> arrays;
+  for (const std::string& member : members) arrays.push_back(array_in(zip, member, file));
+  take_faces(arrays, members, faces);
+  if (arrays.empty())
+    throw InputError(name + ": holds no 'positions' (nor " + joined(std::span(position_names).subspan(1)) +
+                     ", nor frames of one array each: frame_0, frame_1); it holds " + held_by(*zip));
+  if (!faces && topology == nullptr)
+    throw InputError(name + ": holds neither 'triangles' [n, 3] (nor " + joined(std::span(triangle_names).subspan(1)) +
+                     ") nor 'edges' [n, 2]; add them to the archive, or name a mesh that has them with --mesh");
+  return frames_of(arrays, members, faces ? *faces : *topology);
 }
 
-std::unique_ptr<MeshSequence> npy_sequence(const std::filesystem::path& file, const Mesh* topology) {
-  const auto input = std::make_shared<InputFile>(file);
-  const ByteSource source = [input](std::span<char> bytes, const std::string& what) { input->read(bytes, what); };
-  const NpyHeader header = read_npy_header(source, input->name());
-  const FrameLayout layout = layout_of(header, input->size() - input->position(), input->name());
-  check_count(needed(topology, input->name()), layout.vertices, input->name());
-  return std::make_unique<FrameArray>(input->name(), layout, *topology, source, input);
+std::unique_ptr<MeshSequence> npy_sequence(const std::vector<std::filesystem::path>& files, const Mesh* topology) {
+  std::vector<FoundArray> arrays;
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files) {
+    arrays.push_back(array_in(file));
+    names.push_back(file.string());
+  }
+  std::optional<Mesh> faces;
+  if (topology == nullptr && files.size() > 1) take_faces(arrays, names, faces);
+  return frames_of(arrays, names, faces ? *faces : needed(topology, files.front().string()));
+}
+
+Mesh faces_in_arrays(const std::filesystem::path& file) {
+  Mesh mesh;
+  if (file.extension() != ".npz" && file.extension() != ".NPZ") {
+    mesh.triangles = read_faces<3>(array_in(file));
+    return mesh;
+  }
+  const auto zip = std::make_shared<ZipFile>(file);
+  if (auto faces = faces_of(zip, file)) return std::move(*faces);
+  throw InputError(file.string() + ": holds neither " + joined(triangle_names) + " nor edges; it holds " +
+                   held_by(*zip));
 }
 
 std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, const Mesh* topology) {
@@ -212,13 +282,14 @@ std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, co
     throw InputError(name + ": does not begin with POINTCACHE2; it is no PC2 file");
   const auto word = [&](std::size_t k) { return number_at<std::int32_t>(header.data() + k, std::endian::little); };
   if (word(12) != 1) throw InputError(name + ": is of version " + std::to_string(word(12)) + "; only 1 is known");
-  if (word(16) < 0 || word(28) < 0)
+  if (word(16) <= 0 || word(28) < 0)
     throw InputError(name + ": announces " + std::to_string(word(16)) + " points and " + std::to_string(word(28)) +
                      " samples; it is damaged");
   const FrameLayout layout{static_cast<std::uint64_t>(word(28)), static_cast<std::uint64_t>(word(16)),
                            ScalarType::float32, std::endian::little};
   check_count(needed(topology, name), layout.vertices, name);
-  return std::make_unique<FrameArray>(name, layout, *topology, source, input);
+  return frame_array(
+      name, layout, *topology, [source] { return source; }, least_room);
 }
 
 }  // namespace ogc::compare

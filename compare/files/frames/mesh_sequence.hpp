@@ -29,14 +29,20 @@ using MeshReader = std::function<LoadedMesh(const std::filesystem::path&)>;
 /// One mesh a file, each with triangles of its own, in the order given.
 std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::path> files, MeshReader read);
 
-/// The frames of an archive of NumPy arrays (numpy.savez, compressed or not): `positions` [frames, vertices, 3], or
-/// [vertices, 3] for one frame; `triangles` [n, 3] and `edges` [n, 2] (those without a triangle) of whole numbers.
-/// Other names that are taken: x, vertices, points, verts; faces. Faces and edges of `topology` are used where the
-/// archive has neither; its positions are not looked at.
+/// The frames of an archive of NumPy arrays (numpy.savez, compressed or not), in C or Fortran order: `positions`
+/// [frames, vertices, 3], or [vertices, 3] for one frame, or one such array a frame, numbered (`frame_0`, `frame_1`;
+/// `arr_0`, …); `triangles` [n, 3] and `edges` [n, 2] (those without a triangle) of whole numbers. Other names that are
+/// taken: x, vertices, points, verts, v, V, and v_template, as SMPL has it; faces, f, F. Of numbered arrays without
+/// such a name one of whole numbers [n, 3] is the triangles. Faces and edges of `topology` are used where the archive
+/// has neither; its positions are not looked at but counted.
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// The frames of one array of positions (numpy.save), as of an archive.
-std::unique_ptr<MeshSequence> npy_sequence(const std::filesystem::path& file, const Mesh* topology);
+/// The frames of arrays of positions (numpy.save), one file after another, as of an archive; without a `topology` one
+/// of several files has the triangles. At least one file.
+std::unique_ptr<MeshSequence> npy_sequence(const std::vector<std::filesystem::path>& files, const Mesh* topology);
+
+/// A mesh without positions: the triangles of a .npy, triangles and edges of a .npz. Throws InputError.
+Mesh faces_in_arrays(const std::filesystem::path& file);
 
 /// The samples of a point cache (PC2: "POINTCACHE2", version, points, start, rate, samples, then float32,
 /// little-endian).

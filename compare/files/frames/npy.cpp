@@ -68,8 +68,10 @@ NpyHeader read_npy_header(const ByteSource& source, const std::string& where) {
   source(text, "the header");
   NpyHeader header;
   parse_type(value_of(text, "descr", where), where, header);
-  if (value_of(text, "fortran_order", where).starts_with("True"))
-    throw InputError(where + ": is stored in Fortran order; store it in C order (numpy.ascontiguousarray)");
+  const std::string_view order = value_of(text, "fortran_order", where);
+  header.fortran_order = order.starts_with("True");
+  if (!header.fortran_order && !order.starts_with("False"))
+    throw InputError(where + ": whether it is in Fortran order can't be read; the header is damaged");
   parse_shape(value_of(text, "shape", where), where, header);
   return header;
 }

@@ -1,6 +1,7 @@
 #include "compare/files/frames/zip.hpp"
 
 #include <algorithm>
+#include <system_error>
 
 #include "compare/files/bytes.hpp"
 #include "compare/problem/error.hpp"
@@ -12,6 +13,10 @@
 namespace ogc::compare {
 
 #ifdef OGC_HAS_MINIZIP
+
+/// Deflate packs at most 258 bytes into two bits, so that more is announced by damage alone, before any memory is asked
+/// for.
+constexpr std::uint64_t most_deflated = 258 * 8 / 2;
 
 struct ZipFile::Handle {
   explicit Handle(unzFile opened) : file(opened) {}
@@ -46,6 +51,11 @@ void ZipFile::open(const std::string& member) {
     throw InputError(name_ + ": '" + member +
                      "' can't be read; it is missing, damaged, or packed by another method than deflate");
   size_ = info.uncompressed_size;
+  std::error_code error;
+  const std::uintmax_t whole = std::filesystem::file_size(name_, error);
+  if (error || info.compressed_size > whole || size_ / most_deflated > info.compressed_size)
+    throw InputError(name_ + ": '" + member_ + "' announces " + std::to_string(size_) + " bytes from " +
+                     std::to_string(info.compressed_size) + " packed ones, more than deflate can pack; it is damaged");
 }
 
 void ZipFile::read(std::span<char> bytes, const std::string& what) {

@@ -61,6 +61,7 @@ class MeshMaker {
     if (options_.rounded) seen_ = as_stages_see(in_.positions);
     cut();
     leave_out_degenerate();
+    leave_out_doubled();
     if (!options_.keep_unused) turn_inverted();
     out_.mesh.positions = std::move(in_.positions);
     out_.mesh.loose_edges = std::move(in_.loose_edges);
@@ -242,6 +243,44 @@ class MeshMaker {
       fail("has " + counted(all, "face") + " that " + (all == 1 ? "is" : "are") + " none: " + reasons + "; " + first +
            "; leave --strict out, or remove them");
     note(counted(all, "face") + (all == 1 ? " was" : " were") + " left out: " + reasons + "; " + first);
+  }
+
+  /// Of tetrahedra with the same vertices all but the first: with a second one no face would be on the surface.
+  void leave_out_doubled() {
+    std::vector<std::pair<Tetrahedron, std::size_t>> sorted;
+    sorted.reserve(in_.tetrahedra.size());
+    for (Tetrahedron t : in_.tetrahedra) {
+      std::ranges::sort(t);
+      sorted.emplace_back(t, sorted.size());
+    }
+    std::ranges::sort(sorted);
+    // By number, the one whose vertices each repeats; itself where it is the first.
+    std::vector<std::size_t> original(sorted.size());
+    for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
+      if (sorted[i].first != sorted[first].first) first = i;
+      original[sorted[i].second] = sorted[first].second;
+    }
+    std::vector<std::size_t> doubled;
+    for (std::size_t t = 0; t < original.size(); ++t)
+      if (original[t] != t) doubled.push_back(t);
+    if (doubled.empty()) return;
+    const ElementNames names(in_.source);
+    const auto name = [&](std::size_t t) { return names.tetrahedron(static_cast<Index>(t), in_.tetrahedra[t]); };
+    const std::string all = std::to_string(doubled.size()) + (doubled.size() == 1 ? " tetrahedron" : " tetrahedra"),
+                      first = "the first, " + name(doubled[0]) + ", has those of " + name(original[doubled[0]]);
+    if (options_.strict)
+      fail("has " + all + " with the vertices of another: " + first + "; leave --strict out, or remove them");
+    const auto drop = [&](auto& list) {
+      std::size_t t = 0;
+      if (!list.empty())
+        std::erase_if(list, [&](const auto&) {
+          const bool is_doubled = original[t] != t;
+          ++t;
+          return is_doubled;
+        });
+    };
+    drop(in_.tetrahedra), drop(in_.source.tetrahedra), drop(in_.source.tetrahedron_lines);
+    note(all + " with the vertices of another " + (doubled.size() == 1 ? "was" : "were") + " left out: " + first);
   }
 
   /// Tetrahedra of files with another convention for the order of vertices. What is inverted in part is left as it is:

@@ -90,6 +90,7 @@ class SequenceSource : public AuditSource {
     take_topology(mesh, its_name);
     AuditedState state{its_name, topology_, std::move(mesh.positions), {}, {}, {}, ""};
     state.is_solid = !mesh.tetrahedra.empty();
+    state.file = loaded.source.file;
     if (!loaded.source.file.empty()) state.names = compare::ElementNames(std::move(loaded.source));
     return state;
   }
@@ -97,6 +98,9 @@ class SequenceSource : public AuditSource {
     state.result = compare::audit(*state.topology, state.positions, {}, {.limit = limit_});
     state.distances = compare::smallest_distances(*state.topology, state.positions);
     state.text = compare::describe(state.result, *state.topology, state.names);
+    if (!state.file.empty())
+      state.doubt = rounding_doubt(compare::printed_digits(state.file), state.result, state.distances, *state.topology,
+                                   state.positions);
   }
 
  private:
@@ -155,10 +159,14 @@ void add_matching(const std::string& path, std::vector<fs::path>& files) {
 
 using FrameReader = std::unique_ptr<compare::MeshSequence> (*)(const fs::path&, const compare::Mesh*);
 
+std::unique_ptr<compare::MeshSequence> npy_alone(const fs::path& file, const compare::Mesh* topology) {
+  return compare::npy_sequence({file}, topology);
+}
+
 /// Files that hold many frames.
 FrameReader reader_of(const std::string& path) {
   static const std::map<std::string, FrameReader> readers{
-      {".npz", compare::npz_sequence}, {".npy", compare::npy_sequence}, {".pc2", compare::pc2_sequence}};
+      {".npz", compare::npz_sequence}, {".npy", npy_alone}, {".pc2", compare::pc2_sequence}};
   const auto found = readers.find(extension_of(path));
   return found == readers.end() ? nullptr : found->second;
 }
@@ -173,24 +181,31 @@ compare::MeshOptions of_frames(compare::MeshOptions options) {
 
 std::unique_ptr<compare::MeshSequence> open_frames(const AuditRequest& request) {
   std::optional<compare::Mesh> topology;
-  if (!request.topology.empty()) topology = compare::load_mesh(request.topology, of_frames(request.meshes)).mesh;
+  if (!request.topology.empty())
+    topology = extension_of(request.topology) == ".npy" || extension_of(request.topology) == ".npz"
+                   ? compare::faces_in_arrays(request.topology)
+                   : compare::load_mesh(request.topology, of_frames(request.meshes)).mesh;
+  const compare::Mesh* faces = topology ? &*topology : nullptr;
   const std::string& first = request.paths.front();
-  if (const FrameReader reader = request.paths.size() == 1 ? reader_of(first) : nullptr)
-    return reader(first, topology ? &*topology : nullptr);
-  if (topology)
-    throw InputError("--mesh " + request.topology +
-                     " belongs to one .npz, .npy or .pc2 file; meshes bring triangles of their own");
+  if (const FrameReader reader = request.paths.size() == 1 ? reader_of(first) : nullptr) return reader(first, faces);
   std::vector<fs::path> files;
   if (request.paths.size() == 1 && type_of(first) == fs::file_type::directory) {
-    files = compare::mesh_files_in(first, compare::mesh_extensions());
+    std::vector<std::string> extensions = compare::mesh_extensions();
+    extensions.push_back(".npy");
+    files = compare::mesh_files_in(first, extensions);
   } else {
     for (const std::string& path : request.paths) add_matching(path, files);
   }
   std::ranges::sort(files,
                     [](const fs::path& a, const fs::path& b) { return compare::natural_less(a.native(), b.native()); });
+  if (std::ranges::all_of(files, [](const fs::path& file) { return extension_of(file.string()) == ".npy"; }))
+    return compare::npy_sequence(files, faces);
+  if (topology)
+    throw InputError("--mesh " + request.topology +
+                     " belongs to .npy files, or to one .npz or .pc2; meshes bring triangles of their own");
   for (const fs::path& file : files)
     if (files.size() > 1 && reader_of(file.string()) != nullptr)
-      throw InputError(file.string() + ": holds many frames; name it alone");
+      throw InputError(file.string() + ": holds many frames; name it alone, or with other .npy files");
   return compare::mesh_files_sequence(
       std::move(files), [options = request.meshes](const fs::path& file) { return compare::load_mesh(file, options); });
 }

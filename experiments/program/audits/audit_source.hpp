@@ -14,6 +14,7 @@
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/mesh.hpp"
 #include "compare/problem/scene.hpp"
+#include "experiments/program/audits/rounding_doubt.hpp"
 
 namespace ogc::experiments {
 
@@ -29,6 +30,8 @@ struct AuditedState {
   std::optional<compare::VolumePenetration> volumes{};  ///< where the scene has volumes
   std::string in_volumes{};                             ///< the same in words
   bool is_solid = false;                                ///< of a mesh of tetrahedra
+  std::filesystem::path file{};                         ///< that it was read from, where it has one of its own
+  std::optional<RoundingDoubt> doubt{};                 ///< what the file's digits leave open
 };
 
 /// States to audit, of a run or of files of other programs.

@@ -48,6 +48,7 @@ struct State {
   SmallestDistances distances;
   std::optional<compare::VolumePenetration> volumes;
   std::string in_volumes;
+  std::string doubt{};  ///< what the file's digits leave open, in words
 };
 
 Json to_json(const SmallestDistances& distances, const compare::Topology& topology,
@@ -117,6 +118,10 @@ State state_of(const AuditedState& audited, const compare::Scene* scene) {
                              {"deepest", audited.volumes->deepest},
                              {"edges_meeting", audited.volumes->edges_meeting}};
   for (std::size_t e = 0; e < topology.edges.size(); ++e) state.loose_edges += topology.edge_triangles[e].empty();
+  if (audited.doubt) {
+    state.json["printed"] = to_json(*audited.doubt);
+    state.doubt = describe(*audited.doubt, audited.name);
+  }
   state.json["smallest_distances"] = to_json(audited.distances, topology, audited.names);
   if (audited.result.count > 0)
     state.json["excluded_pairs"] = excluded_json(vertex_pairs(audited.result, topology), scene, audited);
@@ -270,6 +275,15 @@ std::string unseen_curves(const std::vector<State>& states) {
          "--audit-meetings)";
 }
 
+/// What the digits of the first such file leave open; empty where they decide all.
+std::string in_doubt(const std::vector<State>& states) {
+  const auto has = [](const State& state) { return !state.doubt.empty(); };
+  const auto first = std::ranges::find_if(states, has);
+  if (first == states.end()) return "";
+  const auto others = static_cast<std::size_t>(std::ranges::count_if(states, has)) - 1;
+  return first->doubt + (others == 0 ? "" : " (likewise " + counted(others, "further state") + ")");
+}
+
 /// Where volumes let in most: the state with the most vertices inside, and that with the deepest; empty without any.
 std::string describe_volumes(const std::vector<State>& states) {
   std::string text;
@@ -336,6 +350,7 @@ void print(const Audits& audits, const Totals& totals, const std::string& left_o
   if (!audits.stopped.empty())
     text += counted(audits.planned - audits.states.size(), "further state") + " not audited: one can't be read\n";
   for (const std::string& line : unseen(audits)) text += line + "\n";
+  if (const std::string note = in_doubt(audits.states); !note.empty()) text += note + "\n";
   if (!left_out.empty()) text += "left out: " + left_out + "\n";
   for (const std::string& line : audits.shown) text += line + "\n";
   text += describe_volumes(audits.states);
@@ -358,6 +373,7 @@ void print_json(const Options& options, const Audits& audits, const Totals& tota
     json["ways"] = Json::array();
     for (const Way& way : audits.ways->ways()) json["ways"].push_back(way.json);
   }
+  if (const std::string note = in_doubt(audits.states); !note.empty()) json["in_doubt"] = note;
   if (!left_out.empty()) json["left_out"] = left_out;
   if (!options.show.empty()) json["shown"] = audits.shown;
   print_result(json);
@@ -393,10 +409,12 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       ->add_option(
           "MESH|FRAMES|RUN", options->request.paths,
           "A mesh (.obj, .ply, .vtp, .vtu, .vtk, .msh, .mesh, .stl, .off, .gltf, .glb), several of them as frames, a "
-          "folder of them, frames in one file (.npz, .npy, .pc2), or a run folder")
+          "folder of them, frames in one file (.npz, .npy, .pc2) or several .npy, or a run folder")
       ->required();
-  command->add_option("--mesh", options->request.topology,
-                      "A mesh with the triangles of frames in a .npy or .pc2 file, or in a .npz without any");
+  command->add_option(
+      "--mesh", options->request.topology,
+      "A mesh, or an array (.npy, .npz), with the triangles of frames in .npy or .pc2 files, or in a .npz "
+      "without any");
   command->add_option(
       "--show", options->show,
       "Write a picture and a .vtp of what intersects to this folder, for each of the first 8 such states");
@@ -434,11 +452,15 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "meeting (experiments/garments.md).\n"
       "Frames of whatever solver: files are taken in natural order (frame_2 before frame_10), and a pattern in quotes "
       "is expanded here. A .npz\n"
-      "(numpy.savez) holds positions [frames, vertices, 3] (or x, vertices, points, verts) in float32 or float64, and "
-      "triangles [n, 3] (or faces)\n"
-      "and edges [n, 2] of whole numbers from 0. A .pc2 is a point cache, as Blender writes it. Numbers are audited as "
-      "they are stored, none is\n"
-      "rounded. Where a frame can't be read, those before it are reported, and the exit status is 2, or 1.\n\n"
+      "(numpy.savez) holds positions [frames, vertices, 3] (or x, vertices, points, verts, v, V, SMPL's v_template) in "
+      "float32 or float64, or one array\n"
+      "[vertices, 3] a frame (frame_0, frame_1; arr_0, arr_1), and triangles [n, 3] (or faces, f, F) and edges [n, 2] "
+      "of whole numbers from 0; in C or\n"
+      "Fortran order. Of several .npy one may hold the triangles, and so may a .npy for --mesh. A .pc2 is a point "
+      "cache, as Blender writes it. Numbers\n"
+      "are audited as they are stored, none is rounded; where a text file prints too few digits to tell, that is said. "
+      "Where a frame can't be read,\n"
+      "those before it are reported, and the exit status is 2, or 1.\n\n"
       "Examples:\n"
       "  ogc audit shirt.obj\n"
       "  ogc audit runs/twist-small-20250801-120000\n"

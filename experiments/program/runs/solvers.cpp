@@ -7,7 +7,6 @@
 #include "compare/problem/error.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
-#include "reference/solvers/variants/settings.hpp"
 
 namespace ogc::experiments {
 namespace {

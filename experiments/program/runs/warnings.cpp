@@ -83,6 +83,39 @@ std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
          " m/s in a step: what should begin to move may stay; take " + setting + "=" + number(least, 1);
 }
 
+/// Where keyframes hold the k-th vertex of their motion at t = 0: between two keys, or at the first or last of them.
+Vec3 at_start(const compare::PrescribedMotion& motion, std::size_t k) {
+  const std::vector<double>& times = motion.keyframes.times;
+  const auto key = [&](std::size_t frame) {
+    const compare::Vec3f& x = motion.keyframes.positions[frame * motion.vertices.size() + k];
+    return Vec3{x.x, x.y, x.z};
+  };
+  const auto after = static_cast<std::size_t>(std::ranges::upper_bound(times, 0.0) - times.begin());
+  if (after == 0 || after == times.size()) return key(after == 0 ? 0 : after - 1);
+  const double s = -times[after - 1] / (times[after] - times[after - 1]);
+  const Vec3 from = key(after - 1), to = key(after);
+  return {from.x + s * (to.x - from.x), from.y + s * (to.y - from.y), from.z + s * (to.z - from.z)};
+}
+
+/// Of the motion whose keys begin farthest from where its vertices are.
+std::string keys_warning(const compare::Scene& scene) {
+  double farthest = most_radii_from_keys * scene.settings.contact_radius;
+  const compare::PrescribedMotion* of = nullptr;
+  compare::Index vertex = -1;
+  for (const compare::PrescribedMotion& motion : scene.motions)
+    for (std::size_t k = 0; k < motion.vertices.size() && !motion.keyframes.empty(); ++k) {
+      const compare::Index v = motion.vertices[k];
+      const double away = distance(at_start(motion, k), scene.mesh.positions[static_cast<std::size_t>(v)]);
+      if (away > farthest) farthest = away, of = &motion, vertex = v;
+    }
+  if (of == nullptr) return "";
+  const auto body = static_cast<std::size_t>(compare::body_of_vertex(scene)[static_cast<std::size_t>(vertex)]);
+  return "the keyframes of motion '" + of->name + "' begin " + number(farthest) + " m away from body '" +
+         scene.bodies.at(body).name + "', which they drive (vertex " + std::to_string(vertex) +
+         "): the first step carries it there as fast as bounds let it; begin with a key where the body is, or move the "
+         "body to the first key";
+}
+
 }  // namespace
 
 void ForcesLeft::look_at(const compare::StepMetrics& row) {
@@ -100,7 +133,7 @@ Warnings::Warnings(const compare::Scene& scene, Solver solver)
       iterations_(scene.settings.iterations),
       free_(std::ranges::count(rigid_groups(scene), -1)) {
   for (std::string text : {bounds_warning(scene), box_warning(scene), radius_warning(scene), thin_solid_warning(scene),
-                           curved_rest_warning(scene), tolerance_warning(scene, solver)})
+                           curved_rest_warning(scene), tolerance_warning(scene, solver), keys_warning(scene)})
     if (!text.empty()) of_scene_.push_back(std::move(text));
 }
 

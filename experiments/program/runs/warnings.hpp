@@ -16,6 +16,9 @@ inline constexpr double largest_diagonal = 20;
 /// Median edges of a body that r may reach: beyond them a vertex is in contact with what it is sewn to, several rings
 /// of neighbours away.
 inline constexpr double most_edges_a_radius = 2;
+/// Contact radii that keyframes may begin away from their body: less is no motion that contact could miss, and far
+/// above the roundings of files.
+inline constexpr double most_radii_from_keys = 0.01;
 /// Share of what a step is to move that truncation may take (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
@@ -46,8 +49,9 @@ class ForcesLeft {
 class Warnings {
  public:
   /// Looks at the scene, which must be rounded and valid, as it starts: its box, r against the edges of each body with
-  /// triangles, and against the thickness of each solid at rest, rest shapes that isometric bending does not know, and
-  /// of IPC the speed at which a step ends against what gravity changes in one.
+  /// triangles, and against the thickness of each solid at rest, rest shapes that isometric bending does not know, of
+  /// IPC the speed at which a step ends against what gravity changes in one, and keyframes that begin away from their
+  /// body.
   explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
   /// Looks at a step: what the guess loop lost though it did all its rounds (MomentumShare; empty: not known), the
   /// lag of prescribed vertices, and whether bounds end most_held_steps in a row. Returns what the first step of its

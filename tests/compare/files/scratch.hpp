@@ -10,10 +10,9 @@ namespace ogc::tests {
 
 class Scratch {
  public:
-  Scratch() {
+  explicit Scratch(const std::filesystem::path& below = std::filesystem::temp_directory_path()) {
     static std::atomic<int> count{0};
-    folder_ = std::filesystem::temp_directory_path() /
-              ("ogc_test_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    folder_ = below / ("ogc_test_" + std::to_string(getpid()) + "_" + std::to_string(count++));
     std::filesystem::create_directories(folder_);
   }
   Scratch(const Scratch&) = delete;

@@ -212,7 +212,8 @@ std::string failure(const Sample& sample, Judge judge, std::uint64_t seed, std::
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-  return sample.name + ", seed " + std::to_string(seed) + ", case " + last.substr(std::min<std::size_t>(1, last.size())) +
+  return sample.name + ", seed " + std::to_string(seed) + ", case " +
+         last.substr(std::min<std::size_t>(1, last.size())) +
          (WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "");
 }
 

@@ -119,3 +119,25 @@ TEST_CASE("tetrahedra that are inverted, all of them, are turned with a word; st
   std::swap(turned.tetrahedra[2][0], turned.tetrahedra[2][1]);  // five of six are inverted: left as they are
   CHECK(make_mesh(turned).mesh.tetrahedra == turned.tetrahedra);
 }
+
+TEST_CASE("of tetrahedra with the same vertices the first stays, and so does the surface; strictly they are refused",
+          "[unit]") {
+  const LoadedMesh cube = make_mesh(parse_polygon_mesh(cube_medit(), "m.mesh"));
+  PolygonMesh doubled = parse_polygon_mesh(cube_medit(), "m.mesh");
+  const Tetrahedron second = doubled.tetrahedra[1];
+  doubled.tetrahedra.push_back(second);
+  doubled.tetrahedra.insert(doubled.tetrahedra.begin() + 2, {second[1], second[2], second[0], second[3]});
+  doubled.source.tetrahedra.assign({0, 1, 2, 3, 4, 5, 6, 7});
+  doubled.source.tetrahedron_lines.assign({10, 11, 12, 13, 14, 15, 16, 17});
+  const LoadedMesh loaded = make_mesh(doubled);
+  CHECK(loaded.mesh.tetrahedra == cube.mesh.tetrahedra);
+  CHECK(loaded.mesh.triangles == cube.mesh.triangles);
+  CHECK(loaded.source.tetrahedra == std::vector<Index>{0, 1, 3, 4, 5, 6});
+  CHECK(loaded.source.tetrahedron_lines == std::vector<std::size_t>{10, 11, 13, 14, 15, 16});
+  REQUIRE(loaded.notes.size() == 1);
+  CHECK_THAT(loaded.notes[0],
+             Contains("2 tetrahedra with the vertices of another were left out: the first, tetrahedron "
+                      "3 (") &&
+                 Contains("line 12), has those of tetrahedron 2 (") && Contains("line 11)"));
+  CHECK_THROWS_WITH(make_mesh(doubled, {.strict = true}), Contains("2 tetrahedra") && Contains("line 12"));
+}

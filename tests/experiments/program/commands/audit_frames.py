@@ -115,6 +115,74 @@ def check_arrays(folder):
         assert "--mesh" in audit(folder / file, status=2)
 
 
+def check_layouts(folder):
+    """Fortran order, short names, SMPL's names, one array a frame, and faces in an array: the same verdict."""
+    frames, fortran = positions(), numpy.asfortranarray
+    faces, distances = fortran(TRIANGLES), frames[:, 3, 2]
+    mesh = folder / "mesh.obj"
+    numpy.save(folder / "fortran.npy", fortran(frames))
+    numpy.save(folder / "f.npy", faces)
+    for ties in (mesh, folder / "f.npy"):
+        check(audit(folder / "fortran.npy", "--mesh", ties, status=1), "frame 10", distances)
+    check(audit(folder / "fortran.npy", folder / "f.npy", status=1), "frame 10", distances)
+    for save in (numpy.savez, numpy.savez_compressed):
+        for arrays in ({"vertices": fortran(frames), "faces": faces}, {"V": frames, "F": faces},
+                       {"v": fortran(frames), "f": TRIANGLES.astype("uint32"), "betas": numpy.ones(10)}):
+            save(folder / "layout.npz", **arrays)
+            check(audit(folder / "layout.npz", status=1), "frame 10", distances)
+        save(folder / "each.npz", *frames, faces=faces)
+        check(audit(folder / "each.npz", status=1), "arr_10.npy", distances)
+        save(folder / "two.npz", fortran(frames), faces)
+        check(audit(folder / "two.npz", status=1), "frame 10", distances)
+    numpy.savez(folder / "smpl.npz", v_template=fortran(frames[0]), f=TRIANGLES.astype("uint32"),
+                shapedirs=numpy.zeros((6, 3, 10)))
+    assert audit(folder / "smpl.npz", status=0)["clean"] is True
+    here = folder / "one_each"
+    here.mkdir()
+    for k, frame in enumerate(frames):
+        numpy.save(here / f"frame_{k}.npy", fortran(frame))
+    check(audit(here, "--mesh", mesh, status=1), "frame_10.npy", distances)
+    check(audit(*here.glob("*.npy"), folder / "f.npy", status=1), "frame_10.npy", distances)
+
+
+def printed(folder, name, digits, gap):
+    """Two slanted sheets `gap` apart, as a file whose coordinates are printed in this way; what an audit says."""
+    count = 6
+    corner = numpy.arange(count * count).reshape(count, count)
+    a, b, c, d = (part.ravel() + 1 for part in (corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]))
+    faces = numpy.concatenate([numpy.stack([a, b, c], axis=1), numpy.stack([a, c, d], axis=1)])
+    x, y = (part.ravel() for part in numpy.meshgrid(numpy.linspace(0, 1, count), numpy.linspace(0, 1, count)))
+    e, f = numpy.array([0.48, 0.6, 0.64]), numpy.array([-0.8, 0.6, 0.0])
+    lower = x[:, None] * e + y[:, None] * f + [1 / 3, 1 / 7, 1 / 9]
+    upper = lower * 0.93 + gap * numpy.cross(e, f) + 0.07 * lower.mean(axis=0)
+    vertices = "".join("v " + " ".join(digits % value for value in p) + "\n" for p in numpy.vstack([lower, upper]))
+    file = folder / name
+    both = numpy.vstack([faces, faces + count * count])
+    file.write_text(vertices + "".join(f"f {p} {q} {r}\n" for p, q, r in both))
+    verdict = json.loads(subprocess.run([PROGRAM, "audit", file, "--json"], capture_output=True, text=True).stdout)
+    return verdict["states"][0], verdict.get("in_doubt", ""), verdict["intersections"]
+
+
+def check_digits(folder):
+    """A file whose last digit is coarser than its smallest distance says so; one of 17 digits does not."""
+    state, words, found = printed(folder, "all.obj", "%.17g", 1e-12)
+    assert found == 0 and "printed" not in state and not words
+    state, words, found = printed(folder, "nine.obj", "%.9g", 1e-12)
+    assert found > 5 and state["printed"]["digits"] == 9 and state["printed"]["unit"] == 1e-8, state["printed"]
+    assert state["printed"]["doubtful_intersections"] == found and "17 digits" in words, words
+    state, words, found = printed(folder, "six.obj", "%.6f", 1e-6)
+    assert state["printed"]["decimals"] == 6 and state["printed"]["unit"] == 1e-6, state
+    state, words, found = printed(folder, "enough.obj", "%.9g", 1e-4)
+    assert found == 0 and "printed" not in state and not words
+    state, words, found = printed(folder, "pierced.obj", "%.9g", -0.0)
+    assert found > 0 and state["printed"]["doubtful_intersections"] > 0
+    # An intersection deeper than any rounding is nobody's doubt.
+    (folder / "deep.obj").write_text("".join(f"v {x:.9f} {y:.9f} {z:.9f}\n" for x, y, z in positions()[11] / 1.1) +
+                                     "f 1 2 3\nf 4 5 6\n")
+    verdict = audit(folder / "deep.obj", status=1)
+    assert "printed" not in verdict["states"][0] and "in_doubt" not in verdict
+
+
 def check_vtp(folder):
     frames = positions()
     for number, options in enumerate(itertools.product(("ascii", "binary", "appended"), (False, True), (32, 64), (0, 1),
@@ -156,8 +224,8 @@ def check_refused(folder):
     assert "positions" in message and "cloth" in message
     numpy.savez(folder / "outside.npz", x=frames, faces=TRIANGLES + 1)
     assert "vertex 6 does not exist" in audit(folder / "outside.npz", status=2)
-    numpy.savez(folder / "fortran.npz", x=numpy.asfortranarray(frames), faces=TRIANGLES)
-    assert "ascontiguousarray" in audit(folder / "fortran.npz", status=2)
+    numpy.savez(folder / "body.npz", poses=frames[0], trans=frames[0], faces=TRIANGLES)
+    assert "let it compute the vertices" in audit(folder / "body.npz", status=2)
     numpy.savez(folder / "objects.npz", x=numpy.array([{}], dtype=object), faces=TRIANGLES)
     assert "float32" in audit(folder / "objects.npz", status=2)
     frames[7, 4, 1] = numpy.nan
@@ -178,6 +246,8 @@ def check_refused(folder):
 
 with tempfile.TemporaryDirectory() as scratch:
     check_arrays(Path(scratch))
+    check_layouts(Path(scratch))
+    check_digits(Path(scratch))
     check_vtp(Path(scratch))
     check_interrupted(Path(scratch))
     check_refused(Path(scratch))

@@ -1,0 +1,22 @@
+// How finely a text file prints its coordinates: what lies nearer than that, the file can't tell.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace ogc::compare {
+
+/// The digits of a file.
+struct PrintedDigits {
+  int digits = 0;             ///< significant ones, or decimals
+  bool are_decimals = false;  ///< "%.6f" prints decimals, "%.9g" significant digits
+  double unit = 0;            ///< of the last digit of the largest coordinate [m]
+};
+
+/// The digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU or Gmsh file; nothing where its numbers are binary, print
+/// all that a double holds, or were typed: fewer than 6 significant digits or 4 decimals, which do not recur. Throws
+/// InputError where the file can't be opened.
+std::optional<PrintedDigits> printed_digits(const std::filesystem::path& file);
+
+}  // namespace ogc::compare
