@@ -49,6 +49,20 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
     test(Kind::edge_triangle, static_cast<Index>(e), topology.edges[e]);
   for (Index v = 0; v < topology.vertex_count; ++v)
     if (topology.vertex_edges[static_cast<std::size_t>(v)].size() > 0) test(Kind::vertex_triangle, v, {v, v});
+  // Edges with the side that a triangle has opposite to their one common vertex.
+  std::vector<Intersection> sides;
+  for (std::size_t e = 0; e < topology.edges.size(); ++e)
+    for (const Triangle& t : topology.triangles) {
+      std::vector<Index> others;
+      const auto& [a, b] = topology.edges[e];
+      std::ranges::copy_if(t, std::back_inserter(others), [&](Index v) { return v != a && v != b; });
+      if (others.size() != 2) continue;
+      const Index side = find_edge(topology, others[0], others[1]), edge = static_cast<Index>(e);
+      if (ogc::tests::hulls_meet({at(a), at(b)}, {at(others[0]), at(others[1]), at(others[1])}))
+        sides.push_back({Kind::edge_edge, std::min(edge, side), std::max(edge, side)});
+    }
+  std::ranges::sort(sides);
+  found.insert(found.end(), sides.begin(), std::ranges::unique(sides).begin());
   return found;
 }
 
