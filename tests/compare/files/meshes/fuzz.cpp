@@ -212,8 +212,9 @@ std::string failure(const Sample& sample, Judge judge, std::uint64_t seed, std::
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-  return sample.name + ", seed " + std::to_string(seed) + ", case " + last.substr(std::min<std::size_t>(1, last.size())) +
-         (WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "");
+  const std::string how = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "";
+  last.erase(0, 1);
+  return sample.name + ", seed " + std::to_string(seed) + ", case " + last + how;
 }
 
 void fuzz(std::uint64_t seed, std::size_t cases) {
