@@ -1,7 +1,9 @@
 #include "compare/files/text_lines.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <functional>
 
 #include "compare/files/numbers.hpp"
 #include "compare/problem/error.hpp"
@@ -10,7 +12,15 @@
 namespace ogc::compare {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n\f\v";
+bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_end(char c) { return c == '\n' || c == '\r'; }
+
+/// The number of characters before the first that is so, or all. Large files are read a character at a time, for which
+/// std::string_view's search among several characters is slow.
+template <class Is>
+std::size_t before(std::string_view text, Is is) {
+  return static_cast<std::size_t>(std::ranges::find_if(text, is) - text.begin());
+}
 
 std::size_t comment_in(std::string_view line, char sign) {
   for (std::size_t place = line.find(sign); place != std::string_view::npos; place = line.find(sign, place + 1))
@@ -21,16 +31,16 @@ std::size_t comment_in(std::string_view line, char sign) {
 }  // namespace
 
 std::string_view next_word(std::string_view& text) {
-  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(blanks));
+  text.remove_prefix(before(text, std::not_fn(is_blank)));
+  const std::string_view word = text.substr(0, before(text, is_blank));
   text.remove_prefix(word.size());
   return word;
 }
 
 bool is_hash_of_number(std::string_view text, std::size_t place) {
   if (text[place] != '#' || place < 2 || place + 1 >= text.size()) return false;
-  const char behind = text[place + 1];
-  return text[place - 1] == '.' && text[place - 2] == '1' && behind >= 'A' && behind <= 'Z';
+  return text[place - 1] == '.' && text[place - 2] == '1' &&
+         std::isalpha(static_cast<unsigned char>(text[place + 1])) != 0;
 }
 
 std::string no_coordinate(std::string_view word) {
@@ -44,15 +54,16 @@ std::string no_coordinate(std::string_view word) {
 bool TextLines::step() {
   if (text_.empty()) return goes_on_ = false;
   ++number_;
-  line_ = text_.substr(0, text_.find_first_of("\r\n"));
+  line_ = text_.substr(0, before(text_, is_end));
   text_.remove_prefix(line_.size());
   if (!text_.empty()) text_.remove_prefix(text_.starts_with("\r\n") ? 2 : 1);
   if (rules_.comment != '\0') line_ = line_.substr(0, comment_in(line_, rules_.comment));
   goes_on_ = false;
   if (!rules_.backslash_joins) return true;
-  const std::size_t last = line_.find_last_not_of(blanks);
-  if (last == std::string_view::npos || line_[last] != '\\') return true;
-  line_ = line_.substr(0, last);
+  std::string_view rest = line_;
+  while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
+  if (!rest.ends_with('\\')) return true;
+  line_ = rest.substr(0, rest.size() - 1);
   return goes_on_ = true;
 }
 
@@ -63,7 +74,7 @@ bool TextLines::next() {
 
 bool TextLines::next_filled() {
   while (next())
-    if (line_.find_first_not_of(blanks) != std::string_view::npos) return true;
+    if (!std::ranges::all_of(line_, is_blank)) return true;
   return false;
 }
 

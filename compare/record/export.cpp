@@ -6,6 +6,7 @@
 #include "compare/files/bytes.hpp"
 #include "compare/files/meshes/mesh_files.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/local_origin.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/record/vtp.hpp"
 #include "compare/record/vtu.hpp"
@@ -18,13 +19,13 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 4> names{"obj", "ply", "vtp", "vtu"};
 
 void write_frame(const fs::path& path, ExportFormat format, const Scene& scene, std::span<const Index> bodies,
-                 const Frame& frame) {
+                 const Frame& frame, const Vec3& origin) {
   if (format == ExportFormat::vtp)
-    write_durably(path, vtp_bytes(scene.mesh, bodies, frame));
+    write_durably(path, vtp_bytes(scene.mesh, bodies, frame, origin));
   else if (format == ExportFormat::vtu)
-    write_durably(path, vtu_bytes(scene, bodies, frame));
+    write_durably(path, vtu_bytes(scene, bodies, frame, origin));
   else
-    write_mesh(path, {to_double(frame.positions), scene.mesh.triangles, scene.mesh.loose_edges});
+    write_mesh(path, {in_file(origin, frame.positions), scene.mesh.triangles, scene.mesh.loose_edges});
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, co
   for (std::size_t i = 0; i < run.frame_count(); ++i) {
     const Frame frame = run.frame(i);
     const std::string name = frame_name(frame.step) + extension;
-    write_frame(out / name, format, run.scene(), bodies, frame);
+    write_frame(out / name, format, run.scene(), bodies, frame, run.provenance().origin);
     files.push_back(out / name);
     index.emplace_back(frame.time, name);
   }

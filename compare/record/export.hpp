@@ -15,8 +15,9 @@ ExportFormat parse_export_format(std::string_view text);
 /// Writes one mesh a frame, `out`/frame_000025.EXT with the number of the frame's step, and makes `out` where it is
 /// missing. OBJ and PLY hold positions, triangles and loose edges; VTP (XML PolyData) holds velocity [m/s], bound [m]
 /// and body besides, VTU (XML UnstructuredGrid) tetrahedra and their J as well (compare/record/vtu.hpp); both get an
-/// index with the frames' times, `out`/NAME.pvd, NAME being the scene's. Returns all files, the index last. Throws
-/// InputError where the run has no frame, ResourceError where the disk does not take it.
+/// index with the frames' times, `out`/NAME.pvd, NAME being the scene's. Positions are in the coordinates of the mesh's
+/// file (Provenance::origin). Returns all files, the index last. Throws InputError where the run has no frame,
+/// ResourceError where the disk does not take it.
 std::vector<std::filesystem::path> export_run(const std::filesystem::path& folder, ExportFormat format,
                                               const std::filesystem::path& out);
 

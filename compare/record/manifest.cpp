@@ -32,8 +32,8 @@ constexpr std::array<TextField, 11> text_fields{{{"status", &Provenance::status}
                                                  {"compiler", &Provenance::compiler},
                                                  {"cuda", &Provenance::cuda}}};
 
-constexpr std::array<std::string_view, 8> other_fields{"format", "format_version", "dirty",    "warnings",
-                                                       "seed",   "scene",          "settings", "stages"};
+constexpr std::array<std::string_view, 9> other_fields{"format", "format_version", "dirty",  "warnings", "seed",
+                                                       "scene",  "settings",       "stages", "origin"};
 
 bool is_known(std::string_view key) {
   return std::any_of(text_fields.begin(), text_fields.end(),
@@ -120,6 +120,10 @@ Provenance provenance_of(const Json& json) {
     provenance.*entry.field = json.at(std::string(entry.name)).get<std::string>();
   provenance.dirty = json.at("dirty").get<bool>();
   provenance.warnings = json.value("warnings", std::vector<std::string>{});
+  if (json.contains("origin")) {
+    const auto origin = json.at("origin").at("value").get<std::array<double, 3>>();
+    provenance.origin = {origin[0], origin[1], origin[2]};
+  }
   for (const auto& [key, value] : json.items())
     if (!is_known(key)) provenance.extra[key] = extra_text(value);
   return provenance;
@@ -140,6 +144,8 @@ std::string manifest_text(const Manifest& manifest, const Scene& scene) {
   for (const TextField& entry : text_fields) json[std::string(entry.name)] = manifest.provenance.*entry.field;
   json["dirty"] = manifest.provenance.dirty;
   json["warnings"] = manifest.provenance.warnings;
+  if (const auto& [x, y, z] = manifest.provenance.origin; manifest.provenance.origin != Vec3{})
+    json["origin"] = {{"value", {x, y, z}}, {"unit", "m"}};
   for (const auto& [key, value] : manifest.provenance.extra) {
     if (is_known(key))
       throw std::invalid_argument("run.json: '" + key + "' has a meaning of its own and can't be an extra entry");

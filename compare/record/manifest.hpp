@@ -22,7 +22,8 @@ struct Provenance {
   bool dirty = false;                            ///< whether the tree had changes beyond the commit
   std::string started, ended, status;            ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
   std::vector<std::string> warnings;             ///< about settings that are hardly meant
-  std::map<std::string, std::string> extra;      ///< further entries of run.json; "yes" and "no" are truth values there
+  Vec3 origin{};  ///< what positions are relative to, in the coordinates of the mesh's file [m]; exports add it
+  std::map<std::string, std::string> extra;  ///< further entries of run.json; "yes" and "no" are truth values there
 };
 
 /// What run.json says beside the copy of the scene's numbers.

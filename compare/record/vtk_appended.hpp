@@ -5,6 +5,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
+
+#include "compare/problem/local_origin.hpp"
+#include "compare/record/frame_file.hpp"
 
 namespace ogc::compare {
 
@@ -30,5 +34,19 @@ class AppendedArrays {
  private:
   std::string bytes_;
 };
+
+/// Rows of three doubles, as one array.
+inline std::span<const double> as_doubles(const std::vector<Vec3>& vectors) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double), "rows of three doubles");
+  return {vectors.empty() ? nullptr : &vectors.front().x, 3 * vectors.size()};
+}
+
+/// Adds the points of a frame, relative to `origin` as the scene has them: in single precision where that is 0, else in
+/// double, in the coordinates of the scene's file. Their element for the XML.
+inline std::string appended_points(AppendedArrays& appended, const Vec3& origin, const std::vector<Vec3f>& positions) {
+  if (origin == Vec3{}) return appended.array("Float32", "Points", as_floats(positions), 3);
+  const std::vector<Vec3> points = in_file(origin, positions);
+  return appended.array("Float64", "Points", as_doubles(points), 3);
+}
 
 }  // namespace ogc::compare

@@ -34,13 +34,13 @@ std::string file_text(const Mesh& mesh, const std::string& data, const std::stri
 
 }  // namespace
 
-std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame) {
+std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame, const Vec3& origin) {
   AppendedArrays appended;
   const std::string data = "<PointData Vectors=\"velocity\">" +
                            appended.array("Float32", "velocity", as_floats(frame.velocities), 3) +
                            appended.array("Float32", "bound", std::span<const float>(frame.bounds)) +
                            appended.array("Int32", "body", bodies) + "</PointData>\n";
-  const std::string points = appended.array("Float32", "Points", as_floats(frame.positions), 3);
+  const std::string points = appended_points(appended, origin, frame.positions);
   return file_text(mesh, data, points, appended);
 }
 
@@ -52,10 +52,7 @@ std::string vtp_bytes(const LabelledMesh& part) {
   const std::string data = "<PointData>" + labels("vertex", part.vertex_numbers) + "</PointData>\n<CellData>" +
                            labels("number", part.cell_numbers) + labels("intersections", part.cell_counts) +
                            "</CellData>\n";
-  static_assert(sizeof(Vec3) == 3 * sizeof(double), "rows of three doubles");
-  const std::span<const double> coordinates(part.mesh.positions.empty() ? nullptr : &part.mesh.positions.front().x,
-                                            3 * part.mesh.positions.size());
-  const std::string points = appended.array("Float64", "Points", coordinates, 3);
+  const std::string points = appended.array("Float64", "Points", as_doubles(part.mesh.positions), 3);
   return file_text(part.mesh, data, points, appended);
 }
 

@@ -11,8 +11,9 @@
 
 namespace ogc::compare {
 
-/// The bytes of a .vtp file: points, loose edges as lines, triangles as polygons; point data velocity, bound, body.
-std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame);
+/// The bytes of a .vtp file: points, loose edges as lines, triangles as polygons; point data velocity, bound, body. An
+/// `origin` that is not 0 is added to the points, which are in double then.
+std::string vtp_bytes(const Mesh& mesh, std::span<const Index> bodies, const Frame& frame, const Vec3& origin = {});
 
 /// A part of a mesh, with numbers that say what it is a part of.
 struct LabelledMesh {

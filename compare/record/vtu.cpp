@@ -50,7 +50,7 @@ Cells cells_of(const Scene& scene, const Frame& frame) {
 
 }  // namespace
 
-std::string vtu_bytes(const Scene& scene, std::span<const Index> bodies, const Frame& frame) {
+std::string vtu_bytes(const Scene& scene, std::span<const Index> bodies, const Frame& frame, const Vec3& origin) {
   const Cells cells = cells_of(scene, frame);
   AppendedArrays appended;
   std::string text = std::string(
@@ -64,7 +64,7 @@ std::string vtu_bytes(const Scene& scene, std::span<const Index> bodies, const F
           appended.array("Int32", "body", bodies) + "</PointData>\n";
   text += "<CellData Scalars=\"J\">" + appended.array("Float32", "J", std::span<const float>(cells.growth)) +
           "</CellData>\n";
-  text += "<Points>" + appended.array("Float32", "Points", as_floats(frame.positions), 3) + "</Points>\n";
+  text += "<Points>" + appended_points(appended, origin, frame.positions) + "</Points>\n";
   text += "<Cells>" + appended.array("Int32", "connectivity", std::span<const Index>(cells.connectivity)) +
           appended.array("Int32", "offsets", std::span<const Index>(cells.ends)) +
           appended.array("UInt8", "types", std::span<const std::uint8_t>(cells.types)) + "</Cells>\n";

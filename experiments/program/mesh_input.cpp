@@ -84,10 +84,10 @@ std::vector<std::string> words_about(const compare::LoadedMesh& loaded, const st
 
 MeshInput read_mesh_input(const std::string& file, const compare::MeshOptions& options) {
   compare::MeshOptions as_stages_see = options;
-  as_stages_see.rounded = true;
+  as_stages_see.rounded = as_stages_see.local = true;
   compare::LoadedMesh loaded = compare::load_mesh(file, as_stages_see);
   for (const std::string& word : words_about(loaded, "taken as 0")) log_line("ogc: " + word);
-  MeshInput input{std::move(loaded.mesh), loaded.source, compare::ElementNames(loaded.source)};
+  MeshInput input{std::move(loaded.mesh), loaded.source, compare::ElementNames(loaded.source), loaded.origin};
   clear_dust(input.mesh);
   input.mesh.positions = compare::to_double(compare::to_single(input.mesh.positions));
   const std::string problems = compare::describe(compare::validate(input.mesh, 10, input.names));

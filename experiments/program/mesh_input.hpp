@@ -16,6 +16,7 @@ struct MeshInput {
   compare::Mesh mesh;           ///< as stages see it
   compare::MeshSource source;   ///< where its elements stand in the file
   compare::ElementNames names;  ///< what messages call them
+  compare::Vec3 origin{};       ///< what positions are relative to, in the file's coordinates [m]
 };
 
 /// Adds --triangulate, --drop-unused (both on unless refused), --strict and --weld. The options must outlive the
@@ -26,9 +27,9 @@ void add_mesh_options(CLI::App& command, compare::MeshOptions& options);
 /// and left out, vertices at one position, dust and what became of it (`dust_treatment`).
 std::vector<std::string> words_about(const compare::LoadedMesh& loaded, const std::string& dust_treatment);
 
-/// Reads a mesh file as stages see it: dust is 0, coordinates are rounded to single precision. Says on standard error
-/// what `words_about` finds. Throws compare::InputError that names the file and, as the file counts them, the elements
-/// that no mesh may have (compare::validate).
+/// Reads a mesh file as stages see it: relative to a point near it where it is far from 0, dust is 0, coordinates are
+/// rounded to single precision. Says on standard error what `words_about` finds. Throws compare::InputError that names
+/// the file and, as the file counts them, the elements that no mesh may have (compare::validate).
 MeshInput read_mesh_input(const std::string& file, const compare::MeshOptions& options);
 
 /// Throws compare::InputError that names the tetrahedra that are flat or inverted: a solid of them can't be simulated.

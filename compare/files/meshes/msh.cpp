@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "compare/files/meshes/msh_collector.hpp"
-#include "compare/files/text_lines.hpp"
 #include "compare/files/numbers.hpp"
+#include "compare/files/text_lines.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
 
@@ -65,7 +65,8 @@ class MshParser {
     lines_.expect_filled("the format");
     const std::string_view version = lines_.word();
     const std::int64_t kind = lines_.integer("0 for text or 1 for binary");
-    if (version != "2.2" && version != "4.1")
+    const bool is_second = version == "2" || version == "2.0" || version == "2.1" || version == "2.2";
+    if (!is_second && version != "4.1")
       lines_.fail("format " + shown(version) +
                   " is not read, only 2.2 and 4.1: write the mesh with gmsh -format msh41");
     const std::int64_t size = lines_.integer("the size of numbers");

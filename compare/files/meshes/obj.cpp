@@ -6,8 +6,8 @@
 #include <array>
 #include <limits>
 
-#include "compare/files/text_lines.hpp"
 #include "compare/files/numbers.hpp"
+#include "compare/files/text_lines.hpp"
 #include "compare/problem/text.hpp"
 
 namespace ogc::compare {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "compare/files/text_lines.hpp"
 #include "compare/files/numbers.hpp"
+#include "compare/files/text_lines.hpp"
 #include "compare/problem/text.hpp"
 
 namespace ogc::compare {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "compare/files/meshes/ply.hpp"
-#include "compare/files/text_lines.hpp"
 #include "compare/files/numbers.hpp"
+#include "compare/files/text_lines.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
 

@@ -12,8 +12,10 @@
 #include "compare/files/meshes/triangulate.hpp"
 #include "compare/problem/dust.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/local_origin.hpp"
 #include "compare/problem/scene.hpp"
 #include "compare/problem/tetrahedra.hpp"
+#include "compare/problem/text.hpp"
 #include "compare/problem/zero_area.hpp"
 
 namespace ogc::compare {
@@ -57,6 +59,7 @@ class MeshMaker {
   LoadedMesh make() {
     out_.notes = std::move(in_.notes);
     if (options_.weld || !in_.source.shares_vertices) weld();
+    if (options_.local) take_local();
     seen_ = in_.positions;
     if (options_.rounded) seen_ = as_stages_see(in_.positions);
     cut();
@@ -85,6 +88,16 @@ class MeshMaker {
     const std::vector<std::size_t>& lines = in_.source.face_lines;
     return "face " + std::to_string(static_cast<Index>(f) + in_.source.first) +
            (f < lines.size() ? " (line " + std::to_string(lines[f]) + ")" : "");
+  }
+
+  void take_local() {
+    out_.origin = local_origin(in_.positions);
+    if (out_.origin == Vec3{}) return;
+    const auto& [x, y, z] = out_.origin;
+    note(describe_origin(in_.positions, out_.origin,
+                         "positions are taken relative to (" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) +
+                             "), so that single precision keeps them; ogc export adds it again"));
+    in_.positions = relative_to(out_.origin, std::move(in_.positions));
   }
 
   /// Each vertex becomes the first one at its position.

@@ -43,6 +43,8 @@ struct MeshOptions {
   bool strict = false;  ///< refuse what is no face (collapsed, without area, there twice) and inverted tetrahedra
   /// what has no area once dust is 0 and coordinates are rounded to single precision is left out, too: as stages see it
   bool rounded = false;
+  /// positions that lie far from 0 for their size are taken relative to a point near them (compare::local_origin)
+  bool local = false;
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 
@@ -52,6 +54,7 @@ struct LoadedMesh {
   Mesh mesh;                       ///< of triangles
   MeshSource source;               ///< where its elements come from
   std::vector<std::string> notes;  ///< what was changed on the way, for the user
+  Vec3 origin{};                   ///< what positions are relative to, in the file's coordinates [m]
 };
 
 /// Where there are tetrahedra, leaves faces and loose edges out, with a word: the surface of a solid follows from them.

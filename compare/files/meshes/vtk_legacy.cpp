@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "compare/files/byte_cursor.hpp"
-#include "compare/files/text_lines.hpp"
 #include "compare/files/meshes/vtk_cells.hpp"
 #include "compare/files/numbers.hpp"
+#include "compare/files/text_lines.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/text.hpp"
 

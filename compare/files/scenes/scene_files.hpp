@@ -25,6 +25,7 @@ struct SceneFile {
   Scene scene;                     ///< as it was read, valid or not
   MeshSources sources;             ///< where the bodies' elements stand in their files
   std::vector<std::string> notes;  ///< a sentence about whatever was taken otherwise than it stands
+  Vec3 origin{};                   ///< what positions are relative to, in the coordinates of a mesh's file [m]
 };
 
 /// The same, with all of that.

@@ -15,6 +15,7 @@
 #include "compare/problem/dust.hpp"
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/local_origin.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/rods.hpp"
@@ -153,6 +154,8 @@ class SceneReader {
     object.required("bodies",
                     [&](const JsonNode& node) { each(node, [&](const JsonNode& body) { read_body(body); }); });
     note(describe(clear_dust(scene_)));
+    note(describe_origin(scene_.mesh.positions, local_origin(scene_.mesh.positions),
+                         "rounding to single precision bends edges; move the scene's meshes near 0"));
     object.optional("motions",
                     [&](const JsonNode& node) { each(node, [&](const JsonNode& motion) { read_motion(motion); }); });
     object.optional("springs",

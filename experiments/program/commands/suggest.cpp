@@ -70,7 +70,7 @@ void run(const Options& options, const CommandContext& context) {
   const double fall = options.fall.value_or(default_fall(input.mesh));
   const Suggestion found = suggest(input.mesh, material, fall);
   const std::vector<Row> rows = rows_of(found);
-  const std::string command = command_line(options.mesh, lowest_point(input.mesh) - fall, rows);
+  const std::string command = command_line(options.mesh, input.origin.y + lowest_point(input.mesh) - fall, rows);
   if (context.json) {
     Json json{{"mesh", options.mesh}, {"density", density}, {"fall", fall}, {"settings", Json::object()}};
     for (const auto& [setting, unit, suggested] : rows)

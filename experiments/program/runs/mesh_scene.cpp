@@ -51,12 +51,14 @@ std::string usable_name(const std::string& file) {
   return name.empty() ? "mesh" : name;
 }
 
-double height_of_ground(const std::string& file, const Box& box, std::optional<double> ground) {
+/// Relative to the height `origin`, as the box is; `ground` is in the file's coordinates.
+double height_of_ground(const std::string& file, const Box& box, std::optional<double> ground, double origin) {
   if (!ground) return box.low.y - box.fall();
   if (!std::isfinite(*ground)) throw compare::InputError("--ground " + number(*ground) + ": give a height [m]");
-  if (*ground < box.low.y) return *ground;
+  if (*ground - origin < box.low.y) return *ground - origin;
   throw compare::InputError("--ground " + compare::shortest(*ground) + " is not below " + file +
-                            ", whose lowest point is at y = " + compare::shortest(box.low.y) + " m; give less");
+                            ", whose lowest point is at y = " + compare::shortest(origin + box.low.y) +
+                            " m; give less");
 }
 
 compare::Mesh ground_below(const Box& box, double height, double edge) {
@@ -110,7 +112,7 @@ compare::SceneFile mesh_scene(const std::string& file, const compare::MeshOption
     throw compare::InputError(file + ": " + input.names.loose_edge(0, input.mesh.loose_edges[0]) +
                               " belongs to no face; cloth is made of triangles: remove such edges");
   const Box box = box_of(input.mesh);
-  const double height = height_of_ground(file, box, ground), fall = box.low.y - height;
+  const double height = height_of_ground(file, box, ground, input.origin.y), fall = box.low.y - height;
   compare::Scene scene;
   scene.name = usable_name(file);
   if (input.mesh.tetrahedra.empty()) {
@@ -125,7 +127,7 @@ compare::SceneFile mesh_scene(const std::string& file, const compare::MeshOption
   apply(found, scene);
   scene.settings.steps = steps_of(fall, -scene.gravity.y, found.time_step.value);
   say(scene, found);
-  return {std::move(scene), {std::make_shared<const compare::MeshSource>(std::move(input.source))}, {}};
+  return {std::move(scene), {std::make_shared<const compare::MeshSource>(std::move(input.source))}, {}, input.origin};
 }
 
 }  // namespace ogc::experiments

@@ -271,6 +271,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
     throw compare::InputError("--ledger belongs to --solver vbd: it is written from the trace of a step");
   RunRequest request;
   compare::SceneFile file = load_scene(options, request.scale);
+  request.origin = file.origin;
   request.scene = std::move(file.scene);
   request.sources = std::move(file.sources);
   apply_settings(request.scene, options);

@@ -50,31 +50,32 @@ RunRequest checked(RunRequest request) {
 
 compare::Provenance provenance(const RunRequest& request, const std::string& device) {
   const BuildInfo build = build_info();
-  compare::Provenance origin;
-  origin.solver = request.solver;
-  origin.backend = request.backend;
-  origin.device = device;
-  origin.command = request.command_line;
-  origin.version = build.version;
-  origin.commit = build.commit;
-  origin.compiler = build.compiler;
-  origin.cuda = build.cuda;
-  origin.dirty = build.dirty;
-  origin.status = "running";
-  origin.extra["scale"] = request.scale;
-  origin.extra["audit"] = name_of(request.audit);
-  origin.extra["iteration_rows"] = request.iterations ? "yes" : "no";
-  origin.extra["condition_numbers"] = request.condition ? "yes" : "no";
-  origin.extra["residuals"] = request.residual ? "yes" : "no";
-  if (request.ledger) origin.extra["ledger"] = "yes";
-  if (request.meetings) origin.extra["meetings"] = text_of(*request.meetings);
-  if (request.tolerate_start) origin.extra["tolerate_start"] = "yes";
-  if (request.from_state) origin.extra["from_state"] = request.from_state->string();
+  compare::Provenance run;
+  run.solver = request.solver;
+  run.backend = request.backend;
+  run.device = device;
+  run.command = request.command_line;
+  run.version = build.version;
+  run.commit = build.commit;
+  run.compiler = build.compiler;
+  run.cuda = build.cuda;
+  run.dirty = build.dirty;
+  run.origin = request.origin;
+  run.status = "running";
+  run.extra["scale"] = request.scale;
+  run.extra["audit"] = name_of(request.audit);
+  run.extra["iteration_rows"] = request.iterations ? "yes" : "no";
+  run.extra["condition_numbers"] = request.condition ? "yes" : "no";
+  run.extra["residuals"] = request.residual ? "yes" : "no";
+  if (request.ledger) run.extra["ledger"] = "yes";
+  if (request.meetings) run.extra["meetings"] = text_of(*request.meetings);
+  if (request.tolerate_start) run.extra["tolerate_start"] = "yes";
+  if (request.from_state) run.extra["from_state"] = request.from_state->string();
   if (request.jitter.largest > 0) {
-    origin.extra["jitter"] = compare::shortest(request.jitter.largest);
-    origin.extra["jitter_seed"] = std::to_string(request.jitter.seed);
+    run.extra["jitter"] = compare::shortest(request.jitter.largest);
+    run.extra["jitter_seed"] = std::to_string(request.jitter.seed);
   }
-  return origin;
+  return run;
 }
 
 std::string joined(const std::vector<std::string>& lines) {

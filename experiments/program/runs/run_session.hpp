@@ -41,6 +41,7 @@ struct RunRequest {
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the command began
   compare::Scene scene;                                                            ///< with all settings applied
   compare::MeshSources sources;                            ///< of its bodies' meshes, for messages
+  compare::Vec3 origin{};                                  ///< as compare::SceneFile::origin
   std::string scale;                                       ///< "smoke", …; empty for a scene file
   std::string solver = "vbd";                              ///< as of --solver
   std::string backend = "cpu";                             ///< as of --backend

@@ -157,7 +157,7 @@ TEST_CASE("adjacent primitives meet where rational numbers say so, on lattices w
           "[property]") {
   const std::vector<std::pair<Simplex, Simplex>> kinds{
       {{0, 1, 2}, {0, 1, 3}}, {{0, 1, 2}, {0, 3, 4}}, {{0, 1, 2}, {0, 3}}, {{0, 1}, {0, 2}}};
-  for (const std::uint64_t seed : {std::uint64_t{51}, ogc::tests::daily_seed()}) {
+  for (const std::uint64_t seed : {std::uint64_t{51}, ogc::tests::daily_seed("adjacent primitives")}) {
     INFO("seed " << seed);
     std::mt19937_64 draw(seed);
     std::array<std::size_t, 2> seen{};

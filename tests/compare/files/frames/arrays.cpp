@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <map>
 #include <new>
@@ -14,6 +13,7 @@
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/files/frames/written_arrays.hpp"
+#include "tests/seeds.hpp"
 
 using namespace ogc;
 using namespace ogc::compare;
@@ -275,11 +275,7 @@ TEST_CASE("damaged arrays end in frames or in a refusal that names the file, wit
 }
 
 TEST_CASE("damaged arrays of the day's seed end likewise", "[unit]") {
-  const std::chrono::year_month_day day{std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now())};
-  const std::uint64_t seed = 10000 * static_cast<std::uint64_t>(static_cast<int>(day.year())) +
-                             100 * static_cast<unsigned>(day.month()) + static_cast<unsigned>(day.day());
-  std::printf("damaged arrays: the seed of the day is %llu\n", static_cast<unsigned long long>(seed));
-  fuzz(seed, 10'000);
+  fuzz(ogc::tests::daily_seed("damaged arrays"), 10'000);
 }
 
 // Once, when a reader changes: tests_compare "a million damaged arrays".

@@ -8,11 +8,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <iostream>
 #include <random>
 
 #include "compare/files/meshes/mesh_files.hpp"
@@ -24,6 +22,7 @@
 #include "compare/record/vtp.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/files/meshes/samples.hpp"
+#include "tests/seeds.hpp"
 
 using namespace ogc::compare;
 using namespace ogc::tests;
@@ -212,9 +211,9 @@ std::string failure(const Sample& sample, Judge judge, std::uint64_t seed, std::
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-  return sample.name + ", seed " + std::to_string(seed) + ", case " +
-         last.substr(std::min<std::size_t>(1, last.size())) +
-         (WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "");
+  const std::string how = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "";
+  last.erase(0, 1);
+  return sample.name + ", seed " + std::to_string(seed) + ", case " + last + how;
 }
 
 void fuzz(std::uint64_t seed, std::size_t cases) {
@@ -248,8 +247,5 @@ TEST_CASE("damaged mesh files end in an answer or a named refusal, within 100 MB
 }
 
 TEST_CASE("damaged mesh files end in an answer or a named refusal, within 100 MB: the seed of the day", "[property]") {
-  const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
-  const auto seed = 1000 * static_cast<std::uint64_t>(today.time_since_epoch().count());
-  std::cout << "mesh files, the seed of the day: " << seed << "\n";
-  fuzz(seed, 10000);
+  fuzz(1000 * ogc::tests::daily_seed("damaged mesh files"), 10000);
 }

@@ -226,11 +226,12 @@ TEST_CASE("broken PLY files are refused with the element and the reason", "[unit
 
 TEST_CASE("numbers of Windows that are none are refused as such, and are no comments", "[unit]") {
   const auto parse = [](const std::string& x) { return parse_obj("v 0 0 " + x + "\n", "bad.obj"); };
-  for (const std::string word : {"-1.#IND", "1.#INF", "1.#QNAN", "1.#QNAN0", "-1.#IND00", "1.#R", "-1.#J"})
+  for (const std::string word :
+       {"-1.#IND", "1.#INF", "1.#QNAN", "1.#QNAN0", "-1.#IND00", "1.#R", "-1.#J", "-1.#ind", "1.#INF000e+000"})
     CHECK_THROWS_WITH(parse(word), Contains("bad.obj: line 1: '" + word +
                                             "' is no finite coordinate but what programs for Windows print for "
                                             "infinity or for no number"));
-  for (const char* comment : {"1#corner", "1.#corner", "1. #IND", "1 # 1.#IND", "1.#"})
+  for (const char* comment : {"1#corner", "1.# corner", "1. #IND", "1 # 1.#IND", "1.#"})
     CHECK(parse(comment).positions == std::vector<Vec3>{{0, 0, 1}});
 }
 

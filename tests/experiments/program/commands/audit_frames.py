@@ -18,8 +18,9 @@ try:
     import numpy
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+    from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkPolyData, vtkUnstructuredGrid
+    from vtkmodules.vtkIOLegacy import vtkPolyDataWriter, vtkUnstructuredGridWriter
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 except ImportError as error:
     print(f"skipped: {error}")
     sys.exit(77)
@@ -198,6 +199,51 @@ def check_vtp(folder):
         assert verdict["states"][0]["smallest_distances"]["vertex_triangle"]["distance"] == frames[0, 3, 2], options
 
 
+def two_tetrahedra(points):
+    """Of eight points, as they stand."""
+    data, corners = vtkUnstructuredGrid(), vtkPoints()
+    corners.SetData(numpy_to_vtk(points, deep=True))
+    data.SetPoints(corners)
+    for first in (0, 4):
+        data.InsertNextCell(VTK_TETRA, 4, list(range(first, first + 4)))
+    return data
+
+
+def check_vtk(folder):
+    """The older format in text and bytes, with cells as versions before and from 5 write them, and grids in XML."""
+    frames = positions()
+    corner = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+    solids = numpy.vstack([corner, corner + [0, 0, 2]])
+
+    def save(writer, data, name):
+        writer.SetFileName(str(folder / name))
+        writer.SetInputData(data)
+        assert writer.Write() == 1
+        return folder / name
+
+    for version, binary in itertools.product((42, 51), (False, True)):
+        for bad, points in ((False, frames[0]), (True, frames[-1])):
+            writer = vtkPolyDataWriter()
+            writer.SetFileVersion(version)
+            (writer.SetFileTypeToBinary if binary else writer.SetFileTypeToASCII)()
+            verdict = audit(save(writer, poly_data(points), "surface.vtk"), status=int(bad))
+            if not bad:
+                found = verdict["states"][0]["smallest_distances"]["vertex_triangle"]["distance"]
+                assert abs(found - frames[0, 3, 2]) < 1e-9, found  # VTK writes text with ten digits or so
+        writer = vtkUnstructuredGridWriter()
+        writer.SetFileVersion(version)
+        (writer.SetFileTypeToBinary if binary else writer.SetFileTypeToASCII)()
+        solid = save(writer, two_tetrahedra(solids), "solid.vtk")
+        found = audit(solid, status=0)["states"][0]["smallest_distances"]["vertex_triangle"]["distance"]
+        assert abs(found - 3 ** -0.5) < 1e-15, found
+        audit(save(writer, two_tetrahedra(solids - numpy.repeat([[0, 0, 0], [0, 0, 1.5]], 4, axis=0)), "solid.vtk"),
+              status=1)
+    for mode in ("Ascii", "Binary", "Appended"):
+        writer = vtkXMLUnstructuredGridWriter()
+        getattr(writer, f"SetDataModeTo{mode}")()
+        audit(save(writer, two_tetrahedra(solids), "solid.vtu"), status=0)
+
+
 def check_interrupted(folder):
     """An interrupt ends the audit long before the last frame; what was found until then is said."""
     count, side = 400, 80
@@ -249,5 +295,6 @@ with tempfile.TemporaryDirectory() as scratch:
     check_layouts(Path(scratch))
     check_digits(Path(scratch))
     check_vtp(Path(scratch))
+    check_vtk(Path(scratch))
     check_interrupted(Path(scratch))
     check_refused(Path(scratch))

@@ -124,6 +124,39 @@ TEST_CASE("faces that are none are left out with a word by audit, contacts, sugg
   }
 }
 
+TEST_CASE("a mesh far from 0 runs near it, said once, and its frames are exported in its own coordinates",
+          "[property]") {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      text += "v 512345." + std::to_string(10 + 5 * i) + " 30.1 5403210." + std::to_string(10 + 5 * k) + "\n";
+  for (int i = 0; i < 6; i += 3)
+    for (int k = 1 + i; k < 3 + i; ++k)
+      text += "f " + std::to_string(k) + " " + std::to_string(k + 1) + " " + std::to_string(k + 4) + " " +
+              std::to_string(k + 3) + "\n";
+  const std::string file = folder.write("far.obj", text).string(), run = (folder / "run").string();
+  const ProgramResult suggested = run_ogc("suggest " + file);
+  CHECK(suggested.status == 0);
+  CHECK(contains(suggested.out, {"ogc run ", "far.obj --ground 30.0"}));
+  const ProgramResult result = run_ogc("run " + file + " --ground 30.05 --steps 2 --audit every --out " + run);
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const std::string said =
+      "far.obj: coordinates lie 5.4e+06 m from 0, 5.4e+07 times the mesh's size: positions are taken "
+      "relative to (512345.125, 30.125, 5403210.125)";
+  CHECK(contains(result.err, {said}));
+  CHECK(result.err.find(said) == result.err.rfind(said));
+  for (const std::string format : {"obj", "ply", "vtp", "vtu"}) {
+    const ProgramResult exported = run_ogc("export " + run + " --json --format " + format);
+    REQUIRE(exported.status == 0);
+    const std::string first = nlohmann::json::parse(exported.out).at("files").front();
+    const compare::Mesh mesh = compare::read_mesh(first), own = compare::read_mesh(file);
+    for (std::size_t v = 0; v < own.positions.size(); ++v) CHECK(mesh.positions[v] == own.positions[v]);
+  }
+  CHECK(run_ogc("run " + file + " --ground 30.2 --steps 1").status == 2);
+}
+
 TEST_CASE("audit, suggest and run say the same of inverted tetrahedra", "[unit]") {
   const TemporaryFolder folder;
   const std::string vertices =
