@@ -39,7 +39,7 @@ enum class Mode : std::size_t { points, lines, line_loop, line_strip, triangles,
 
 class GltfReader {
  public:
-  GltfReader(std::string_view bytes, const std::string& name) : buffers_(bytes, name) {
+  GltfReader(std::string_view bytes, const std::string& name) : most_corners_(bytes.size()), buffers_(bytes, name) {
     mesh_.source.file = name;
     mesh_.source.shares_vertices = false;
   }
@@ -159,7 +159,19 @@ class GltfReader {
     if (corners.size() % each != 0)
       buffers_.fail(owner + " has " + std::to_string(corners.size()) + " corners, no multiple of " +
                     std::to_string(each) + ": the file is truncated or damaged");
+    expect_few(corners.size());
     add_faces(static_cast<Mode>(mode), place(x, corners, transform, owner));
+  }
+
+  /// A corner takes a byte of the file at least, but nodes may name a mesh again and again; its buffers beside the file
+  /// count where they are read.
+  void expect_few(std::size_t corners) {
+    constexpr std::size_t repeated = std::size_t{1} << 19;  // corners, of 100 bytes each or so in the end
+    corners_ += corners;
+    if (corners_ > most_corners_ + buffers_.bytes_beside() + repeated)
+      buffers_.fail("has nodes that repeat meshes until they have " + std::to_string(corners_) +
+                    " corners and more, of a file of " + std::to_string(most_corners_) +
+                    " bytes; write it with a mesh for each node");
   }
 
   /// Positions of the vertices that are corners, and the corners by numbers of the mesh.
@@ -213,8 +225,9 @@ class GltfReader {
     }
   }
 
+  std::size_t most_corners_;  ///< that are not repeated
   GltfBuffers buffers_;
-  std::size_t points_ = 0;
+  std::size_t points_ = 0, corners_ = 0;
   PolygonMesh mesh_;
 };
 

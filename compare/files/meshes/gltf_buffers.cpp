@@ -104,9 +104,11 @@ std::size_t GltfBuffers::whole(const Json& object, const char* key, const std::s
   return found->get<std::size_t>();
 }
 
-std::string GltfBuffers::read_beside(const std::string& uri, const std::string& owner) const {
+std::string GltfBuffers::read_beside(const std::string& uri, const std::string& owner) {
   try {
-    return read_bytes(std::filesystem::path(name_).parent_path() / decoded(uri));
+    std::string bytes = read_bytes(std::filesystem::path(name_).parent_path() / decoded(uri));
+    bytes_beside_ += bytes.size();
+    return bytes;
   } catch (const InputError& error) {
     fail(owner + " can't be read: " + error.what());
   }

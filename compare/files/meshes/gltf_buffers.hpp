@@ -30,6 +30,8 @@ class GltfBuffers {
   /// of another type, sparse, compressed, or beyond its view or buffer.
   std::vector<double> read(std::size_t i, const std::string& type, const std::string& user);
 
+  std::size_t bytes_beside() const { return bytes_beside_; }  ///< of buffers in other files, as far as they were read
+
   /// Throws InputError "FILE: what".
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -37,11 +39,12 @@ class GltfBuffers {
   std::string_view buffer(std::size_t i, const std::string& user);
   std::string_view view_of(const Json& accessor, std::size_t& stride, const std::string& user);
   void open_container(std::string_view bytes);
-  std::string read_beside(const std::string& uri, const std::string& owner) const;
+  std::string read_beside(const std::string& uri, const std::string& owner);
 
   std::string name_;
   Json json_;
   std::string_view binary_;                     ///< the buffer of a .glb file
+  std::size_t bytes_beside_ = 0;                ///< of buffers in other files
   bool has_binary_ = false;                     ///< whether it has one
   std::map<std::size_t, std::string> buffers_;  ///< of base64 and of other files, as they are asked for
 };

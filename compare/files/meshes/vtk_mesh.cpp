@@ -4,7 +4,9 @@
 
 #include "compare/files/meshes/vtk_arrays.hpp"
 #include "compare/files/meshes/vtk_cells.hpp"
+#include "compare/files/numbers.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -18,18 +20,32 @@ class PieceReader {
     const VtkArray* array = find("Points", "");
     if (array == nullptr) throw InputError(name_ + ": a piece has no points");
     add_vtk_points(values(*array), name_, mesh_);
+    expect_count("NumberOfPoints", mesh_.positions.size() - first_, "points");
     if (is_grid) return grid_cells(cells);
     for (const auto& [section, kind] :
          {std::pair("Polys", vtk_polygon), std::pair("Strips", vtk_strip), std::pair("Lines", vtk_poly_line)}) {
       const VtkArray *corners = find(section, "connectivity"), *offsets = find(section, "offsets");
-      if (corners == nullptr || offsets == nullptr) continue;
-      each_vtk_cell(lists(section, *offsets, *corners),
-                    [&, kind = kind](std::size_t, std::span<const Index> c) { cells.add(kind, c); });
+      if (corners == nullptr || offsets == nullptr) {
+        expect_count("NumberOf" + std::string(section), 0, section);
+        continue;
+      }
+      const VtkCellLists found = lists(section, *offsets, *corners);
+      expect_count("NumberOf" + std::string(section), found.ends.size(), section);
+      each_vtk_cell(found, [&, kind = kind](std::size_t, std::span<const Index> c) { cells.add(kind, c); });
     }
   }
 
  private:
   std::vector<double> values(const VtkArray& array) const { return read_vtk_array(document_, array, name_); }
+
+  /// Throws InputError where the piece announces another number than its arrays hold.
+  void expect_count(const std::string& attribute, std::size_t count, const char* what) const {
+    const auto found = piece_.attributes.find(attribute);
+    std::size_t announced = 0;
+    if (found == piece_.attributes.end() || (parse_number(found->second, announced) && announced == count)) return;
+    throw InputError(name_ + ": a piece announces '" + shown(found->second) + "' " + what + " and holds " +
+                     std::to_string(count) + ": the file is truncated or damaged");
+  }
 
   VtkCellLists lists(const std::string& section, const VtkArray& ends, const VtkArray& corners) const {
     return {name_ + ": " + section, values(ends), values(corners), first_, mesh_.positions.size() - first_};
@@ -42,6 +58,7 @@ class PieceReader {
       throw InputError(name_ + ": a piece lacks connectivity, offsets or types of its cells");
     const VtkCellLists cell_lists = lists("Cells", *offsets, *corners);
     const std::vector<double> kind = values(*kinds);
+    expect_count("NumberOfCells", cell_lists.ends.size(), "cells");
     if (kind.size() != cell_lists.ends.size())
       throw InputError(name_ + ": a piece has " + std::to_string(cell_lists.ends.size()) + " cells and " +
                        std::to_string(kind.size()) + " types of cells; the file is damaged");

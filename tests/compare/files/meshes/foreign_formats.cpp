@@ -151,6 +151,23 @@ TEST_CASE("what is wrong with a glTF file is named with its primitive, accessor,
   CHECK_THAT(gltf_error(replaced(whole, "\"mesh\":0", "\"mesh\":7")), Contains("node 0 names entry 7 of 'meshes'"));
   CHECK_THAT(gltf_error(replaced(whole, "\"mesh\":0", "\"mesh\":0,\"children\":[0]")),
              Contains("node 0 has two parents or is its own ancestor"));
+  std::string nodes, numbers;
+  for (int i = 3; i < 100'003; ++i) {
+    nodes += ",{\"mesh\":0}";
+    numbers += "," + std::to_string(i);
+  }
+  CHECK_THAT(gltf_error(replaced(replaced(whole, "\"scale\":[1,2,1]}", "\"scale\":[1,2,1]}" + nodes), "\"nodes\":[1]",
+                                 "\"nodes\":[1" + numbers + "]")),
+             !Contains("repeat"));            // six corners of nineteen bytes
+  const std::string corners(3'000'000, 'A');  // of indices of one byte, all 0
+  const std::string large = replaced(
+      replaced(square_gltf("\"uri\":\"data:;base64," + corners + "\","), "\"componentType\":5123,\"count\":6",
+               "\"componentType\":5121,\"count\":2249997"),
+      "\"byteOffset\":48,\"byteLength\":12", "\"byteOffset\":0,\"byteLength\":2250000");
+  const std::string many = replaced(replaced(large, "\"scale\":[1,2,1]}", "\"scale\":[1,2,1]},{\"mesh\":0}"),
+                                    "\"nodes\":[1]", "\"nodes\":[1,3]");
+  CHECK_THAT(gltf_error(replaced(many, "\"byteLength\":60", "\"byteLength\":2250000")),
+             Contains("has nodes that repeat meshes until they have 4499994 corners and more, of a file of 300"));
   CHECK_THAT(gltf_error(replaced(whole, "\"mesh\":0", "\"mesh\":-1")), Contains("'mesh' is no whole number from 0 on"));
   CHECK_THAT(gltf_error(replaced(whole, "\"bufferView\":0,", "")), Contains("accessor 0 has no data"));
   CHECK_THAT(gltf_error(replaced(whole, "\"bufferView\":0,", "\"bufferView\":0,\"sparse\":{},")),

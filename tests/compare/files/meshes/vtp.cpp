@@ -8,10 +8,12 @@
 #include "compare/problem/error.hpp"
 #include "compare/record/vtp.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/files/meshes/samples.hpp"
 #include "tests/compare/files/scratch.hpp"
 
 using namespace ogc::compare;
 using Catch::Matchers::Contains;
+using ogc::tests::replaced;
 
 namespace {
 
@@ -71,6 +73,12 @@ TEST_CASE("broken VTP files are refused with the array or cell and the reason", 
   refuses(file("", "ImageData"), "Extract Surface");
   refuses(file(""), "no points");
   refuses(file("<Piece></Piece>"), "no points");
+  const auto announcing = [](const std::string& count, const std::string& cells) {
+    return replaced(file(piece(square, cells)), "<Piece>", "<Piece " + count + ">");
+  };
+  refuses(announcing("NumberOfPoints='400000000000'", ""), "announces '400000000000' points and holds 4");
+  refuses(announcing("NumberOfPolys='2'", cells("Polys", "0 1 2", "3")), "announces '2' Polys and holds 1");
+  refuses(announcing("NumberOfLines='1'", cells("Polys", "0 1 2", "3")), "announces '1' Lines and holds 0");
   refuses(file(piece(square + " 7", "")), "13 numbers are no rows of three");
   refuses(file(piece("0 0 0  1 nan 0", "")), "point 1: a coordinate is not finite");
   refuses(file(piece("0 0 zero", "")), "value 2, 'zero', is no number");
