@@ -257,6 +257,34 @@ TEST_CASE("where the failing cases have an input in common that right ones lack,
   CHECK(diagnosis.otherwise > 0);  // the other sides speak against the form, and that is said
 }
 
+TEST_CASE("public mistakes of geometry and blocks are named", "[agreement]") {
+  const Authority authority = reference::authority();
+  const std::vector<std::pair<Stage, std::vector<std::string>>> mistakes{
+      {Stage::closest_face,
+       {"weights_rotated_120", "weights_rotated_201", "corners_swapped_01", "weights_swapped_on_edge_20",
+        "first_edge_of_12_20_01_for_the_nearest", "edge_01_for_the_nearest", "corner_for_the_nearest",
+        "edge_of_the_nearest_line", "signs_choose_the_feature", "weights_clamped", "areas_without_signs",
+        "areas_add_up_to_1e-5", "areas_add_up_to_a_share_of_1e-3", "areas_of_the_point_for_the_foot"}},
+      {Stage::closest_points,
+       {"first_ends_swapped", "nearly_parallel_where_cross_product_below_1e-6",
+        "start_where_cross_product_below_1e-8"}},
+      {Stage::contact_force, {"triangle_weights_rotated_120", "mollifier_below_1e-8"}},
+      {Stage::friction_force, {"ones_for_identity", "triangle_weights_swapped_12"}},
+      {Stage::volume_force, {"ones_for_identity", "weights_swapped_01"}},
+      {Stage::spring, {"ones_for_identity"}},
+      {Stage::ccd, {"edges_skipped_where_cross_product_below_1e-8"}}};
+  for (const auto& [stage, wanted] : mistakes) {
+    const std::vector<WrongForm> forms = wrong_forms(stage, {});
+    for (const std::string& name : wanted) {
+      const auto form = std::ranges::find(forms, name, &WrongForm::name);
+      REQUIRE(form != forms.end());
+      const Diagnosis diagnosis = diagnosis_of(stage, tests::exact_contestant(form->wrong(authority)), authority);
+      INFO(stage_name(stage) << ": " << name << ": " << diagnosis_text(diagnosis));
+      CHECK(names(diagnosis, name));
+    }
+  }
+}
+
 TEST_CASE("of two mistakes at once both are named", "[agreement]") {
   const Authority authority = reference::authority();
   const std::vector<WrongForm> forms = wrong_forms(Stage::friction_force, {});

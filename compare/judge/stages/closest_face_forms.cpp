@@ -244,6 +244,23 @@ void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, Close
   round_answer(truth, i);
 }
 
+/// The corner that is nearest, or the edge whose line is.
+void nearest_corner(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
+  const Seen seen(in, i);
+  const auto squared = [](const Vec3& v) { return dot(v, v); };
+  take_corner(in, i, static_cast<std::size_t>(std::ranges::min_element(seen.corner, {}, squared) - seen.corner.begin()),
+              truth);
+}
+void nearest_line(const Authority& authority, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
+  const Seen seen(in, i);
+  Weights squared;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 e = difference(in.triangle[i][(k + 1) % 3], in.triangle[i][k]), n = cross(e, seen.corner[k]);
+    squared[k] = dot(n, n) / dot(e, e);
+  }
+  take_edge(authority, in, i, static_cast<std::size_t>(std::ranges::min_element(squared) - squared.begin()), truth);
+}
+
 void add_choices(std::vector<WrongForm>& forms) {
   for (const std::array<std::size_t, 3>& order :
        {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}})
@@ -253,6 +270,10 @@ void add_choices(std::vector<WrongForm>& forms) {
                                    "always this edge, whichever is nearest",
                                    [edge](const Authority& authority, const ClosestFaceIn& in, std::size_t i,
                                           ClosestFaceTruth& truth) { take_edge(authority, in, i, edge, truth); }));
+  forms.push_back(
+      chosen_outside("corner_for_the_nearest", "the nearest corner, where an edge is nearer", nearest_corner));
+  forms.push_back(chosen_outside("edge_of_the_nearest_line",
+                                 "the edge whose line is nearest, where the segment of another one is", nearest_line));
   forms.push_back(chosen_outside("signs_choose_the_feature",
                                  "the signs of the weights choose corner or edge; beside an obtuse corner the nearest "
                                  "is another",
@@ -264,6 +285,10 @@ void add_choices(std::vector<WrongForm>& forms) {
 }
 
 // Areas.
+
+constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::interior);
+/// Three weights whose sum is 1, each of ten roundings in double.
+constexpr double sum_rounding = 30 * 0x1p-53;
 
 /// Where areas of the foot's triangles, added without their signs, exceed the triangle's by no more than `slack(area)`
 /// [twice m²], the foot counts as inside.
@@ -277,6 +302,10 @@ WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack sl
                      if (truth.exact.feature[i] == TriangleFeature::interior ||
                          !((sum_of(w) - 1) * seen.area() <= slack(seen.area())))
                        return;
+                     if (sum_of(w) - 1 <= sum_rounding) {  // on the rim they add up rightly: either name will do
+                       truth.accepted[i] = static_cast<std::uint8_t>(truth.accepted[i] | inside_bit);
+                       return;
+                     }
                      say_point(in, i, over_their_sum(w), truth);
                      accept(truth, i, TriangleFeature::interior);
                    });
@@ -367,6 +396,17 @@ bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   return is_nan ? is_needle(in) : agrees(evidence, authority);
 }
 
+/// Right but where the foot is not inside: there `distance` is that of the plane.
+bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) {
+  const ClosestFaceIn in = question_of(evidence);
+  const ClosestFaceTruth truth = authority.closest_face(in);
+  const Seen seen(in, 0);
+  if (truth.exact.feature[0] == TriangleFeature::interior || !(seen.area() > 0)) return agrees(evidence, authority);
+  const double plane = std::abs(dot(seen.corner[0], seen.normal)) / seen.area(), size = size_of(in, 0);
+  const double off = std::abs(evidence.answered.closest_face(in).distance.at(0) - plane);
+  return off <= closest_face_distance_tolerance * unit_roundoff * std::max(plane, size) || agrees(evidence, authority);
+}
+
 /// Right but for the feature, at a distance that single precision does not tell from the right one.
 bool is_rounded_choice(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
@@ -411,6 +451,10 @@ std::vector<WrongForm> closest_face_forms() {
   forms.push_back({.name = "rounded_choice",
                    .meaning = "a feature next to the right one, chosen by rounded numbers, at the right distance",
                    .fits = is_rounded_choice,
+                   .is_vague = true});
+  forms.push_back({.name = "plane_for_the_triangle",
+                   .meaning = "the distance of the triangle's plane: weights are not clamped",
+                   .fits = is_distance_of_plane,
                    .is_vague = true});
   return forms;
 }

@@ -149,6 +149,12 @@ std::string features(const ClosestPointsOut& out, std::size_t i) {
          parallel;
 }
 
+/// Σ|δ| of the case.
+double size_of(const ClosestPointsIn& in, std::size_t i) {
+  const Vec3f& from = in.first[i][0];
+  return modulus(in.first[i][1], from) + modulus(in.second[i][0], from) + modulus(in.second[i][1], from);
+}
+
 void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestPointsOut& out, double size,
                   Tally& tally) {
   const unsigned answer = code(out, i), exact = code(truth.exact, i);
@@ -195,10 +201,7 @@ void judge_closest_points(Cases cases, const ClosestPointsIn& in, const ClosestP
   for (std::size_t i = 0; i < cases.size(); ++i) {
     tally.begin(cases[i].name);
     tally.count(1, 1, is_grey(truth.accepted[i]), truth.near[i]);
-    const Vec3f& from = in.first[i][0];
-    judge_points(i, truth, out,
-                 modulus(in.first[i][1], from) + modulus(in.second[i][0], from) + modulus(in.second[i][1], from),
-                 tally);
+    judge_points(i, truth, out, size_of(in, i), tally);
   }
 }
 
@@ -292,6 +295,44 @@ WrongForm parallel_by_threshold(const char* text, double epsilon) {
               });
 }
 
+EdgeFeature feature_at(double t) {
+  return t <= 0 ? EdgeFeature::end_0 : t >= 1 ? EdgeFeature::end_1 : EdgeFeature::interior;
+}
+
+/// The closest point of the second line to the start of the first edge, clamped, and back: right for parallel edges.
+void from_start(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
+  const Vec3 e = difference(in.first[i][1], in.first[i][0]), f = difference(in.second[i][1], in.second[i][0]),
+             r = difference(in.first[i][0], in.second[i][0]);
+  const double ee = dot(e, e), ff = dot(f, f);
+  if (!(ee > 0) || !(ff > 0)) return;
+  const double free = dot(r, f) / ff, t = std::clamp(free, 0.0, 1.0),
+               s = free == t ? 0 : std::clamp((t * dot(e, f) - dot(e, r)) / ee, 0.0, 1.0);
+  const double distance = std::sqrt(
+      squared({r.x + s * e.x - t * f.x, r.y + s * e.y - t * f.y, r.z + s * e.z - t * f.z}));
+  truth.exact.distance_below[i] = surely_above(distance, size_of(in, i));
+  truth.distance[i] = distance;
+  if (truth.exact.nearly_parallel[i]) return;  // the rule has its own points
+  truth.parameters[i] = {s, t};
+  truth.parameter_condition[i] = std::numeric_limits<double>::infinity();
+  truth.contact_distance[i] = distance;
+  truth.exact.first_feature[i] = feature_at(s);
+  truth.exact.second_feature[i] = feature_at(t);
+  accept(truth, i);
+}
+
+WrongForm start_by_threshold(const char* text, double epsilon) {
+  return told("start_where_cross_product_below_" + std::string(text),
+              "an absolute threshold on ‖e × e'‖²: below " + std::string(text) +
+                  " m⁴ edges count as parallel, and the first one's start is taken",
+              &Authority::closest_points, [epsilon](const ClosestPointsIn& in, ClosestPointsTruth& truth) {
+                for (std::size_t i = 0; i < truth.accepted.size(); ++i) {
+                  if (!(parallelism(in.first[i], in.second[i]) < epsilon)) continue;
+                  from_start(in, truth, i);
+                  round_answer(truth, i);
+                }
+              });
+}
+
 std::vector<WrongForm> closest_points_forms() {
   std::vector<WrongForm> forms{
       points_told("parallel_rule_missing", "nearly parallel edges are treated as all others", without_parallel_rule),
@@ -327,6 +368,7 @@ std::vector<WrongForm> closest_points_forms() {
       })};
   for (const auto& [text, epsilon] : thresholds) {
     forms.push_back(parallel_by_threshold(text, epsilon));
+    forms.push_back(start_by_threshold(text, epsilon));
     forms.push_back(asked("edges_of_squared_length_below_" + std::string(text) + "_are_points",
                           "an absolute threshold on squared lengths: an edge with ‖e‖² < " + std::string(text) +
                               " m² counts as its end 0",

@@ -270,6 +270,14 @@ std::vector<WrongForm> volume_force_forms() {
           [](VolumeForceCase& c) { c.slip_limit *= 0x1p-24f; });
   changed("weights_rotated", "the weight of the next corner",
           [](VolumeForceCase& c) { std::rotate(c.weights.begin(), c.weights.begin() + 1, c.weights.end()); });
+  changed("weights_rotated_back", "the weight of the corner before",
+          [](VolumeForceCase& c) { std::rotate(c.weights.begin(), c.weights.begin() + 2, c.weights.end()); });
+  changed("weights_swapped_01", "the weights of corners 0 and 1 exchanged",
+          [](VolumeForceCase& c) { std::swap(c.weights[0], c.weights[1]); });
+  changed("weights_swapped_12", "the weights of corners 1 and 2 exchanged",
+          [](VolumeForceCase& c) { std::swap(c.weights[1], c.weights[2]); });
+  changed("weights_swapped_02", "the weights of corners 0 and 2 exchanged",
+          [](VolumeForceCase& c) { std::swap(c.weights[0], c.weights[2]); });
   changed("friction_squared", "μ² for μ", [](VolumeForceCase& c) { c.friction *= c.friction; });
   forms.push_back(form("ones_for_identity",
                        "friction's block from a matrix full of ones where I belongs: 1 − n nᵀ for I − n nᵀ", stage,
