@@ -12,15 +12,11 @@ The tables below are the include rules of CONTRIBUTING.md; a room is named by it
 import re
 import sys
 import tempfile
-from collections import Counter
 from pathlib import Path
 
 SOURCE_SUFFIXES = {".hpp", ".h", ".cpp", ".cu", ".cuh"}
 LINE_LIMITED_SUFFIXES = SOURCE_SUFFIXES | {".py", ".sh", ".cmake", ".txt"}
 LONGEST_FILE = 800
-LARGEST_FOLDER = 40
-# Folders that may be larger: what a figure's runs left is read by programs, by name.
-DATA = ("paper_figures/results",)
 
 # What stands at the top, beside names that begin with a dot.
 TOP = {"compare", "reference", "fast", "experiments", "plots", "paper_figures", "tests", "README.md", "CHANGELOG.md",
@@ -135,7 +131,6 @@ class House:
         for path in files:
             self.read(path)
         self.check_top(files)
-        self.check_folder_sizes(files)
         self.check_cycles()
         self.check_folder_pairs()
 
@@ -202,12 +197,6 @@ class House:
         names = {path.relative_to(self.root).parts[0] for path in files}
         for name in sorted(name for name in names - TOP if not name.startswith(".")):
             self.report(name, 1, "does not belong at the top; move it into its room, or leave it out")
-
-    def check_folder_sizes(self, files):
-        names = (folder(path.relative_to(self.root).as_posix()) for path in files)
-        for name, count in sorted(Counter(names).items()):
-            if count > LARGEST_FOLDER and not below(name, *DATA):
-                self.report(name, 1, f"has {count} files; group them in folders, {LARGEST_FOLDER} is the limit")
 
     def check_cycles(self):
         """Depth first; an edge to a file that is still open closes a cycle."""
@@ -278,8 +267,6 @@ SOUND = {
                            '"reference/contestant.hpp"\n',
     "experiments/program/commands/contacts.cpp": '#include "fast/contact_sets.hpp"\n',
     "tests/fast/all.cpp": '#include <catch2/catch.hpp>\n#include "fast/contact_sets.hpp"\n',
-    **{f"paper_figures/results/twist/{i}.csv": "" for i in range(LARGEST_FOLDER + 1)},
-    **{f"reference/energies/{i}.hpp": "" for i in range(LARGEST_FOLDER)},
     "README.md": "See https://example.org/work/page and ../work/notes.\n",
 }
 
@@ -357,7 +344,6 @@ PLANTED = {
         "compare/stages/x.hpp:1",
     ),
     "a long file": ({"fast/x.cpp": "\n" * (LONGEST_FILE + 1)}, "has 801 lines", "fast/x.cpp:801"),
-    "a large folder": ({f"plots/{i}.py": "" for i in range(LARGEST_FOLDER + 1)}, "has 41 files; group them", "plots:1"),
     "a path of a machine": ({"README.md": "first\nrun /" + "home/me/ogc\n"}, "absolute path of a machine",
                             "README.md:2"),
     "a stranger at the top": ({"failures/case.txt": ""}, "does not belong at the top", "failures:1"),

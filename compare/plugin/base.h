@@ -8,14 +8,9 @@
 extern "C" {
 #endif
 
-/* Of this interface. A library built for a newer one is refused by name; so is one that is older than the oldest whose
- * structures have this layout, and one with a stage of scenes (rest_state, sweep, step) that is older than the oldest
- * whose scenes have it. (5 has other names for members: `exceeded` for `cut`, `detected` for `previous`. 7 has solids.
- * 8 has ogc_plane, and half-spaces behind the members that ogc_truncate_in had. 9 has ogc_ccd, ogc_barrier,
- * ogc_volume_depth and ogc_volume_force.) */
+/* Of this interface. A library that was built for another one is refused by name: its structures are laid out
+ * otherwise. */
 #define OGC_PLUGIN_VERSION 9
-#define OGC_PLUGIN_OLDEST_VERSION 5
-#define OGC_PLUGIN_OLDEST_SCENE_VERSION 7
 
 #define OGC_HOST_MEMORY 0
 #define OGC_DEVICE_MEMORY 1

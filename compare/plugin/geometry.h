@@ -61,7 +61,7 @@ typedef struct ogc_detect_in {
   const ogc_vec3* positions;   /* [vertex_count] */
   float contact_radius;        /* r */
   float query_radius;          /* r_q >= r */
-  const uint8_t* inside_solid; /* [vertex_count] 1: inside a solid, takes no part; since version 7 */
+  const uint8_t* inside_solid; /* [vertex_count] 1: inside a solid, takes no part */
 } ogc_detect_in;
 
 typedef struct ogc_vertex_facet_contact {
@@ -157,7 +157,7 @@ typedef struct ogc_half_space {
   double offset;
 } ogc_half_space;
 
-/* Libraries without ogc_plane are asked about balls alone. What follows `bound` is there since version 8. */
+/* Libraries without ogc_plane are asked about balls alone. */
 typedef struct ogc_truncate_in {
   int64_t n;
   const ogc_vec3 *previous, *position; /* [n] */

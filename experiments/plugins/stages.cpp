@@ -330,9 +330,9 @@ constexpr std::array table{
     PluginStage{"spring", 1, force_outputs, call_force<ogc_spring_in>},
     PluginStage{"tetrahedron", 1, force_outputs, call_force<ogc_tetrahedron_in>},
     PluginStage{"truncate", 8, truncate_outputs, call_truncate},
-    PluginStage{"rest_state", scene_inputs, rest_outputs, call_rest_state, OGC_PLUGIN_OLDEST_SCENE_VERSION},
-    PluginStage{"sweep", scene_inputs + rest_inputs + 8, sweep_outputs, call_sweep, OGC_PLUGIN_OLDEST_SCENE_VERSION},
-    PluginStage{"step", scene_inputs + 3, step_outputs, call_step, OGC_PLUGIN_OLDEST_SCENE_VERSION},
+    PluginStage{"rest_state", scene_inputs, rest_outputs, call_rest_state},
+    PluginStage{"sweep", scene_inputs + rest_inputs + 8, sweep_outputs, call_sweep},
+    PluginStage{"step", scene_inputs + 3, step_outputs, call_step},
 };
 
 }  // namespace

@@ -106,7 +106,6 @@ struct PluginStage {
   std::size_t inputs;                               ///< how many arrays
   std::span<const OutputInfo> outputs;              ///< in the order of the function's arguments
   int (*call)(void* function, CallArrays& arrays);  ///< what the function returned
-  int oldest_version = OGC_PLUGIN_OLDEST_VERSION;   ///< of compare/plugin.h whose structures it takes
 };
 
 /// All of them.

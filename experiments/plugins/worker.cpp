@@ -62,22 +62,16 @@ class Library {
     const ogc_plugin_info* const info = describe();
     end_if_copy();
     if (!info) throw Refusal("ogc_plugin() returns a null pointer");
-    if (info->version < OGC_PLUGIN_OLDEST_VERSION || info->version > OGC_PLUGIN_VERSION)
+    if (info->version != OGC_PLUGIN_VERSION)
       throw Refusal("it was built for version " + std::to_string(info->version) +
-                    " of compare/plugin.h, and this program knows versions " +
-                    std::to_string(OGC_PLUGIN_OLDEST_VERSION) + " to " + std::to_string(OGC_PLUGIN_VERSION) +
+                    " of compare/plugin.h, and this program takes version " + std::to_string(OGC_PLUGIN_VERSION) +
                     "; build it with this program's header");
     if (info->memory != OGC_HOST_MEMORY && info->memory != OGC_DEVICE_MEMORY)
       throw Refusal("it asks for memory " + std::to_string(info->memory) +
                     "; known: OGC_HOST_MEMORY (0), OGC_DEVICE_MEMORY (1)");
     name = info->name ? info->name : "";
-    for (const PluginStage& stage : plugin_stages()) {
+    for (const PluginStage& stage : plugin_stages())
       functions.push_back(dlsym(library, ("ogc_" + std::string(stage.name)).c_str()));
-      if (functions.back() && info->version < stage.oldest_version)
-        throw Refusal("it was built for version " + std::to_string(info->version) + " of compare/plugin.h, and ogc_" +
-                      std::string(stage.name) + " takes what version " + std::to_string(stage.oldest_version) +
-                      " gives; build it with this program's header");
-    }
     memory = info->memory == OGC_HOST_MEMORY ? host_memory() : device_memory();
   }
 

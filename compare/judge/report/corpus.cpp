@@ -12,19 +12,6 @@
 
 namespace ogc::compare {
 
-namespace {
-
-/// Format 2 calls X_prev of a contact's vertices `detected`.
-nlohmann::ordered_json data_of(nlohmann::ordered_json data) {
-  if (const auto found = data.find("detected"); found != data.end()) {
-    data["previous"] = *found;
-    data.erase("detected");
-  }
-  return data;
-}
-
-}  // namespace
-
 nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& message) {
   return {{"format", case_format_version},
           {"problem", print_problem(test.name)},
@@ -52,11 +39,11 @@ TestCase load_case(const std::filesystem::path& path) {
   try {
     const Json json = is_text ? parse_json(text, path.string()) : read_case_hdf5(path);
     const int format = json.at("format").get<int>();
-    if (format < oldest_case_format || format > case_format_version)
-      throw InputError("format " + std::to_string(format) + " is none that this program reads (" +
-                       std::to_string(oldest_case_format) + " to " + std::to_string(case_format_version) + ")");
+    if (format != case_format_version)
+      throw InputError("has format " + std::to_string(format) + ", and this program reads format " +
+                       std::to_string(case_format_version));
     TestCase test{parse_problem(json.at("problem").get<std::string>()), {}};
-    test.data = traits_of(test.name.stage).read(data_of(json.at("data")));
+    test.data = traits_of(test.name.stage).read(json.at("data"));
     return test;
   } catch (const nlohmann::json::exception& problem) {
     throw InputError(path.string() + ": " + problem.what());

@@ -11,8 +11,8 @@
 
 namespace ogc::compare {
 
-/// Of saved cases: what is written, and the oldest that is read. A newer one is refused by name.
-inline constexpr int case_format_version = 3, oldest_case_format = 2;
+/// Of saved cases. Another one is refused by name.
+inline constexpr int case_format_version = 3;
 
 /// The case with its problem string and message, numbers of single precision as hexadecimal text.
 nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& message);

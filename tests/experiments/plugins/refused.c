@@ -8,22 +8,7 @@ const ogc_plugin_info* ogc_plugin(void) {
 }
 #elif defined(OGC_TEST_OLDER)
 const ogc_plugin_info* ogc_plugin(void) {
-  static const ogc_plugin_info info = {OGC_PLUGIN_OLDEST_VERSION - 1, OGC_HOST_MEMORY, "older"};
-  return &info;
-}
-#elif defined(OGC_TEST_OLD_SCENES)
-const ogc_plugin_info* ogc_plugin(void) {
-  static const ogc_plugin_info info = {OGC_PLUGIN_OLDEST_SCENE_VERSION - 1, OGC_HOST_MEMORY, "old scenes"};
-  return &info;
-}
-int ogc_sweep(const ogc_sweep_in* in, ogc_sweep_out* out) {
-  (void)in;
-  (void)out;
-  return 0;
-}
-#elif defined(OGC_TEST_OLD)
-const ogc_plugin_info* ogc_plugin(void) {
-  static const ogc_plugin_info info = {OGC_PLUGIN_OLDEST_VERSION, OGC_HOST_MEMORY, "old"};
+  static const ogc_plugin_info info = {OGC_PLUGIN_VERSION - 1, OGC_HOST_MEMORY, "older"};
   return &info;
 }
 #elif defined(OGC_TEST_EMPTY)

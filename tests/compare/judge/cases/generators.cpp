@@ -13,6 +13,7 @@
 #include "compare/judge/report/corpus.hpp"
 #include "compare/judge/report/inputs.hpp"
 #include "compare/problem/error.hpp"
+#include "compare/problem/material_table.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
@@ -40,6 +41,19 @@ bool has_coordinates(Stage stage) {
   }
   return false;
 }
+
+/// Numbers of the models that cases of a stage have, one set for each enumeration.
+struct ModelsSeen {
+  std::set<std::size_t> membrane, bending, activation, damping;
+  void add(const Scene& scene) {
+    activation.insert(static_cast<std::size_t>(scene.settings.activation));
+    damping.insert(static_cast<std::size_t>(scene.settings.damping));
+    for (const Body& body : scene.bodies) {
+      membrane.insert(static_cast<std::size_t>(body.material.membrane));
+      bending.insert(static_cast<std::size_t>(body.material.bending));
+    }
+  }
+};
 
 }  // namespace
 
@@ -108,6 +122,51 @@ TEST_CASE("seed, index, stage and generator each give other numbers", "[property
         for (std::uint64_t index = 0; index < 100; ++index, ++count)
           seen.insert(Random(stage, generator, seed, index).bits());
   REQUIRE(seen.size() == static_cast<std::size_t>(count));
+}
+
+// A model that is added to the enumerations and their names is asked about, or this fails.
+TEST_CASE("each model that has a name is among the cases of the stages that read it", "[property]") {
+  const auto all = [](std::span<const std::string_view> names) {
+    std::set<std::size_t> numbers;
+    for (std::size_t i = 0; i < names.size(); ++i) numbers.insert(i);
+    return numbers;
+  };
+  const auto without_none = [&](std::span<const std::string_view> names) {
+    std::set<std::size_t> numbers = all(names);
+    numbers.erase(static_cast<std::size_t>(std::ranges::find(names, "none") - names.begin()));
+    return numbers;
+  };
+  for (const Stage stage : {Stage::membrane, Stage::bending, Stage::activation, Stage::contact_force,
+                            Stage::friction_force, Stage::sweep, Stage::step}) {
+    ModelsSeen seen;
+    for (const Generator& generator : generators(stage))
+      for (std::uint64_t i = 0; i < (is_mesh_stage(stage) ? 20u : 100u); ++i) {
+        const TestCase test = generate({stage, std::string(generator.name), 1, i, "", {}});
+        if (stage == Stage::sweep) seen.add(*case_of<SweepCase>(test.data).scene);
+        if (stage == Stage::step) seen.add(*case_of<StepCase>(test.data).scene);
+        if (stage == Stage::membrane) {
+          const auto& c = case_of<MembraneCase>(test.data);
+          seen.membrane.insert(static_cast<std::size_t>(c.model));
+          seen.damping.insert(static_cast<std::size_t>(c.damping_form));
+        }
+        if (stage == Stage::bending)
+          seen.bending.insert(static_cast<std::size_t>(case_of<BendingCase>(test.data).model));
+        if (stage == Stage::activation)
+          seen.activation.insert(static_cast<std::size_t>(case_of<ActivationCase>(test.data).activation));
+        if (stage == Stage::contact_force)
+          seen.activation.insert(static_cast<std::size_t>(case_of<ContactForceCase>(test.data).activation));
+        if (stage == Stage::friction_force)
+          seen.activation.insert(static_cast<std::size_t>(case_of<FrictionForceCase>(test.data).contact.activation));
+      }
+    INFO(stage_name(stage));
+    const bool has_scene = stage == Stage::sweep || stage == Stage::step;
+    if (has_scene) CHECK(seen.membrane == all(membrane_model_names()));
+    if (has_scene) CHECK(seen.bending == all(bending_model_names()));
+    if (stage == Stage::membrane) CHECK(seen.membrane == without_none(membrane_model_names()));
+    if (stage == Stage::bending) CHECK(seen.bending == without_none(bending_model_names()));
+    if (has_scene || stage == Stage::membrane) CHECK(seen.damping == all(damping_form_names()));
+    if (stage != Stage::membrane && stage != Stage::bending) CHECK(seen.activation == all(activation_names()));
+  }
 }
 
 TEST_CASE("at least half of a stage's cases lie close to a decision boundary", "[unit]") {

@@ -124,26 +124,14 @@ TEST_CASE("a broken case file is refused with its name and what is wrong", "[uni
   REQUIRE_THROWS_AS(load_case(path), InputError);
   write(path, R"({"format": 4, "problem": "stage=bound gen=few seed=1 index=1", "data": {}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("format 4"));
-  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "cubic", )"
+  write(path, R"({"format": 3, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "cubic", )"
               R"("distance": "1x", "contact_radius": "1", "stiffness": "1"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("1x"));
-  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "ogc", )"
+  write(path, R"({"format": 3, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "ogc", )"
               R"("distance": "1", "stiffness": "1"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("contact_radius"));
-  write(path, R"({"format": 2, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "log"}})");
+  write(path, R"({"format": 3, "problem": "stage=activation gen=bits seed=1 index=1", "data": {"activation": "log"}})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("unknown activation 'log'"));
-}
-
-TEST_CASE("a case of format 2, which calls X_prev of a contact `detected`, is read", "[unit]") {
-  const Scratch folder;
-  const TestCase test = generate({Stage::friction_force, "uniform", 5, 3, "", {}});
-  nlohmann::ordered_json json = case_to_json(test, "");
-  json["format"] = 2;
-  json["data"]["detected"] = json["data"]["previous"];
-  json["data"].erase("previous");
-  write(folder / "case.json", json.dump());
-  REQUIRE(case_of<FrictionForceCase>(load_case(folder / "case.json").data).contact.previous ==
-          case_of<FrictionForceCase>(test.data).contact.previous);
 }
 
 TEST_CASE("a damaged HDF5 file is refused with its name", "[unit]") {
@@ -160,7 +148,7 @@ TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is
   const Scratch folder;
   const auto path = folder / "case.json";
   const auto block = [&](const std::string& question) {
-    write(path, R"({"format": 2, "problem": "stage=block gen=few seed=1 index=1", "data": {"mesh": )"
+    write(path, R"({"format": 3, "problem": "stage=block gen=few seed=1 index=1", "data": {"mesh": )"
                 R"({"vertex_count": 2, "triangles": [], "loose_edges": [[0, 1]]},
       "positions": [["0", "0", "0"], ["1", "0", "0"]], "questions": [)" +
                     question + "]}}");
@@ -169,7 +157,7 @@ TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is
   REQUIRE_THROWS_WITH(load_case(path), Contains("index 9"));
   block(R"({"kind": "vertex_in_surface", "of": 0, "face": "side", "index": 0})");
   REQUIRE_THROWS_WITH(load_case(path), Contains("side"));
-  write(path, R"({"format": 2, "problem": "stage=rest_state gen=soup seed=1 index=1", "data": {"rest_positions": )"
+  write(path, R"({"format": 3, "problem": "stage=rest_state gen=soup seed=1 index=1", "data": {"rest_positions": )"
               R"([["0", "0", "0"], ["1", "0", "0"]],
     "positions": [["0", "0", "0"], ["1", "0", "0"]], "triangles": [], "loose_edges": [], "bodies": [], )"
               R"("motions": []}})");
