@@ -39,7 +39,7 @@ std::vector<std::string_view> words_of(std::string_view line, std::size_t most) 
 
 std::string_view next_line(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
-  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  text.remove_prefix(std::min(line.size() + (text.substr(line.size()).starts_with("\r\n") ? 2 : 1), text.size()));
   return line;
 }
 
@@ -202,12 +202,33 @@ void of_msh(std::string_view text, Digits& digits) {
   }
 }
 
+/// As many words as the number behind `keyword` says: `each` of a vertex, the first three its coordinates.
+void of_counted(std::string_view text, std::string_view keyword, std::size_t each, Digits& digits) {
+  std::size_t count = 0;
+  for (std::string_view word = next_word(text); !word.empty() && word != keyword;) word = next_word(text);
+  if (!parse_number(next_word(text), count)) return;
+  if (keyword == "POINTS") next_word(text);  // their type
+  for (std::size_t i = 0; i < count && !text.empty(); ++i)
+    for (std::size_t k = 0; k < each; ++k) {
+      const std::string_view word = next_word(text);
+      if (k < 3) digits.look_at(word);
+    }
+}
+
+/// "ASCII" stands in the third line.
+void of_vtk(std::string_view text, Digits& digits) {
+  std::string_view head = text;
+  for (int line = 0; line < 2; ++line) next_line(head);
+  if (next_word(head) == "ASCII") of_counted(head, "POINTS", 3, digits);
+}
+
 }  // namespace
 
 std::optional<PrintedDigits> printed_digits(const std::filesystem::path& file) {
   std::string kind = file.extension().string();
   std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<std::string_view, 7> kinds{".obj", ".stl", ".ply", ".off", ".vtp", ".vtu", ".msh"};
+  constexpr std::array<std::string_view, 9> kinds{".obj", ".stl", ".ply", ".off", ".vtp",
+                                                  ".vtu", ".vtk", ".msh", ".mesh"};
   if (std::ranges::find(kinds, kind) == kinds.end()) return std::nullopt;
   const std::string text = read_bytes(file);
   Digits digits;
@@ -216,7 +237,9 @@ std::optional<PrintedDigits> printed_digits(const std::filesystem::path& file) {
   if (kind == ".ply") of_ply(text, digits);
   if (kind == ".off") of_off(text, digits);
   if (kind == ".vtp" || kind == ".vtu") of_vtk_xml(text, digits);
+  if (kind == ".vtk") of_vtk(text, digits);
   if (kind == ".msh") of_msh(text, digits);
+  if (kind == ".mesh") of_counted(text, "Vertices", 4, digits);
   return digits.conclude();
 }
 

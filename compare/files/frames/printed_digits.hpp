@@ -14,9 +14,9 @@ struct PrintedDigits {
   double unit = 0;            ///< of the last digit of the largest coordinate [m]
 };
 
-/// The digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU or Gmsh file; nothing where its numbers are binary, print
-/// all that a double holds, or were typed: fewer than 6 significant digits or 4 decimals, which do not recur. Throws
-/// InputError where the file can't be opened.
+/// The digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU, VTK, Gmsh or Medit file; nothing where its numbers are
+/// binary, print all that a double holds, or were typed: fewer than 6 significant digits or 4 decimals, which do not
+/// recur. Throws InputError where the file can't be opened.
 std::optional<PrintedDigits> printed_digits(const std::filesystem::path& file);
 
 }  // namespace ogc::compare

@@ -65,6 +65,15 @@ const std::vector<Kind> kinds{
      [](const char* f) {
        return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n12\n" + lines(f, "123456789012 ") + "$EndNodes\n";
      }},
+    {"a.vtk",
+     [](const char* f) {
+       return "# vtk DataFile Version 3.0\n0.123456789012\nASCII\nDATASET POLYDATA\nPOINTS 12 float\n" + lines(f) +
+              "POLYGONS 1 4\n3 0 1 2\n";
+     }},
+    {"a.mesh",
+     [](const char* f) {
+       return "MeshVersionFormatted 2\nDimension 3\nVertices\n12\n" + lines(f, "", " 123456789012") + "Triangles\n0\n";
+     }},
     {"b.msh", [](const char* f) {
        return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 12 1 123456789\n2 1 0 12\n1\n2\n" + lines(f) +
               "$EndNodes\n";
@@ -93,6 +102,20 @@ TEST_CASE("digits of coordinates are counted in every text format", "[unit]") {
     CHECK_FALSE(digits("%.1f"));  // as people type
     CHECK_FALSE(digits("%.2g"));
   }
+}
+
+TEST_CASE("line ends of other systems change no digit", "[unit]") {
+  const Scratch scratch;
+  for (const Kind& kind : kinds)
+    for (const std::string end : {"\r\n", "\r"}) {
+      INFO(kind.name);
+      std::string bytes = kind.written("%.9g");
+      for (std::size_t at = bytes.find('\n'); at != std::string::npos; at = bytes.find('\n', at + end.size()))
+        bytes.replace(at, 1, end);
+      const auto digits = printed_digits(written(scratch / kind.name, bytes));
+      REQUIRE(digits);
+      CHECK((digits->digits == 9 && digits->unit == Approx(1e-8)));
+    }
 }
 
 TEST_CASE("exact and binary coordinates have no digits to speak of", "[unit]") {
