@@ -195,6 +195,11 @@ class RunEvidence:
         return False if False in found else True if True in found and self.audited_states else None
 
     @property
+    def is_certified(self):
+        """Whether the run's own certificate of motion held: IPC has none, and audits of stored states know no ways."""
+        return self.manifest.get("guarantee_kept") is True and self.manifest["solver"] != "ipc"
+
+    @property
     def audit_in_words(self):
         return f"{self.audited_states} states audited, {self.step_count} steps"
 

@@ -263,8 +263,9 @@ def scene_page(scene, judgements, evidence, fresh=None):
     for run in (*made, *(run for run in evidence.runs if run.manifest["scene"]["name"] == scene)):
         m = run.manifest
         settings = ", ".join(f"{escape(name)} {escape(value['value'])}" for name, value in m["settings"].items())
-        audit = {True: f"exact audit of {run.audited_states} states: no intersection", False: "exact audit FAILED",
-                 None: "not audited"}[run.guarantee_kept]
+        ways = "" if run.is_certified else "; the ways between them were not looked at"
+        audit = {True: f"exact audit of {run.audited_states} states: no intersection{ways}",
+                 False: "exact audit FAILED", None: "not audited"}[run.guarantee_kept]
         mark = "Just made: " if run in made else ""
         commit = m["commit"][:10] + (", with uncommitted changes" if m.get("dirty") else "")
         parts.append(f"<h2>{mark}{escape(run.source)}</h2><p><code>{escape(m['command'])}</code><br>"

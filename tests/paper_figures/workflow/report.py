@@ -201,6 +201,13 @@ def check_just_made(folder):
     page = report.scene_page("cloth_on_sphere", [], report.Evidence(runs), fresh)
     assert page.count("Just made: fig18-paper-cuda/run") == 1
     assert "with uncommitted changes" in page, "a changed program's run is shown, and said to be so"
+    unseen = "the ways between them were not looked at"
+    assert unseen not in page, "the run's own certificate holds"
+    of_ipc = runs / "fig18-paper-cuda/run/run.json"
+    of_ipc.write_text(json.dumps({**json.loads(of_ipc.read_text()), "solver": "ipc"}))
+    fresh = report.JustMade(runs, "paper", "cuda", report.Evidence(runs, changed=True))
+    page = report.scene_page("cloth_on_sphere", [], report.Evidence(runs), fresh)
+    assert unseen in page, "IPC has no certificate of motion"
 
 
 def browse(browser, folder, screenshot):
