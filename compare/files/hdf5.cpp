@@ -32,6 +32,9 @@ void silence() {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
+/// Deflate packs 1,032 bytes into one at the best; shuffling changes no size.
+constexpr std::size_t most_unpacked = 1032;
+
 std::vector<hsize_t> shape_of(hid_t dataset) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   const int rank = space.valid() ? H5Sget_simple_extent_ndims(space.id()) : -1;
@@ -230,8 +233,13 @@ std::vector<std::size_t> Hdf5File::shape(const std::string& name) const {
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
   const Lock lock(hdf5_library());
-  std::size_t count = 1;
-  for (const std::size_t extent : shape(name)) count *= extent;
+  const std::vector<std::size_t> extents = shape(name);
+  // Before memory is taken: no file unpacks to more than most_unpacked times its size.
+  hsize_t size = 0;
+  H5Fget_filesize(file_.id(), &size);
+  std::size_t count = std::ranges::count(extents, 0u) > 0 ? 0 : 1, most = most_unpacked * size / sizeof(T);
+  for (std::size_t k = 0; k < extents.size() && count > 0; most /= extents[k], count *= extents[k], ++k)
+    if (extents[k] > most) refuse_read("dataset '" + name + "' announces more values than the file can hold");
   std::vector<T> values(count);
   const Hdf5Handle dataset(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   if (count > 0 && H5Dread(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)

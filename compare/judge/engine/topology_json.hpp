@@ -20,8 +20,12 @@ inline Json topology_to_json(const Topology& topology) {
   return json;
 }
 
-/// Throws what the JSON library or build_topology throw.
-inline std::shared_ptr<const Topology> to_topology(const Json& json) {
+/// `vertices`: how many have an entry each in what comes with the mesh. Throws what the JSON library or build_topology
+/// throw, and InputError where the mesh has another number of vertices, before it takes memory for them.
+inline std::shared_ptr<const Topology> to_topology(const Json& json, std::size_t vertices) {
+  if (json.at("vertex_count").get<std::int64_t>() != static_cast<std::int64_t>(vertices))
+    throw InputError("a mesh of " + json.at("vertex_count").dump() + " vertices comes with entries for " +
+                     std::to_string(vertices) + "; give one a vertex");
   const auto triangles = json.at("triangles").get<std::vector<Triangle>>();
   const auto loose = json.at("loose_edges").get<std::vector<Edge>>();
   auto topology = std::make_shared<Topology>(build_topology(json.at("vertex_count").get<Index>(), triangles, loose));

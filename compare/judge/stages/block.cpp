@@ -142,7 +142,7 @@ struct Block : MeshStage<Block, &Contestant::block, &Authority::block>,
         {"mesh", topology_to_json(*c.topology)}, {"positions", points_to_json(c.positions)}, {"questions", questions}};
   }
   static Case read(const Json& data) {
-    Case c{to_topology(data.at("mesh")), {}, {}};
+    Case c{to_topology(data.at("mesh"), data.at("positions").size()), {}, {}};
     for (const Json& p : data.at("positions")) c.positions.push_back(to_point(p));
     if (c.positions.size() != static_cast<std::size_t>(c.topology->vertex_count))
       throw InputError("positions need one entry a vertex");

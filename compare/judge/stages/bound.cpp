@@ -106,8 +106,9 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
             {"bound_relaxation", hexadecimal(c.bound_relaxation)}};
   }
   static Case read(const Json& data) {
-    Case c{to_topology(data.at("mesh")), to_numbers(data.at("d_min_vertex")), to_numbers(data.at("d_min_edge")),
-           to_numbers(data.at("d_min_triangle")), number(data.at("bound_relaxation"))};
+    Case c{to_topology(data.at("mesh"), data.at("d_min_vertex").size()), to_numbers(data.at("d_min_vertex")),
+           to_numbers(data.at("d_min_edge")), to_numbers(data.at("d_min_triangle")),
+           number(data.at("bound_relaxation"))};
     if (c.d_min_vertex.size() != static_cast<std::size_t>(c.topology->vertex_count) ||
         c.d_min_edge.size() != c.topology->edges.size() || c.d_min_triangle.size() != c.topology->triangles.size())
       throw InputError("d_min_vertex, d_min_edge and d_min_triangle need one entry a vertex, edge and triangle");

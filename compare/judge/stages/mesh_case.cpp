@@ -69,7 +69,7 @@ std::vector<std::array<Index, 2>> to_pairs(const Json& json, std::size_t count) 
 }  // namespace
 
 MeshCase to_mesh_case(const Json& data) {
-  MeshCase c{to_topology(data.at("mesh")),
+  MeshCase c{to_topology(data.at("mesh"), data.at("positions").size()),
              data.at("rigid_groups").get<std::vector<Index>>(),
              {},
              number(data.at("contact_radius")),

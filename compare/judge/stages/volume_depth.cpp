@@ -313,7 +313,7 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
             {"cavities", c.cavities}};
   }
   static Case read(const Json& data) {
-    Case c{to_topology(data.at("mesh")), {}, number(data.at("contact_radius")), {}};
+    Case c{to_topology(data.at("mesh"), data.at("positions").size()), {}, number(data.at("contact_radius")), {}};
     for (const Json& p : data.at("positions")) c.positions.push_back(to_point(p));
     for (const Json& p : data.at("points")) c.points.push_back(to_point(p));
     if (data.contains("tetrahedra")) data.at("tetrahedra").get_to(c.tetrahedra);

@@ -108,3 +108,21 @@ TEST_CASE("a truncated file is refused", "[unit]") {
   write_durably(folder / "half.h5", bytes.substr(0, bytes.size() / 2));
   CHECK_THROWS_AS(Hdf5File::open(folder / "half.h5").read<float>("values"), InputError);
 }
+
+TEST_CASE("a dataset that announces more than its file can hold is refused before memory is taken", "[unit]") {
+  const Scratch folder;
+  const std::vector<float> values(0x1235, 0.5f);
+  Hdf5File file = Hdf5File::create_in_memory(folder / "x.h5");
+  file.write("values", std::span(values));
+  std::string bytes = file.image();
+  const auto as_bytes = [](std::uint64_t number) {
+    return std::string(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  std::size_t found = 0;
+  for (std::size_t at = 0; (at = bytes.find(as_bytes(values.size()), at)) != std::string::npos; ++found)
+    bytes.replace(at, 8, as_bytes(std::uint64_t{1} << 44));
+  REQUIRE(found > 0);
+  write_durably(folder / "x.h5", bytes);
+  CHECK_THROWS_WITH(Hdf5File::open(folder / "x.h5").read<float>("values"),
+                    Catch::Matchers::Contains("x.h5") && Catch::Matchers::Contains("announces more values"));
+}

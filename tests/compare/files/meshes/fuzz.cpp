@@ -1,17 +1,7 @@
 // Files of every format, damaged at random: each ends in a mesh or in a refusal that names it, within 100 MB over what
 // the program has already. Cases run in processes of their own, under a limit on memory; a frozen seed tells of
 // changes, and another, new each day and printed, of what nobody thought of. OGC_FUZZ_CASES sets how many of each file.
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <zlib.h>
-
-#include <algorithm>
-#include <array>
-#include <csignal>
-#include <cstdlib>
-#include <fstream>
-#include <random>
 
 #include "compare/files/meshes/mesh_files.hpp"
 #include "compare/files/meshes/msh.hpp"
@@ -21,6 +11,7 @@
 #include "compare/problem/validate.hpp"
 #include "compare/record/vtp.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/files/fuzzing.hpp"
 #include "tests/compare/files/meshes/samples.hpp"
 #include "tests/seeds.hpp"
 
@@ -28,17 +19,6 @@ using namespace ogc::compare;
 using namespace ogc::tests;
 
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool limits_memory = false;  // its shadow is reserved address space
-#else
-constexpr bool limits_memory = true;
-#endif
-constexpr std::size_t most_memory = 100'000'000;  ///< [bytes] over what the program has
-
-struct Sample {
-  std::string name, bytes;
-};
 
 const Mesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1.0 / 3}}, {{0, 1, 2}, {0, 2, 3}}, {{1, 3}}};
 
@@ -90,59 +70,6 @@ std::vector<Sample> samples() {
           {"m.mesh", cube_medit()}};
 }
 
-class Mutator {
- public:
-  Mutator(std::string whole, std::mt19937_64& random) : bytes_(std::move(whole)), random_(random) {}
-
-  /// One to four changes, one upon the other.
-  std::string mutated() {
-    for (std::size_t k = 1 + below(4); k-- > 0 && !bytes_.empty();) change();
-    return bytes_;
-  }
-
- private:
-  std::size_t below(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
-  std::size_t place() { return below(bytes_.size()); }
-  std::string part() { return bytes_.substr(place(), 1 + below(40)); }
-
-  void change() {
-    switch (below(9)) {
-      case 0: bytes_[place()] ^= static_cast<char>(1U << below(8)); break;
-      case 1: bytes_[place()] = static_cast<char>(below(256)); break;
-      case 2: bytes_.resize(place()); break;
-      case 3: bytes_.erase(place(), 1 + below(20)); break;
-      case 4: bytes_.insert(place(), part()); break;
-      case 5: bytes_.replace(place(), 1 + below(10), part()); break;
-      case 6: binary_number(); break;
-      default: word(); break;
-    }
-  }
-
-  /// Four or eight bytes, as of a count that is out of all bounds.
-  void binary_number() {
-    constexpr std::array<std::uint64_t, 7> numbers{0,          1,           0x7fffffff,        0x80000000,
-                                                   0xffffffff, 0x100000000, 0xffffffffffffffff};
-    std::string raw;
-    append_number(raw, numbers[below(numbers.size())], below(2) == 0 ? std::endian::little : std::endian::big);
-    const std::size_t width = below(2) == 0 ? 4 : 8;
-    bytes_.replace(place(), width, raw.substr(below(9 - width), width));
-  }
-
-  /// A number or a name in the text.
-  void word() {
-    constexpr std::array<const char*, 16> words{"4294967295", "-1",     "1e999", "nan",     "99999999999999999999", "0",
-                                                "2147483648", "1.#INF", "1e300", "1e-320",  "400000000000",         "3",
-                                                "\r",         "#",      "\\\n",  "16777217"};
-    const std::size_t digit = bytes_.find_first_of("0123456789", place());
-    const std::size_t begin = digit == std::string::npos ? place() : digit;
-    const std::size_t end = std::min(bytes_.find_first_not_of("0123456789.-", begin), bytes_.size());
-    bytes_.replace(begin, end - begin, words[below(words.size())]);
-  }
-
-  std::string bytes_;
-  std::mt19937_64& random_;
-};
-
 /// What the program does with a mesh; empty, or what it must not have done.
 std::string fault_of(const std::string& bytes, const std::string& name) {
   try {
@@ -160,69 +87,7 @@ std::string fault_of(const std::string& bytes, const std::string& name) {
   return "";
 }
 
-using Judge = std::string (*)(const std::string& bytes, const std::string& name);
-
-std::size_t address_space() {
-  std::ifstream file("/proc/self/statm");
-  std::size_t pages = 0;
-  file >> pages;
-  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
-
-/// In a process of its own; says on `out` which case it is at, and of the first that fails why. Never returns.
-[[noreturn]] void run_cases(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases, int out) {
-  const auto say = [&](const std::string& text) {
-    if (write(out, text.data(), text.size()) < 0) _exit(3);
-  };
-  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGALRM}) std::signal(signal, SIG_DFL);  // not Catch's
-  if (limits_memory) {
-    const std::size_t most = address_space() + most_memory + 2 * sample.bytes.size();
-    const rlimit limit{most, most};
-    setrlimit(RLIMIT_AS, &limit);
-  }
-  std::mt19937_64 random(seed);
-  for (std::size_t i = 0; i < cases; ++i) {
-    const std::string bytes = Mutator(sample.bytes, random).mutated();
-    say("\n" + std::to_string(i) + " ");
-    alarm(20);
-    const std::string fault = judge(bytes, sample.name);
-    if (fault.empty()) continue;
-    say(fault);
-    _exit(1);
-  }
-  _exit(0);
-}
-
-/// Empty where every case ends as it should.
-std::string failure(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases) {
-  std::array<int, 2> ends{};
-  REQUIRE(pipe(ends.data()) == 0);
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) run_cases(sample, judge, seed, cases, ends[1]);
-  close(ends[1]);
-  std::string last;
-  std::array<char, 4096> buffer{};
-  for (ssize_t got = 0; (got = read(ends[0], buffer.data(), buffer.size())) > 0;) {
-    last.append(buffer.data(), static_cast<std::size_t>(got));
-    last.erase(0, std::min(last.rfind('\n'), last.size()));
-  }
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-  const std::string how = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "";
-  last.erase(0, 1);
-  return sample.name + ", seed " + std::to_string(seed) + ", case " + last + how;
-}
-
-void fuzz(std::uint64_t seed, std::size_t cases) {
-  if (const char* given = std::getenv("OGC_FUZZ_CASES")) cases = std::strtoull(given, nullptr, 10);
-  for (const Sample& sample : samples()) {
-    REQUIRE(fault_of(sample.bytes, sample.name).empty());
-    CHECK(failure(sample, fault_of, seed++, cases) == "");
-  }
-}
+void fuzz_meshes(std::uint64_t seed, std::size_t cases) { fuzz(samples(), fault_of, seed, cases); }
 
 }  // namespace
 
@@ -243,9 +108,9 @@ TEST_CASE("a reader that takes too much memory, dies or complains about somethin
 }
 
 TEST_CASE("damaged mesh files end in an answer or a named refusal, within 100 MB: a frozen seed", "[property]") {
-  fuzz(51, 2000);
+  fuzz_meshes(51, 2000);
 }
 
 TEST_CASE("damaged mesh files end in an answer or a named refusal, within 100 MB: the seed of the day", "[property]") {
-  fuzz(1000 * ogc::tests::daily_seed("damaged mesh files"), 10000);
+  fuzz_meshes(1000 * ogc::tests::daily_seed("damaged mesh files"), 10000);
 }

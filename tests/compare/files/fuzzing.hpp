@@ -1,0 +1,180 @@
+// Files that are damaged at random, a reader that is asked about each, and what it must not do: take more than 100 MB
+// over what the program has, die, hang, or refuse without the file's name. Cases run in processes of their own, under a
+// limit on memory.
+#pragma once
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "compare/problem/error.hpp"
+#include "tests/catch.hpp"
+
+namespace ogc::tests {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool limits_memory = false;  // its shadow is reserved address space
+#else
+inline constexpr bool limits_memory = true;
+#endif
+inline constexpr std::size_t most_memory = 100'000'000;  ///< [bytes] over what the program has
+
+/// The number's bytes, as this machine has them, behind others.
+template <class Number>
+void append_bytes(std::string& bytes, Number number) {
+  const auto* begin = reinterpret_cast<const char*>(&number);
+  bytes.append(begin, begin + sizeof number);
+}
+
+/// A file as it should be.
+struct Sample {
+  std::string name, bytes;
+};
+
+class Mutator {
+ public:
+  Mutator(std::string whole, std::mt19937_64& random) : bytes_(std::move(whole)), random_(random) {}
+
+  /// One to four changes, one upon the other.
+  std::string mutated() {
+    for (std::size_t k = 1 + below(4); k-- > 0 && !bytes_.empty();) change();
+    return bytes_;
+  }
+
+ private:
+  std::size_t below(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
+  std::size_t place() { return below(bytes_.size()); }
+  std::string part() { return bytes_.substr(place(), 1 + below(40)); }
+
+  void change() {
+    switch (below(9)) {
+      case 0: bytes_[place()] ^= static_cast<char>(1U << below(8)); break;
+      case 1: bytes_[place()] = static_cast<char>(below(256)); break;
+      case 2: bytes_.resize(place()); break;
+      case 3: bytes_.erase(place(), 1 + below(20)); break;
+      case 4: bytes_.insert(place(), part()); break;
+      case 5: bytes_.replace(place(), 1 + below(10), part()); break;
+      case 6: binary_number(); break;
+      default: word(); break;
+    }
+  }
+
+  /// Four or eight bytes, as of a count that is out of all bounds.
+  void binary_number() {
+    constexpr std::array<std::uint64_t, 7> numbers{0,          1,           0x7fffffff,        0x80000000,
+                                                   0xffffffff, 0x100000000, 0xffffffffffffffff};
+    std::string raw;
+    append_bytes(raw, numbers[below(numbers.size())]);
+    if (below(2) == 0) std::ranges::reverse(raw);
+    const std::size_t width = below(2) == 0 ? 4 : 8;
+    bytes_.replace(place(), width, raw.substr(below(9 - width), width));
+  }
+
+  /// A number or a name in the text.
+  void word() {
+    constexpr std::array<const char*, 16> words{"4294967295", "-1",     "1e999", "nan",     "99999999999999999999", "0",
+                                                "2147483648", "1.#INF", "1e300", "1e-320",  "400000000000",         "3",
+                                                "\r",         "#",      "\\\n",  "16777217"};
+    const std::size_t digit = bytes_.find_first_of("0123456789", place());
+    const std::size_t begin = digit == std::string::npos ? place() : digit;
+    const std::size_t end = std::min(bytes_.find_first_not_of("0123456789.-", begin), bytes_.size());
+    bytes_.replace(begin, end - begin, words[below(words.size())]);
+  }
+
+  std::string bytes_;
+  std::mt19937_64& random_;
+};
+
+/// What a reader did with a damaged file; empty, or what it must not have done.
+using Judge = std::string (*)(const std::string& bytes, const std::string& name);
+
+inline std::size_t address_space() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t pages = 0;
+  file >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// In a process of its own; says on `out` which case it is at, and of the first that fails why. Never returns.
+[[noreturn]] inline void run_cases(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases, int out) {
+  const auto say = [&](const std::string& text) {
+    if (write(out, text.data(), text.size()) < 0) _exit(3);
+  };
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGALRM}) std::signal(signal, SIG_DFL);  // not Catch's
+  if (limits_memory) {
+    const std::size_t most = address_space() + most_memory + 2 * sample.bytes.size();
+    const rlimit limit{most, most};
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  std::mt19937_64 random(seed);
+  for (std::size_t i = 0; i < cases; ++i) {
+    const std::string bytes = Mutator(sample.bytes, random).mutated();
+    say("\n" + std::to_string(i) + " ");
+    alarm(20);
+    const std::string fault = judge(bytes, sample.name);
+    if (fault.empty()) continue;
+    say(fault);
+    _exit(1);
+  }
+  _exit(0);
+}
+
+/// Empty where every case ends as it should.
+inline std::string failure(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases) {
+  std::array<int, 2> ends{};
+  REQUIRE(pipe(ends.data()) == 0);
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) run_cases(sample, judge, seed, cases, ends[1]);
+  close(ends[1]);
+  std::string last;
+  std::array<char, 4096> buffer{};
+  for (ssize_t got = 0; (got = read(ends[0], buffer.data(), buffer.size())) > 0;) {
+    last.append(buffer.data(), static_cast<std::size_t>(got));
+    last.erase(0, std::min(last.rfind('\n'), last.size()));
+  }
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+  const std::string how = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status)) : "";
+  last.erase(0, 1);
+  return sample.name + ", seed " + std::to_string(seed) + ", case " + last + how;
+}
+
+/// What `read` does with a file; see Judge.
+template <class Read>
+std::string fault_of_reading(const std::string& name, Read read) {
+  try {
+    read();
+  } catch (const compare::InputError& error) {
+    const std::string text = error.what();
+    if (text.find(name) == std::string::npos) return "is refused without its name: " + text;
+    if (text.size() > 10'000) return "is refused with " + std::to_string(text.size()) + " bytes of text";
+  } catch (const std::exception& error) {
+    return std::string("ends in ") + error.what();
+  }
+  return "";
+}
+
+/// So many cases of each, or OGC_FUZZ_CASES; every sample itself must be read.
+inline void fuzz(const std::vector<Sample>& samples, Judge judge, std::uint64_t seed, std::size_t cases) {
+  if (const char* given = std::getenv("OGC_FUZZ_CASES")) cases = std::strtoull(given, nullptr, 10);
+  for (const Sample& sample : samples) {
+    INFO(sample.name);
+    REQUIRE(judge(sample.bytes, sample.name).empty());
+    CHECK(failure(sample, judge, seed++, cases) == "");
+  }
+}
+
+}  // namespace ogc::tests
