@@ -1,8 +1,8 @@
 // What the device decides by itself: flags that the host never sees inside a step, counters, and the kernels of one
 // item that turn counters into flags.
 //
-//   begin_step ─► first_round: detect, guess ─► end_round ─► … ─► [detect] sweep ─► end_iteration ─► … ─► finish_step
-//                                   ▲───────────── guess ──┘          ▲────────── detect ───┘
+//   BeginStep ─► detect, guess ─► EndRound ─► … ─► sweep ─► EndIteration ─► … ─► EndCheck ─► FinishStep
+//                     ▲── detect ────┘               ▲── detect ──┘     (a detection ends in EndDetection)
 #pragma once
 
 #include <cmath>

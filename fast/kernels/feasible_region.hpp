@@ -1,6 +1,6 @@
-// Where a vertex may be until the next detection (Eq. 21, 27; method.md §5.6): the one type that every kernel which
-// truncates or certifies a position takes, so that another policy of truncation changes this file, truncate.hpp,
-// plane.hpp and certificate.hpp.
+// Where a vertex may be until the next detection (Eq. 21, 27; method.md §5.6): the one type that every kernel takes
+// which truncates or certifies a position. The kernels that read it are in truncate.hpp, plane.hpp and
+// certificate.hpp; stages/planes.hpp says which kind of bounds fills it.
 #pragma once
 
 #include <cstddef>
