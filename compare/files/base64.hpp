@@ -1,4 +1,4 @@
-// Bytes as text of four characters for three.
+// Base64 writes three bytes as four characters of text; this decodes it.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Binary mesh files from their first byte to their last; errors name the file and the byte.
+// A cursor that reads a binary file from its first byte to its last. Its errors name the file and the byte.
 #pragma once
 
 #include <algorithm>

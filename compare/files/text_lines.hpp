@@ -1,4 +1,4 @@
-// Lines and words of mesh files in text; errors name the file and the line.
+// A reader that takes lines and words off a mesh file in text. Its errors name the file and the line.
 #pragma once
 
 #include <cstdint>

@@ -41,8 +41,8 @@ inline std::span<const double> as_doubles(const std::vector<Vec3>& vectors) {
   return {vectors.empty() ? nullptr : &vectors.front().x, 3 * vectors.size()};
 }
 
-/// Adds the points of a frame, relative to `origin` as the scene has them: in single precision where that is 0, else in
-/// double, in the coordinates of the scene's file. Their element for the XML.
+/// Adds the points of a frame and returns their element for the XML. The scene has them relative to `origin`. Where
+/// that is 0 they are written in single precision, otherwise in double, in the coordinates of the scene's file.
 inline std::string appended_points(AppendedArrays& appended, const Vec3& origin, const std::vector<Vec3f>& positions) {
   if (origin == Vec3{}) return appended.array("Float32", "Points", as_floats(positions), 3);
   const std::vector<Vec3> points = in_file(origin, positions);

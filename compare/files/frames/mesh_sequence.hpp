@@ -37,8 +37,8 @@ std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::p
 /// has neither; its positions are not looked at but counted.
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// The frames of arrays of positions (numpy.save), one file after another, as of an archive; without a `topology` one
-/// of several files has the triangles. At least one file.
+/// The frames of arrays of positions (numpy.save), one file after another, named and ordered as those of an archive.
+/// Where `topology` is null, one of several files holds the triangles. There must be at least one file.
 std::unique_ptr<MeshSequence> npy_sequence(const std::vector<std::filesystem::path>& files, const Mesh* topology);
 
 /// A mesh without positions: the triangles of a .npy, triangles and edges of a .npz. Throws InputError.

@@ -1,4 +1,5 @@
-// How finely a text file prints its coordinates: what lies nearer than that, the file can't tell.
+// How finely a text file prints its coordinates. Two points that lie nearer to each other than that may be one point of
+// the file.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +15,9 @@ struct PrintedDigits {
   double unit = 0;            ///< of the last digit of the largest coordinate [m]
 };
 
-/// The digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU, VTK, Gmsh or Medit file; nothing where its numbers are
-/// binary, print all that a double holds, or were typed: fewer than 6 significant digits or 4 decimals, which do not
-/// recur. Throws InputError where the file can't be opened.
+/// The digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU, VTK, Gmsh or Medit file. Nothing is returned for binary
+/// numbers, for numbers with all digits of a double, and for numbers that somebody typed: those have fewer than 6
+/// significant digits or 4 decimals, and no common number of them. Throws InputError where the file can't be opened.
 std::optional<PrintedDigits> printed_digits(const std::filesystem::path& file);
 
 }  // namespace ogc::compare

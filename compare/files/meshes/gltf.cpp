@@ -163,8 +163,8 @@ class GltfReader {
     add_faces(static_cast<Mode>(mode), place(x, corners, transform, owner));
   }
 
-  /// A corner takes a byte of the file at least, but nodes may name a mesh again and again; its buffers beside the file
-  /// count where they are read.
+  /// Fails where nodes repeat meshes too often. A corner takes at least one byte of the file or of a buffer beside it,
+  /// but nodes may name the same mesh again and again.
   void expect_few(std::size_t corners) {
     constexpr std::size_t repeated = std::size_t{1} << 19;  // corners, of 100 bytes each or so in the end
     corners_ += corners;

@@ -1,4 +1,4 @@
-// glTF 2: .gltf with buffers in base64 or beside it, and .glb.
+// This reads glTF 2: .gltf with buffers in base64 or in files beside it, and .glb.
 #pragma once
 
 #include <string>

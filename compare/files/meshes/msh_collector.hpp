@@ -1,4 +1,4 @@
-// What Gmsh's formats hold, whether in text or in bytes: nodes by tag and elements by type.
+// Gmsh's formats, in text and in bytes, hold nodes by tag and elements by type; this makes a mesh of them.
 #pragma once
 
 #include <array>

@@ -267,7 +267,7 @@ class MeshMaker {
       sorted.emplace_back(t, sorted.size());
     }
     std::ranges::sort(sorted);
-    // By number, the one whose vertices each repeats; itself where it is the first.
+    // original[t] is the first tetrahedron with the vertices of t; it is t itself where t is the first.
     std::vector<std::size_t> original(sorted.size());
     for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
       if (sorted[i].first != sorted[first].first) first = i;

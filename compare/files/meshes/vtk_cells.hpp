@@ -1,4 +1,4 @@
-// VTK's kinds of cells, as its XML and its older text format number them.
+// Cells of VTK's files: its XML and its older format number their kinds in the same way.
 #pragma once
 
 #include <functional>
@@ -51,8 +51,8 @@ struct VtkCellLists {
 /// end out of order or beyond the corners, a corner that is no vertex of the piece.
 void each_vtk_cell(const VtkCellLists& lists, const std::function<void(std::size_t, std::span<const Index>)>& use);
 
-/// Appends points, three numbers each. Throws InputError that begins with `where`: no rows of three, a coordinate that
-/// is not finite.
+/// Appends points to the mesh; each is three of the numbers. Throws InputError that begins with `where` if the numbers
+/// are no rows of three, or one of them is not finite.
 void add_vtk_points(const std::vector<double>& values, const std::string& where, PolygonMesh& mesh);
 
 }  // namespace ogc::compare

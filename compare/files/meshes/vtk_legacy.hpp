@@ -1,4 +1,5 @@
-// VTK's older format (.vtk), in text and in binary, with cells as versions before and from 5 write them.
+// This reads VTK's older format (.vtk), in text and in binary. Versions before 5 and from 5 on write cells differently;
+// both ways are read.
 #pragma once
 
 #include <string>

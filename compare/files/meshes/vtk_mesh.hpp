@@ -1,4 +1,5 @@
-// VTK's XML files, as ParaView, PyVista and this program write them: PolyData (.vtp) and UnstructuredGrid (.vtu).
+// This reads VTK's XML files as ParaView, PyVista and this program write them: PolyData (.vtp), UnstructuredGrid
+// (.vtu).
 #pragma once
 
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace ogc::compare {
 
-/// Points, polygons, triangle strips (as triangles), lines (as loose edges) and tetrahedra of all pieces; beside
-/// tetrahedra the others are left out with a word, other data and single points are skipped. `name` stands in the
+/// Points, polygons, triangle strips (as triangles), lines (as loose edges) and tetrahedra of all pieces. A file with
+/// tetrahedra gives nothing else, which a note says; other data and single points are skipped. `name` stands in the
 /// errors. Throws InputError that names the array or cell, ResourceError where this program was built without expat.
 PolygonMesh parse_vtk_xml_mesh(std::string_view bytes, const std::string& name);
 

@@ -2,9 +2,13 @@
 // file is an error that names the file and the path inside it.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "compare/problem/element_names.hpp"
 #include "compare/problem/scene.hpp"
@@ -34,6 +38,10 @@ SceneFile load_scene_file(const std::filesystem::path& file);
 /// Writes `folder`/NAME.json and one PLY, of a solid one MSH, a body (positions and, where they differ, rest
 /// positions). Returns the path of the JSON file.
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene);
+
+/// `excluded_pairs` of a scene file: runs of pairs of the same two bodies, in their order. Vertices are numbered within
+/// each body.
+nlohmann::ordered_json excluded_pairs_json(std::span<const Body> bodies, std::span<const std::array<Index, 2>> pairs);
 
 /// The JSON Schema of scene files.
 std::string scene_schema();

@@ -164,22 +164,6 @@ Json springs_json(const Scene& scene) {
   return springs;
 }
 
-// Runs of pairs of the same two bodies, in their order.
-Json excluded_json(const Scene& scene) {
-  const std::vector<Index> owner = body_of_vertex(scene);
-  Json runs = Json::array();
-  std::array<Index, 2> current{-1, -1};
-  for (const auto& [a, b] : scene.excluded_pairs) {
-    const std::array<Index, 2> bodies{owner[static_cast<std::size_t>(a)], owner[static_cast<std::size_t>(b)]};
-    const Body &first = scene.bodies[static_cast<std::size_t>(bodies[0])],
-               &second = scene.bodies[static_cast<std::size_t>(bodies[1])];
-    if (bodies != current) runs.push_back({{"bodies", {first.name, second.name}}, {"vertices", Json::array()}});
-    current = bodies;
-    runs.back()["vertices"].push_back({a - first.first_vertex, b - second.first_vertex});
-  }
-  return runs;
-}
-
 void print(const Json& value, const std::string& indent, std::string& text) {
   const bool is_row = value.is_array() &&
                       std::all_of(value.begin(), value.end(), [](const Json& x) { return x.is_primitive(); });
@@ -203,6 +187,23 @@ void print(const Json& value, const std::string& indent, std::string& text) {
 
 }  // namespace
 
+Json excluded_pairs_json(std::span<const Body> bodies, std::span<const std::array<Index, 2>> pairs) {
+  const auto number_of = [&](Index v) {
+    const auto holds = [&](const Body& body) { return v < body.first_vertex + body.vertex_count; };
+    return static_cast<std::size_t>(std::ranges::find_if(bodies, holds) - bodies.begin());
+  };
+  Json runs = Json::array();
+  std::array<std::size_t, 2> current{bodies.size(), bodies.size()};
+  for (const auto& [a, b] : pairs) {
+    const std::array<std::size_t, 2> numbers{number_of(a), number_of(b)};
+    const Body &first = bodies[numbers[0]], &second = bodies[numbers[1]];
+    if (numbers != current) runs.push_back({{"bodies", {first.name, second.name}}, {"vertices", Json::array()}});
+    current = numbers;
+    runs.back()["vertices"].push_back({a - first.first_vertex, b - second.first_vertex});
+  }
+  return runs;
+}
+
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene) {
   const std::vector<Problem> problems = validate(scene);
   if (!problems.empty()) throw InputError("a scene that can't be read back is not written: " + describe(problems));
@@ -214,7 +215,7 @@ std::filesystem::path write_scene(const std::filesystem::path& folder, const Sce
   json["motions"] = Json::array();
   for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_json(folder, scene, motion));
   json["springs"] = springs_json(scene);
-  if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = excluded_json(scene);
+  if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = excluded_pairs_json(scene.bodies, scene.excluded_pairs);
   std::string text;
   print(json, "", text);
   const std::filesystem::path file = folder / (scene.name + ".json");

@@ -230,7 +230,7 @@ void by_signs(const Authority& authority, const ClosestFaceIn& in, std::size_t i
   }
 }
 
-/// Negative weights become 0, and the others are divided by their sum.
+/// Negative weights are set to 0, and the others are divided by their sum.
 void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   Weights w = Seen(in, i).foot();
   for (double& x : w) x = std::max(x, 0.0);
@@ -387,7 +387,7 @@ bool is_needle(const ClosestFaceIn& in) {
   return Seen(in, 0).area() <= 0x1p-9 * longest;
 }
 
-/// Right but where the triangle is a needle, and no number there.
+/// Whether the answer is no number where the triangle is a needle, and right elsewhere.
 bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);
@@ -396,7 +396,7 @@ bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   return is_nan ? is_needle(in) : agrees(evidence, authority);
 }
 
-/// Right but where the foot is not inside: there `distance` is that of the plane.
+/// Whether `distance` is that of the plane where the foot is not inside, and the answer is right elsewhere.
 bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceTruth truth = authority.closest_face(in);
@@ -407,7 +407,8 @@ bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) 
   return off <= closest_face_distance_tolerance * unit_roundoff * std::max(plane, size) || agrees(evidence, authority);
 }
 
-/// Right but for the feature, at a distance that single precision does not tell from the right one.
+/// Whether the answer is right but for its feature, which lies at a distance that single precision does not tell from
+/// the right one.
 bool is_rounded_choice(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);

@@ -1,4 +1,4 @@
-// Known ways to get the stage closest_face wrong.
+// Wrong forms of the stage closest_face: answers that known mistakes give.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,6 @@
 // `ogc audit`: does anything intersect? Exactly, for a mesh of any origin, or for each frame of a run of any program.
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include <tbb/task_arena.h>
 #include <nlohmann/json.hpp>
 
+#include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/validate_mesh.hpp"
 #include "experiments/program/audits/audit_source.hpp"
@@ -84,23 +84,20 @@ const char* name_of(compare::IntersectionKind kind) {
   return "";
 }
 
-/// Pairs of vertices as `excluded_pairs` of a scene file has them: by bodies, numbered within each. A mesh is one body,
-/// which has the name that `ogc run MESH` gives it.
-Json excluded_json(const std::vector<compare::Edge>& pairs, const compare::Scene* scene, const AuditedState& audited) {
-  const auto body_of = [&](compare::Index v) -> std::pair<std::string, compare::Index> {
-    if (scene == nullptr) return {audited.is_solid ? "solid" : "cloth", 0};
-    const auto body = std::ranges::find_if(scene->bodies,
-                                           [&](const compare::Body& b) { return v < b.first_vertex + b.vertex_count; });
-    return {body->name, body->first_vertex};
-  };
-  std::map<std::array<std::string, 2>, Json> by_bodies;
-  for (const auto& [a, b] : pairs) {
-    const auto first = body_of(a), second = body_of(b);
-    by_bodies[{first.first, second.first}].push_back({a - first.second, b - second.second});
+/// The vertices of what meets, as a scene file excludes them. A mesh is one body, whose name is that which `ogc run
+/// MESH` gives it.
+Json excluded_json(const AuditedState& audited, const compare::Scene* scene) {
+  std::vector<compare::Edge> pairs = vertex_pairs(audited.result, *audited.topology);
+  if (scene != nullptr) {
+    const std::vector<compare::Index> owner = body_of_vertex(*scene);
+    const auto body_of = [&](compare::Index v) { return owner[static_cast<std::size_t>(v)]; };
+    std::ranges::stable_sort(pairs, {},
+                             [&](const compare::Edge& e) { return std::pair(body_of(e[0]), body_of(e[1])); });
+    return compare::excluded_pairs_json(scene->bodies, pairs);
   }
-  Json json = Json::array();
-  for (const auto& [bodies, vertices] : by_bodies) json.push_back({{"bodies", bodies}, {"vertices", vertices}});
-  return json;
+  const compare::Body body{
+      .name = audited.is_solid ? "solid" : "cloth", .vertex_count = audited.topology->vertex_count, .material = {}};
+  return compare::excluded_pairs_json({&body, 1}, pairs);
 }
 
 State state_of(const AuditedState& audited, const compare::Scene* scene) {
@@ -123,8 +120,7 @@ State state_of(const AuditedState& audited, const compare::Scene* scene) {
     state.doubt = describe(*audited.doubt, audited.name);
   }
   state.json["smallest_distances"] = to_json(audited.distances, topology, audited.names);
-  if (audited.result.count > 0)
-    state.json["excluded_pairs"] = excluded_json(vertex_pairs(audited.result, topology), scene, audited);
+  if (audited.result.count > 0) state.json["excluded_pairs"] = excluded_json(audited, scene);
   for (const compare::Intersection& pair : audited.result.intersections) {
     const auto first = static_cast<std::size_t>(pair.first), second = static_cast<std::size_t>(pair.second);
     Json entry{{"kind", name_of(pair.kind)}};

@@ -1,7 +1,7 @@
-// Pairs of vertices whose faces meet where a run begins, for `ogc run --tolerate-start`. While a pair is open no face
-// of the one vertex and face of the other are a contact, bounded or audited. It closes for good where no two faces that
-// have it meet any more. Then all that is not open is held apart again: two faces that meet have an open pair, which
-// stays open as long as they do.
+// Pairs of vertices whose faces meet where a run begins, for `ogc run --tolerate-start`. While a pair is open, a
+// face of the one vertex and a face of the other are no contact; no bound keeps them apart, and they are not audited. A
+// pair closes for good when no two faces that have it meet any more. So two faces that meet always have an open pair,
+// and all other faces are held apart.
 #pragma once
 
 #include <vector>

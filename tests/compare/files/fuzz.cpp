@@ -30,12 +30,12 @@ std::filesystem::path place_for(const std::string& name) {
 std::string point_cache() {
   std::string bytes = "POINTCACHE2";
   bytes += '\0';
-  for (const std::int32_t number : {1, 4}) append_bytes(bytes, number);
-  for (const float number : {0.f, 1.f}) append_bytes(bytes, number);
-  append_bytes(bytes, std::int32_t{2});
+  for (const std::int32_t number : {1, 4}) append_number(bytes, number);
+  for (const float number : {0.f, 1.f}) append_number(bytes, number);
+  append_number(bytes, std::int32_t{2});
   for (int frame = 0; frame < 2; ++frame)
     for (const Vec3& p : square.positions)
-      for (const double x : {p.x, p.y + frame, p.z}) append_bytes(bytes, static_cast<float>(x));
+      for (const double x : {p.x, p.y + frame, p.z}) append_number(bytes, static_cast<float>(x));
   return bytes;
 }
 

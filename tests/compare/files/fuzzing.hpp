@@ -19,6 +19,7 @@
 
 #include "compare/problem/error.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/files/number_bytes.hpp"
 
 namespace ogc::tests {
 
@@ -28,13 +29,6 @@ inline constexpr bool limits_memory = false;  // its shadow is reserved address 
 inline constexpr bool limits_memory = true;
 #endif
 inline constexpr std::size_t most_memory = 100'000'000;  ///< [bytes] over what the program has
-
-/// The number's bytes, as this machine has them, behind others.
-template <class Number>
-void append_bytes(std::string& bytes, Number number) {
-  const auto* begin = reinterpret_cast<const char*>(&number);
-  bytes.append(begin, begin + sizeof number);
-}
 
 /// A file as it should be.
 struct Sample {
@@ -74,8 +68,7 @@ class Mutator {
     constexpr std::array<std::uint64_t, 7> numbers{0,          1,           0x7fffffff,        0x80000000,
                                                    0xffffffff, 0x100000000, 0xffffffffffffffff};
     std::string raw;
-    append_bytes(raw, numbers[below(numbers.size())]);
-    if (below(2) == 0) std::ranges::reverse(raw);
+    append_number(raw, numbers[below(numbers.size())], below(2) == 0 ? std::endian::little : std::endian::big);
     const std::size_t width = below(2) == 0 ? 4 : 8;
     bytes_.replace(place(), width, raw.substr(below(9 - width), width));
   }

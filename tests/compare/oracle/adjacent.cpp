@@ -54,8 +54,8 @@ std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t c
   return solution;
 }
 
-/// Whether two proper simplices share a point beyond their common vertices' hull: one in which the first one's others
-/// weigh something. The largest weight that they can have is that of a basic solution.
+/// Whether two proper simplices share a point beyond the hull of their common vertices. At such a point a vertex of the
+/// first that is not common has a positive weight. If any solution has one, a basic solution has one.
 bool meet_beyond(const Simplex& first, const Simplex& second, const std::vector<Vec3>& x) {
   std::vector<Row> rows(5);
   const std::size_t columns = first.size() + second.size();

@@ -19,15 +19,6 @@ namespace {
 
 const std::vector<Triangle> two_triangles{{0, 1, 2}, {0, 2, 3}};
 
-std::string error_of(const std::string& bytes, const std::string& name) {
-  try {
-    make_mesh(parse_polygon_mesh(bytes, name));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 std::string off_error(const std::string& text) { return error_of(text, "m.off"); }
 std::string stl_error(const std::string& bytes) { return error_of(bytes, "m.stl"); }
 std::string gltf_error(const std::string& bytes) { return error_of(bytes, "m.gltf"); }

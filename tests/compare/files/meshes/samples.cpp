@@ -2,6 +2,9 @@
 
 #include <initializer_list>
 
+#include "compare/files/meshes/mesh_files.hpp"
+#include "compare/problem/error.hpp"
+
 namespace ogc::tests {
 namespace {
 
@@ -40,6 +43,15 @@ std::string base64(const std::string& bytes) {
 }
 
 }  // namespace
+
+std::string error_of(const std::string& bytes, const std::string& name) {
+  try {
+    make_mesh(compare::parse_polygon_mesh(bytes, name));
+  } catch (const compare::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
 
 std::string square_stl() {
   std::string text = "solid square of two\n";

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/compare/files/number_bytes.hpp"
+
 namespace ogc::tests {
 
 /// `text` with its first `from` replaced.
@@ -18,13 +20,8 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-/// Appends a number's bytes.
-template <class Number>
-void append_number(std::string& bytes, Number value, std::endian order = std::endian::little) {
-  auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(value);
-  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
-  bytes.append(raw.data(), raw.size());
-}
+/// What is said of such a file where no mesh is made of it; empty where one is.
+std::string error_of(const std::string& bytes, const std::string& name);
 
 inline const std::string square_off = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 

@@ -29,15 +29,6 @@ std::vector<Sample> cubes() {
   return samples;
 }
 
-std::string error_of(const std::string& bytes, const std::string& name) {
-  try {
-    make_mesh(parse_polygon_mesh(bytes, name));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("a cube of six tetrahedra is the same in each format, and valid", "[unit]") {
