@@ -10,6 +10,7 @@
 
 #include "compare/files/bytes.hpp"
 #include "compare/files/numbers.hpp"
+#include "compare/files/text_lines.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -21,14 +22,6 @@ constexpr std::size_t least_significant = 6, least_decimals = 4;
 /// Shares of the numbers that a format explains: all have its decimals; nine in ten have its significant digits, and of
 /// those with a 0 at the end the most one less, but two coordinates of three may be exact.
 constexpr double share_of_decimals = 0.9, share_of_significant = 0.25;
-
-std::string_view next_word(std::string_view& text) {
-  constexpr std::string_view blank = " \t\r\n";
-  text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(blank));
-  text.remove_prefix(word.size());
-  return word;
-}
 
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
   std::vector<std::string_view> words;
