@@ -195,7 +195,6 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
     volumes.put(volume_rows(in, rest, rows));
     view.volumes = volumes.stream();
   }
-  if (sweep.freezes()) sweep.freeze(view, contacts.view(), contacts.count(), nullptr);
   sweep.iterate(view);
 
   backend.synchronize();

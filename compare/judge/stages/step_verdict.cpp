@@ -172,7 +172,7 @@ class StepVerdict {
       }
       switch (event.kind) {
         case StepEventKind::detection: judge_detection(i); break;
-        case StepEventKind::guess: is_by_pairs(i) ? judge_pair_guess(i) : judge_guess(i); break;
+        case StepEventKind::guess: judge_guess(i); break;
         case StepEventKind::sweep: judge_iteration(i); break;
       }
       at_ = event.position;
@@ -257,49 +257,6 @@ class StepVerdict {
       if (can_judge_plane(test_, question, answer, own))
         judge_plane(test_, question, authority_.plane(question, answer), answer, own);
     });
-  }
-
-  /// With guess=pairs, where a detection follows: many vertices are not at y, or one has left its ball. Otherwise the
-  /// guess is a round as any other.
-  bool is_by_pairs(std::size_t i) const {
-    return in_.scene->settings.guess == Guess::pairs && i + 1 < truth_.events.size() &&
-           truth_.events[i + 1] == StepEventKind::detection;
-  }
-
-  /// Any positions on the way to y that the certificate of pairs accepts.
-  void judge_pair_guess(std::size_t i) {
-    const StepEvent& event = out_.events[i];
-    const Settings& settings = in_.scene->settings;
-    const Exclusions exclusions{groups_, partners_};
-    const PairGuessIn question{
-        .topology = in_.topology,
-        .exclusions = exclusions,
-        .previous = at_,
-        .target = out_.target,
-        .bound = detection_->bound,
-        .bound_relaxation = static_cast<float>(settings.bound_relaxation),
-        .contact_radius = static_cast<float>(settings.contact_radius),
-        .largest_reach = static_cast<float>(settings.query_radius_cap * settings.contact_radius)};
-    Index cut = 0;
-    for (std::size_t v = 0; v < at_.size(); ++v) {
-      const Vec3f &x = event.position[v], &y = out_.target[v];
-      if (!is_finite(x)) tally_.mismatch(where(i) + vertex(v) + " has no position");
-      if (groups_[v] == 0 && !(x == at_[v])) tally_.mismatch(where(i) + vertex(v) + " is fixed and has moved");
-      cut += !(x == y);
-    }
-    if (event.cut != cut)
-      tally_.mismatch(where(i) + ": " + std::to_string(event.cut) + " vertices counted as cut, " + std::to_string(cut) +
-                      " are not at y");
-    if (!right()) return;
-    const PairGuessTruth truth = authority_.pair_guess(question, {event.position});
-    decisions_ += truth.pairs;
-    if (!truth.unsafe.empty())
-      tally_.mismatch(where(i) + ": " + std::to_string(truth.unsafe.size()) +
-                      " pairs come too near on the way from X to the guess, first " + name_of(truth.unsafe.front()));
-    if (!truth.held_back.empty())
-      tally_.mismatch(where(i) + ": " + std::to_string(truth.held_back.size()) +
-                      " vertices of groups that nothing stops are not at y, first" +
-                      vertex(static_cast<std::size_t>(truth.held_back.front())));
   }
 
   static std::string name_of(const PrimitivePair& pair) {
