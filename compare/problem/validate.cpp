@@ -33,7 +33,8 @@ void check_settings(std::vector<Problem>& problems, const Settings& settings) {
           {quoted("setting", std::string(info.name)), "is " + shortest(value), "give " + describe_range(info)});
     }
   }
-  if (settings.guess == Guess::pairs && settings.bounds != Bounds::ball)
+  if (settings.guess == Guess::pairs &&
+      (traits_of(settings.bounds).has_planes || !traits_of(settings.bounds).certifies))
     problems.push_back({"setting 'guess'", "is pairs, which falls back to balls, and bounds are no balls",
                         "give guess=rounds or bounds=ball"});
 }

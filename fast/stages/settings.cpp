@@ -22,7 +22,7 @@ const compare::SettingsDeclaration declaration("vbd", rows);
 
 float skin_share(const compare::Scene& scene) {
   const double asked = get_setting(scene.settings, "skin");
-  const bool has_planes = compare::has_planes(scene.settings.bounds);
+  const bool has_planes = traits_of(scene.settings.bounds).has_planes;
   if (asked > 0 && (has_planes || scene.settings.guess == compare::Guess::pairs))
     throw compare::InputError("setting 'skin' can't be above 0 with " +
                               std::string(has_planes ? "bounds=planes and bounds=dat" : "guess=pairs") +
