@@ -76,7 +76,8 @@ def self_test():
         user.parent.mkdir()
         asked = "switch (way) {\n  case compare::Way::on: return 1;\n  case compare::Way::off: break;\n}\n"
         wrong = []
-        for code, expected in ((asked, None), ("", "stands in no"), (asked + "a != room::Way::on", "user.cu:5: compares"),
+        for code, expected in ((asked, None), ("", "stands in no"),
+                               (asked + "a != room::Way::on", "user.cu:5: compares"),
                                (asked + "Way::off == a", "user.cu:5: compares"), (asked + "a == Stage::one", None),
                                (asked.replace("case compare::Way::off", "default"), "user.cu:3: `default`"),
                                (asked + "case 1: ;\n default: ;", None)):

@@ -1,5 +1,5 @@
-// What keeps a vertex from passing through others between two detections (method.md §5.6), and what each policy is. Code
-// asks for a trait and never for a policy by name, so that a new one is a row here and its kernel.
+// What keeps a vertex from passing through others between two detections (method.md §5.6), and what each policy is.
+// Code asks for a trait and never for a policy by name, so that a new one is a row here and its kernel.
 #pragma once
 
 #include <cstdint>
