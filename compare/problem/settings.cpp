@@ -138,6 +138,8 @@ SettingKind kind_of(const SettingInfo& info) {
   return std::holds_alternative<double Settings::*>(info.field) ? SettingKind::real : SettingKind::whole;
 }
 
+std::string_view name_of(Bounds bounds) { return bounds_names[static_cast<std::size_t>(bounds)]; }
+
 std::span<const std::string_view> activation_names() { return activations; }
 
 std::span<const std::string_view> damping_form_names() { return damping_forms; }

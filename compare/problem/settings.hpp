@@ -10,6 +10,8 @@
 #include <string_view>
 #include <variant>
 
+#include "compare/problem/bounds.hpp"
+
 namespace ogc::compare {
 
 // Choices among named variants. As wide as every other setting, so that a test can see that the table reaches all of
@@ -20,20 +22,35 @@ enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ip
 /// What stiffness-proportional damping acts on (method.md §4.9): the change of a stencil's strain, or each vertex's own
 /// motion through its own block.
 enum class DampingForm : std::int64_t { strain, per_vertex };
-/// What keeps a vertex from passing through others between two detections (method.md §5.6): a ball about X_prev, as in
-/// the paper; planes between near pairs, and a ball for the others; nothing; planes as *Divide and Truncate* has them.
-enum class Bounds : std::int64_t { ball, planes, off, dat };
-/// Whether near pairs have planes.
-constexpr bool has_planes(Bounds bounds) { return bounds == Bounds::planes || bounds == Bounds::dat; }
-/// How a step's first positions are found (method.md §5.2): by rounds of truncation, or at once, by a certificate of
-/// every pair that could meet.
-/// When the weights of a contact's closest points are computed (method.md §7.2): at each update of a vertex, or once
-/// for all updates of an iteration.
+/// Whether energies of strains damp, or each vertex's block.
+constexpr bool damps_strain(DampingForm form) {
+  switch (form) {
+    case DampingForm::strain: return true;
+    case DampingForm::per_vertex: return false;
+  }
+  return true;
+}
 
 /// How a sweep sets the quaternion of a segment (compare/rods.md): to the minimiser, or as Hsu et al. 2025 have it.
 enum class OrientationUpdate : std::int64_t { exact, as_published };
+/// Whether a segment's quaternion is the minimiser.
+constexpr bool minimises(OrientationUpdate update) {
+  switch (update) {
+    case OrientationUpdate::exact: return true;
+    case OrientationUpdate::as_published: return false;
+  }
+  return true;
+}
 /// What a step begins with: frames turned along with their segments, or as the step before left them.
 enum class StartFrames : std::int64_t { turned, kept };
+/// Whether frames turn before the first sweep.
+constexpr bool turns(StartFrames frames) {
+  switch (frames) {
+    case StartFrames::turned: return true;
+    case StartFrames::kept: return false;
+  }
+  return true;
+}
 
 /// Names of the activations and damping forms, in the order of the enumerations.
 std::span<const std::string_view> activation_names();

@@ -91,7 +91,7 @@ struct GatherPacked {
     if (!has_default_bending(models)) other.hinges = hinges.one_by_one(Hinges::part_of(view, slot, vertex, at));
     other.springs = springs.one_by_one(Springs::part_of(view, slot, vertex, at));
     const bool has_tetrahedra = view.tetrahedron_rows != nullptr;
-    if (has_tetrahedra && (view.solids[vertex.body].damping > 0 || models.damping != compare::DampingForm::strain))
+    if (has_tetrahedra && (view.solids[vertex.body].damping > 0 || !damps_strain(models.damping)))
       other.tetrahedra = tetrahedra.one_by_one(Tetrahedra::part_of(view, slot, vertex, at));
     other.volumes = volumes.one_by_one(VolumeContacts::part_of(view, slot, vertex, at));
     other.segments = segments.one_by_one(Segments::part_of(view, slot, vertex, at));

@@ -178,7 +178,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
     s.taken.resize(2 * n);
-    if (scene_.settings.bounds == compare::Bounds::dat) {
+    if (traits_of(scene_.settings.bounds).divides) {
       s.displacement.resize(n);
       detection_.divide_planes_by(s.displacement.data());
     }
@@ -336,7 +336,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     result.vertices_inside = row.vertices_inside;
     result.deepest = static_cast<double>(row.deepest);
     result.depth_unresolved = row.depth_unresolved;
-    result.smallest_distance = compare::has_planes(scene_.settings.bounds)
+    result.smallest_distance = traits_of(scene_.settings.bounds).has_planes
                                    ? row.smallest_bound
                                    : row.smallest_bound / scene_.settings.bound_relaxation;
     if (rods_.is_used()) {

@@ -94,7 +94,7 @@ void ContactStep::detect_here() {
     const std::vector<Vec3f> displacement = displacements_at(here);
     return detect(scene_, topology_, exclusions_, std::move(here), query_radius, displacement);
   });
-  if (contact_set_ != ContactSet::ogc) timed(detection_stage, [&] { replace_contacts(); });
+  if (contact_set_ != Variants{}.contact_set) timed(detection_stage, [&] { replace_contacts(); });
   regions_ = FeasibleRegions(detected_, settings_.bounds);
   const State centre = widened(detected_.previous);
   for (const std::size_t v : movable_) x_[v] = regions_.inside(v, centre[v], x_[v]).x;
@@ -122,7 +122,7 @@ void ContactStep::replace_contacts() {
 }
 
 std::vector<Vec3f> ContactStep::displacements_at(const std::vector<Vec3f>& here) const {
-  if (settings_.bounds != compare::Bounds::dat) return {};
+  if (!traits_of(settings_.bounds).divides) return {};
   std::vector<Vec3f> to = here;
   for (const std::size_t v : movable_)
     if (guessing_) to[v] = rounded({target_[v]}).front();
@@ -193,7 +193,7 @@ void ContactStep::move_towards(const Triple<double>& proposal, std::size_t verte
   fresh_ = fresh_ && x_[vertex] == inside.x;
   x_[vertex] = inside.x;
   cut += inside.cut;
-  if (!inside.cut || !is_prescribed || !compare::has_planes(settings_.bounds)) return;
+  if (!inside.cut || !is_prescribed || !traits_of(settings_.bounds).has_planes) return;
   const Vec3f& p = detected_.previous[vertex];
   ++lagging_;
   advanced_ = advanced_ || inside.x != Triple<double>{p.x, p.y, p.z};
@@ -246,7 +246,7 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.last_motion = last_motion({x_, start_, target_}, before_, potential_);
   metrics_.largest_lag = largest_lag(x_, target_, potential_.mobility());
   measure_energies(metrics_, {x_, start_, target_}, potential_, scene_, options_.energies);
-  if (metrics_.status == compare::step_clean && settings_.bounds != compare::Bounds::off &&
+  if (metrics_.status == compare::step_clean && traits_of(settings_.bounds).certifies &&
       !keeps_bounds(result.position, detected_))
     metrics_.status = compare::step_bound_violated;
   metrics_.iteration_rows = std::move(rows_);

@@ -108,7 +108,7 @@ class ReferenceStep {
 
   void detect(StepEvent& event) {
     std::vector<Vec3f> displacement;
-    if (settings_.bounds == compare::Bounds::dat)
+    if (traits_of(settings_.bounds).divides)
       displacement = is_swept_ ? compare::displacements(previous_, x_) : compare::displacements(x_, out_.target);
     previous_ = x_;
     const compare::DetectIn question{in_.topology, exclusions_, x_, static_cast<float>(settings_.contact_radius),
@@ -118,7 +118,7 @@ class ReferenceStep {
     event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
                          event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bound_relaxation)})
                       .exact.bound;
-    if (compare::has_planes(settings_.bounds)) {
+    if (traits_of(settings_.bounds).has_planes) {
       const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions_.groups);
       compare::PlaneOut held = pair_planes({in_.topology, exclusions_, x_, is_fixed, out_.query_radius,
                                             static_cast<float>(settings_.bound_relaxation), displacement});
@@ -133,9 +133,7 @@ class ReferenceStep {
   }
 
   /// In the guess loop, where x is X_prev.
-  bool does_not_slide(std::size_t v) const {
-    return exclusions_.groups[v] > 0 || settings_.bounds == compare::Bounds::dat;
-  }
+  bool does_not_slide(std::size_t v) const { return exclusions_.groups[v] > 0 || !traits_of(settings_.bounds).slides; }
 
   /// Where v goes on its way to where it is proposed; counts a cut.
   Vec3f truncated(std::size_t v, const Vec3f& proposal, Index& cut) const {

@@ -48,7 +48,7 @@ double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
                const std::vector<Index>& groups, const compare::Settings& settings, const std::vector<bool>& stays) {
   StepLag lag;
-  if (!compare::has_planes(settings.bounds)) return lag;
+  if (!traits_of(settings.bounds).has_planes) return lag;
   for (std::size_t v = 0; v < x.size(); ++v) {
     if (groups[v] <= 0 || x[v] == target[v] || (!stays.empty() && stays[v] && x[v] == previous[v])) continue;
     ++lag.lagging;

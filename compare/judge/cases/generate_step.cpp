@@ -101,7 +101,7 @@ struct StepBuilder {
     for (Vec3& x : mesh.positions) x = sum(x, shift);
     add(mesh, velocity, false);
     scene.bodies.back().contact = contact;
-    if (contact == BodyContact::volume || !random.one_in(5)) return;
+    if (is_volume(contact) || !random.one_in(5)) return;
     for (std::size_t v = scene.mesh.positions.size() - mesh.positions.size(); v < scene.mesh.positions.size(); ++v) {
       double& z = scene.mesh.positions[v].z;
       z = lowest + highest + 2 * shift.z - z;

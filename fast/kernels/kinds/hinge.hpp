@@ -63,7 +63,7 @@ OGC_HD inline void add_any_hinge(const SweepView& view, const HingeIncidence& in
   HingeSeen hinge = read_hinge(view, incidence, material, own.position);
   hinge.isometric = isometric;
   const float damping = material.bending_damping;
-  const bool of_strain = models.damping == compare::DampingForm::strain;
+  const bool of_strain = damps_strain(models.damping);
   ForceAndBlock whole;
   with_bending(models.bending, AddHinge{hinge, of_strain ? damping : 0.0f, whole});
   switch (models.damping) {

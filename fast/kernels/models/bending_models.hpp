@@ -29,7 +29,7 @@ OGC_HD auto with_bending(compare::BendingModel model, const Use& use) {
 /// Whether UsualHinges have this bending and its damping.
 OGC_HD inline bool has_default_bending(const SurfaceModels& models) {
   const auto is_default = [](auto model) { return decltype(model)::is_default; };
-  return models.damping == compare::DampingForm::strain && with_bending(models.bending, is_default);
+  return damps_strain(models.damping) && with_bending(models.bending, is_default);
 }
 
 /// Whether the model needs HingeWeights.

@@ -44,8 +44,6 @@ struct AddDampedMembrane {
 };
 
 /// Whether UsualTriangles have the body's damping, and with it its membrane, whichever that is.
-OGC_HD inline bool has_default_membrane(const SurfaceModels& models) {
-  return models.damping == compare::DampingForm::strain;
-}
+OGC_HD inline bool has_default_membrane(const SurfaceModels& models) { return damps_strain(models.damping); }
 
 }  // namespace ogc::fast
