@@ -20,11 +20,10 @@ constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
 constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
 constexpr std::array<std::string_view, 4> bounds_names{"ball", "planes", "off", "dat"};
-constexpr std::array<std::string_view, 2> weights_names{"update", "iteration"};
 constexpr std::array<std::string_view, 2> orientation_updates{"exact", "as_published"};
 constexpr std::array<std::string_view, 2> start_frames_names{"turned", "kept"};
 
-constexpr std::array<SettingInfo, 21> problem_table{{
+constexpr std::array<SettingInfo, 19> problem_table{{
     {"time_step", "s", "simulated time that one step covers, h; smaller steps are more accurate and cost more in all",
      0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "number of steps of the run", 0, most_count, &Settings::steps},
