@@ -26,7 +26,6 @@
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/orientation.hpp"
-#include "compare/stages/pair_guess.hpp"
 #include "compare/stages/plane.hpp"
 #include "compare/stages/rest_state.hpp"
 #include "compare/stages/rod.hpp"
@@ -187,9 +186,8 @@ struct Contestant {
   bool has_steps_with_planes = true;
   /// Whether its planes divide gaps by approach. A plug-in's do not: compare/plugin.h has no displacements there.
   bool divides_by_approach = true;
-  /// Whether its sweeps and steps know guess=pairs and contact_weights=iteration, and its volumes cavities. A plug-in's
-  /// do not: compare/plugin.h has none of it.
-  bool has_newer_settings = true;
+  /// Whether its volumes know cavities. A plug-in's do not: compare/plugin.h has none.
+  bool has_cavities = true;
   /// Whether its sweeps and steps know volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
   bool has_volumes = true;
   /// Whether its rest states, guesses, sweeps and steps know rods. A plug-in's do not: compare/plugin.h has no
@@ -285,8 +283,6 @@ struct Authority {
   std::function<PlaneTruth(const PlaneIn&, const PlaneOut&)> plane;
   std::function<SweepTruth(const SweepIn&, const SweepOut&)> sweep;
   std::function<StepTruth(const StepIn&, const StepOut&)> step;
-  /// Of a guess in a step with guess=pairs, which is no stage of its own.
-  std::function<PairGuessTruth(const PairGuessIn&, const PairGuessOut&)> pair_guess;
 };
 
 }  // namespace ogc::compare

@@ -24,7 +24,6 @@
 #include "reference/ipc/simulation.hpp"
 #include "reference/ipc/stages.hpp"
 #include "reference/simulation.hpp"
-#include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/initial_guess.hpp"
 #include "reference/solvers/step.hpp"
 #include "reference/solvers/sweep.hpp"
@@ -59,7 +58,6 @@ compare::Authority authority() {
   authority.initial_guess = initial_guess;
   authority.sweep = sweep;
   authority.step = step;
-  authority.pair_guess = pair_guess_truth;
   return authority;
 }
 

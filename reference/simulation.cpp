@@ -79,17 +79,10 @@ class ReferenceSimulation : public compare::Simulation {
 
 /// What neither of Newton's solvers takes.
 void refuse_for_newton(const compare::Scene& scene, const char* solver) {
-  if (scene.settings.guess == compare::Guess::pairs)
-    throw compare::InputError(
-        "setting 'guess' can't be 'pairs' with Newton's method; give guess=rounds or --solver vbd");
-  if (scene.settings.bounds == compare::Bounds::dat)
+  if (traits_of(scene.settings.bounds).divides)
     throw compare::InputError(
         "setting 'bounds' can't be 'dat' with Newton's method, whose line search scales all vertices at once; give "
         "bounds=planes or --solver vbd");
-  if (scene.settings.contact_weights == compare::ContactWeightsRule::iteration)
-    throw compare::InputError(
-        "setting 'contact_weights' can't be 'iteration' with Newton's method, whose energy is that of the closest "
-        "points; give contact_weights=update or --solver vbd");
   refuse_sweep_variants(scene.settings, solver);
 }
 
@@ -98,7 +91,7 @@ void refuse_for_newton(const compare::Scene& scene, const char* solver) {
 std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
                                                   const compare::SimulationOptions& options) {
   refuse_for_newton(scene, "newton");
-  if (has_rods(scene) && newton_settings(scene.settings).truncation == Truncation::pair)
+  if (has_rods(scene) && moves_planes(newton_settings(scene.settings).truncation))
     throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
 }
@@ -106,10 +99,10 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
 std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
                                                    const compare::SimulationOptions& options) {
   const compare::Settings& settings = scene.settings;
-  if (settings.bounds != compare::Bounds::off || settings.activation != compare::ContactActivation::quadratic)
+  if (traits_of(settings.bounds).certifies || settings.activation != compare::ContactActivation::quadratic)
     throw compare::InputError(
         "a penalty method has bounds=off and activation=quadratic; give both, or --solver newton");
-  if (newton_settings(settings).truncation == Truncation::pair)
+  if (moves_planes(newton_settings(settings).truncation))
     throw compare::InputError(
         "setting 'truncation' can't be 'pair' with penalty, which truncates nothing; leave it out");
   refuse_for_newton(scene, "penalty");

@@ -8,7 +8,7 @@
 namespace ogc::reference {
 
 /// Newton-OGC (method.md §7.6). The scene is rounded here; it must be valid. A step that fails (StepMetrics::status) is
-/// not committed: the snapshot stays that of the step before. Throws compare::InputError for guess=pairs.
+/// not committed: the snapshot stays that of the step before.
 std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
                                                   const compare::SimulationOptions& options);
 

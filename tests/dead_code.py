@@ -39,7 +39,7 @@ KEPT = {
     **dict.fromkeys(("bounds_above_exact", "edge_edge_by_definition", "edge_edge_over_all_pairs", "edge_edge_with_tree",
                      "reference_step", "sensitivity", "stencil_derivatives", "vertex_facet_by_definition",
                      "vertex_facet_with_tree"), ORACLE),
-    **dict.fromkeys(("skin_state", "step_columns"), WINDOW),
+    "step_columns": WINDOW,
     "read_mesh": "meshes alone, without where their elements come from: what tests read",
     "declaration": "an object whose constructor adds rows to the table of settings",
     **dict.fromkeys(("datum", "main", "ogc_activation", "ogc_barrier", "ogc_ccd", "ogc_closest_face",

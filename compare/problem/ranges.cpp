@@ -23,7 +23,7 @@ bool vanishes_in_single(double value) { return value != 0 && std::abs(value) < l
 
 std::string range_text(const SettingInfo& info) {
   if (!info.choices.empty()) return joined(info.choices);
-  if (info.name == "lanes") return "0 or a power of two up to 32";
+  if (info.name == "lanes") return "0, 2, 4, 8 or 16";
   return range(info.minimum, info.maximum, kind_of(info) == SettingKind::real);
 }
 

@@ -21,6 +21,14 @@ enum class BendingModel { none, discrete_hinge, isometric_quadratic };       ///
 /// What a body is to others: a surface with two sides that nothing passes through, or a volume, which
 /// others may enter and are pushed out of (§3.9).
 enum class BodyContact { surface, volume };
+/// Whether others may enter it.
+constexpr bool is_volume(BodyContact contact) {
+  switch (contact) {
+    case BodyContact::surface: return false;
+    case BodyContact::volume: return true;
+  }
+  return false;
+}
 
 /// Constants of a rod: of the loose edges of a body, its *segments* (compare/rods.md).
 struct RodMaterial {
@@ -56,15 +64,15 @@ struct Material {
 /// energies. The triangles of a body with tetrahedra are their boundary (compare/problem/tetrahedra.hpp): they meet
 /// other surfaces, but have neither mass nor energies of their own.
 struct Body {
-  std::string name;                                                  ///< for messages and files
-  Index first_vertex = 0, vertex_count = 0;                          ///< its vertices are consecutive
-  Index first_triangle = 0, triangle_count = 0;                      ///< its triangles are consecutive
-  bool fixed = false;                                                ///< an obstacle that never moves
-  Material material;                                                 ///< of all of it
-  Index first_tetrahedron = 0, tetrahedron_count = 0;                ///< its tetrahedra are consecutive
-  BodyContact contact = BodyContact::surface;                        ///< what it is to others
-  bool is_solid() const { return tetrahedron_count > 0; }            ///< whether it has tetrahedra
-  bool is_volume() const { return contact == BodyContact::volume; }  ///< whether others may enter it
+  std::string name;                                               ///< for messages and files
+  Index first_vertex = 0, vertex_count = 0;                       ///< its vertices are consecutive
+  Index first_triangle = 0, triangle_count = 0;                   ///< its triangles are consecutive
+  bool fixed = false;                                             ///< an obstacle that never moves
+  Material material;                                              ///< of all of it
+  Index first_tetrahedron = 0, tetrahedron_count = 0;             ///< its tetrahedra are consecutive
+  BodyContact contact = BodyContact::surface;                     ///< what it is to others
+  bool is_solid() const { return tetrahedron_count > 0; }         ///< whether it has tetrahedra
+  bool is_volume() const { return compare::is_volume(contact); }  ///< whether others may enter it
   friend bool operator==(const Body&, const Body&) = default;
 };
 

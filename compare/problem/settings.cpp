@@ -20,7 +20,6 @@ constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
 constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
 constexpr std::array<std::string_view, 4> bounds_names{"ball", "planes", "off", "dat"};
-constexpr std::array<std::string_view, 2> guess_names{"rounds", "pairs"};
 constexpr std::array<std::string_view, 2> weights_names{"update", "iteration"};
 constexpr std::array<std::string_view, 2> orientation_updates{"exact", "as_published"};
 constexpr std::array<std::string_view, 2> start_frames_names{"turned", "kept"};
@@ -52,25 +51,17 @@ constexpr std::array<SettingInfo, 21> problem_table{{
     {"guess_rounds", "1",
      "rounds of detecting and moving at most that bring vertices to where inertia takes them; 1: as printed in Eq. 28",
      1, 1 << 20, &Settings::guess_rounds},
-    {"guess", "1",
-     "how a step's first positions are found: by rounds of detecting and moving, or at once, each pair that could meet "
-     "being decided (vbd, with bounds=ball)",
-     0, 1, &Settings::guess, guess_names},
     {"friction_velocity", "m/s", "speed of sliding from which friction acts in full, ε_v", 0x1p-30, 0x1p10,
      &Settings::friction_velocity},
     {"frame_steps", "1", "steps from one stored frame to the next; 0: 60 frames a simulated second", 0, most_count,
      &Settings::frame_steps},
     {"lanes", "1", "partial sums that forces on a vertex are added up in, W (vbd); bits depend on it; 0: by mesh size",
-     0, 32, &Settings::lanes},
+     0, 16, &Settings::lanes},
     {"activation", "1",
      "how the repulsion grows as surfaces approach: the paper's, as printed there, or another to compare with", 0, 4,
      &Settings::activation, activations},
     {"damping", "1", "what damping resists: the change of strains, or the motion of each vertex alone (vbd)", 0, 1,
      &Settings::damping, damping_forms},
-    {"contact_weights", "1",
-     "when the closest points of a contact are found: at each update of a vertex, or once an iteration, which reads "
-     "less (vbd)",
-     0, 1, &Settings::contact_weights, weights_names},
     {"seed", "1", "which of its random starts a scene takes; recorded with the run", 0, most_seed, &Settings::seed},
     {"orientation", "1",
      "how a sweep sets the frame of a rod's segment: to the least energy, or as Stable Cosserat Rods has it (vbd)", 0,
@@ -147,6 +138,8 @@ SettingKind kind_of(const SettingInfo& info) {
   return std::holds_alternative<double Settings::*>(info.field) ? SettingKind::real : SettingKind::whole;
 }
 
+std::string_view name_of(Bounds bounds) { return bounds_names[static_cast<std::size_t>(bounds)]; }
+
 std::span<const std::string_view> activation_names() { return activations; }
 
 std::span<const std::string_view> damping_form_names() { return damping_forms; }
@@ -166,7 +159,7 @@ bool in_range(const SettingInfo& info, double value) {
   if (kind_of(info) == SettingKind::real) return !vanishes_in_single(value);
   if (info.name != "lanes") return true;
   const auto lanes = static_cast<std::int64_t>(value);
-  return (lanes & (lanes - 1)) == 0;
+  return lanes != 1 && (lanes & (lanes - 1)) == 0;
 }
 
 void set_setting(Settings& settings, std::string_view name, std::string_view value) {

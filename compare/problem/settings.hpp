@@ -10,6 +10,8 @@
 #include <string_view>
 #include <variant>
 
+#include "compare/problem/bounds.hpp"
+
 namespace ogc::compare {
 
 // Choices among named variants. As wide as every other setting, so that a test can see that the table reaches all of
@@ -20,22 +22,35 @@ enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ip
 /// What stiffness-proportional damping acts on (method.md §4.9): the change of a stencil's strain, or each vertex's own
 /// motion through its own block.
 enum class DampingForm : std::int64_t { strain, per_vertex };
-/// What keeps a vertex from passing through others between two detections (method.md §5.6): a ball about X_prev, as in
-/// the paper; planes between near pairs, and a ball for the others; nothing; planes as *Divide and Truncate* has them.
-enum class Bounds : std::int64_t { ball, planes, off, dat };
-/// Whether near pairs have planes.
-constexpr bool has_planes(Bounds bounds) { return bounds == Bounds::planes || bounds == Bounds::dat; }
-/// How a step's first positions are found (method.md §5.2): by rounds of truncation, or at once, by a certificate of
-/// every pair that could meet.
-enum class Guess : std::int64_t { rounds, pairs };
-/// When the weights of a contact's closest points are computed (method.md §7.2): at each update of a vertex, or once
-/// for all updates of an iteration.
-enum class ContactWeightsRule : std::int64_t { update, iteration };
+/// Whether energies of strains damp, or each vertex's block.
+constexpr bool damps_strain(DampingForm form) {
+  switch (form) {
+    case DampingForm::strain: return true;
+    case DampingForm::per_vertex: return false;
+  }
+  return true;
+}
 
 /// How a sweep sets the quaternion of a segment (compare/rods.md): to the minimiser, or as Hsu et al. 2025 have it.
 enum class OrientationUpdate : std::int64_t { exact, as_published };
+/// Whether a segment's quaternion is the minimiser.
+constexpr bool minimises(OrientationUpdate update) {
+  switch (update) {
+    case OrientationUpdate::exact: return true;
+    case OrientationUpdate::as_published: return false;
+  }
+  return true;
+}
 /// What a step begins with: frames turned along with their segments, or as the step before left them.
 enum class StartFrames : std::int64_t { turned, kept };
+/// Whether frames turn before the first sweep.
+constexpr bool turns(StartFrames frames) {
+  switch (frames) {
+    case StartFrames::turned: return true;
+    case StartFrames::kept: return false;
+  }
+  return true;
+}
 
 /// Names of the activations and damping forms, in the order of the enumerations.
 std::span<const std::string_view> activation_names();
@@ -54,7 +69,6 @@ struct Settings {
   double redetect_fraction = 0.01;  ///< γ_e, Alg. 3 line 29
   std::int64_t redetect_every = 0;  ///< re-detect at the latest after so many iterations; 0: never by count
   std::int64_t guess_rounds = 16;   ///< rounds of the guess loop (method.md §5.2); 1: as printed in Eq. 28
-  Guess guess = Guess::rounds;      ///< how vertices get to where inertia takes them
   double friction_velocity = 0.01;  ///< ε_v [m/s]
   std::int64_t frame_steps = 0;     ///< steps between stored frames; 0: max(1, round(1/(60 h)))
   /// W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size
@@ -62,8 +76,7 @@ struct Settings {
   ContactActivation activation = ContactActivation::ogc;  ///< contact energy over distance
   /// `per_vertex`, the authors' form, brakes translation, too
   DampingForm damping = DampingForm::strain;
-  ContactWeightsRule contact_weights = ContactWeightsRule::update;  ///< when closest points are found
-  std::int64_t seed = 0;                                            ///< of whatever the scene draws at random
+  std::int64_t seed = 0;                                     ///< of whatever the scene draws at random
   OrientationUpdate orientation = OrientationUpdate::exact;  ///< of the segments of rods
   StartFrames start_frames = StartFrames::turned;            ///< likewise
   /// Declared by contestants, where not the default: numbers, of a choice the index of its name. By set_setting.
@@ -86,8 +99,7 @@ struct SettingInfo {
   double minimum, maximum;               ///< inclusive
   /// where the value is kept
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
-               Bounds Settings::*, Guess Settings::*, ContactWeightsRule Settings::*, OrientationUpdate Settings::*,
-               StartFrames Settings::*, DeclaredSetting>
+               Bounds Settings::*, OrientationUpdate Settings::*, StartFrames Settings::*, DeclaredSetting>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };
@@ -118,7 +130,7 @@ void set_setting(Settings& settings, const SettingInfo& info, double value);
 /// "a number from 1 to 1024 r (cap of …)": what may stand in this row, for messages and help.
 std::string describe_range(const SettingInfo& info);
 
-/// Whether the value lies within the row's bounds (and, for `lanes`, is 0 or a power of two); not-a-number does not.
+/// Whether the value lies within the row's bounds (and, for `lanes`, is 0 or a power of two above 1); not-a-number does not.
 bool in_range(const SettingInfo& info, double value);
 
 /// The value as a user would type it: the name of a choice, otherwise the shortest decimal text.

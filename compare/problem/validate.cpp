@@ -33,9 +33,6 @@ void check_settings(std::vector<Problem>& problems, const Settings& settings) {
           {quoted("setting", std::string(info.name)), "is " + shortest(value), "give " + describe_range(info)});
     }
   }
-  if (settings.guess == Guess::pairs && settings.bounds != Bounds::ball)
-    problems.push_back({"setting 'guess'", "is pairs, which falls back to balls, and bounds are no balls",
-                        "give guess=rounds or bounds=ball"});
 }
 
 void check_names(std::vector<Problem>& problems, const Scene& scene) {

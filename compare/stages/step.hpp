@@ -66,7 +66,7 @@ struct StepTruth {
   std::vector<Vec3f> prescribed_target;  ///< by vertex; only where prescribed, 0 elsewhere
   /// as Algorithm 3 orders them, given each event's count of cut vertices (0 of those that the answer lacks)
   std::vector<StepEventKind> events;
-  /// By event, then by vertex; empty of events that are no rounds, and where guess=pairs asks contacts to hold nothing.
+  /// By event, then by vertex; empty of events that are no rounds.
   /// What contacts took in the rounds before is carried on, with its error, as it is right, since an answer shows
   /// truncated positions alone.
   std::vector<std::vector<HeldMove>> moves{};

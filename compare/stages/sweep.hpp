@@ -22,8 +22,7 @@ namespace ogc::compare {
 /// tetrahedra, rods, contact and friction, and volumes as in the stages of these names. Prescribed vertices
 /// (`is_prescribed`) go to y, truncated; all others stay, those of volumes too: they are where the step has them.
 /// While colour c is solved, a vertex u is read at its new position if colour(u) < c, else at its old one; own
-/// position: old. With contact_weights=iteration the closest points of all contacts, and with them n's and d's weights,
-/// are those of the old positions; Σ w x is formed where positions are read, Σ w xᵗ once. Prescribed vertices come
+/// position: old. Prescribed vertices come
 /// first, then segments that nothing holds, each as in the stage `orientation`, of whose ends prescribed ones are read
 /// at their new positions and free ones at their old, and of whose neighbours those of lower colour at their new
 /// quaternions; vertices read new quaternions alone. With damping by vertex frames are not damped. m/h², k_d/h and ε_v

@@ -273,7 +273,7 @@ Contestant plugin_contestant(Plugin plugin) {
   c.name = plugin->name();
   c.has_steps_with_planes = false;
   c.divides_by_approach = false;
-  c.has_newer_settings = false;
+  c.has_cavities = false;
   c.has_volumes = false;
   c.has_rods = false;
   c.closest_face = [plugin](const ClosestFaceIn& in) { return ask_closest_face(*plugin, in); };

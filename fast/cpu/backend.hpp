@@ -22,6 +22,8 @@
 #include "fast/cpu/pack_kernels.hpp"
 #include "fast/cpu/packed_search.hpp"
 #include "fast/kernels/search.hpp"
+#include "fast/kernels/sums.hpp"
+#include "fast/kernels/sweep.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/stages/backend.hpp"
 
@@ -70,33 +72,11 @@ template <class F>
 F on_packs(const F& f) {
   return f;
 }
-/// Sums of default models run in packs.
-inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherDefault>& f) {
+/// Sums of any scene run in packs.
+inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherAll>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
-inline UpdateVertex<GatherPackedFrozen> on_packs(const UpdateVertex<GatherFrozenSurfaces>& f) {
-  return {f.view, f.first_slot, f.asks_late};
-}
-/// Sums of every model, and those of solids, run in packs where these have the models.
-inline UpdateVertex<GatherPackedEveryModel> on_packs(const UpdateVertex<GatherEveryModel>& f) {
-  return {f.view, f.first_slot, f.asks_late};
-}
-inline UpdateVertex<GatherPackedSolids> on_packs(const UpdateVertex<GatherSolids>& f) {
-  return {f.view, f.first_slot, f.asks_late};
-}
-inline UpdateVertex<GatherPackedEverything> on_packs(const UpdateVertex<GatherEverything>& f) {
-  return {f.view, f.first_slot, f.asks_late};
-}
-inline UpdateVertex<GatherPackedVolumes> on_packs(const UpdateVertex<GatherVolumes>& f) {
-  return {f.view, f.first_slot, f.asks_late};
-}
-inline UpdateVertex<GatherPackedEverythingAndVolumes> on_packs(const UpdateVertex<GatherEverythingAndVolumes>& f) {
-  return {f.view, f.first_slot, f.asks_late};
-}
-
-inline MeasureVertex<GatherPacked> on_packs(const MeasureVertex<GatherDefault>& f) {
-  return {f.view, f.left, f.is_end};
-}
+inline MeasureVertex<GatherPacked> on_packs(const MeasureVertex<GatherAll>& f) { return {f.view, f.left, f.is_end}; }
 
 /// Prefetches what f(i, team) is going to read where hardware does not predict it.
 template <class F>
@@ -116,6 +96,7 @@ class CpuBackend {
  public:
   template <class T>
   using Buffer = CpuBuffer<T>;
+  using Sums = HostSums;
 
   /// Ranges of items as tasks; up to 64 items stay in the calling thread.
   template <class F>

@@ -121,7 +121,7 @@ P majorants(const Items<ContactIncidence, P>& items, const ContactWeightsOf<P>& 
   });
 }
 
-/// Σ w (x − xᵗ) of each where weights are those of an update [m].
+/// Σ w (x − xᵗ) of each [m].
 template <class P>
 Vector<P> moved_apart(const SweepView& view, const Items<ContactIncidence, P>& items,
                       const ContactWeightsOf<P>& weights, const Vector<P>* x) {
@@ -135,36 +135,22 @@ Vector<P> moved_apart(const SweepView& view, const Items<ContactIncidence, P>& i
   return w[0] * moved[0] + w[1] * moved[1] + w[2] * moved[2] + w[3] * moved[3];
 }
 
-/// add_friction of each item that has friction; the others' sums stay, bit for bit. moved(): Σ w (x − xᵗ).
-template <class P, class Moved>
-void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, Moved moved, const Vector<P>& normal,
-              P weight, P majorant, P normal_force, ForceAndBlockOf<P>& sum) {
+/// add_friction of each item that has friction; the others' sums stay, bit for bit.
+template <class P>
+void add_slip(const SweepView& view, const Items<ContactIncidence, P>& items, const Vector<P>* x,
+              const ContactWeightsOf<P>& weights, const Vector<P>& normal, P weight, P majorant, P normal_force,
+              ForceAndBlockOf<P>& sum) {
   const P friction = items.each([](const ContactIncidence& i) { return i.friction; });
   const typename P::Mask slips = friction > 0.0F;
   if (is_false(slips)) return;
   ForceAndBlockOf<P> with = sum;
-  add_friction(normal, moved(), weight, majorant, friction, normal_force, view.friction_limit, with);
+  add_friction(normal, moved_apart(view, items, weights, x), weight, majorant, friction, normal_force,
+               view.friction_limit, with);
   sum = selected<P>(slips, with, sum);
 }
 
-/// What FreezeContacts left of each: weights.
+/// contact_term of each, added where it is counted.
 template <class P>
-ContactWeightsOf<P> frozen_weights(const SweepView& view, const Items<ContactIncidence, P>& items) {
-  const auto slot = [&](int s) {
-    return items.each([&](const ContactIncidence& i) { return view.frozen[i.pair].weight[s]; });
-  };
-  return {{slot(0), slot(1), slot(2), slot(3)}};
-}
-/// Σ w xᵗ [m].
-template <class P>
-Vector<P> frozen_start(const SweepView& view, const Items<ContactIncidence, P>& items) {
-  return {items.each([&](const ContactIncidence& i) { return view.frozen[i.pair].start.x; }),
-          items.each([&](const ContactIncidence& i) { return view.frozen[i.pair].start.y; }),
-          items.each([&](const ContactIncidence& i) { return view.frozen[i.pair].start.z; })};
-}
-
-/// contact_term of each, or with `is_frozen` WeightsOfIteration::term, added where it is counted.
-template <bool is_frozen, class P>
 void add_contacts(const SweepView& view, const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
   using Incidence = ContactIncidence;
   const auto position = [&](int s) {
@@ -172,11 +158,7 @@ void add_contacts(const SweepView& view, const Items<ContactIncidence, P>& items
         [&](const Incidence& i) -> const PaddedVec& { return view.old[view.number(i.index[s])]; });
   };
   const Vector<P> x[4] = {position(0), position(1), position(2), position(3)};
-  ContactWeightsOf<P> weights;
-  if constexpr (is_frozen)
-    weights = frozen_weights(view, items);
-  else
-    weights = packed::weights(items, x);
+  const ContactWeightsOf<P> weights = packed::weights(items, x);
   const Vector<P> separation = weighted_sum(weights, x);
   const P squared = dot(separation, separation), distance = root(squared), weight = own_weight(items, weights);
   const typename P::Mask acts = items.counted && !(squared < 0x1p-126F) && (weight > 0.0F || weight < 0.0F);
@@ -186,13 +168,7 @@ void add_contacts(const SweepView& view, const Items<ContactIncidence, P>& items
   const P majorant = majorants(items, weights);
   const P normal_force = add_contact(PackedActivation{}, shape, weight, majorant, view.contact_radius,
                                      items.each([](const Incidence& i) { return i.stiffness; }), term);
-  const auto moved = [&] {
-    if constexpr (is_frozen)
-      return separation - frozen_start(view, items);
-    else
-      return moved_apart(view, items, weights, x);
-  };
-  add_slip(view, items, moved, shape.normal, weight, majorant, normal_force, term);
+  add_slip(view, items, x, weights, shape.normal, weight, majorant, normal_force, term);
   sum += selected<P>(acts, term, {});
 }
 

@@ -129,19 +129,19 @@ struct TeamLanes {
 };
 
 /// Adds the contacts of a slot, vertex–facet ones first.
-template <bool is_frozen, int W, class P>
+template <int W, class P>
 void add_contact_parts(const SweepView& view, int slot, TeamLanes<W, P>& lanes) {
   const ContactRow row = view.contact_rows[slot];
   const ContactIncidence* contacts = view.contacts + row.begin;
   const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
-    add_contacts<is_frozen>(view, items, sum);
+    add_contacts(view, items, sum);
   };
   lanes.add_part(contacts, row.vertex_facet, add);
   lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
 }
 
-/// A GatherInPacks of scenes with surfaces; `is_frozen`: with weights of the iteration.
-template <int W, bool is_frozen>
+/// A GatherInPacks.
+template <int W>
 [[gnu::flatten]] ForceAndBlock gather(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                       const OtherParts& other) {
   using P = std::conditional_t<(W >= WidePack::width), WidePack, Pack>;
@@ -150,7 +150,7 @@ template <int W, bool is_frozen>
   TeamLanes<W, P> lanes;
   if (other.triangles.sums != nullptr) {
     lanes.add_part(other.triangles);
-  } else {
+  } else if (vertex.membrane_count > 0) {
     with_membrane(view.models[vertex.body].membrane, [&]<class Model>(Model) {
       lanes.add_part(view.membrane + vertex.membrane_begin, vertex.membrane_count,
                      [&](const Items<MembraneIncidence, P>& items, ForceAndBlockOf<P>& sum) {
@@ -167,30 +167,19 @@ template <int W, bool is_frozen>
                    });
   }
   lanes.add_part(other.springs);
-  lanes.add_part(other.tetrahedra);
-  lanes.add_part(other.volumes);
-  add_contact_parts<is_frozen>(view, slot, lanes);
-  return lanes.total();
-}
-
-/// A GatherInPacks of solids alone.
-template <int W>
-[[gnu::flatten]] ForceAndBlock gather_solids(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
-                                             const OtherParts& other) {
-  using P = std::conditional_t<(W >= WidePack::width), WidePack, Pack>;
-  TeamLanes<W, P> lanes;
   if (other.tetrahedra.sums != nullptr) {
     lanes.add_part(other.tetrahedra);
-  } else {
-    const SolidMaterial material = view.solids[vertex.body];
+  } else if (view.tetrahedron_rows != nullptr) {
+    const SolidMaterial solid = view.solids[vertex.body];
     const TetrahedronRow row = view.tetrahedron_rows[slot];
-    const Vector<P> here = everywhere<P>(own);
     lanes.add_part(view.tetrahedra + row.begin, row.count,
                    [&](const Items<TetrahedronIncidence, P>& items, ForceAndBlockOf<P>& sum) {
-                     add_tetrahedra(view, items, material, here, sum);
+                     add_tetrahedra(view, items, solid, here, sum);
                    });
   }
-  add_contact_parts<false>(view, slot, lanes);
+  lanes.add_part(other.volumes);
+  lanes.add_part(other.segments);
+  add_contact_parts(view, slot, lanes);
   return lanes.total();
 }
 

@@ -70,8 +70,7 @@ struct Waiting {
   }
 };
 
-/// The searches begin … end − 1, by one thread. A search that keeps pairs within a margin looks at its candidates
-/// one by one.
+/// The searches begin … end − 1, by one thread.
 template <class Query>
 void run_searches(const Searches<Query>& searches, int begin, int end) {
   if (searches.query.is_off()) return;
@@ -80,10 +79,6 @@ void run_searches(const Searches<Query>& searches, int begin, int end) {
   query.lists = notes.view();
   for (int i = begin; i < end; ++i) {
     Search search = query.begin(i);
-    if (search.margin > 0) {
-      searches.run_alone(i);
-      continue;
-    }
     Waiting<Query> waiting{.query = query,
                            .notes = notes,
                            .search = search,

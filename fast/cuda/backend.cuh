@@ -29,6 +29,8 @@
 #include "fast/cuda/least.cuh"
 #include "fast/cuda/search.cuh"
 #include "fast/cuda/team.cuh"
+#include "fast/kernels/sums.hpp"
+#include "fast/kernels/sweep.hpp"
 #include "fast/stages/backend.hpp"
 
 namespace ogc::fast {
@@ -65,7 +67,9 @@ __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
 
 /// What f(i) reads that neither this launch nor the one before writes.
 template <class F>
-concept ReadsAhead = requires(const F& f) { f.ahead(0); };
+concept ReadsAhead = requires(const F& f) {
+  f.ahead(0);
+};
 
 /// The same, where the launch before may still run while a thread reads what its first item needs.
 template <ReadsAhead F>
@@ -161,6 +165,7 @@ class CudaBackend {
  public:
   template <class T>
   using Buffer = CudaBuffer<T>;
+  using Sums = DeviceSums;
   using Recording = CudaRecording;
 
   /// Throws compare::ResourceError where there is no usable device, with cuda_info's reason.

@@ -13,7 +13,6 @@
 
 #include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/segment.hpp"
-#include "fast/kernels/skin.hpp"
 #include "fast/kernels/surface.hpp"
 
 namespace ogc::fast {
@@ -185,9 +184,8 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
 /// so the smallest distance is not above it.
 struct Reach {
   SurfaceView surface;
-  const Vec* positions;             ///< by vertex [m]
-  const float* query_radius;        ///< r_q [m], on the backend
-  const SkinState* skin = nullptr;  ///< null: a search that keeps no pairs
+  const Vec* positions;       ///< by vertex [m]
+  const float* query_radius;  ///< r_q [m], on the backend
 
   /// Reach of an edge [m].
   OGC_HD float of_edge(int e) const {
@@ -224,8 +222,7 @@ struct Reach {
   }
   /// The root of squared_to_segment errs by 2⁻⁴⁸ of the sum of both lengths.
   OGC_HD float above(const Nearest& nearest) const {
-    const float reach = smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
-    return skin != nullptr && skin->mode == SkinMode::list ? add(reach, skin->margin) : reach;
+    return smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
   }
 };
 
@@ -249,7 +246,6 @@ struct RefitTrees {
   OGC_HD int count() const { return filled_up(facets.count) + filled_up(edges.count) + filled_up(vertex_count); }
 
   OGC_HD void operator()(int i) const {
-    if (!needs_trees(reach.skin)) return;
     const int edge_place = i - filled_up(facets.count), v = edge_place - filled_up(edges.count);
     if (edge_place < 0) {
       place(facets, facet_arrivals, i, [this](int t) { return facet_child(t); });

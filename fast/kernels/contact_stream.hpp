@@ -129,7 +129,6 @@ struct ResolveContact {
   ContactTables tables;
   const int* colour;         ///< by vertex; −1: not free
   ContactIncidence* stream;  ///< by place of the incidence in view.incidences, written
-  bool numbers_pairs;        ///< whether incidences say their pair, which weights of an iteration need
 
   OGC_HD void operator()(int place) const { (*this)(place, view.incidences[place]); }
   OGC_HD void operator()(int place, Incidence incidence) const {
@@ -138,7 +137,6 @@ struct ResolveContact {
     const std::uint32_t number = (code & 0x7fffffffu) >> 2;
     ContactIncidence contact = edge_edge ? contact_of(tables, view.edge_edge[number])
                                          : contact_of(tables, view.vertex_facet[number]);
-    if (numbers_pairs) contact.pair = static_cast<int>(number) + (edge_edge ? *view.vertex_facet_count : 0);
     contact.own = slot_of_role(edge_edge, contact.kind, static_cast<int>(code & 3u));
     const int own = colour[contact.index[contact.own]];
     for (int k = 0; k < 4; ++k) {

@@ -36,7 +36,6 @@ OGC_HD inline float float_from_bits(int bits) {
 /// Settings of the control, the same in each step.
 struct ControlSettings {
   double redetect_vertices = 1;    ///< γ_e K
-  int pair_guess_count = 1;        ///< least number that asks for a guess by pairs: that, or 1 where there are volumes
   int redetect_every = 0;          ///< iterations after which a detection is due in any case; 0: none ever is
   int iterations = 1 << 30;        ///< of a step; after the last no detection is made
   int guess_rounds = 16;           ///< of a step, at most
@@ -74,9 +73,6 @@ struct StepControl {
   /// With planes: prescribed vertices behind their targets, whether one has moved since the last detection, and whether
   /// one has asked for a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
-  /// With guess=pairs: the guess is by pairs; another of its passes is due; it may have left the regions of its
-  /// detection, so that another detection is due; whether an unsafe pair was seen in this pass.
-  int pairs = 0, unsafe = 0, left = 0, unsafe_seen = 0;
   int not_finite = 0, violations = 0;
   int short_rows = 0;  ///< with volumes: a row of contacts had no room; set beside a detection, whose lists have a flag
   /// With volumes, at the end: contacts, vertices inside; how deep the deepest was at the last detection, bits [m];
@@ -133,7 +129,7 @@ struct BeginStep {
     c.smallest_bound = 3.40282347e38f;
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
     c.lagging = c.advanced = c.lag_asked = c.deep_inside = 0;
-    c.pairs = c.unsafe = c.left = c.unsafe_seen = c.short_rows = 0;
+    c.short_rows = 0;
     c.volume_contacts = c.vertices_inside = c.deepest = c.depth_unresolved = 0;
     c.longest_segment = 0;
     c.nearest_contact = 3.40282347e38f;
@@ -165,7 +161,7 @@ struct EndDetection {
     if (*overflow != 0) c.status |= compare::step_list_grew;
     ++c.detections;
     c.since_detection = 0;
-    c.detect = c.left = 0;
+    c.detect = 0;
     c.turn = c.iterations;
     stop_if_failed(c);
   }

@@ -8,7 +8,6 @@
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/search.hpp"
 #include "fast/kernels/separation.hpp"
-#include "fast/kernels/skin.hpp"
 
 namespace ogc::fast {
 
@@ -18,22 +17,19 @@ struct DetectEdgeEdge {
   PaddedVecs positions;  ///< of the detection, by vertex [m]
   TreeView tree;         ///< of all edges, refitted at these positions
   ListsView lists;       ///< where pairs are noted; with its overflow flag set nothing is searched
-  SkinView skin;         ///< its mode decides whether the tree is searched, and how far beyond the radius
   float contact_radius;  ///< r, with the contact margin [m]
   float* d_min_edge;     ///< at most r_q before the launch
 
-  /// Whether a list has overflowed, or pairs of the skin take the place of the search.
-  OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
+  /// Whether a list has overflowed.
+  OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
   /// The search of the edge at place i of the tree, from the place behind it.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
-    const float margin = skin.search_margin();
     return {.box = child.box(),
             .owner = child.primitive,
             .from = i + 1,
-            .limit = larger(gap_limit(add(contact_radius, margin)), child.reach),
-            .margin = margin,
+            .limit = larger(gap_limit(contact_radius), child.reach),
             .reach = child.reach};
   }
 
@@ -41,7 +37,7 @@ struct DetectEdgeEdge {
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
     if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return -1.0F;
-    const float within = limit(search, offer, search.margin);
+    const float within = limit(search, offer);
     return offer.gap > within ? -1.0F : within;
   }
 
@@ -51,11 +47,7 @@ struct DetectEdgeEdge {
     if (within < 0) return false;
     const int other = offer.primitive;
     const float apart = separation(ends(surface.edges[search.owner]), ends(surface.edges[other]));
-    if (is_beyond(apart, within)) return false;
-    if (!(search.margin > 0)) return !is_idle(search, offer, apart);
-    skin.keep(search.owner < other ? NotedPair{search.owner, other} : NotedPair{other, search.owner});
-    const float without_margin = limit(search, offer, 0.0F);
-    return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
+    return !is_beyond(apart, within) && !is_idle(search, offer, apart);
   }
 
   /// Whether a pair within r needs no distance: it lowers none, and is no contact. `apart`: its separation [m].
@@ -70,27 +62,15 @@ struct DetectEdgeEdge {
   /// Its distance, for both partners.
   OGC_HD float meet(const Search& search, int other, float gap) const {
     const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
-    return gap_limit(add(larger(contact_radius, measure(low, high, gap)), search.margin));
-  }
-
-  /// A pair kept by a search before, low < high.
-  OGC_HD void recheck(int low, int high) const {
-    const EdgeEnds p = surface.edges[low], q = surface.edges[high];
-    const float gap = squared_gap(box(p), box(q)),
-                limit = gap_limit(larger(contact_radius, larger(bound(low), bound(high))));
-    if (!(gap > limit) && !is_beyond(separation(ends(p), ends(q)), limit)) measure(low, high, gap);
+    return gap_limit(larger(contact_radius, measure(low, high, gap)));
   }
 
  protected:
-  OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
+  OGC_HD float limit(const Search& search, const Offer& offer) const {
     const float own = larger(contact_radius, atomic_load(&d_min_edge[search.owner])),
                 theirs = atomic_load(&d_min_edge[offer.primitive]);
-    return larger(smaller(search.limit, gap_limit(add(own, margin))),
-                  smaller(offer.reach, gap_limit(add(theirs, margin))));
+    return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
-
-  /// Never below the edge's smallest distance of this detection.
-  OGC_HD float bound(int e) const { return smaller(atomic_load(&d_min_edge[e]), skin.bound(skin.edge[e])); }
 
   /// The pair's distance for both partners, and the note where it may be a contact; low < high.
   OGC_HD float measure(int low, int high, float gap) const {
@@ -108,12 +88,6 @@ struct DetectEdgeEdge {
     return is_surely_no_contact(surface.edges[low], surface.edges[high], surface, positions);
   }
 
-  OGC_HD Box box(const EdgeEnds& e) const {
-    Box box;
-    box.include(positions[e.a]);
-    box.include(positions[e.b]);
-    return box;
-  }
   OGC_HD Ends ends(const EdgeEnds& e) const { return {positions[e.a], positions[e.b]}; }
 };
 

@@ -12,7 +12,6 @@
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/search.hpp"
 #include "fast/kernels/separation.hpp"
-#include "fast/kernels/skin.hpp"
 
 namespace ogc::fast {
 
@@ -24,13 +23,12 @@ struct DetectVertexFacet {
   const int* vertex_order;    ///< vertex of each search, along a Hilbert curve
   const float* vertex_limit;  ///< by vertex: gap limit of its reach
   ListsView lists;            ///< where pairs are noted; with its overflow flag set nothing is searched
-  SkinView skin;              ///< its mode decides whether the tree is searched, and how far beyond the radius
   float contact_radius;       ///< r, with the contact margin [m]
   float* d_min_vertex;        ///< at most r_q before the launch
   float* d_min_triangle;      ///< likewise
 
-  /// Whether a list has overflowed, or pairs of the skin take the place of the search.
-  OGC_HD bool is_off() const { return *lists.overflow != 0 || skin.rechecks(); }
+  /// Whether a list has overflowed.
+  OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
   /// A vertex inside a solid looks where nothing is: its squared gap to any box is finite, and beyond any limit.
   OGC_HD Vec searched_from(int v) const {
@@ -41,8 +39,7 @@ struct DetectVertexFacet {
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
     const Vec x = searched_from(v);
-    const float margin = skin.search_margin();
-    return {{x, x}, v, 0, larger(gap_limit(add(contact_radius, margin)), vertex_limit[v]), margin};
+    return {{x, x}, v, 0, larger(gap_limit(contact_radius), vertex_limit[v])};
   }
 
   /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
@@ -51,7 +48,7 @@ struct DetectVertexFacet {
     const Facet& facet = surface.facets[offer.primitive];
     if (facet.corner[0] == v || facet.corner[1] == v || facet.corner[2] == v || surface.left_out(v, facet))
       return -1.0F;
-    const float within = limit(search, offer, search.margin);
+    const float within = limit(search, offer);
     return offer.gap > within ? -1.0F : within;
   }
 
@@ -60,12 +57,7 @@ struct DetectVertexFacet {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
     const int t = offer.primitive;
-    const float apart = separation(search.box.lower, corners(surface.facets[t]));
-    if (is_beyond(apart, within)) return false;
-    if (!(search.margin > 0)) return true;
-    skin.keep({~search.owner, t});
-    const float without_margin = limit(search, offer, 0.0F);
-    return !(offer.gap > without_margin) && !is_beyond(apart, without_margin);
+    return !is_beyond(separation(search.box.lower, corners(surface.facets[t])), within);
   }
 
   /// A pair within r always needs its distance.
@@ -73,28 +65,14 @@ struct DetectVertexFacet {
 
   /// Its distance, for both partners.
   OGC_HD float meet(const Search& search, int t, float gap) const {
-    return gap_limit(add(larger(contact_radius, measure(search.owner, t, gap)), search.margin));
-  }
-
-  /// A pair kept by a search before.
-  OGC_HD void recheck(int v, int t) const {
-    const Vec x = positions[v];
-    const Corners t_corners = corners(surface.facets[t]);
-    Box box;
-    for (int k = 0; k < 3; ++k) box.include(t_corners[k]);
-    const float of_vertex = smaller(atomic_load(&d_min_vertex[v]), skin.bound(skin.vertex[v]));
-    const float of_triangle = smaller(atomic_load(&d_min_triangle[t]), skin.bound(skin.triangle[t]));
-    const float gap = squared_gap(box, {x, x}),
-                limit = gap_limit(larger(contact_radius, larger(of_vertex, of_triangle)));
-    if (!(gap > limit) && !is_beyond(separation(x, t_corners), limit)) measure(v, t, gap);
+    return gap_limit(larger(contact_radius, measure(search.owner, t, gap)));
   }
 
  protected:
-  OGC_HD float limit(const Search& search, const Offer& offer, float margin) const {
+  OGC_HD float limit(const Search& search, const Offer& offer) const {
     const float own = larger(contact_radius, atomic_load(&d_min_vertex[search.owner])),
                 theirs = atomic_load(&d_min_triangle[offer.primitive]);
-    return larger(smaller(search.limit, gap_limit(add(own, margin))),
-                  smaller(offer.reach, gap_limit(add(theirs, margin))));
+    return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
 
   /// The pair's distance for both partners, and the note where it may be a contact.

@@ -95,8 +95,7 @@ struct BeginTetrahedron {
 };
 
 /// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
-/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified; a guess
-/// by pairs has a certificate of its own.
+/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
 struct BeginRegions {
   const Vec* position;          ///< x by vertex [m]
   FeasibleRegions ended;        ///< those that the last detection left
@@ -107,7 +106,7 @@ struct BeginRegions {
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
-    if (control->rounds > 0 && control->left == 0 && is_outside(ended[v], x)) control->count_violation();
+    if (control->rounds > 0 && is_outside(ended[v], x)) control->count_violation();
     if (displacement != nullptr) displacement[v] = target != nullptr ? target[v] - x : x - previous[v];
     previous[v] = x;
   }

@@ -104,11 +104,10 @@ struct ListStatus {
   int edge_edge = 0;     ///< edge–edge records
   int noted = 0;         ///< pairs noted, also those that found no room
   int without_slot = 0;  ///< contacts that found no slot of the table, as often as they were generated
-  int listed = 0;        ///< records of both kinds of the last listing of a step
 };
 
-/// The lists on the backend; `contact_count`, `without_slot`, `overflow`, `noted_count`, `edge_edge_count` and
-/// `listed_count` point into their ListStatus.
+/// The lists on the backend; `contact_count`, `without_slot`, `overflow`, `noted_count` and
+/// `edge_edge_count` point into their ListStatus.
 struct ListsView {
   /// Slots that the search for a contact looks at, at most. Of a table that is half full at most, as one whose contacts
   /// all have room, k slots in a row are the homes of k keys or more with a chance of at most (√e / 2)ᵏ (Chernoff's
@@ -128,7 +127,6 @@ struct ListsView {
   int* contact_count = nullptr;  ///< contacts entered, also those that found no room
   int* without_slot = nullptr;   ///< contacts that found no slot either, as often as they were generated
   int* overflow = nullptr;       ///< sticky
-  int* listed_count = nullptr;   ///< of both kinds of records, from a step's listing to the next
   int buckets = 0;
   int* record_counts = nullptr;   ///< by bucket, of the contacts that found room
   int* record_offsets = nullptr;  ///< buckets + 1

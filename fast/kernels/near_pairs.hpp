@@ -11,14 +11,11 @@ namespace ogc::fast {
 struct NearVertexFacet : DetectVertexFacet {
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// Whether a list has overflowed. No pair of a skin takes the place of this search.
-  OGC_HD bool is_off() const { return *lists.overflow != 0; }
-
   /// The search of the i-th vertex along the Hilbert curve. Its limit is that of r_q and never falls.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
     const Vec x = searched_from(v);
-    return {{x, x}, v, 0, gap_limit(*query_radius), 0};
+    return {{x, x}, v, 0, gap_limit(*query_radius)};
   }
 
   /// The squared limit of r_q; negative where the boxes are farther apart, or the pair is none.
@@ -49,13 +46,10 @@ struct NearVertexFacet : DetectVertexFacet {
 struct NearEdgeEdge : DetectEdgeEdge {
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// As NearVertexFacet::is_off.
-  OGC_HD bool is_off() const { return *lists.overflow != 0; }
-
   /// The search of the edge at place i of the tree, from the place behind it; its limit never falls.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
-    return {child.box(), child.primitive, i + 1, gap_limit(*query_radius), 0};
+    return {child.box(), child.primitive, i + 1, gap_limit(*query_radius)};
   }
 
   /// As NearVertexFacet::candidate_limit.

@@ -21,7 +21,6 @@ struct alignas(16) Search {  // read whole, by few instructions
   int owner = -1;            ///< whose search it is: number of a vertex or an edge
   int from = 0;              ///< place in the tree's order from which on primitives are offered
   float limit = 0;           ///< squared [m²]; falls as distances are taken
-  float margin = 0;          ///< by which it looks farther than it has to (skin.hpp) [m]
   float reach = 0;           ///< of an edge: gap limit of its own reach [m²]
 };
 

@@ -8,25 +8,15 @@
 
 namespace ogc::fast {
 
-/// First launch: the regions that end are certified, X_prev ← x, and the detection is prepared. Index as there.
-struct PrepareStepDetection {
+/// First launch: the regions that end are certified, X_prev ← x, and the detection begins. Index as there.
+struct BeginStepDetection {
   BeginRegions regions;
-  PrepareDetection prepare;
+  BeginDetection detection;
 
+  OGC_HD int count() const { return detection.count(); }
   OGC_HD void operator()(int i) const {
-    if (i < prepare.distances.vertex_count) regions(i);
-    prepare(i);
-  }
-};
-
-/// The same with the trees' refit, where no skin decides in between whether they are needed; whole warps of 32.
-struct PrepareStepAndRefit {
-  PrepareStepDetection prepare;
-  RefitTrees refit;
-
-  OGC_HD void operator()(int i) const {
-    prepare(i);
-    refit(i);
+    if (i < detection.distances.vertex_count) regions(i);
+    detection(i);
   }
 };
 
@@ -36,15 +26,9 @@ struct EndStepDetection {
   EndDetection end;
   CopyContactRows<LooseIncidence> rows;
   int slots;  ///< free vertices
-  ListsView lists;
 
   OGC_HD void operator()(int i) const {
-    if (i == 0) {
-      end(i);
-      if (*lists.overflow == 0) {
-        *lists.listed_count = *lists.contact_count;
-      }
-    }
+    if (i == 0) end(i);
     if (i < slots) rows(i);
   }
 };

@@ -16,7 +16,7 @@ class BackendContactEngine : public ContactEngine {
   /// `topology` must outlive the engine. `capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
   BackendContactEngine(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
                        int capacity = 0)
-      : backend_(backend), topology_(topology), detection_(backend, topology, exclusions, capacity, usual_skin) {}
+      : backend_(backend), topology_(topology), detection_(backend, topology, exclusions, capacity) {}
 
   ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) override {
     positions_.upload(reinterpret_cast<const Vec*>(positions.data()), positions.size());
@@ -40,7 +40,6 @@ class BackendContactEngine : public ContactEngine {
       detection_.detect(positions, query.contact_radius, query_radius_.data(), query.bound_relaxation);
       backend_.synchronize();
     } while (detection_.grow());
-    detection_.make_room();
   }
 
   Backend& backend_;

@@ -9,8 +9,8 @@
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/spring.hpp"
 #include "compare/stages/tetrahedron.hpp"
+#include "fast/kernels/gather.hpp"
 #include "fast/kernels/initial_guess.hpp"
-#include "fast/kernels/sweep_models.hpp"
 #include "fast/probes/probe_memory.hpp"
 #include "fast/stages/sweep.hpp"
 
@@ -42,8 +42,8 @@ ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, s
   return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};
 }
 
-/// Each triangle alone; case i has a body of its own. A model that GatherDefault has is added as there, any other as
-/// GatherEveryModel does.
+/// Each triangle alone; case i has a body of its own. A usual model is added as UsualTriangles do, any other as
+/// Triangles do.
 struct ProbeMembrane {
   SweepView view;  ///< by case: incidences, materials and models; case i has the vertices 3 i … 3 i + 2
   ForceArrays out;
@@ -195,8 +195,7 @@ compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
   return out;
 }
 
-/// Each tetrahedron alone: added as GatherSolids does where damping is that of strains, otherwise as GatherEverything
-/// does.
+/// Each tetrahedron alone, added as Tetrahedra do.
 struct ProbeTetrahedron {
   SweepView view;
   ForceArrays out;

@@ -16,7 +16,7 @@ namespace ogc::fast {
 template <class Backend>
 compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int list_capacity = 0) {
   const auto bounds = in.displacement.empty() ? compare::Bounds::planes : compare::Bounds::dat;
-  Detection<Backend> detection(backend, *in.topology, in.exclusions, list_capacity, 0, bounds,
+  Detection<Backend> detection(backend, *in.topology, in.exclusions, list_capacity, bounds,
                                {in.is_fixed.begin(), in.is_fixed.end()});
   ProbeMemory<Backend> memory(backend);
   const std::vector<compare::Vec3f> displacement(in.displacement.begin(), in.displacement.end());

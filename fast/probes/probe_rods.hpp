@@ -24,7 +24,7 @@ struct ProbeRod {
 
   OGC_HD void operator()(int i) const {
     const SegmentRest rest = segment[i];
-    const bool by_vertex = form[i] == compare::DampingForm::per_vertex;
+    const bool by_vertex = !damps_strain(form[i]);
     const float damping = by_vertex ? 0.0f : rest.damping;
     const Vec apart = vertex[2 * i + 1] - vertex[2 * i], before = start[2 * i + 1] - start[2 * i];
     ForceAndBlock sum, whole;

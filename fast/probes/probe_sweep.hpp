@@ -121,7 +121,7 @@ class ProbeRods {
     const std::vector<Quat> now = quats(in.orientation), before = quats(in.orientation_start);
     orientation_.upload(now.data(), now.size());
     start_.upload(before.data(), before.size());
-    if (rod_damping(rest).empty() || in.scene->settings.damping != compare::DampingForm::strain) return;
+    if (rod_damping(rest).empty() || !damps_strain(in.scene->settings.damping)) return;
     typename Backend::template Buffer<SegmentRest> segments;
     segments.upload(rest.rods.segments.data(), count_);
     typename Backend::template Buffer<Vec> positions;
@@ -195,7 +195,6 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
     volumes.put(volume_rows(in, rest, rows));
     view.volumes = volumes.stream();
   }
-  if (sweep.freezes()) sweep.freeze(view, contacts.view(), contacts.count(), nullptr);
   sweep.iterate(view);
 
   backend.synchronize();

@@ -58,10 +58,10 @@ class Bvh {
   const int* vertex_order() const { return order_.data(); }
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
-  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing where the skin's pairs are
-  /// rechecked, and for vertices that have no facet to search. For for_each over its count().
-  RefitTrees refit(const Vec* positions, const float* query_radius, const SkinView& skin = {}) {
-    return {.reach = {surface_, positions, query_radius, skin.state},
+  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing for vertices that have no facet to
+  /// search. For for_each over its count().
+  RefitTrees refit(const Vec* positions, const float* query_radius) {
+    return {.reach = {surface_, positions, query_radius},
             .facets = facets_,
             .edges = edges_,
             .facet_arrivals = facet_arrivals_.data(),

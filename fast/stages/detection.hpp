@@ -1,5 +1,4 @@
-// A whole detection (Alg. 3 lines 4–19): trees at the current positions, both queries, lists, bounds. What a skin
-// changes of it stands behind fast/stages/skin.hpp. All of it is enqueued, nothing waits and nothing is allocated, so
+// A whole detection (Alg. 3 lines 4–19): trees at the current positions, both queries, lists, bounds. All of it is enqueued, nothing waits and nothing is allocated, so
 // it may stand inside Backend::when. Once a list has overflowed every launch does nothing until `grow`, so that the
 // needed size stays that of the first detection that had no room, and the contacts of the last complete one are not
 // mixed with others.
@@ -15,32 +14,23 @@
 #include "fast/contact_view.hpp"
 #include "fast/kernels/bound.hpp"
 #include "fast/kernels/detection.hpp"
-#include "fast/kernels/pair_guess.hpp"
 #include "fast/stages/backend.hpp"
-#include "fast/stages/beside.hpp"
 #include "fast/stages/bvh.hpp"
 #include "fast/stages/detect_edge_edge.hpp"
 #include "fast/stages/detect_vertex_facet.hpp"
 #include "fast/stages/lists.hpp"
 #include "fast/stages/planes.hpp"
-#include "fast/stages/skin.hpp"
 #include "fast/stages/surface.hpp"
 
 namespace ogc::fast {
 
-/// The launches of a detection that nothing else shares. Another caller's launches have the same three members
+/// The first and the last launch of a detection, which nothing else shares here; a step has work of its own in both
 /// (fast/stages/step_detection.hpp).
 struct PlainLaunches {
-  /// First launch, where a skin decides afterwards whether the trees are needed: `drift` is measured for `vertices`.
+  /// First launch.
   template <class Backend>
-  void prepare(Backend& backend, int items, const PrepareDetection& prepare, int vertices,
-               const MeasureDrift& drift) const {
-    for_each_beside(backend, items, prepare, vertices, drift);
-  }
-  /// First launch, where the trees are needed in any case.
-  template <class Backend>
-  void prepare_and_refit(Backend& backend, int items, const PrepareDetection& prepare, const RefitTrees& refit) const {
-    backend.for_each(RefitTrees::filled_up(std::max(items, refit.count())), PrepareAndRefit{prepare, refit});
+  void begin(Backend& backend, const BeginDetection& detection) const {
+    backend.for_each(detection.count(), detection);
   }
   /// Last launch, over *count ≤ `capacity` incidences.
   template <class Backend>
@@ -53,16 +43,14 @@ struct PlainLaunches {
 template <class Backend>
 class Detection {
  public:
-  /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size. `skin`:
-  /// largest margin of the Verlet list as a fraction of r; 0 for none. It changes the time alone. `is_fixed`: by
-  /// vertex, read where `bounds` are planes.
+  /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size.
+  /// `is_fixed`: by vertex, read where `bounds` are planes.
   Detection(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
-            int capacity = 0, float skin = 0, compare::Bounds bounds = compare::Bounds::ball,
+            int capacity = 0, compare::Bounds bounds = compare::Bounds::ball,
             const std::vector<std::uint8_t>& is_fixed = {})
       : backend_(backend),
         surface_(topology, exclusions),
         bvh_(surface_.view(), surface_.searched()),
-        skin_(surface_.view(), skin),
         lists_(surface_.view(), capacity > 0 ? capacity : 1024 + 4 * topology.vertex_count),
         planes_(bounds, is_fixed) {
     planes_.reserve(lists_.noted_capacity());
@@ -87,17 +75,6 @@ class Detection {
     find(positions, contact_radius, query_radius, bound_relaxation, launches);
     lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bound_relaxation),
                     planes_.distances(), launches);
-  }
-
-  /// In place of what the last detection noted: pairs that moves of their vertices could bring together, no farther
-  /// apart than *reach [m] (on the backend).
-  void note_guess_pairs(float contact_radius, const float* reach, const LocalReach& local) {
-    backend_.for_each(1, ForgetNoted{lists_.view()});
-    backend_.search(
-        Searches<GuessEdgeEdge>{
-            bvh_.edges(), surface_.view().searched_edges, {{edge_edge_query(contact_radius), reach}, local}},
-        Searches<GuessVertexFacet>{
-            bvh_.facets(), facet_searches(), {{vertex_facet_query(contact_radius), reach}, local}});
   }
 
   /// As kernels see them; positions are those of the last detection.
@@ -136,14 +113,9 @@ class Detection {
   /// has to be repeated.
   bool grow() {
     const bool grown = lists_.grow();
-    if (grown) skin_.forget();  // its detection may have ended half way
     planes_.reserve(lists_.noted_capacity());
     return grown;
   }
-  /// Host only: room for the pairs of the skin, where they found none; true where something has moved.
-  bool make_room() { return skin_.make_room(); }
-  /// Host only: how detections went so far.
-  SkinState skin_state() const { return skin_.state(); }
 
   /// Contacts that fit before the lists have to grow.
   int capacity() const { return lists_.capacity(); }
@@ -158,7 +130,6 @@ class Detection {
     if (capacities.size() != 2 || !std::all_of(capacities.begin(), capacities.end(), possible))
       throw std::invalid_argument("capacities of other lists");
     lists_.reserve(static_cast<int>(capacities[0]), static_cast<int>(capacities[1]));
-    skin_.forget();
     planes_.reserve(lists_.noted_capacity());
   }
 
@@ -175,7 +146,6 @@ class Detection {
             const Launches& launches) {
     const SurfaceView surface = surface_.view();
     const ListsView lists = lists_.view();
-    const SkinView skin = skin_.view(contact_radius);
     const ResetDistances distances{.query_radius = query_radius,
                                    .overflow = lists.overflow,
                                    .vertex_count = surface.vertex_count,
@@ -184,9 +154,10 @@ class Detection {
                                    .d_min_vertex = d_min_vertex_.data(),
                                    .d_min_edge = d_min_edge_.data(),
                                    .d_min_triangle = d_min_triangle_.data()};
-    skin_.prepare(backend_, skin, launches,
-                  PrepareDetection{positions, padded_.data(), {lists, surface.vertex_count}, distances},
-                  bvh_.refit(positions, query_radius, skin));
+    launches.begin(
+        backend_,
+        BeginDetection{
+            positions, padded_.data(), {lists, surface.vertex_count}, distances, bvh_.refit(positions, query_radius)});
     const DetectVertexFacet vertex_facet = vertex_facet_query(contact_radius);
     const DetectEdgeEdge edge_edge = edge_edge_query(contact_radius);
     if (planes_.is_used()) {
@@ -195,7 +166,6 @@ class Detection {
       planes_.make(backend_, surface, vertex_facet.positions, lists, bound_relaxation, query_radius, bound_.data());
     } else {
       backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
-      skin_.complete(backend_, vertex_facet, edge_edge, positions);
     }
   }
 
@@ -209,7 +179,6 @@ class Detection {
             .vertex_order = bvh_.vertex_order(),
             .vertex_limit = bvh_.vertex_limit(),
             .lists = lists_.view(),
-            .skin = skin_.view(contact_radius),
             .contact_radius = contact_radius,
             .d_min_vertex = d_min_vertex_.data(),
             .d_min_triangle = d_min_triangle_.data()};
@@ -219,7 +188,6 @@ class Detection {
             .positions = {padded_.data()},
             .tree = bvh_.edges(),
             .lists = lists_.view(),
-            .skin = skin_.view(contact_radius),
             .contact_radius = contact_radius,
             .d_min_edge = d_min_edge_.data()};
   }
@@ -240,7 +208,6 @@ class Detection {
   Backend& backend_;
   Surface<Backend> surface_;
   Bvh<Backend> bvh_;
-  Skin<Backend> skin_;
   Lists<Backend> lists_;
   Planes<Backend> planes_;
   typename Backend::template Buffer<PaddedVec> padded_;  ///< positions of the last detection

@@ -44,7 +44,6 @@ class Lists {
             .contact_count = &status->contacts,
             .without_slot = &status->without_slot,
             .overflow = &status->overflow,
-            .listed_count = &status->listed,
             .buckets = buckets_,
             .record_counts = record_counts_.data(),
             .record_offsets = record_offsets_.data(),

@@ -18,13 +18,8 @@ template <class Backend>
 class Planes {
  public:
   /// `is_fixed`: by vertex, whether it never moves; read where bounds are planes.
-  Planes(compare::Bounds bounds, const std::vector<std::uint8_t>& is_fixed) {
-    switch (bounds) {
-      case compare::Bounds::ball: return;
-      case compare::Bounds::off: is_off_ = true; return;
-      case compare::Bounds::planes: is_used_ = true; break;
-      case compare::Bounds::dat: is_used_ = true, slides_ = false; break;
-    }
+  Planes(compare::Bounds bounds, const std::vector<std::uint8_t>& is_fixed) : policy_(traits_of(bounds)) {
+    if (!is_used()) return;
     const std::size_t vertices = is_fixed.size();
     is_fixed_.upload(is_fixed.data(), vertices);
     for (Buffer<int>* counts : {&pair_counts_, &counts_}) {
@@ -38,13 +33,13 @@ class Planes {
   }
 
   /// Whether bounds are planes.
-  bool is_used() const { return is_used_; }
+  bool is_used() const { return policy_.has_planes; }
   /// Gaps are divided by these displacements from now on [m], by vertex, on the backend; null: they are halved.
   void divide_by(const Vec* displacement) { displacement_ = displacement; }
 
   /// Host only: room for so many noted pairs.
   void reserve(int noted_capacity) {
-    if (!is_used_) return;
+    if (!is_used()) return;
     distance_.resize(static_cast<std::size_t>(noted_capacity));
     places_.resize(static_cast<std::size_t>(noted_capacity));
     pair_rows_.resize(4 * static_cast<std::size_t>(noted_capacity));
@@ -52,14 +47,14 @@ class Planes {
 
   /// X_prev and b_v with the half-spaces that stand here.
   FeasibleRegions regions(const Vec* centre, const float* radius) const {
-    FeasibleRegions regions{.centre = centre, .radius = radius, .is_off = is_off_, .slides = slides_};
-    if (is_used_) regions.planes = rows_.data(), regions.counts = counts_.data();
+    FeasibleRegions regions{.centre = centre, .radius = radius, .is_off = !policy_.certifies, .slides = policy_.slides};
+    if (is_used()) regions.planes = rows_.data(), regions.counts = counts_.data();
     return regions;
   }
   /// By vertex: not above the distance of its nearest pair, at most r_q [m].
   const float* nearest() const { return nearest_.data(); }
   /// By noted pair: not above its distance [m]; null where bounds are no planes.
-  const float* distances() const { return is_used_ ? distance_.data() : nullptr; }
+  const float* distances() const { return is_used() ? distance_.data() : nullptr; }
 
   /// After the searches: planes and balls (`bound`) of `vertices` vertices from the pairs that `noted` has. Where there
   /// was no room for all pairs nobody may use what comes of it.
@@ -99,7 +94,7 @@ class Planes {
   /// Host only: what the vertices bear since the last detection; empty where bounds are no planes.
   compare::VertexPlanes download() const {
     compare::VertexPlanes planes;
-    if (!is_used_) return planes;
+    if (!is_used()) return planes;
     std::vector<int> counts(counts_.size());
     std::vector<HalfSpace> rows(rows_.size());
     std::vector<NotedPair> pairs(pairs_.size());
@@ -128,7 +123,7 @@ class Planes {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  bool is_used_ = false, is_off_ = false, slides_ = true;
+  compare::BoundsTraits policy_;
   const Vec* displacement_ = nullptr;
   Buffer<std::uint8_t> is_fixed_;
   Buffer<float> distance_, pair_rows_, threshold_, nearest_, unplaned_;

@@ -65,8 +65,8 @@ class RodSweep {
   RodSweep(const RestState& rest, const Colouring& vertices, const Colouring& segments,
            const compare::Settings& settings)
       : colour_begin_(segments.begin),
-        is_damped_by_vertex_(settings.damping == compare::DampingForm::per_vertex),
-        as_published_(settings.orientation == compare::OrientationUpdate::as_published) {
+        is_damped_by_vertex_(!damps_strain(settings.damping)),
+        as_published_(!minimises(settings.orientation)) {
     const RodStreams streams = rod_streams(rest, vertices, segments);
     rows_.upload(streams.rows.data(), streams.rows.size());
     incidences_.upload(streams.incidences.data(), streams.incidences.size());

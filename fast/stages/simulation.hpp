@@ -14,7 +14,6 @@
 
 #include "compare/contestant.hpp"
 #include "compare/way.hpp"
-#include "fast/stages/settings.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/way.hpp"
 
@@ -35,9 +34,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
         rest_(build_rest_state(scene_, topology_)),
         colouring_(colour_vertices(rest_)),
         exclusions_(compare::exclusions(scene_)),
-        detection_(backend_, topology_, exclusions_, list_capacity, skin_share(scene_), scene_.settings.bounds,
-                   fixed_vertices()),
-        pair_guess_(scene_.settings, fixed_vertices()),
+        detection_(backend_, topology_, exclusions_, list_capacity, scene_.settings.bounds, fixed_vertices()),
         segment_colouring_(colour_segments(rest_.rods)),
         sweep_(backend_, rest_, colouring_, topology_, scene_, segment_colouring_),
         volumes_(detection_.surface(), volume_parts(scene_, topology_),
@@ -46,7 +43,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
         rods_(scene_, rest_, longest_frame),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
-        step_(backend_, state_, detection_, pair_guess_, sweep_, volumes_, rods_, clock_,
+        step_(backend_, state_, detection_, sweep_, volumes_, rods_, clock_,
               step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
     fill_state();
@@ -67,8 +64,6 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
       if (control.status != 0) {
         grow();
         ++repeats;
-      } else if (detection_.make_room()) {
-        lists_moved();
       }
     }
     return rows;
@@ -183,7 +178,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
                            [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
     s.taken.resize(2 * n);
-    if (scene_.settings.bounds == compare::Bounds::dat) {
+    if (traits_of(scene_.settings.bounds).divides) {
       s.displacement.resize(n);
       detection_.divide_planes_by(s.displacement.data());
     }
@@ -341,7 +336,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     result.vertices_inside = row.vertices_inside;
     result.deepest = static_cast<double>(row.deepest);
     result.depth_unresolved = row.depth_unresolved;
-    result.smallest_distance = compare::has_planes(scene_.settings.bounds)
+    result.smallest_distance = traits_of(scene_.settings.bounds).has_planes
                                    ? row.smallest_bound
                                    : row.smallest_bound / scene_.settings.bound_relaxation;
     if (rods_.is_used()) {
@@ -369,10 +364,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     lists_moved();
   }
 
-  void reserve() {
-    sweep_.reserve_contacts(detection_.capacity());
-    pair_guess_.reserve(static_cast<int>(detection_.capacities()[1]));
-  }
+  void reserve() { sweep_.reserve_contacts(detection_.capacity()); }
 
   void lists_moved() {
     reserve();
@@ -398,7 +390,6 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   Colouring colouring_;
   compare::Exclusions exclusions_;
   Detection<Backend> detection_;
-  PairGuess<Backend> pair_guess_;
   Colouring segment_colouring_;
   Sweep<Backend> sweep_;
   Volumes<Backend> volumes_;

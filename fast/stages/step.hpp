@@ -5,7 +5,6 @@
 //   begin       where it is its turn trees sorted anew; y, Gᵗ, θᵗ, r_q; driven volumes at y, and their trees
 //   guess loop  repeat(guess): X_prev ← x, detect, x ← y or where contacts let it, truncated; up to guess_rounds times;
 //               then contacts with volumes are found, and xᵗ and x where the sweep gathers them
-//               (guess=pairs: one round; where balls cut many, all moves by a certificate of pairs, and a detection)
 //   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due,
 //               X_prev ← x, detect before the next
 //   finish      certificate; commit and sums only if clean; one row
@@ -31,7 +30,6 @@
 #include "fast/kernels/volumes/sums.hpp"
 #include "fast/stages/detection.hpp"
 #include "fast/stages/left_forces.hpp"
-#include "fast/stages/pair_guess.hpp"
 #include "fast/stages/profile.hpp"
 #include "fast/stages/reduce.hpp"
 #include "fast/stages/rods.hpp"
@@ -96,13 +94,11 @@ template <class Backend>
 class Step {
  public:
   /// For a mesh of `vertices`; `state` is filled later.
-  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, PairGuess<Backend>& pair_guess,
-       Sweep<Backend>& sweep, Volumes<Backend>& volumes, Rods<Backend>& rods, StageClock<Backend>& clock,
-       StepSettings settings, int vertices)
+  Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep,
+       Volumes<Backend>& volumes, Rods<Backend>& rods, StageClock<Backend>& clock, StepSettings settings, int vertices)
       : backend_(backend),
         state_(state),
         detection_(detection),
-        pair_guess_(pair_guess),
         sweep_(sweep),
         volumes_(volumes),
         rods_(rods),
@@ -191,9 +187,13 @@ class Step {
   }
 
   /// The regions that end here are certified, then X_prev ← x. `target`: y in the guess loop, later null.
-  StepStart start_of_detection(const Vec* target) {
-    return {{state_.position.data(), regions(), state_.previous.data(), control(),
-             settings_.divides ? state_.displacement.data() : nullptr, target}};
+  BeginRegions begin_regions(const Vec* target) {
+    return {state_.position.data(),
+            regions(),
+            state_.previous.data(),
+            control(),
+            settings_.divides ? state_.displacement.data() : nullptr,
+            target};
   }
 
   /// body(), which writes nothing that the volumes are asked with, and what they are asked at `position` beside it. A
@@ -204,14 +204,14 @@ class Step {
     backend_.at_once([&] { find_in_volumes(position); }, body);
   }
 
-  /// X_prev ← x; contacts, bounds and the stream that the sweep reads. `target`: as in start_of_detection.
+  /// X_prev ← x; contacts, bounds and the stream that the sweep reads. `target`: as in begin_regions.
   void detect_surfaces(const Vec* target) {
     const ContactView view = detection_.view();
     const int* overflow = detection_.overflow();
     clock_.time(StepStage::detection, [&] {
       detection_.detect(
           state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
-          StepLaunches{start_of_detection(target),
+          StepLaunches{begin_regions(target),
                        {control(), overflow},
                        sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
                        sweep_.slots(),
@@ -234,7 +234,7 @@ class Step {
   /// x ← y truncated.
   void guess() {
     StepState<Backend>& s = state_;
-    const GuessContacts contacts{.offsets = pair_guess_.is_used() ? nullptr : detection_.view().incidence_offsets,
+    const GuessContacts contacts{.offsets = detection_.view().incidence_offsets,
                                  .contacts = sweep_.contacts(),
                                  .position = s.previous.data(),
                                  .target = s.target.data(),
@@ -250,7 +250,7 @@ class Step {
                                                   .prescribed_number = s.prescribed_number.data()});
   }
 
-  void guess_in_rounds() {
+  void guess_loop() {
     const auto round = [&] {
       observe(compare::StepEventKind::guess);  // the round before
       detect_in_round();
@@ -258,32 +258,6 @@ class Step {
     };
     backend_.repeat(ChooseQueryRadius{control(), settings_.control}, flag(&StepControl::guess), round,
                     EndRound{control(), settings_.control});
-  }
-
-  /// One round; where its balls cut many vertices, all moves at once by the certificate of pairs, and a detection where
-  /// they lead.
-  void guess_by_pairs() {
-    backend_.when(ChooseQueryRadius{control(), settings_.control}, flag(&StepControl::guess),
-                  [&] { detect_in_round(), guess(); });
-    const PairGuessView view = pair_guess_.view(detection_, regions(), settings_.bound_relaxation, state_.target.data(),
-                                                state_.position.data(), control());
-    backend_.when(BeginPairGuess{control(), settings_.control, pair_guess_.state()}, flag(&StepControl::pairs),
-                  [&] { pair_guess_.begin(backend_, detection_, settings_.detection_radius, view); });
-    backend_.repeat(
-        EndPass{control(), pair_guess_.state(), true}, flag(&StepControl::unsafe),
-        [&] { pair_guess_.pass(backend_, detection_, view); }, EndPass{control(), pair_guess_.state()});
-    backend_.for_each(state_.vertex_count, CountMoves{view, state_.prescribed_number.data()});
-    backend_.when(EndPairGuess{control()}, flag(&StepControl::left), [&] {
-      observe(compare::StepEventKind::guess);
-      detect_in_round();
-    });
-  }
-
-  void guess_loop() {
-    if (pair_guess_.is_used())
-      guess_by_pairs();
-    else
-      guess_in_rounds();
     observe(compare::StepEventKind::guess);
     beside_volumes(state_.previous.data(), [] {});
     if (observer_ != nullptr) observer_->after_finding();
@@ -355,10 +329,6 @@ class Step {
   void sweep(int iteration, const int* turn, Start start) {
     SweepView view = this->view(iteration);
     view.turn = turn;
-    if (sweep_.freezes()) {
-      sweep_.freeze(view, detection_.view(), detection_.lists().listed_count, detection_.overflow());
-      start = Start::after_previous;
-    }
     sweep_.iterate(view, start);
     if (volumes_.has_free())
       backend_.for_each(volumes_.rows(), CountDeepInside{view.volumes, view.position, settings_.contact_radius, turn,
@@ -456,7 +426,6 @@ class Step {
   Backend& backend_;
   StepState<Backend>& state_;
   Detection<Backend>& detection_;
-  PairGuess<Backend>& pair_guess_;
   Sweep<Backend>& sweep_;
   Volumes<Backend>& volumes_;
   Rods<Backend>& rods_;

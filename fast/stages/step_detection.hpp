@@ -4,39 +4,28 @@
 #include <algorithm>
 
 #include "fast/kernels/step_detection.hpp"
-#include "fast/stages/beside.hpp"
+#include "fast/stages/backend.hpp"
 
 namespace ogc::fast {
 
-/// First launch of a detection, with the step's own work in it.
-struct StepStart {
-  BeginRegions regions;  ///< the certificate and X_prev
-
-  /// As PlainLaunches::prepare.
-  template <class Backend>
-  void prepare(Backend& backend, int items, const PrepareDetection& prepare, int vertices,
-               const MeasureDrift& drift) const {
-    for_each_beside(backend, items, PrepareStepDetection{regions, prepare}, vertices, drift);
-  }
-  /// As PlainLaunches::prepare_and_refit.
-  template <class Backend>
-  void prepare_and_refit(Backend& backend, int items, const PrepareDetection& prepare, const RefitTrees& refit) const {
-    backend.for_each(RefitTrees::filled_up(std::max(items, refit.count())),
-                     PrepareStepAndRefit{{regions, prepare}, refit});
-  }
-};
-
-/// A detection of a step: its first launch and its last, which lists contacts for the sweep.
-struct StepLaunches : StepStart {
+/// A detection of a step: its first launch, and its last, which lists contacts for the sweep.
+struct StepLaunches {
+  BeginRegions regions;  ///< the certificate, and X_prev ← x
   EndDetection end;
   CopyContactRows<LooseIncidence> rows;  ///< of the contact stream
   int slots;                             ///< free vertices
   ResolveContact resolve;                ///< the stream's contacts
 
+  /// As PlainLaunches::begin.
+  template <class Backend>
+  void begin(Backend& backend, const BeginDetection& detection) const {
+    const BeginStepDetection begin{regions, detection};
+    backend.for_each(begin.count(), begin);
+  }
   /// As PlainLaunches::rank.
   template <class Backend>
   void rank(Backend& backend, const ListsView& lists, const int* count, int capacity) const {
-    backend.for_both(std::max(1, slots), EndStepDetection{end, rows, slots, lists}, count, capacity,
+    backend.for_both(std::max(1, slots), EndStepDetection{end, rows, slots}, count, capacity,
                      RankAndResolve{{lists}, resolve});
   }
 };

@@ -53,13 +53,12 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y),
                      static_cast<float>(scene.gravity.z)};
   to.iterations = static_cast<int>(from.iterations);
-  to.divides = from.bounds == compare::Bounds::dat;
+  to.divides = traits_of(from.bounds).divides;
   to.energies = energies;
   to.control.contact_radius = to.detection_radius;
   to.control.largest_query_radius = std::max(static_cast<float>(from.query_radius_cap * from.contact_radius),
                                              to.detection_radius);
   to.control.redetect_vertices = from.redetect_fraction * static_cast<double>(moving);
-  to.control.pair_guess_count = compare::has_volumes(scene) ? 1 : to.control.least_cut();
   to.control.redetect_every = static_cast<int>(from.redetect_every);
   to.control.guess_rounds = static_cast<int>(from.guess_rounds);
   to.control.sort_every = steps_between_sorts;

@@ -9,10 +9,9 @@
 
 #include "compare/problem/volumes.hpp"
 #include "fast/kernels/contact_stream.hpp"
-#include "fast/kernels/contacts/frozen.hpp"
+#include "fast/kernels/rods/sweep.hpp"
+#include "fast/kernels/sums.hpp"
 #include "fast/kernels/sweep.hpp"
-#include "fast/kernels/sweep_models.hpp"
-#include "fast/kernels/sweep_solids.hpp"
 #include "fast/kernels/volumes/stream.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
@@ -220,42 +219,16 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
   return squared;
 }
 
-/// Which sum over the stencils of a vertex a scene needs, by what the sum has and others lack: GatherDefault,
-/// GatherEveryModel, GatherSolids, GatherEverything, GatherVolumes, GatherEverythingAndVolumes, GatherRods,
-/// GatherTiedRods, GatherAnythingWithRods; with weights of an iteration GatherFrozenSurfaces, GatherFrozen.
-enum class SweepSum {
-  surfaces,
-  every_model,
-  solids,
-  everything,
-  volumes,
-  everything_and_volumes,
-  rods,
-  tied_rods,
-  anything_with_rods,
-  frozen_surfaces,
-  frozen
-};
-
-/// By the activation, springs, models, tetrahedra, volumes and rods of the scene, and by when weights are computed.
-inline SweepSum needed_sum(const RestState& rest, const compare::Scene& scene) {
-  const bool has_volumes = compare::has_volumes(scene), has_rods = !rest.rods.empty(),
-             is_frozen = scene.settings.contact_weights == compare::ContactWeightsRule::iteration;
-  if (has_rods && !is_frozen) {
-    const bool others = has_volumes || rest.activation != ContactActivation::ogc || !rest.triangles.empty() ||
-                        !rest.hinges.empty() || !rest.tetrahedra.empty();
-    if (others) return SweepSum::anything_with_rods;
-    return rest.springs.empty() ? SweepSum::rods : SweepSum::tied_rods;
-  }
-  const bool every_model = rest.activation != ContactActivation::ogc || !rest.springs.empty() ||
-                           !std::all_of(rest.models.begin(), rest.models.end(), are_default);
-  if (is_frozen)
-    return every_model || has_volumes || has_rods || !rest.tetrahedra.empty() ? SweepSum::frozen
-                                                                              : SweepSum::frozen_surfaces;
-  if (has_volumes) return rest.tetrahedra.empty() ? SweepSum::volumes : SweepSum::everything_and_volumes;
-  if (rest.tetrahedra.empty()) return every_model ? SweepSum::every_model : SweepSum::surfaces;
-  const bool alone = rest.triangles.empty() && rest.hinges.empty();
-  return every_model || !alone ? SweepSum::everything : SweepSum::solids;
+/// What a scene asks of the sum over the stencils of a vertex (sums.hpp).
+inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene) {
+  const auto if_any = [](const auto& elements, unsigned bit) { return elements.empty() ? 0u : bit; };
+  const bool usual_models = std::all_of(rest.models.begin(), rest.models.end(), [](const SurfaceModels& models) {
+    return has_default_membrane(models) && has_default_bending(models);
+  });
+  return if_any(rest.triangles, asks_triangles) | if_any(rest.hinges, asks_hinges) |
+         if_any(rest.springs, asks_springs) | if_any(rest.tetrahedra, asks_tetrahedra) |
+         if_any(rest.rods, asks_segments) | (compare::has_volumes(scene) ? asks_volumes : 0u) |
+         (usual_models ? 0u : asks_any_model) | (rest.activation == ContactActivation::ogc ? 0u : asks_any_activation);
 }
 
 /// The resident streams and their launches. `complete` gives a view what belongs to the sweep; positions, bounds and
@@ -274,7 +247,7 @@ class Sweep {
                    ? static_cast<int>(scene.settings.lanes)
                    : default_lanes(rest.mass.size(),
                                    !rest.rods.empty() && rest.triangles.empty() && rest.tetrahedra.empty())),
-        sum_(needed_sum(rest, scene)),
+        sum_(Sums::first_that_gives(asked_of_sum(rest, scene))),
         activation_(rest.activation),
         rods_(rest, colouring, segments, scene.settings) {
     const SweepStreams streams = build_streams(rest, colouring, scene.settings.time_step);
@@ -324,14 +297,8 @@ class Sweep {
     return tables;
   }
 
-  /// Whether weights of contacts are those of an iteration (`freeze`).
-  bool freezes() const { return sum_ == SweepSum::frozen_surfaces || sum_ == SweepSum::frozen; }
-
   /// Room for so many contacts of a detection, and their incidences. Host only, outside a step.
-  void reserve_contacts(int contacts) {
-    contacts_.resize(4 * static_cast<std::size_t>(contacts));
-    if (freezes()) frozen_.resize(static_cast<std::size_t>(contacts));
-  }
+  void reserve_contacts(int contacts) { contacts_.resize(4 * static_cast<std::size_t>(contacts)); }
 
   /// Free vertices: items of a launch over contact_rows.
   int slots() const { return static_cast<int>(vertices_.size()); }
@@ -347,7 +314,7 @@ class Sweep {
   }
   /// What writes the stream, as each incidence gets its place; `previous`: the positions of the detection.
   ResolveContact resolve_contact(const ContactView& view, const Vec* previous) {
-    return {view, tables(previous), colour_.data(), contacts_.data(), freezes()};
+    return {view, tables(previous), colour_.data(), contacts_.data()};
   }
 
   /// The stream of contacts that are there already.
@@ -370,19 +337,11 @@ class Sweep {
     view.springs = springs_.data();
     view.spring_rows = spring_rows_.data();
     view.activation = activation_;
-    view.frozen = frozen_.data();
     view.tetrahedron_rows = tetrahedron_rows_.data();
     view.tetrahedra = tetrahedra_.data();
     view.gradients = gradients_.data();
     view.solids = solids_.data();
     rods_.complete(view.rods);
-  }
-
-  /// Before an iteration whose weights are frozen. `count`: of the contacts, on the backend; `overflow`: see
-  /// FreezeContacts.
-  void freeze(const SweepView& view, const ContactView& contacts, const int* count, const int* overflow) {
-    backend_.for_each_counted(count, static_cast<int>(frozen_.size()),
-                              FreezeContacts{view, contacts, overflow, frozen_.data()});
   }
 
   /// One iteration: prescribed vertices, segments and then vertices colour by colour; each position is truncated before
@@ -399,41 +358,23 @@ class Sweep {
       const int count = colour_begin_[k + 1] - colour_begin_[k];
       const bool is_first = c == 0 && !is_before, asks_late = is_first && start == Start::overlapping;
       const Start own_start = is_first ? start : Start::overlapping;
-      const auto with = [&](auto gather) {
-        update(count, UpdateVertex<decltype(gather)>{view, colour_begin_[k], asks_late}, own_start);
-      };
-      switch (sum_) {
-        case SweepSum::surfaces: with(GatherDefault{}); break;
-        case SweepSum::every_model: with(GatherEveryModel{}); break;
-        case SweepSum::solids: with(GatherSolids{}); break;
-        case SweepSum::everything: with(GatherEverything{}); break;
-        case SweepSum::volumes: with(GatherVolumes{}); break;
-        case SweepSum::everything_and_volumes: with(GatherEverythingAndVolumes{}); break;
-        case SweepSum::rods: with(GatherRods{}); break;
-        case SweepSum::tied_rods: with(GatherTiedRods{}); break;
-        case SweepSum::anything_with_rods: with(GatherAnythingWithRods{}); break;
-        case SweepSum::frozen_surfaces: with(GatherFrozenSurfaces{}); break;
-        case SweepSum::frozen: with(GatherFrozen{}); break;
-      }
+      Sums::with(sum_, [&](auto sum) {
+        update(count, UpdateVertex<decltype(sum)>{view, colour_begin_[k], asks_late}, own_start);
+      });
     }
   }
 
   /// The force on each free vertex, into `left`; as MeasureVertex. Sums have one width, as no position is made of them.
   void measure(const SweepView& view, LeftForce* left, bool is_end) const {
     constexpr int width = 8;
-    const auto with = [&](auto gather) {
-      backend_.template for_each_team<width>(slots(), MeasureVertex<decltype(gather)>{view, left, is_end},
-                                             Start::after_previous);
-    };
-    if (sum_ == SweepSum::surfaces)
-      with(GatherDefault{});
-    else
-      with(GatherAnythingWithRods{});
+    backend_.template for_each_team<width>(slots(), MeasureVertex<GatherAll>{view, left, is_end},
+                                           Start::after_previous);
   }
 
  private:
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
+  using Sums = typename Backend::Sums;
 
   static bool is_of_volume(const compare::Scene& scene, int body) {
     return scene.bodies[static_cast<std::size_t>(body)].is_volume();
@@ -447,26 +388,23 @@ class Sweep {
   template <class Gather>
   void update(int count, const UpdateVertex<Gather>& kernel, Start start) {
     switch (lanes_) {
-      case 1: return backend_.template for_each_team<1>(count, kernel, start);
       case 2: return backend_.template for_each_team<2>(count, kernel, start);
       case 4: return backend_.template for_each_team<4>(count, kernel, start);
       case 8: return backend_.template for_each_team<8>(count, kernel, start);
-      case 16: return backend_.template for_each_team<16>(count, kernel, start);
-      default: return backend_.template for_each_team<32>(count, kernel, start);
+      default: return backend_.template for_each_team<16>(count, kernel, start);
     }
   }
 
   Backend& backend_;
   std::vector<int> colour_begin_, prescribed_host_;
   int colours_, vertex_count_, lanes_;
-  SweepSum sum_;
+  int sum_;  ///< number in Sums
   ContactActivation activation_;
   RodSweep<Backend> rods_;
   Buffer<SweepVertex> vertices_;
   Buffer<MembraneIncidence> membrane_;
   Buffer<HingeIncidence> hinges_;
   Buffer<ContactIncidence> contacts_;
-  Buffer<FrozenContact> frozen_;
   Buffer<ContactRow> contact_rows_;
   Buffer<int> colour_, body_, prescribed_;
   Buffer<SurfaceMaterial> materials_;

@@ -243,24 +243,15 @@ QUALITY_SHARES = (25, 50, 75)
 QUALITY_ITERATIONS = {"twist": 40, "cloth_on_sphere": 160, "knot": 100, "fifty_layers": 40, "dress": 80,
                       "robot_shirt": 40, MAT: 80}
 QUALITY_TIMED_STEPS = 5  # without a look at each iteration, which takes time of its own
-CONTACT_RULES = {"update": (), "iteration": ("--set", "contact_weights=iteration")}
 QUALITY_ROWS = tuple(row for row in ROWS
                      if scene_of(row) in QUALITY_ITERATIONS and not row.endswith(WITH_VOLUMES))
 
 
-def quality_kind(rule):
-    """Names the steps with closest points found at each update, or once an iteration."""
-    return "quality" if rule == "update" else f"quality_{rule}"
-
-
 def quality(row, scale, backend, data=""):
-    """The residual after each iteration, and steps of the same state that are timed, by each rule for contacts."""
-    for rule, words in CONTACT_RULES.items():
-        options = ("--backend", backend, "--set", f"iterations={QUALITY_ITERATIONS[scene_of(row)]}", *words)
-        yield from from_states(row, quality_kind(rule), 1, scale, (*options, "--residual", "--iterations"), data,
-                               QUALITY_SHARES)
-        yield from from_states(row, f"{quality_kind(rule)}_timed", QUALITY_TIMED_STEPS, scale, options, data,
-                               QUALITY_SHARES)
+    """The residual after each iteration, and steps of the same state that are timed."""
+    options = ("--backend", backend, "--set", f"iterations={QUALITY_ITERATIONS[scene_of(row)]}")
+    yield from from_states(row, "quality", 1, scale, (*options, "--residual", "--iterations"), data, QUALITY_SHARES)
+    yield from from_states(row, "quality_timed", QUALITY_TIMED_STEPS, scale, options, data, QUALITY_SHARES)
 
 
 def to_quality(scale, backend):

@@ -71,7 +71,7 @@ struct Question {
       case DampingForm::per_vertex: moved = inputs.vector(q.vertex[own], q.start[own]); break;
     }
   }
-  bool by_vertex() const { return asked.damping_form == DampingForm::per_vertex; }
+  bool by_vertex() const { return !damps_strain(asked.damping_form); }
   /// The term with this angle at the start.
   HingeTermOf<Input> from(const Input& start) const {
     HingeTermOf<Input> result = term;

@@ -60,9 +60,8 @@ std::vector<compare::ForceAnswer> answers_of(const compare::ContactForceCase& qu
 
 }  // namespace
 
-std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question,
-                                                const WeightsAt& weights_at) {
-  return answers_of(question, meetings(question, weights_at));
+std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question) {
+  return answers_of(question, meetings(question));
 }
 
 compare::ForceTruth contact_force(const compare::ContactForceIn& in) {

@@ -7,9 +7,8 @@
 namespace ogc::reference {
 
 /// The exact answer, then those of the features, stages and ends of action that a decision in its grey zone could give
-/// instead. `weights_at`: as `meetings` takes it.
-std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question,
-                                                const WeightsAt& weights_at = {});
+/// instead.
+std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question);
 
 /// All cases, in parallel over them.
 compare::ForceTruth contact_force(const compare::ContactForceIn& in);

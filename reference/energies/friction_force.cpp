@@ -25,11 +25,6 @@ Triple<Input> moved_apart(Meeting& meeting, const compare::FrictionForceCase& q)
   const auto count = static_cast<std::size_t>(vertex_count(q.contact.sides));
   Inputs& inputs = meeting.inputs;
   Triple<Input> moved;
-  if (meeting.frozen) {
-    moved = meeting.separation();
-    for (std::size_t k = 1; k < count; ++k) moved = moved - meeting.weight[k] * inputs.vector(q.start[k], q.start[0]);
-    return moved;
-  }
   for (std::size_t k = 0; k < count; ++k)
     moved = moved + meeting.weight[k] * inputs.vector(q.contact.vertex[k], q.start[k]);
   return moved;
@@ -92,9 +87,8 @@ Accepted answers_of(const compare::FrictionForceCase& question, const std::vecto
 
 }  // namespace
 
-std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question,
-                                                 const WeightsAt& weights_at) {
-  return answers_of(question, meetings(question.contact, weights_at)).answers;
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question) {
+  return answers_of(question, meetings(question.contact)).answers;
 }
 
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in) {

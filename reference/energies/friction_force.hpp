@@ -6,10 +6,8 @@
 
 namespace ogc::reference {
 
-/// The exact answer, then those of the contact's other acceptable answers. `weights_at`: as `meetings` takes it; Σ wᵢ
-/// xᵢ and Σ wᵢ xᵢᵗ are sums of their own then, and errors are relative to each.
-std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question,
-                                                 const WeightsAt& weights_at = {});
+/// The exact answer, then those of the contact's other acceptable answers.
+std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question);
 
 /// All cases, in parallel over them.
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in);

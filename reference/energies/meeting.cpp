@@ -293,39 +293,21 @@ void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
   meeting.weight = weights(sides, at[0] + first, at[1] + second);
 }
 
-/// The same with weights of other positions, whose inputs enter by their condition alone.
-void weigh_frozen(Meeting& meeting, ContactSides sides, const Parameters& at, const Inputs& inputs) {
-  const auto number = [&](const Input& x) { return meeting.inputs.number(x.value, inputs.condition({&x, 1}) + 1); };
-  meeting.frozen = true;
-  meeting.weight = sides == ContactSides::point_point ? weights(sides, zero, zero)
-                                                      : weights(sides, number(at[0]), number(at[1]));
-}
-
 /// Each way of meeting with the constants of `common`.
-std::vector<Meeting> weighed(const ContactForceCase& question, Meeting common, const WeightsAt& weights_at) {
+std::vector<Meeting> weighed(const ContactForceCase& question, Meeting common) {
   std::vector<Meeting> all;
-  if (!weights_at) {
-    common.needle = has_needle(question, common.vertex);
-    for (const Parameters& at : all_parameters(common.inputs, question, common.vertex))
-      weigh(all.emplace_back(common), question.sides, at);
-    return all;
-  }
-  ContactForceCase before = question;
-  before.vertex = *weights_at;
-  Inputs inputs;
-  const Vertices vertices = relative(question.sides, before.vertex, inputs);
-  common.needle = has_needle(before, vertices);
-  for (const Parameters& at : all_parameters(inputs, before, vertices))
-    weigh_frozen(all.emplace_back(common), question.sides, at, inputs);
+  common.needle = has_needle(question, common.vertex);
+  for (const Parameters& at : all_parameters(common.inputs, question, common.vertex))
+    weigh(all.emplace_back(common), question.sides, at);
   return all;
 }
 
 }  // namespace
 
-std::vector<Meeting> meetings(const ContactForceCase& question, const WeightsAt& weights_at) {
+std::vector<Meeting> meetings(const ContactForceCase& question) {
   Meeting common = begun(question);
   const std::vector<Input> shares = energy_shares(question, common.inputs);
-  const std::vector<Meeting> of_whole = weighed(question, common, weights_at);
+  const std::vector<Meeting> of_whole = weighed(question, common);
   std::vector<Meeting> result;
   for (const Input& share : shares) {
     for (const Meeting& of_one : of_whole) {
@@ -379,9 +361,8 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, 
     if (acts || ends) all.push_back(acting(meeting));
     none = none || !acts || ends;
     // Elsewhere the points of a needle are any distance apart.
-    const bool touches = meeting.doubt > 0 && meeting.may_touch(), of_frozen = meeting.needle && meeting.frozen,
-               of_needle = meeting.needle && (acts || ends || meeting.frozen);
-    const double distance = touches || of_frozen ? 0 : meeting.distance.value - meeting.distance_doubt;
+    const bool touches = meeting.doubt > 0 && meeting.may_touch(), of_needle = meeting.needle && (acts || ends);
+    const double distance = touches ? 0 : meeting.distance.value - meeting.distance_doubt;
     if (touches || of_needle) nearest = any ? std::min(nearest, distance) : distance;
     any = any || touches || of_needle;
   }

@@ -34,8 +34,6 @@ struct Meeting {
   double distance_doubt = 0;  ///< how far d can be off, to first order [m]
   /// the first order may not hold for the place of the contact points (compare/stages/contact_force.hpp)
   bool needle = false;
-  /// weights are those of other positions than the vertices'
-  bool frozen = false;
 
   /// |w| Σ |w_u| over the vertex asked about and those that are updated together with it.
   Input majorant(const compare::ContactForceCase& question) const;
@@ -78,11 +76,8 @@ struct Meeting {
   static void set_plain(ByVertex& x, double value) { x.value.value = value; }
 };
 
-/// The vertices of a contact where its weights are computed, if not where it is evaluated (method.md §7.2) [m].
-using WeightsAt = std::optional<std::array<compare::Vec3f, 4>>;
-
 /// The exact meeting first, then those that a decision in its grey zone could give instead.
-std::vector<Meeting> meetings(const compare::ContactForceCase& question, const WeightsAt& weights_at = {});
+std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 
 /// Whether a decision of the contact lies within near_factor: the features of its closest points, d = r, and d = τ of
 /// an activation with two stages.

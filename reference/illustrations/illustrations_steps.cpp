@@ -171,13 +171,14 @@ Fall fall(double speed, compare::Bounds kind = compare::Bounds::ball) {
   const float query_radius = std::min(contact_radius + static_cast<float>(way),
                                       static_cast<float>(compare::Settings{}.query_radius_cap) * contact_radius);
   std::vector<Vec3f> x = f.start;
+  const bool has_planes = traits_of(kind).has_planes;
   for (bool cut = true; cut && static_cast<int>(f.rounds.size()) < most_rounds;) {
     f.bounds.push_back(bounds_of(topology, x, contact_radius, query_radius));
     cut = false;
     std::vector<Cut> moved;
-    if (kind == compare::Bounds::planes) moved = cut_by_planes(topology, x, f.target, query_radius);
+    if (has_planes) moved = cut_by_planes(topology, x, f.target, query_radius);
     for (std::size_t v = 0; v < x.size(); ++v) {
-      if (kind == compare::Bounds::ball) moved.push_back(cut_to_ball(x[v], f.target[v], f.bounds.back()[v]));
+      if (!has_planes) moved.push_back(cut_to_ball(x[v], f.target[v], f.bounds.back()[v]));
       x[v] = moved[v].position;
       cut = cut || moved[v].cut;
     }

@@ -110,11 +110,6 @@ class IpcSimulation : public compare::Simulation {
 }  // namespace
 
 std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, const compare::SimulationOptions& options) {
-  if (scene.settings.guess == compare::Guess::pairs)
-    throw compare::InputError("setting 'guess' can't be 'pairs' with IPC; give guess=rounds or --solver vbd");
-  if (scene.settings.contact_weights == compare::ContactWeightsRule::iteration)
-    throw compare::InputError(
-        "setting 'contact_weights' can't be 'iteration' with IPC; give contact_weights=update or --solver vbd");
   refuse_volumes(scene, "ipc",
                  "whose barrier lets nothing enter a body: leave the body a surface (--set contact=surface)");
   return std::make_unique<IpcSimulation>(scene, options);

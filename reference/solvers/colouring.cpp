@@ -44,29 +44,22 @@ void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
   }
 }
 
-/// Free vertices in the order in which they are coloured.
-std::vector<Index> order_of(const std::vector<Index>& groups, Colouring rule, std::int64_t seed) {
-  std::vector<Index> order;
+std::vector<Index> free_vertices(const std::vector<Index>& groups) {
+  std::vector<Index> free;
   for (std::size_t v = 0; v < groups.size(); ++v)
-    if (groups[v] == -1) order.push_back(static_cast<Index>(v));
-  if (rule != Colouring::random) return order;
-  // Not std::shuffle: what it draws differs from library to library.
-  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  for (std::size_t n = order.size(); n > 1; --n) std::swap(order[n - 1], order[random() % n]);
-  return order;
+    if (groups[v] == -1) free.push_back(static_cast<Index>(v));
+  return free;
 }
 
-}  // namespace
+/// Not std::shuffle: what it draws differs from library to library.
+void shuffle(std::vector<Index>& order, std::int64_t seed) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  for (std::size_t n = order.size(); n > 1; --n) std::swap(order[n - 1], order[random() % n]);
+}
 
-std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
-                              const std::vector<Index>& groups, Colouring rule) {
-  const std::vector<Index> order = order_of(groups, rule, scene.settings.seed);
-  std::vector<Index> colour(groups.size(), -1);
-  if (rule == Colouring::vertex || rule == Colouring::together) {
-    for (std::size_t k = 0; k < order.size(); ++k)
-      colour[static_cast<std::size_t>(order[k])] = rule == Colouring::vertex ? static_cast<Index>(k) : 0;
-    return colour;
-  }
+/// By free vertex, those that share an element with it.
+std::vector<std::vector<Index>> neighbours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
+                                              const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> near(groups.size());
   const auto is_free = [&](Index v) { return groups[static_cast<std::size_t>(v)] == -1; };
   const auto meet = [&](const auto& vertices) {
@@ -82,6 +75,12 @@ std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestSt
     meet(std::array{s.first, s.second});
     if (s.third >= 0) meet(std::array{s.first, s.second, s.third});
   }
+  return near;
+}
+
+/// In this order, each the least colour that no neighbour has.
+std::vector<Index> greedy(const std::vector<Index>& order, const std::vector<std::vector<Index>>& near) {
+  std::vector<Index> colour(near.size(), -1);
   for (const Index own : order) {
     const auto v = static_cast<std::size_t>(own);
     const auto taken = [&](Index c) {
@@ -90,7 +89,29 @@ std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestSt
     };
     for (colour[v] = 0; taken(colour[v]);) ++colour[v];
   }
-  if (rule == Colouring::turned && !colour.empty()) rotate(components(near), colour);
+  return colour;
+}
+
+}  // namespace
+
+std::vector<Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
+                              const std::vector<Index>& groups, Colouring rule) {
+  std::vector<Index> order = free_vertices(groups), colour(groups.size(), -1);
+  const std::vector<std::vector<Index>> near = neighbours_of(scene, rest, groups);
+  switch (rule) {
+    case Colouring::turned:
+      colour = greedy(order, near);
+      if (!colour.empty()) rotate(components(near), colour);
+      return colour;
+    case Colouring::greedy: return greedy(order, near);
+    case Colouring::random: shuffle(order, scene.settings.seed); return greedy(order, near);
+    case Colouring::vertex:
+      for (std::size_t k = 0; k < order.size(); ++k) colour[static_cast<std::size_t>(order[k])] = static_cast<Index>(k);
+      return colour;
+    case Colouring::together:
+      for (const Index v : order) colour[static_cast<std::size_t>(v)] = 0;
+      return colour;
+  }
   return colour;
 }
 

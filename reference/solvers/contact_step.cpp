@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "compare/problem/volumes.hpp"
-#include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/guess_contacts.hpp"
 #include "reference/solvers/measure.hpp"
 #include "reference/solvers/variants/contact_sets.hpp"
@@ -95,7 +94,7 @@ void ContactStep::detect_here() {
     const std::vector<Vec3f> displacement = displacements_at(here);
     return detect(scene_, topology_, exclusions_, std::move(here), query_radius, displacement);
   });
-  if (contact_set_ != ContactSet::ogc) timed(detection_stage, [&] { replace_contacts(); });
+  if (contact_set_ != Variants{}.contact_set) timed(detection_stage, [&] { replace_contacts(); });
   regions_ = FeasibleRegions(detected_, settings_.bounds);
   const State centre = widened(detected_.previous);
   for (const std::size_t v : movable_) x_[v] = regions_.inside(v, centre[v], x_[v]).x;
@@ -123,7 +122,7 @@ void ContactStep::replace_contacts() {
 }
 
 std::vector<Vec3f> ContactStep::displacements_at(const std::vector<Vec3f>& here) const {
-  if (settings_.bounds != compare::Bounds::dat) return {};
+  if (!traits_of(settings_.bounds).divides) return {};
   std::vector<Vec3f> to = here;
   for (const std::size_t v : movable_)
     if (guessing_) to[v] = rounded({target_[v]}).front();
@@ -158,19 +157,13 @@ void ContactStep::guess(GuessEnd end) {
   potential_.lag_friction(x_);
   HeldMoves moves(exclusions_.groups, settings_.contact_radius);
   for (std::int64_t round = 1; end == GuessEnd::rounds || !in_contact(); ++round) {
-    const State proposals = settings_.guess == compare::Guess::pairs
-                                ? target_
-                                : moves.round(guess_contacts(scene_, topology_, potential_.rest(),
-                                                             detected_.active.vertex_facet, detected_.active.edge_edge),
-                                              widened(detected_.previous), target_);
+    const State proposals = moves.round(
+        guess_contacts(scene_, topology_, potential_.rest(), detected_.active.vertex_facet, detected_.active.edge_edge),
+        widened(detected_.previous), target_);
     std::size_t cut = 0;
     for (const std::size_t v : movable_) move_towards(proposals[v], v, cut);
     metrics_.guess_rounds = round;
     const bool many = asks(cut, round);
-    if (settings_.guess == compare::Guess::pairs) {
-      if (many || (cut > 0 && compare::has_volumes(scene_))) guess_by_pairs();
-      break;
-    }
     if (!many) break;
     if (round >= settings_.guess_rounds) break;
     detect_here();
@@ -179,21 +172,6 @@ void ContactStep::guess(GuessEnd end) {
   potential_.rods().turn(x_);
   detect_next_ = !fresh_;
   if (metrics_.guess_rounds > 0) metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
-}
-
-void ContactStep::guess_by_pairs() {
-  const compare::PairGuessIn question{.topology = &topology_,
-                                      .exclusions = exclusions_,
-                                      .previous = detected_.previous,
-                                      .target = rounded(target_),
-                                      .bound = detected_.bound,
-                                      .bound_relaxation = static_cast<float>(settings_.bound_relaxation),
-                                      .contact_radius = static_cast<float>(settings_.contact_radius),
-                                      .largest_reach = largest_reach(settings_)};
-  const std::vector<Vec3f> guessed = timed(detection_stage, [&] { return pair_guess(question).position; });
-  const State at_guess = widened(guessed);
-  for (const std::size_t v : movable_) x_[v] = at_guess[v];
-  detect_here();
 }
 
 /// Two vertices that were d apart and moved by at most m each are now at least d − 2m apart, and so are all faces.
@@ -215,7 +193,7 @@ void ContactStep::move_towards(const Triple<double>& proposal, std::size_t verte
   fresh_ = fresh_ && x_[vertex] == inside.x;
   x_[vertex] = inside.x;
   cut += inside.cut;
-  if (!inside.cut || !is_prescribed || !compare::has_planes(settings_.bounds)) return;
+  if (!inside.cut || !is_prescribed || !traits_of(settings_.bounds).has_planes) return;
   const Vec3f& p = detected_.previous[vertex];
   ++lagging_;
   advanced_ = advanced_ || inside.x != Triple<double>{p.x, p.y, p.z};
@@ -268,7 +246,7 @@ StepResult ContactStep::finish(std::uint32_t status) {
   metrics_.last_motion = last_motion({x_, start_, target_}, before_, potential_);
   metrics_.largest_lag = largest_lag(x_, target_, potential_.mobility());
   measure_energies(metrics_, {x_, start_, target_}, potential_, scene_, options_.energies);
-  if (metrics_.status == compare::step_clean && settings_.bounds != compare::Bounds::off &&
+  if (metrics_.status == compare::step_clean && traits_of(settings_.bounds).certifies &&
       !keeps_bounds(result.position, detected_))
     metrics_.status = compare::step_bound_violated;
   metrics_.iteration_rows = std::move(rows_);

@@ -121,8 +121,6 @@ class ContactStep {
   void replace_contacts();
   bool many(std::size_t cut, std::int64_t times) const;
   void move_towards(const Triple<double>& proposal, std::size_t vertex, std::size_t& cut);
-  /// In place of a round that cut many vertices (guess=pairs).
-  void guess_by_pairs();
 
   ContactSet contact_set_;
   /// Prescribed vertices behind their targets, since the last question; whether one has moved since the last

@@ -34,21 +34,12 @@ compare::FrictionForceCase question_of(const compare::SweepIn& in, const std::ve
   return question;
 }
 
-/// Where a contact's weights are computed, if not at each update: before the iteration.
-WeightsAt weights_at(const compare::SweepIn& in, const ContactStencil& stencil) {
-  if (in.scene->settings.contact_weights == compare::ContactWeightsRule::update) return {};
-  std::array<compare::Vec3f, 4> before;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(stencil.sides)); ++k)
-    before[k] = in.old[static_cast<std::size_t>(stencil.vertex[k])];
-  return before;
-}
-
-void add_terms(const compare::FrictionForceCase& question, const WeightsAt& before, VertexTerms& sum) {
+void add_terms(const compare::FrictionForceCase& question, VertexTerms& sum) {
   constexpr double inputs = compare::sweep_input_tolerance;
-  sum.terms.push_back(term_of(contact_force(question.contact, before), compare::contact_force_tolerance,
-                              compare::contact_block_tolerance));
+  sum.terms.push_back(
+      term_of(contact_force(question.contact), compare::contact_force_tolerance, compare::contact_block_tolerance));
   if (question.friction > 0)
-    sum.terms.push_back(term_of(friction_force(question, before), compare::friction_force_tolerance + inputs,
+    sum.terms.push_back(term_of(friction_force(question), compare::friction_force_tolerance + inputs,
                                 compare::friction_block_tolerance + inputs));
 }
 
@@ -104,7 +95,7 @@ void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils
                        Index vertex, VertexTerms& sum) {
   const auto v = static_cast<std::size_t>(vertex);
   const auto add = [&](const ContactStencil& stencil, std::size_t own) {
-    add_terms(question_of(in, stencils.body, stencil, own, positions), weights_at(in, stencil), sum);
+    add_terms(question_of(in, stencils.body, stencil, own, positions), sum);
   };
   for (const auto& [contact, own] : stencils.vertex_facet[v])
     add(stencil_of(*in.topology, in.vertex_facet[contact]), own);

@@ -78,7 +78,7 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
   Detected result;
   result.bound =
       bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;
-  if (compare::has_planes(scene.settings.bounds)) {
+  if (traits_of(scene.settings.bounds).has_planes) {
     const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions.groups);
     compare::PlaneOut held = pair_planes(
         {&topology, exclusions, positions, is_fixed, query_radius, relaxation, displacement});

@@ -17,19 +17,16 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 /// many of the smallest numbers. A projection in double rounds each coordinate and the step to it a few times more:
 /// 2⁻⁵⁰ of either.
 FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bounds)
-    : centre_(widened(detected.previous)), planes_(centre_.size()), is_scaled_(bounds == compare::Bounds::dat) {
+    : centre_(widened(detected.previous)), planes_(centre_.size()), is_scaled_(!traits_of(bounds).slides) {
+  const compare::BoundsTraits policy = traits_of(bounds);
   for (std::size_t v = 0; v < centre_.size(); ++v) {
     const Triple<double>& p = centre_[v];
     const double bound = double{detected.bound[v]},
                  size = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) + bound;
     const double rounding = std::sqrt(3.0) * ((0x1p-24 + 0x1p-50) * size + 0x1p-149);
     radius_.push_back(std::max(0.0, (bound - rounding) * (1 - 0x1p-50)));
-    switch (bounds) {
-      case compare::Bounds::ball: break;
-      case compare::Bounds::planes:
-      case compare::Bounds::dat: add_planes(v, detected, rounding); break;
-      case compare::Bounds::off: radius_.back() = std::numeric_limits<double>::infinity(); break;
-    }
+    if (policy.has_planes) add_planes(v, detected, rounding);
+    if (!policy.certifies) radius_.back() = std::numeric_limits<double>::infinity();
   }
 }
 

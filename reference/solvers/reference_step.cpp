@@ -14,7 +14,6 @@
 #include "reference/solvers/colouring.hpp"
 #include "reference/solvers/contacts.hpp"
 #include "reference/solvers/detection.hpp"
-#include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/guess_contacts.hpp"
 #include "reference/solvers/initial_guess.hpp"
 #include "reference/solvers/potential.hpp"
@@ -36,12 +35,9 @@ Vec3f single(const Vec3& a) { return {static_cast<float>(a.x), static_cast<float
 
 class ReferenceStep {
  public:
-  using PairGuesser = std::function<compare::PairGuessOut(const compare::PairGuessIn&)>;
-
-  ReferenceStep(const compare::StepIn& in, PairGuesser guesser)
+  explicit ReferenceStep(const compare::StepIn& in)
       : in_(in),
         settings_(in.scene->settings),
-        guesser_(guesser ? std::move(guesser) : PairGuesser(pair_guess)),
         exclusions_(compare::exclusions(*in.scene)),
         moves_(exclusions_.groups, settings_.contact_radius),
         volumes_(*in.scene, *in.topology),
@@ -67,17 +63,16 @@ class ReferenceStep {
       if (*kind == StepEventKind::detection)
         detect(event);
       else if (*kind == StepEventKind::guess)
-        guess(event, order);
+        guess(event);
       else
         sweep(event);
       const bool is_deep = *kind == StepEventKind::sweep &&
                            depth_of(volume_contacts_, *in_.topology, x_, settings_.contact_radius) == Depth::deep;
-      const bool is_round = *kind == StepEventKind::guess && settings_.guess != compare::Guess::pairs;
+      const bool is_round = *kind == StepEventKind::guess;
       order.took_place(event.cut,
                        lag_of(x_, previous_, out_.target, exclusions_.groups, settings_,
                               is_round ? moves_.stays() : std::vector<bool>{}),
                        is_deep);
-      if (std::exchange(is_by_pairs_, false)) order.left_regions();
       event.position = x_;
       out_.events.push_back(std::move(event));
     }
@@ -113,7 +108,7 @@ class ReferenceStep {
 
   void detect(StepEvent& event) {
     std::vector<Vec3f> displacement;
-    if (settings_.bounds == compare::Bounds::dat)
+    if (traits_of(settings_.bounds).divides)
       displacement = is_swept_ ? compare::displacements(previous_, x_) : compare::displacements(x_, out_.target);
     previous_ = x_;
     const compare::DetectIn question{in_.topology, exclusions_, x_, static_cast<float>(settings_.contact_radius),
@@ -123,7 +118,7 @@ class ReferenceStep {
     event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
                          event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bound_relaxation)})
                       .exact.bound;
-    if (compare::has_planes(settings_.bounds)) {
+    if (traits_of(settings_.bounds).has_planes) {
       const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions_.groups);
       compare::PlaneOut held = pair_planes({in_.topology, exclusions_, x_, is_fixed, out_.query_radius,
                                             static_cast<float>(settings_.bound_relaxation), displacement});
@@ -138,9 +133,7 @@ class ReferenceStep {
   }
 
   /// In the guess loop, where x is X_prev.
-  bool does_not_slide(std::size_t v) const {
-    return exclusions_.groups[v] > 0 || settings_.bounds == compare::Bounds::dat;
-  }
+  bool does_not_slide(std::size_t v) const { return exclusions_.groups[v] > 0 || !traits_of(settings_.bounds).slides; }
 
   /// Where v goes on its way to where it is proposed; counts a cut.
   Vec3f truncated(std::size_t v, const Vec3f& proposal, Index& cut) const {
@@ -153,11 +146,9 @@ class ReferenceStep {
     return stored_in_region(truth.position[0], question, 0);
   }
 
-  void guess(StepEvent& event, const StepOrder& order) {
-    const bool is_by_pairs = settings_.guess == compare::Guess::pairs;
-    const std::vector<Vec3f> proposals = is_by_pairs ? out_.target : held_targets();
+  void guess(StepEvent& event) {
+    const std::vector<Vec3f> proposals = held_targets();
     for (std::size_t v = 0; v < x_.size(); ++v) x_[v] = truncated(v, proposals[v], event.cut);
-    if (is_by_pairs && order.asks_for_pairs(event.cut)) guess_by_pairs(event);
   }
 
   /// Where contacts let each vertex go.
@@ -165,22 +156,6 @@ class ReferenceStep {
     const std::vector<GuessContact> contacts = guess_contacts(*in_.scene, *in_.topology, out_.rest,
                                                               contacts_.vertex_facet, contacts_.edge_edge);
     return rounded(moves_.round(contacts, widened(previous_), widened(out_.target)));
-  }
-
-  /// In place of the round whose balls cut many.
-  void guess_by_pairs(StepEvent& event) {
-    const compare::PairGuessIn question{.topology = in_.topology,
-                                        .exclusions = exclusions_,
-                                        .previous = previous_,
-                                        .target = out_.target,
-                                        .bound = bound_,
-                                        .bound_relaxation = static_cast<float>(settings_.bound_relaxation),
-                                        .contact_radius = static_cast<float>(settings_.contact_radius),
-                                        .largest_reach = largest_reach(settings_)};
-    x_ = guesser_(question).position;
-    event.cut = 0;
-    for (std::size_t v = 0; v < x_.size(); ++v) event.cut += !(x_[v] == out_.target[v]);
-    is_by_pairs_ = true;
   }
 
   /// From the start of the step to where the guess loop has led.
@@ -220,9 +195,7 @@ class ReferenceStep {
 
   const compare::StepIn& in_;
   const compare::Settings& settings_;
-  PairGuesser guesser_;
-  bool is_by_pairs_ = false;  ///< the last guess was
-  bool is_swept_ = false;     ///< the guess loop is over
+  bool is_swept_ = false;  ///< the guess loop is over
   compare::Exclusions exclusions_;
   HeldMoves moves_;
   SceneVolumes volumes_;
@@ -238,9 +211,6 @@ class ReferenceStep {
 
 }  // namespace
 
-compare::StepOut reference_step(const compare::StepIn& in,
-                                std::function<compare::PairGuessOut(const compare::PairGuessIn&)> guess) {
-  return ReferenceStep(in, std::move(guess)).run();
-}
+compare::StepOut reference_step(const compare::StepIn& in) { return ReferenceStep(in).run(); }
 
 }  // namespace ogc::reference

@@ -5,7 +5,6 @@
 
 #include "compare/problem/volumes.hpp"
 #include "compare/stages/volume_force.hpp"
-#include "reference/solvers/guess/pair_guess.hpp"
 #include "reference/solvers/guess_contacts.hpp"
 #include "reference/solvers/step_order.hpp"
 
@@ -17,24 +16,11 @@ using compare::StepEventKind;
 using compare::Vec3;
 using compare::Vec3f;
 
-/// Whether the i-th event, a guess, took a vertex out of the ball that the detection before it left.
-bool leaves_balls(const compare::StepIn& in, const compare::StepOut& answer, std::size_t i) {
-  if (i == 0 || i >= answer.events.size() || answer.events[i - 1].bound.size() != answer.events[i].position.size())
-    return false;
-  compare::PairGuessIn question;
-  question.topology = in.topology;
-  question.previous = answer.events[i - 1].position;
-  question.bound = answer.events[i - 1].bound;
-  for (std::size_t v = 0; v < question.previous.size(); ++v)
-    if (leaves_ball(question, answer.events[i].position[v], v)) return true;
-  return false;
-}
-
 /// By event, what contacts leave of moves. An answer without frictions has none.
 std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in, const compare::StepOut& answer) {
   std::vector<std::vector<compare::HeldMove>> moves(answer.events.size());
   const std::size_t bodies = in.scene->bodies.size(), count = in.scene->mesh.positions.size();
-  if (in.scene->settings.guess == compare::Guess::pairs || answer.rest.meetings.size() != bodies * bodies) return moves;
+  if (answer.rest.meetings.size() != bodies * bodies) return moves;
   HeldMoves rounds(rigid_groups(*in.scene), in.scene->settings.contact_radius);
   for (std::size_t i = 1; i < answer.events.size(); ++i) {
     const compare::StepEvent& detection = answer.events[i - 1];
@@ -62,7 +48,7 @@ double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
                const std::vector<Index>& groups, const compare::Settings& settings, const std::vector<bool>& stays) {
   StepLag lag;
-  if (!compare::has_planes(settings.bounds)) return lag;
+  if (!traits_of(settings.bounds).has_planes) return lag;
   for (std::size_t v = 0; v < x.size(); ++v) {
     if (groups[v] <= 0 || x[v] == target[v] || (!stays.empty() && stays[v] && x[v] == previous[v])) continue;
     ++lag.lagging;
@@ -144,9 +130,6 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
       is_deep = depth == Depth::deep || (depth == Depth::doubtful && detects_next);
     }
     order.took_place(cut, lag, is_deep);
-    if (settings.guess == compare::Guess::pairs && *kind == compare::StepEventKind::guess &&
-        (order.asks_for_pairs(cut) || leaves_balls(in, answer, i)))
-      order.left_regions();
   }
   return truth;
 }

@@ -4,7 +4,6 @@
 
 #include <functional>
 
-#include "compare/stages/pair_guess.hpp"
 #include "compare/stages/step.hpp"
 #include "reference/solvers/step_order.hpp"
 
@@ -29,8 +28,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
 
 /// The step made of the reference's own stages: exact sets, bounds and targets, updates in double; positions stored in
 /// single precision where the contract stores them, within their bounds. Vertices are coloured in the order of their
-/// numbers. `guess`: how guess=pairs finds positions; empty: pair_guess (reference/solvers/guess/pair_guess.hpp).
-compare::StepOut reference_step(const compare::StepIn& in,
-                                std::function<compare::PairGuessOut(const compare::PairGuessIn&)> guess = {});
+/// numbers.
+compare::StepOut reference_step(const compare::StepIn& in);
 
 }  // namespace ogc::reference

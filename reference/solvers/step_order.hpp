@@ -23,9 +23,7 @@ inline constexpr double deep_share = 0.5;
 class StepOrder {
  public:
   StepOrder(const compare::Settings& settings, compare::Index moving, bool has_volumes = false)
-      : settings_(settings),
-        redetect_vertices_(settings.redetect_fraction * moving),
-        pair_guess_count_(has_volumes ? 1 : least_cut(1)) {}
+      : settings_(settings), redetect_vertices_(settings.redetect_fraction * moving) {}
 
   /// Empty after the last iteration.
   std::optional<compare::StepEventKind> next() const {
@@ -44,8 +42,7 @@ class StepOrder {
         break;
       case compare::StepEventKind::guess:
         ++rounds_;
-        guessing_ = asks(cut, lag, rounds_) && settings_.guess == compare::Guess::rounds &&
-                    rounds_ < settings_.guess_rounds;
+        guessing_ = asks(cut, lag, rounds_) && rounds_ < settings_.guess_rounds;
         found_ = !guessing_;
         break;
       case compare::StepEventKind::sweep:
@@ -56,12 +53,6 @@ class StepOrder {
         break;
     }
   }
-
-  /// So many cut vertices ask for a guess by pairs; with volumes each does, as a body leaves behind whoever stays.
-  bool asks_for_pairs(compare::Index cut) const { return cut >= pair_guess_count_; }
-  /// The guess that took place was by pairs and may have left the regions of its detection: another comes before the
-  /// first iteration.
-  void left_regions() { found_ = false; }
 
  private:
   double least_cut(std::int64_t times) const {
@@ -76,10 +67,9 @@ class StepOrder {
 
   const compare::Settings& settings_;
   double redetect_vertices_;  ///< γ_e K
-  double pair_guess_count_;
-  bool guessing_ = true;    ///< in the guess loop
-  bool lag_asked_ = false;  ///< a lag has asked for a detection in this step
-  bool found_ = false;      ///< contacts and bounds hold for what comes next
+  bool guessing_ = true;      ///< in the guess loop
+  bool lag_asked_ = false;    ///< a lag has asked for a detection in this step
+  bool found_ = false;        ///< contacts and bounds hold for what comes next
   std::int64_t rounds_ = 0, iterations_ = 0, since_detection_ = 0;
 };
 

@@ -20,7 +20,7 @@ std::span<const compare::VertexPlane> planes_of(const compare::SweepIn& in, Inde
   return in.planes != nullptr ? in.planes->of(v) : std::span<const compare::VertexPlane>{};
 }
 
-bool is_scaled(const compare::SweepIn& in) { return in.scene->settings.bounds == compare::Bounds::dat; }
+bool is_scaled(const compare::SweepIn& in) { return !traits_of(in.scene->settings.bounds).slides; }
 
 /// From where a vertex that does not slide is scaled.
 const compare::Vec3f& start_of_way(const compare::SweepIn& in, std::size_t i) {

@@ -23,7 +23,7 @@ VbdSolver::VbdSolver(const compare::Scene& scene, const compare::Topology& topol
       systems_(potential_, variants_of(settings_).contact_blocks),
       colour_(std::move(colour)) {
   const Colouring rule = variants_of(settings_).colours;
-  if (colour_.empty() || rule != Colouring::turned)
+  if (colour_.empty() || rule != Variants{}.colours)
     colour_ = colours_of(scene, potential_.rest(), exclusions_.groups, rule);
   for (std::size_t v = 0; v < exclusions_.groups.size(); ++v) {
     if ((exclusions_.groups[v] == -1) != (colour_.at(v) >= 0))
@@ -98,15 +98,15 @@ std::size_t VbdSolver::sweep() {
       const VertexSystem system = systems_.at(members[k], view);
       const auto metric = [&](const Triple<double>& n) { return solved(system, n); };
       const Triple<double> wanted = old[v] + metric(system.force);
-      moved[k] = cut_after_ == CutAfter::update ? regions_.inside(v, old[v], wanted, metric)
-                                                : FeasibleRegions::Inside{wanted};
+      moved[k] = cuts_updates(cut_after_) ? regions_.inside(v, old[v], wanted, metric)
+                                          : FeasibleRegions::Inside{wanted};
     });
     for (std::size_t k = 0; k < members.size(); ++k) {
       x_[static_cast<std::size_t>(members[k])] = moved[k].x;
       cut += moved[k].cut;
     }
   }
-  return cut_after_ == CutAfter::update ? cut : cut + cut_all(old);
+  return cuts_updates(cut_after_) ? cut : cut + cut_all(old);
 }
 
 std::size_t VbdSolver::cut_all(const State& old) {

@@ -64,7 +64,7 @@ Updated updated_with(Index own, const std::array<Index, 4>& vertex, const SweepV
   Updated updated{};
   for (std::size_t k = 0; k < 4; ++k) {
     const Index u = vertex[k];
-    updated[k] = u == own || (blocks == ContactBlocks::majorised && u >= 0 &&
+    updated[k] = u == own || (majorises(blocks) && u >= 0 &&
                               x.colour[static_cast<std::size_t>(u)] == x.colour[static_cast<std::size_t>(own)]);
   }
   return updated;

@@ -76,19 +76,6 @@ TEST_CASE("the exact answers pass their own judge", "[agreement]") {
   }
 }
 
-TEST_CASE("a right guess by pairs of another make passes the judge", "[agreement]") {
-  const Authority authority = reference::authority();
-  Contestant other = tests::exact_contestant(authority);
-  other.step = [](const StepIn& in) { return reference::reference_step(in, tests::own_pair_guess); };
-  JudgeOptions options = few_cases(Stage::step);
-  for (const char* generator : {"pairs", "ladder.stack"}) {
-    options.generator = generator;
-    const StageReport report = judge_stage(Stage::step, other, authority, options);
-    INFO(first_mismatch(report));
-    CHECK(report.passed());
-  }
-}
-
 // The faults of a step are two tests, because together they take minutes.
 TEST_CASE("the judge catches every planted fault of a step that any generator shows", "[agreement]") {
   check_caught({Stage::step}, Shown::by_any);

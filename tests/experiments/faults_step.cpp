@@ -79,7 +79,6 @@ void change_rounds(StepOut& out, int first, Change change) {
 
 /// From the second round on vertices that touch something stay where they are.
 void hold_from_second_round(const StepIn& in, StepOut& out) {
-  if (in.scene->settings.guess == Guess::pairs) return;
   change_rounds(out, 1, [](StepEvent& guess, const StepEvent& detection, std::size_t v) {
     guess.position[v] = detection.position[v];
   });
@@ -87,7 +86,6 @@ void hold_from_second_round(const StepIn& in, StepOut& out) {
 
 /// Contacts take nothing: what touches goes to y, truncated.
 void fall_into_partners(const StepIn& in, StepOut& out) {
-  if (in.scene->settings.guess == Guess::pairs) return;
   change_rounds(out, 0, [&](StepEvent& guess, const StepEvent& detection, std::size_t v) {
     const Vec3f &p = detection.position[v], &y = out.target[v];
     const TruncateTruth truth = reference::truncate({{p}, {y}, {detection.bound[v]}});
@@ -117,7 +115,7 @@ using Wrong = std::function<void(GuessContacts&, const Places& previous, Places&
 Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1) {
   return spoiled(name, [wrong, sign](const StepIn& in, StepOut& out) {
     const Settings& settings = in.scene->settings;
-    if (settings.guess == Guess::pairs || settings.bounds != Bounds::ball || out.events.size() < 2) return;
+    if (settings.bounds != Bounds::ball || out.events.size() < 2) return;
     const StepEvent& detection = out.events[0];
     const GuessContacts contacts = reference::guess_contacts(
         *in.scene, *in.topology, out.rest, detection.vertex_facet.contacts, detection.edge_edge.contacts);
@@ -380,7 +378,6 @@ std::vector<Fault> step_faults() {
       about_free_volumes("vertices of free volumes do not ask", ask_from_surfaces_alone),
       bounded_volumes(),
   };
-  for (Fault& fault : pair_guess_faults()) faults.push_back(std::move(fault));
   return faults;
 }
 

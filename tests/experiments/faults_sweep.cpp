@@ -152,13 +152,6 @@ Fault about_volumes(const std::string& name, const std::function<void(SweepCopy&
   return fault;
 }
 
-/// A fault of weights that an iteration shares, likewise.
-Fault about_frozen(const std::string& name, const std::function<void(SweepCopy&)>& change) {
-  Fault fault = asked_wrongly(name, change);
-  fault.generator = "frozen";
-  return fault;
-}
-
 /// A fault of free volumes, likewise.
 Fault about_free_volumes(Fault fault) {
   fault.generator = "free_volume";
@@ -229,10 +222,6 @@ std::vector<Fault> sweep_faults() {
          };
        }},
       truncated_late(),
-      about_frozen("weights of the iteration computed at each update",
-                   [](SweepCopy& copy) { copy.scene.settings.contact_weights = ContactWeightsRule::update; }),
-      about_frozen("weighted start of a step taken before the iteration",
-                   [](SweepCopy& copy) { copy.start.assign(copy.in.old.begin(), copy.in.old.end()); }),
       about_volumes("contacts with volumes left out", [](SweepCopy& copy) { copy.in.volumes = {}; }),
       about_volumes(
           "one contact of a vertex with volumes alone",

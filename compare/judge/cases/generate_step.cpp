@@ -101,7 +101,7 @@ struct StepBuilder {
     for (Vec3& x : mesh.positions) x = sum(x, shift);
     add(mesh, velocity, false);
     scene.bodies.back().contact = contact;
-    if (contact == BodyContact::volume || !random.one_in(5)) return;
+    if (is_volume(contact) || !random.one_in(5)) return;
     for (std::size_t v = scene.mesh.positions.size() - mesh.positions.size(); v < scene.mesh.positions.size(); ++v) {
       double& z = scene.mesh.positions[v].z;
       z = lowest + highest + 2 * shift.z - z;
@@ -468,21 +468,6 @@ CaseData volume_at_radius(Random& random) {
   return builder.finish();
 }
 
-/// Sheets above one another land on a fixed one, some within a step's reach of it and some beyond, closer to each other
-/// than to it; or all fall freely.
-CaseData stack(Random& random) {
-  StepBuilder builder(random);
-  const double move = random.between(0.3, 1.2), gap = move * (random.one_in(3) ? 16 : random.between(0.2, 1.2)),
-               between = move * random.between(0.05, 0.6);
-  const int layers = 2 + random.below(4), n = 2 + random.below(2);
-  for (int k = 0; k < layers; ++k) builder.sheet(n, n, {0, 0, gap + k * between}, {0, 0, -builder.speed(move)});
-  builder.sheet(n, n, {}, {}, true);
-  builder.jitter(random.between(0, 0.1) * between);
-  Settings& settings = builder.scene.settings;
-  settings.query_radius_cap = 16, settings.redetect_fraction = 0.01, settings.iterations = 1;
-  return builder.finish();
-}
-
 /// The case after `change` of its scene.
 template <class Change>
 CaseData changed(const CaseData& data, const Change& change) {
@@ -493,35 +478,10 @@ CaseData changed(const CaseData& data, const Change& change) {
   return test;
 }
 
-CaseData by_pairs(const CaseData& data) {
-  return changed(data, [](Scene& scene) { scene.settings.guess = Guess::pairs; });
-}
-
-/// Guesses by certificate of pairs: pieces that fall, land, meet and are pulled.
-CaseData pairs(Random& random) {
-  constexpr std::array<CaseData (*)(Random&), 4> scenes{fall, onto, collide, handle};
-  return by_pairs(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
-}
-/// Of a scene with volumes one cut vertex asks for a guess by pairs.
-CaseData volume(Random& random) {
-  const CaseData data = sheets_before_volumes(random);
-  return random.one_in(3) ? by_pairs(data) : data;
-}
-
-/// Stacks that end before, at and beyond the gap that they may lose.
-CaseData stack_by_pairs(Random& random) { return by_pairs(stack(random)); }
-
 /// Other models than the default ones.
 CaseData models(Random& random) {
   const CaseData data = random.one_in(2) ? onto(random) : handle(random);
   return changed(data, [&](Scene& scene) { choose_models(random, scene); });
-}
-
-/// Weights of contacts that are those before each iteration.
-CaseData frozen(Random& random) {
-  constexpr std::array<CaseData (*)(Random&), 5> scenes{onto, collide, handle, solid, models};
-  return changed(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random),
-                 [](Scene& scene) { scene.settings.contact_weights = ContactWeightsRule::iteration; });
 }
 
 CaseData with_bounds(const CaseData& data, Bounds bounds) {
@@ -558,7 +518,7 @@ CaseData rods(Random& random) {
   return builder.finish();
 }
 
-constexpr std::array<Generator, 23> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 20> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -570,17 +530,14 @@ constexpr std::array<Generator, 23> table{{{"fall", 12, true, fall},
                                            {"lattice", 10, false, lattice},
                                            {"solid", 8, false, solid, 0, Stage::tetrahedron},
                                            {"models", 5, false, models},
-                                           {"frozen", 5, false, frozen, 0, Stage::tetrahedron, true},
                                            {"planes", 10, false, planes, 0, Stage::plane},
                                            {"ladder.planes", 22, false, planes_at_rest, 0, Stage::plane},
                                            {"dat", 12, false, dat, 0, Stage::plane},
-                                           {"volume", 8, false, volume, 0, Stage::volume_depth},
+                                           {"volume", 8, false, sheets_before_volumes, 0, Stage::volume_depth},
                                            {"cavity", 3, false, in_cavity, 0, Stage::volume_depth, true},
                                            {"ladder.volume", 11, false, volume_at_radius, 0, Stage::volume_depth},
                                            {"free_volume", 3, false, free_volume, 0, Stage::volume_depth},
-                                           {"rods", 12, false, rods, 0, Stage::orientation},
-                                           {"pairs", 24, false, pairs, 0, std::nullopt, true},
-                                           {"ladder.stack", 24, false, stack_by_pairs, 0, std::nullopt, true}}};
+                                           {"rods", 12, false, rods, 0, Stage::orientation}}};
 
 }  // namespace
 

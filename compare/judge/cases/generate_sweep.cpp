@@ -522,22 +522,6 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-/// Weights of contacts that are those before the iteration.
-CaseData with_frozen_weights(const CaseData& data) {
-  SweepCase test = case_of<SweepCase>(data);
-  Scene scene = *test.scene;
-  scene.settings.contact_weights = ContactWeightsRule::iteration;
-  test.scene = std::make_shared<Scene>(std::move(scene));
-  return test;
-}
-
-CaseData frozen(Random& random) {
-  constexpr std::array<CaseData (*)(Random&), 6> scenes{sheets, fold, prescribed, slip, strands, with_models<sheets>};
-  return with_frozen_weights(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
-}
-CaseData frozen_bodies(Random& random) {
-  return with_frozen_weights(random.one_in(2) ? solid(random) : volume(random));
-}
 /// Rods beside sheets, of which rows may be prescribed, or alone.
 CaseData rods(Random& random) {
   if (random.one_in(2)) return rods_alone(random);
@@ -549,7 +533,7 @@ CaseData rods_at_rest(Random& random) {
   return with_rod(random, case_of<SweepCase>(random.one_in(2) ? at_rest(random) : collapse(random)));
 }
 
-constexpr std::array<Generator, 29> table{{{"sheets", 16, true, sheets},
+constexpr std::array<Generator, 27> table{{{"sheets", 16, true, sheets},
                                            {"fold", 10, true, fold},
                                            {"body", 10, true, over_body},
                                            {"prescribed", 8, true, prescribed},
@@ -570,8 +554,6 @@ constexpr std::array<Generator, 29> table{{{"sheets", 16, true, sheets},
                                            {"volume", 4, false, volume, 0, Stage::volume_depth},
                                            {"ladder.volume", 4, false, volume_at_radius, 0, Stage::volume_depth},
                                            {"free_volume", 5, false, free_volume, 0, Stage::volume_depth},
-                                           {"frozen", 8, false, frozen, 0, std::nullopt, true},
-                                           {"frozen.bodies", 4, false, frozen_bodies, 0, Stage::volume_depth, true},
                                            {"models", 8, false, with_models<sheets>},
                                            {"models.prescribed", 4, false, with_models<prescribed>},
                                            {"ladder.models_rest", 6, false, with_models<at_rest>},

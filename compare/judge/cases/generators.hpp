@@ -24,10 +24,8 @@ struct Generator {
   /// A stage that the contestant must have, too: `tetrahedron` for cases about solids, `plane` for half-spaces,
   /// `volume_depth` for volumes
   std::optional<Stage> also_needs = std::nullopt;
-  /// scenes with guess=pairs or contact_weights=iteration, and volumes with cavities, which only a contestant that
-  /// knows them is asked about
-  bool newer_settings = false;
-  bool divides = false;  ///< gaps that are divided by approach, likewise
+  bool has_cavities = false;  ///< volumes with cavities, which only a contestant that knows them is asked about
+  bool divides = false;       ///< gaps that are divided by approach, likewise
 };
 
 /// The generators of a stage, without those that take real states: `states` as they are, `mutated`

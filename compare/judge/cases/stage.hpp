@@ -49,7 +49,7 @@ extern const StageTraits rest_state, closest_face, closest_points, block, detect
 }  // namespace stages
 
 /// The list of all stages, the only one that the judge has: an enumerator that is missing here does not compile
-/// (-Wswitch; tests/planted_enumerators.py plants one). Null for a number that is no enumerator.
+/// (-Wswitch; tests/choices.py). Null for a number that is no enumerator.
 constexpr const StageTraits* find_traits(Stage stage) {
   switch (stage) {
     case Stage::rest_state: return &stages::rest_state;

@@ -168,7 +168,7 @@ bool is_asked(const Contestant& contestant, Stage stage, const Generator& genera
              has_rods = generator.also_needs == Stage::orientation;
   return (!generator.also_needs || has_stage(contestant, *generator.also_needs)) &&
          (!is_step_with_planes || contestant.has_steps_with_planes) && (!has_volumes || contestant.has_volumes) &&
-         (!has_rods || contestant.has_rods) && (!generator.newer_settings || contestant.has_newer_settings) &&
+         (!has_rods || contestant.has_rods) && (!generator.has_cavities || contestant.has_cavities) &&
          (!generator.divides || contestant.divides_by_approach);
 }
 

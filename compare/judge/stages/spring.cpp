@@ -157,7 +157,7 @@ double length_of(const SpringCase& c, const std::array<Vec3f, 3>& x) {
 /// No damping of strain but while the spring shortens (`sign` −1) or lengthens (1).
 void damped_alone(SpringCase& c, double sign) {
   const double change = length_of(c, c.vertex) - length_of(c, c.start);
-  if (c.damping_form == DampingForm::strain && !(sign * change > 0)) c.damping = 0;
+  if (damps_strain(c.damping_form) && !(sign * change > 0)) c.damping = 0;
 }
 
 std::vector<WrongForm> spring_forms() {
@@ -187,7 +187,7 @@ std::vector<WrongForm> spring_forms() {
              for (std::size_t i = 0; i < in.cases.size(); ++i) {
                const SpringCase& c = in.cases[i];
                const double of_identity = (trace(elastic.accepted[i][0]) - trace(full.accepted[i][0]) / 3) / 2,
-                            factor = c.damping_form == DampingForm::per_vertex ? 1 + double{c.damping} : 1;
+                            factor = damps_strain(c.damping_form) ? 1 : 1 + double{c.damping};
                for (ForceAnswer& answer : truth.accepted[i]) add_ones(answer, factor * of_identity);
              }
              return truth;

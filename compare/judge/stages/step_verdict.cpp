@@ -172,7 +172,7 @@ class StepVerdict {
       }
       switch (event.kind) {
         case StepEventKind::detection: judge_detection(i); break;
-        case StepEventKind::guess: is_by_pairs(i) ? judge_pair_guess(i) : judge_guess(i); break;
+        case StepEventKind::guess: judge_guess(i); break;
         case StepEventKind::sweep: judge_iteration(i); break;
       }
       at_ = event.position;
@@ -185,7 +185,7 @@ class StepVerdict {
   /// X_prev is x, sets and smallest distances are those at X_prev, bounds those of the answer's own distances.
   void judge_detection(std::size_t i) {
     const StepEvent& event = out_.events[i];
-    if (policy() == Bounds::dat) {
+    if (policy().divides) {
       const bool is_after_sweep = i > 0 && out_.events[i - 1].kind == StepEventKind::sweep;
       displacement_ = is_after_sweep ? displacements(detection_->position, at_) : displacements(at_, out_.target);
     }
@@ -200,16 +200,17 @@ class StepVerdict {
     const DetectIn question = detect_question(case_of<MeshCase>(mesh.data));
     part(where(i), Stage::detect_vertex_facet, [&](Tally& own) {
       const DetectVertexFacetTruth truth = authority_.detect_vertex_facet(question);
-      judge_detect_vertex_facet(mesh, truth,
-                                has_planes() ? with_distances(event.vertex_facet, truth) : event.vertex_facet, own);
+      judge_detect_vertex_facet(
+          mesh, truth, policy().has_planes ? with_distances(event.vertex_facet, truth) : event.vertex_facet, own);
     });
     part(where(i), Stage::detect_edge_edge, [&](Tally& own) {
       const DetectEdgeEdgeTruth truth = authority_.detect_edge_edge(question);
-      judge_detect_edge_edge(mesh, truth, has_planes() ? with_distances(event.edge_edge, truth) : event.edge_edge, own);
+      judge_detect_edge_edge(mesh, truth,
+                             policy().has_planes ? with_distances(event.edge_edge, truth) : event.edge_edge, own);
     });
     judge_volumes(i);
     if (!right()) return;
-    if (has_planes()) return judge_planes(i, question);
+    if (policy().has_planes) return judge_planes(i, question);
     const BoundIn bounds{in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
                          event.vertex_facet.d_min_triangle, static_cast<float>(in_.scene->settings.bound_relaxation)};
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
@@ -232,8 +233,7 @@ class StepVerdict {
          [&](Tally& tally) { judge_volume_depth(asked, VolumeQuestion::truth(question, authority_), *own, tally); });
   }
 
-  Bounds policy() const { return in_.scene->settings.bounds; }
-  bool has_planes() const { return compare::has_planes(policy()); }
+  BoundsTraits policy() const { return traits_of(in_.scene->settings.bounds); }
 
   /// With planes nobody is asked for smallest distances: those of the truth stand in.
   static DetectVertexFacetOut with_distances(DetectVertexFacetOut out, const DetectVertexFacetTruth& truth) {
@@ -257,49 +257,6 @@ class StepVerdict {
       if (can_judge_plane(test_, question, answer, own))
         judge_plane(test_, question, authority_.plane(question, answer), answer, own);
     });
-  }
-
-  /// With guess=pairs, where a detection follows: many vertices are not at y, or one has left its ball. Otherwise the
-  /// guess is a round as any other.
-  bool is_by_pairs(std::size_t i) const {
-    return in_.scene->settings.guess == Guess::pairs && i + 1 < truth_.events.size() &&
-           truth_.events[i + 1] == StepEventKind::detection;
-  }
-
-  /// Any positions on the way to y that the certificate of pairs accepts.
-  void judge_pair_guess(std::size_t i) {
-    const StepEvent& event = out_.events[i];
-    const Settings& settings = in_.scene->settings;
-    const Exclusions exclusions{groups_, partners_};
-    const PairGuessIn question{
-        .topology = in_.topology,
-        .exclusions = exclusions,
-        .previous = at_,
-        .target = out_.target,
-        .bound = detection_->bound,
-        .bound_relaxation = static_cast<float>(settings.bound_relaxation),
-        .contact_radius = static_cast<float>(settings.contact_radius),
-        .largest_reach = static_cast<float>(settings.query_radius_cap * settings.contact_radius)};
-    Index cut = 0;
-    for (std::size_t v = 0; v < at_.size(); ++v) {
-      const Vec3f &x = event.position[v], &y = out_.target[v];
-      if (!is_finite(x)) tally_.mismatch(where(i) + vertex(v) + " has no position");
-      if (groups_[v] == 0 && !(x == at_[v])) tally_.mismatch(where(i) + vertex(v) + " is fixed and has moved");
-      cut += !(x == y);
-    }
-    if (event.cut != cut)
-      tally_.mismatch(where(i) + ": " + std::to_string(event.cut) + " vertices counted as cut, " + std::to_string(cut) +
-                      " are not at y");
-    if (!right()) return;
-    const PairGuessTruth truth = authority_.pair_guess(question, {event.position});
-    decisions_ += truth.pairs;
-    if (!truth.unsafe.empty())
-      tally_.mismatch(where(i) + ": " + std::to_string(truth.unsafe.size()) +
-                      " pairs come too near on the way from X to the guess, first " + name_of(truth.unsafe.front()));
-    if (!truth.held_back.empty())
-      tally_.mismatch(where(i) + ": " + std::to_string(truth.held_back.size()) +
-                      " vertices of groups that nothing stops are not at y, first" +
-                      vertex(static_cast<std::size_t>(truth.held_back.front())));
   }
 
   static std::string name_of(const PrimitivePair& pair) {
@@ -335,7 +292,7 @@ class StepVerdict {
       const TruncateIn question{{at_[v]},
                                 {out_.target[v]},
                                 {detection_->bound[v]},
-                                half_spaces_of(planes, at_[v], groups_[v] > 0 || policy() == Bounds::dat)};
+                                half_spaces_of(planes, at_[v], groups_[v] > 0 || !policy().slides)};
       part(where(i) + vertex(v), Stage::truncate, [&](Tally& own) {
         judge_truncate({&test_, 1}, question, authority_.truncate(question), {{event.position[v]}, {is_cut}}, own);
       });
@@ -394,7 +351,7 @@ class StepVerdict {
     cuts.certain += room < -accepted;
     cuts.doubtful += std::abs(room) <= accepted;
     const bool is_free = room > accepted, has_half_spaces = !detection_->planes.of(static_cast<Index>(v)).empty();
-    if (has_half_spaces && !is_free && policy() != Bounds::dat) return;
+    if (has_half_spaces && !is_free && policy().slides) return;
     const double share = length > bound ? bound / length : 1;
     const double error = off_way(v, x, m, has_half_spaces && !is_free ? 0 : share, share);
     tally_.error(3, error / accepted, [&] {
@@ -417,7 +374,7 @@ class StepVerdict {
                            detection_->bound,
                            detection_->vertex_facet.contacts,
                            detection_->edge_edge.contacts,
-                           has_planes() ? &detection_->planes : nullptr,
+                           policy().has_planes ? &detection_->planes : nullptr,
                            detection_->volumes.contacts,
                            out_.segment_colour,
                            q_,

@@ -216,17 +216,6 @@ std::vector<WrongForm> sweep_forms() {
                     for (Index& colour : read.colour)
                       if (colour > 0) colour = 0;
                   })};
-  const auto weights_at = [&](std::string name, std::string meaning, ContactWeightsRule rule) {
-    forms.push_back(sweep_asked(std::move(name), std::move(meaning),
-                                [rule](Read& read) { read.scene.settings.contact_weights = rule; }));
-  };
-  weights_at("weights_of_update",
-             "closest points where each update reads positions, also where those of the iteration "
-             "are asked for",
-             ContactWeightsRule::update);
-  weights_at("weights_of_iteration",
-             "closest points before the iteration, also where those of each update are asked for",
-             ContactWeightsRule::iteration);
   for (const auto& [kind, name, meaning] : other_activations)
     forms.push_back(sweep_asked(name, std::string(meaning) + ", where `ogc` is asked for", [to = kind](Read& read) {
       if (read.scene.settings.activation == ContactActivation::ogc) read.scene.settings.activation = to;

@@ -273,7 +273,7 @@ struct TetrahedronStage
     problem.number("a first Lamé constant", c.lame_lambda, 0, vast);
     problem.number("a second Lamé constant", c.lame_mu, 0x1p-30f, vast);
     problem.number("a damping", c.damping, 0, most_length);
-    if (c.damping_form != DampingForm::strain || c.damping == 0) return;
+    if (!damps_strain(c.damping_form) || c.damping == 0) return;
     problem.number("a volume", c.volume, 0x1p-80f, 0x1p64f);
     for (const auto& gradient : c.gradient)
       for (const float g : gradient)

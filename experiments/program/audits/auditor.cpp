@@ -74,15 +74,10 @@ Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
   verdict.step = snapshot.step;
   verdict.intersections = audit(snapshot.positions);
   verdict.volumes = penetration(snapshot.positions);
-  const auto certify = [&] {
-    verdict.motion = compare::motion_certificate(snapshot.positions, snapshot.previous, snapshot.bounds);
-  };
-  switch (bounds_) {
-    case compare::Bounds::ball: certify(), judge_balls(snapshot, verdict); break;
-    case compare::Bounds::planes:
-    case compare::Bounds::dat: certify(), judge_planes(snapshot, verdict); break;
-    case compare::Bounds::off: break;
-  }
+  const compare::BoundsTraits policy = traits_of(bounds_);
+  if (!policy.certifies) return verdict;
+  verdict.motion = compare::motion_certificate(snapshot.positions, snapshot.previous, snapshot.bounds);
+  policy.has_planes ? judge_planes(snapshot, verdict) : judge_balls(snapshot, verdict);
   return verdict;
 }
 

@@ -28,7 +28,7 @@ std::string backend_of(const LawRow& row) { return row.asked.on_device ? "cuda" 
 /// IPC has bounds of its own, found by continuous detection.
 std::string bounds_of(const LawRow& row) {
   if (row.asked.solver == Solver::ipc) return "ccd";
-  return row.asked.bounds == compare::Bounds::ball ? "ball" : "planes";
+  return std::string(name_of(row.asked.bounds));
 }
 
 compare::Answerer answerer_of(Solver solver) {

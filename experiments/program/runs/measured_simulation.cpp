@@ -143,7 +143,7 @@ class MeasuredSimulation : public compare::Simulation {
                     StepMetrics& step) {
     for (std::size_t k = 0; k < states.size(); ++k)
       add_meetings(states[k], k + 1 < states.size() ? states[k + 1] : end, step);
-    if (step.meetings > 0 && scene_.settings.bounds != compare::Bounds::off) step.status |= compare::step_met;
+    if (step.meetings > 0 && traits_of(scene_.settings.bounds).certifies) step.status |= compare::step_met;
   }
 
   void add_meetings(const std::vector<compare::Vec3f>& from, const std::vector<compare::Vec3f>& to, StepMetrics& step) {

@@ -137,7 +137,7 @@ void RunSession::open_folder() {
   summary_.left_out_of_audits = left_out_of_audits(request_.scene);
   summary_.audit = request_.audit;
   summary_.asks_meetings = request_.meetings.has_value();
-  summary_.is_unbounded = settings_.bounds == compare::Bounds::off;
+  summary_.is_unbounded = !traits_of(settings_.bounds).certifies;
   summary_.first_step = summary_.last_step = step_;
   summary_.smallest_distance = std::numeric_limits<double>::infinity();
   auditor_ = std::make_unique<Auditor>(*judge_, request_.audit_beside);

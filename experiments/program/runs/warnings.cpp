@@ -22,7 +22,7 @@ double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 std::string bounds_warning(const compare::Scene& scene) {
-  if (scene.settings.bounds != compare::Bounds::off) return "";
+  if (traits_of(scene.settings.bounds).certifies) return "";
   return "bounds=off: nothing keeps surfaces from passing through each other, and this run guarantees nothing; take "
          "bounds=ball, bounds=planes or bounds=dat (not with --solver penalty)";
 }

@@ -8,7 +8,7 @@ namespace ogc::fast {
 
 /// BendingModel::none: hinges without energy, which no rest state holds.
 struct NoBending {
-  /// There is no stencil to add, so GatherDefault serves, and nothing is read.
+  /// There is no stencil to add, so UsualHinges serve, and nothing is read.
   static constexpr bool is_default = true, reads_weights = false;
   OGC_HD static void add(const HingeSeen&, float, ForceAndBlock&) {}
   OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
@@ -26,10 +26,10 @@ OGC_HD auto with_bending(compare::BendingModel model, const Use& use) {
   __builtin_unreachable();
 }
 
-/// Whether GatherDefault has this bending and its damping.
+/// Whether UsualHinges have this bending and its damping.
 OGC_HD inline bool has_default_bending(const SurfaceModels& models) {
   const auto is_default = [](auto model) { return decltype(model)::is_default; };
-  return models.damping == compare::DampingForm::strain && with_bending(models.bending, is_default);
+  return damps_strain(models.damping) && with_bending(models.bending, is_default);
 }
 
 /// Whether the model needs HingeWeights.

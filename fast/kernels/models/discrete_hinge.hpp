@@ -8,7 +8,7 @@ namespace ogc::fast {
 
 /// BendingModel::discrete_hinge.
 struct DiscreteHinge {
-  static constexpr bool is_default = true;      ///< GatherDefault and the packs of the CPU have it
+  static constexpr bool is_default = true;      ///< UsualHinges and the packs of the CPU have it
   static constexpr bool reads_weights = false;  ///< of HingeWeights
 
   /// Adds −∂/∂x of energy and damping and c (1 + k_d/h) ∇θ ∇θᵀ, for a vertex whose ∂θ/∂x is `gradient`. `angle_start`

@@ -9,7 +9,7 @@ namespace ogc::fast {
 
 /// BendingModel::isometric_quadratic.
 struct IsometricQuadratic {
-  /// GatherDefault and the packs of the CPU lack it, and it reads HingeWeights.
+  /// UsualHinges and the packs of the CPU lack it, and it reads HingeWeights.
   static constexpr bool is_default = false;
   static constexpr bool reads_weights = true;
 

@@ -43,9 +43,7 @@ struct AddDampedMembrane {
   }
 };
 
-/// Whether GatherDefault has the body's damping, and with it its membrane, whichever that is.
-OGC_HD inline bool has_default_membrane(const SurfaceModels& models) {
-  return models.damping == compare::DampingForm::strain;
-}
+/// Whether UsualTriangles have the body's damping, and with it its membrane, whichever that is.
+OGC_HD inline bool has_default_membrane(const SurfaceModels& models) { return damps_strain(models.damping); }
 
 }  // namespace ogc::fast

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "fast/kernels/metrics.hpp"
-#include "fast/kernels/sweep_solids.hpp"
+#include "fast/kernels/sweep_view.hpp"
+#include "fast/kernels/team.hpp"
 #include "fast/kernels/volume_force.hpp"
 
 namespace ogc::fast {
@@ -67,14 +68,18 @@ struct AddVolumeContact {
   }
 };
 
-/// The contacts of a vertex as a part of its sum; of a scene that may have no volumes.
-OGC_HD inline Part<LoadVolumeContact, AddVolumeContact> volume_part(const SweepView& view, int slot, int v,
-                                                                    const Vec& own) {
-  const VolumeStream& volumes = view.volumes;
-  const int points = volumes.counts != nullptr ? volumes.counts[slot] : 0,
-            corners = volumes.corner_counts != nullptr ? volumes.corner_counts[slot] : 0;
-  return part(points + corners, LoadVolumeContact{volumes, slot, points}, AddVolumeContact{view, own, view.start[v]});
-}
+/// Contacts with volumes, of a scene that may have none.
+struct VolumeContacts {
+  static constexpr unsigned gives = asks_volumes | asks_any_model;
+
+  OGC_HD static Part<LoadVolumeContact, AddVolumeContact> part_of(const SweepView& view, int slot,
+                                                                  const SweepVertex& vertex, const OwnVertex& own) {
+    const VolumeStream& volumes = view.volumes;
+    const int points = volumes.counts != nullptr ? volumes.counts[slot] : 0,
+              corners = volumes.corner_counts != nullptr ? volumes.corner_counts[slot] : 0;
+    return {points + corners, {volumes, slot, points}, {view, own.position, view.start[vertex.vertex]}};
+  }
+};
 
 /// From this share of r on a vertex is deep inside a volume (compare/volumes.md, The step).
 inline constexpr float deep_share = 0.5F;
@@ -97,40 +102,6 @@ OGC_HD inline bool lies_deep_in_volume(const SweepView& view, int slot, const Ve
   }
   return false;
 }
-
-/// A sum over the stencils of a vertex that may have contacts with volumes.
-struct KnowsVolumes {
-  /// As lies_deep_in_volume.
-  OGC_HD static bool lies_deep(const SweepView& view, int slot, const Vec& x) {
-    return lies_deep_in_volume(view, slot, x);
-  }
-};
-
-/// As GatherEveryModel, with volumes as a part between springs and contacts.
-struct GatherVolumes : KnowsVolumes {
-  static constexpr int parts = GatherEveryModel::parts + 1;  ///< of the sum
-
-  template <class Team>
-  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
-                                  const Team& team) const {
-    const OwnVertex at{own, own - view.start[vertex.vertex]};
-    return every_model_sum(view, slot, vertex, at, team, volume_part(view, slot, vertex.vertex, own));
-  }
-};
-
-/// As GatherEverything, with volumes as a part between tetrahedra and contacts.
-struct GatherEverythingAndVolumes : KnowsVolumes {
-  static constexpr int parts = GatherEverything::parts + 1;  ///< of the sum
-
-  template <class Team>
-  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
-                                  const Team& team) const {
-    const OwnVertex at{own, own - view.start[vertex.vertex]};
-    const AddAnyTetrahedron add{view, view.solids[vertex.body], view.models[vertex.body], at};
-    return every_model_sum(view, slot, vertex, at, team, tetrahedron_part(view, slot, add),
-                           volume_part(view, slot, vertex.vertex, own));
-  }
-};
 
 /// The positions of a contact's vertices by role.
 struct VolumePositions {

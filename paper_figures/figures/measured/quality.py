@@ -1,6 +1,5 @@
 """Time to quality: how long a step takes until its residual (Eq. 29) has fallen to a tenth and to a hundredth of the
-step's start, with the paper's bounds and with planes, with closest points found at each update and once an iteration,
-from states of Table 1's whole runs. A step of many times the scene's iterations is watched; the time up to the k-th of
+step's start, with the paper's bounds and with planes, from states of Table 1's whole runs. A step of many times the scene's iterations is watched; the time up to the k-th of
 n iterations is k/n of the median of five such steps, so that the guess loop and detections are spread over all of them.
 Not in the paper.
 
@@ -26,7 +25,6 @@ class Watched:
 
     row: str
     share: int  # of the whole run, where it begins [%]
-    rule: str  # when closest points are found
     run: object
     times: list
     residuals: list
@@ -45,17 +43,16 @@ def watched(folder):
     """The finished steps below the folder of Table 1."""
     found = []
     for row in commands.QUALITY_ROWS:
-        for rule in commands.CONTACT_RULES:
-            for share in commands.QUALITY_SHARES:
-                place = Path(folder) / row / f"{commands.quality_kind(rule)}_{share}"
-                timed = run_at(Path(folder) / row / f"{commands.quality_kind(rule)}_timed_{share}")
-                run, rows = run_at(place), place / "iterations.csv"
-                if not all(r and r.manifest["status"] == "finished" for r in (run, timed)) or not rows.is_file():
-                    continue
-                residuals = columns_of(rows, rows.stat().st_mtime_ns)["residual"]
-                step = statistics.median(timed.column("wall"))
-                times = [step * k / (len(residuals) - 1) for k in range(len(residuals))]
-                found.append(Watched(row, share, rule, run, times, residuals))
+        for share in commands.QUALITY_SHARES:
+            place = Path(folder) / row / f"quality_{share}"
+            timed = run_at(Path(folder) / row / f"quality_timed_{share}")
+            run, rows = run_at(place), place / "iterations.csv"
+            if not all(r and r.manifest["status"] == "finished" for r in (run, timed)) or not rows.is_file():
+                continue
+            residuals = columns_of(rows, rows.stat().st_mtime_ns)["residual"]
+            step = statistics.median(timed.column("wall"))
+            times = [step * k / (len(residuals) - 1) for k in range(len(residuals))]
+            found.append(Watched(row, share, run, times, residuals))
     return found
 
 
@@ -70,7 +67,7 @@ def row_of(step):
 
     iterations = len(step.residuals) - 1
     m = step.run.manifest
-    return {"scene": commands.scene_of(step.row), "bounds": step.bounds, "closest points": step.rule,
+    return {"scene": commands.scene_of(step.row), "bounds": step.bounds,
             "state after step": int(step.run.column("step")[0]) - 1, "iterations": iterations,
             "step [ms]": cell(step.times[-1]), "least residual [1]": cell(min(step.residuals)),
             **{f"to {name} [ms]": cell(first_at(step, limit)) for name, limit in SHARES.items()},
@@ -101,18 +98,16 @@ def picture(steps, scale):
             if commands.scene_of(step.row) != scene:
                 continue
             colour = style.COLOURS[commands.QUALITY_SHARES.index(step.share)]
-            dash, iteration = style.DASHES[step.bounds == "planes"], step.rule == "iteration"
-            axes.plot(step.times[1:], step.residuals[1:], dash, color=colour, linewidth=0.7 if iteration else 1.4,
-                      alpha=0.6 if iteration else 1,
-                      label=f"{step.bounds}, from {step.share} % of the run" + iteration * ", by iteration")
+            dash = style.DASHES[step.bounds == "planes"]
+            axes.plot(step.times[1:], step.residuals[1:], dash, color=colour, linewidth=1.4,
+                      label=f"{step.bounds}, from {step.share} % of the run")
         for limit in SHARES.values():
             axes.axhline(limit, color="black", linewidth=0.5)
         axes.set(xscale="log", yscale="log", title=scene, xlabel="time into the step [ms]", ylabel="residual [1]")
     panels.flat[0].legend(fontsize=6)
     about = steps[0].run.manifest
     commits = ", ".join(sorted({row_of(step)["commit"] for step in steps}))
-    figure.suptitle(f"Residual of a step against its time; balls solid, planes dashed; thin: "
-                    f"closest points once an iteration. {scale}, {about['backend']}, "
+    figure.suptitle(f"Residual of a step against its time; balls solid, planes dashed. {scale}, {about['backend']}, "
                     f"{about['device']}, commit {commits}", fontsize=8)
     return figure
 

@@ -13,6 +13,14 @@ enum class Truncation {
   vertex,  ///< each vertex to its own region, a ball or what `bounds` says
   pair     ///< near pairs to planes that travel with them (moving_planes.hpp)
 };
+/// Whether planes travel with near pairs.
+constexpr bool moves_planes(Truncation truncation) {
+  switch (truncation) {
+    case Truncation::vertex: return false;
+    case Truncation::pair: return true;
+  }
+  return false;
+}
 
 /// See the table of settings for ranges and defaults.
 struct NewtonSettings {

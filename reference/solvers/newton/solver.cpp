@@ -54,7 +54,7 @@ StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector
   matrix_.forget_pattern();
   pattern_stale_ = true;
   guess(GuessEnd::contact);
-  if (newton_.truncation == Truncation::vertex) return finish(status_of(solve()));
+  if (!moves_planes(newton_.truncation)) return finish(status_of(solve()));
   detect_next_ = true;  // the guess loop knows balls alone
   const std::uint32_t status = status_of(solve());
   return finish(end_between_planes(status));
@@ -143,7 +143,7 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   const bool detects = detect_next_;
   judging_ = detects && judge_next_;
   judge_next_ = false;
-  const bool by_vertex = newton_.truncation == Truncation::vertex;
+  const bool by_vertex = !moves_planes(newton_.truncation);
   if (detects) by_vertex ? detect_here() : detect_with_planes();
   pattern_stale_ = pattern_stale_ || detects;
   const std::size_t prescribed_cut = by_vertex ? move_prescribed() : move_prescribed_between_planes();
@@ -250,13 +250,13 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
 }
 
 void NewtonSolver::truncate(Direction& direction) const {
-  if (newton_.truncation == Truncation::pair) direction.truncated = planes_.truncated(x_, direction.delta);
+  if (moves_planes(newton_.truncation)) direction.truncated = planes_.truncated(x_, direction.delta);
   for (const std::size_t v : matrix_.free_vertices()) {
     if (v >= x_.size()) {  // a segment's frame, which nothing bounds
       direction.truncated[v] = direction.delta[v];
       continue;
     }
-    if (newton_.truncation == Truncation::pair) {
+    if (moves_planes(newton_.truncation)) {
       direction.cut += direction.truncated[v] != direction.delta[v];
       continue;
     }
@@ -333,7 +333,7 @@ State NewtonSolver::unknowns() const {
 }
 
 double NewtonSolver::room_for(const State& delta) const {
-  if (newton_.truncation == Truncation::pair) return planes_.share_inside(x_, delta);
+  if (moves_planes(newton_.truncation)) return planes_.share_inside(x_, delta);
   double room = 1;
   for (const std::size_t v : matrix_.free_vertices())
     if (v < x_.size()) room = std::min(room, regions_.share_inside(v, x_[v], delta[v]));

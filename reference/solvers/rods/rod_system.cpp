@@ -149,7 +149,7 @@ void RodSystem::turn(const Positions& x) {
     const Index held = terms_[e].held;
     if (held > 0 && says_turn(scene_.motions[place(held) - 1]))
       q_[e] = unit(product(wide(prescribed_turn(scene_.motions[place(held) - 1], before, before + h)), start_[e]));
-    else if (held > 0 || (held < 0 && scene_.settings.start_frames == compare::StartFrames::turned))
+    else if (held > 0 || (held < 0 && turns(scene_.settings.start_frames)))
       q_[e] = turned_along(apart(e, start_positions_), apart(e, x), start_[e]);
     else
       q_[e] = start_[e];
@@ -218,10 +218,9 @@ void RodSystem::sweep(const Positions& x) {
       if (!(sigma > 0 || pull > 0)) return;
       if (!(pull > 0))
         q_[e] = without_neighbours(own, q_[e], sigma);
-      else if (scene_.settings.orientation == compare::OrientationUpdate::as_published)
-        q_[e] = as_published(own, sigma, pull);
       else
-        q_[e] = least(own, q_[e], sigma, pull);
+        q_[e] = minimises(scene_.settings.orientation) ? least(own, q_[e], sigma, pull)
+                                                       : as_published(own, sigma, pull);
     });
 }
 

@@ -42,7 +42,7 @@ compare::OrientationCase orientation_question(const compare::SweepIn& in, const 
   question.orientation_start = in.orientation_start[segment];
   question.rest_length = rest.length;
   question.stretch = static_cast<float>(material_of(in, segment).stretch);
-  question.damping = in.scene->settings.damping == compare::DampingForm::strain ? damping_of(in, segment) : 0;
+  question.damping = damps_strain(in.scene->settings.damping) ? damping_of(in, segment) : 0;
   return question;
 }
 

@@ -80,15 +80,17 @@ std::vector<compare::VertexFacetContact> nearest_of_bodies(const compare::Detect
 }  // namespace
 
 ListedContacts contact_variant(ContactSet set, const compare::DetectIn& in, std::span<const Index> body) {
-  if (set == ContactSet::ogc) throw std::logic_error("the method's own contacts are those of a detection");
-  const Collector found(in);
   ListedContacts sets;
-  if (set == ContactSet::distance) {
-    sets.vertex_facet = nearest_of_bodies(in, found.facets(), body);
-    return sets;
+  switch (set) {
+    case ContactSet::ogc: throw std::logic_error("the method's own contacts are those of a detection");
+    case ContactSet::distance: sets.vertex_facet = nearest_of_bodies(in, Collector(in).facets(), body); break;
+    case ContactSet::pairs: {
+      const Collector found(in);
+      for (const FoundFacet& facet : found.facets()) sets.vertex_facet.push_back(facet.contact);
+      for (const FoundEdges& edges : found.edges()) sets.edge_edge.push_back(edges.contact);
+      break;
+    }
   }
-  for (const FoundFacet& facet : found.facets()) sets.vertex_facet.push_back(facet.contact);
-  for (const FoundEdges& edges : found.edges()) sets.edge_edge.push_back(edges.contact);
   return sets;
 }
 

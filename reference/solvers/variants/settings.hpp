@@ -27,11 +27,27 @@ enum class ContactBlocks {
   majorised,  ///< |w| Σ |w_u| over its vertices that are updated together
   own         ///< w²
 };
+/// Whether a vertex's block counts the others that are updated with it.
+constexpr bool majorises(ContactBlocks blocks) {
+  switch (blocks) {
+    case ContactBlocks::majorised: return true;
+    case ContactBlocks::own: return false;
+  }
+  return true;
+}
 /// When a position is cut to its bound.
 enum class CutAfter {
   update,    ///< at once, so that others read where it is kept
   iteration  ///< all vertices together
 };
+/// Whether each update cuts its vertex.
+constexpr bool cuts_updates(CutAfter cut) {
+  switch (cut) {
+    case CutAfter::update: return true;
+    case CutAfter::iteration: return false;
+  }
+  return true;
+}
 
 /// The settings contact_set, colours, contact_blocks and cut_after.
 struct Variants {

@@ -26,9 +26,6 @@ struct Fault {
 /// All of them, at least one a stage.
 std::vector<Fault> faults();
 
-/// A right guess by certificate of pairs that shares no pass with the reference's.
-compare::PairGuessOut own_pair_guess(const compare::PairGuessIn& in);
-
 /// The exact force and block of each case, rounded.
 compare::ForceOut rounded(const compare::ForceTruth& truth);
 
@@ -51,7 +48,6 @@ std::vector<Fault> rest_faults();
 void add_right_rest(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> step_faults();
 void add_right_step(compare::Contestant& exact, const compare::Authority& authority);
-std::vector<Fault> pair_guess_faults();
 std::vector<Fault> sweep_faults();
 void add_right_sweep(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> volume_faults();

@@ -141,7 +141,7 @@ TEST_CASE("validate names each kind of problem of a scene", "[unit]") {
   }
   SECTION("lanes") {
     scene.settings.lanes = 3;
-    check_only(validate(scene), "setting 'lanes'", "power of two");
+    check_only(validate(scene), "setting 'lanes'", "0, 2, 4, 8 or 16");
   }
   SECTION("density") {
     scene.bodies[0].material.density = 0;

@@ -11,7 +11,7 @@
 #include "compare/problem/validate.hpp"
 #include "fast/contestant.hpp"
 #include "fast/cpu/simulation.hpp"
-#include "fast/kernels/sweep_solids.hpp"
+#include "fast/kernels/kinds/tetrahedron.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/sweep.hpp"
 #include "tests/catch.hpp"

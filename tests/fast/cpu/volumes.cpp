@@ -224,7 +224,6 @@ TEST_CASE("layers that nearly touch are not left deep inside a volume that rises
   drive(scene, {0, 0.5, 0});
   scene.settings.iterations = 20;
   scene.settings.redetect_fraction = 1;
-  scene.settings.guess = compare::Guess::pairs;
   compare::round_to_single(scene);
   const auto simulation = start_cpu(scene, {});
   const double radius = scene.settings.contact_radius;

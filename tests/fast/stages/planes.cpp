@@ -31,7 +31,7 @@ Held detect(const compare::Topology& topology, const std::vector<compare::Vec3f>
             const std::vector<std::uint8_t>& is_fixed, float r, float r_q, int capacity = 0,
             const std::vector<compare::Vec3f>& displacement = {}) {
   CpuBackend backend;
-  Detection<CpuBackend> detection(backend, topology, {}, capacity, 0, compare::Bounds::planes, is_fixed);
+  Detection<CpuBackend> detection(backend, topology, {}, capacity, compare::Bounds::planes, is_fixed);
   if (!displacement.empty()) detection.divide_planes_by(reinterpret_cast<const Vec*>(displacement.data()));
   const auto* x = reinterpret_cast<const Vec*>(positions.data());
   do {

@@ -148,7 +148,7 @@ std::vector<WrongForm> rod_forms() {
   add("start_frame_now", "q in place of qᵗ: damping turns with the segment",
       [](RodCase& c) { c.orientation_start = c.orientation; });
   add("other_end", "the force of the other end", [](RodCase& c) {
-    if (c.damping_form == DampingForm::strain) c.own = 1 - c.own;
+    if (damps_strain(c.damping_form)) c.own = 1 - c.own;
   });
   add("length_missing", "l is 1 m", [](RodCase& c) { c.rest_length = 1; });
   add("real_part_first", "w read as x: the order w, x, y, z", [](RodCase& c) {

@@ -54,8 +54,7 @@ TEST_CASE(
     "[property]") {
   const TemporaryFolder folder;
   const std::string options = GENERATE("cloth_on_sphere --scale smoke --steps 20 --audit off",
-                                       "twist --scale smoke --steps 12 --audit off --set bounds=planes",
-                                       "cloth_on_sphere --scale smoke --steps 12 --audit off --set guess=pairs");
+                                       "twist --scale smoke --steps 12 --audit off --set bounds=planes");
   const auto make = [&](const std::string& name, const std::string& more) {
     const ProgramResult result = run_ogc("run " + options + more + " --json --out " + (folder / name).string());
     INFO(options << more << "\n" << result.err);

@@ -2,7 +2,7 @@
 // more.
 #include <random>
 
-#include "fast/kernels/sweep_models.hpp"
+#include "fast/kernels/gather.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/numeric.hpp"
 

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "fast/kernels/arithmetic/solve3.hpp"
+#include "fast/kernels/kinds/tetrahedron.hpp"
 #include "fast/kernels/rest_state.hpp"
-#include "fast/kernels/sweep_solids.hpp"
 #include "fast/stages/sweep.hpp"
 #include "tests/catch.hpp"
 

@@ -1,10 +1,10 @@
-// Tetrahedra in the sum over the stencils of a vertex: of scenes that have nothing else (GatherSolids), and beside
-// surfaces of any model (GatherEverything).
+// Tetrahedra in the sum of a vertex.
 #pragma once
 
+#include "fast/kernels/models/damping.hpp"
 #include "fast/kernels/models/tetrahedron.hpp"
-#include "fast/kernels/sweep.hpp"
-#include "fast/kernels/sweep_models.hpp"
+#include "fast/kernels/sweep_view.hpp"
+#include "fast/kernels/team.hpp"
 
 namespace ogc::fast {
 
@@ -52,8 +52,6 @@ OGC_HD inline void add_any_tetrahedron(const SweepView& view, const LoadedTetrah
   }
 }
 
-// Named functors, as those of the springs (sweep_models.hpp).
-
 /// Tetrahedron k of a vertex.
 struct LoadTetrahedron {
   const TetrahedronIncidence* first;  ///< of the vertex's row
@@ -83,39 +81,27 @@ struct AddAnyTetrahedron {
   }
 };
 
-/// The tetrahedra of a vertex as a part of its sum.
-template <class Add>
-OGC_HD Part<LoadTetrahedron, Add> tetrahedron_part(const SweepView& view, int slot, const Add& add) {
-  const TetrahedronRow row = view.tetrahedron_rows[slot];
-  return part(row.count, LoadTetrahedron{view.tetrahedra + row.begin, row.begin}, add);
-}
+/// Tetrahedra with damping of strains, of a scene that has some.
+struct UsualTetrahedra {
+  static constexpr unsigned gives = asks_tetrahedra;
 
-/// Of scenes whose free vertices all belong to solids, with damping of strains and the activation `ogc`, in three
-/// parts: tetrahedra, vertex–facet contacts, edge–edge contacts.
-struct GatherSolids {
-  static constexpr int parts = 3;  ///< of the sum
-
-  template <class Team>
-  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
-                                  const Team& team) const {
-    const ContactParts<OgcActivation, WeightsOfUpdate> contacts{view, view.contact_rows[slot], {}};
-    const auto tetrahedra = tetrahedron_part(view, slot, AddTetrahedron{view, view.solids[vertex.body], own});
-    team.prefetch(tetrahedra.load.first, tetrahedra.count * static_cast<int>(sizeof(TetrahedronIncidence)));
-    team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));
-    return team.template sum<ForceAndBlock>(tetrahedra, contacts.vertex_facet(), contacts.edge_edge());
+  OGC_HD static Part<LoadTetrahedron, AddTetrahedron> part_of(const SweepView& view, int slot,
+                                                              const SweepVertex& vertex, const OwnVertex& own) {
+    const TetrahedronRow row = view.tetrahedron_rows[slot];
+    return {row.count, {view.tetrahedra + row.begin, row.begin}, {view, view.solids[vertex.body], own.position}};
   }
 };
+/// Tetrahedra with whatever damping, of a scene that may have none.
+struct Tetrahedra : UsualTetrahedra {
+  static constexpr unsigned gives = asks_tetrahedra | asks_any_model;
 
-/// As GatherEveryModel, with tetrahedra as a part between springs and contacts.
-struct GatherEverything {
-  static constexpr int parts = GatherEveryModel::parts + 1;  ///< of the sum
-
-  template <class Team>
-  OGC_HD ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
-                                  const Team& team) const {
-    const OwnVertex at{own, own - view.start[vertex.vertex]};
-    const AddAnyTetrahedron add{view, view.solids[vertex.body], view.models[vertex.body], at};
-    return every_model_sum(view, slot, vertex, at, team, tetrahedron_part(view, slot, add));
+  OGC_HD static Part<LoadTetrahedron, AddAnyTetrahedron> part_of(const SweepView& view, int slot,
+                                                                 const SweepVertex& vertex, const OwnVertex& own) {
+    TetrahedronRow row;
+    if (view.tetrahedron_rows != nullptr) row = view.tetrahedron_rows[slot];
+    return {row.count,
+            {view.tetrahedra + row.begin, row.begin},
+            {view, view.solids[vertex.body], view.models[vertex.body], own}};
   }
 };
 
