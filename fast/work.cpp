@@ -10,7 +10,7 @@
 
 #include "fast/cpu/backend.hpp"
 #include "fast/kernels/rods/segments.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/probes/contact_engine.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"

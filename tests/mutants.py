@@ -43,7 +43,8 @@ def files(*patterns):
 # Of each set: the files that are rewritten, and what is compiled over them.
 SETS = {
     "kernels": ([name for name in files("fast/kernels/**/*.hpp") if name not in NOT_MATHEMATICS],
-                ["fast/stages/rest_state.cpp", *files("tests/fast/kernels/**/*.cpp"), "tests/fast/stages/detection.cpp"]),
+                ["fast/stages/rest_state.cpp", *files("tests/fast/kernels/**/*.cpp"),
+                 "tests/fast/stages/detection.cpp"]),
     "stages": (files("fast/stages/*.?pp", "fast/probes/*.?pp", "fast/cpu/*.?pp"),
                files("fast/stages/*.cpp", "fast/probes/*.cpp", "fast/cpu/*.cpp", "fast/*.cpp",
                      "tests/fast/stages/*.cpp", "tests/fast/probes/*.cpp", "tests/fast/cpu/*.cpp",

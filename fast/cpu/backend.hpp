@@ -22,8 +22,8 @@
 #include "fast/cpu/pack_kernels.hpp"
 #include "fast/cpu/packed_search.hpp"
 #include "fast/kernels/search.hpp"
-#include "fast/kernels/sums.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep/sums.hpp"
+#include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/stages/backend.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <new>
 
-#include "fast/kernels/gather.hpp"
-#include "fast/kernels/rods/sweep.hpp"
+#include "fast/kernels/sweep/gather.hpp"
+#include "fast/kernels/sweep/update_segment.hpp"
 
 namespace ogc::fast {
 

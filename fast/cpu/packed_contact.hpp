@@ -9,7 +9,7 @@
 
 #include "fast/cpu/pack.hpp"
 #include "fast/cpu/packed_items.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep/update_vertex.hpp"
 
 namespace ogc::fast {
 

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "fast/cpu/pack.hpp"
-#include "fast/kernels/rods/sweep.hpp"
+#include "fast/kernels/sweep/update_segment.hpp"
 
 namespace ogc::fast {
 inline namespace OGC_PACKS {

@@ -29,8 +29,8 @@
 #include "fast/cuda/least.cuh"
 #include "fast/cuda/search.cuh"
 #include "fast/cuda/team.cuh"
-#include "fast/kernels/sums.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep/sums.hpp"
+#include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/stages/backend.hpp"
 
 namespace ogc::fast {

@@ -9,7 +9,7 @@
 #include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/metrics.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep_view.hpp"
 
 namespace ogc::fast {
 

@@ -1,5 +1,5 @@
-// A search of a tree. One thread carries it out (here, and four candidates at a time in fast/cpu/packed_search.hpp), or
-// a warp carries out several together (fast/cuda/search.cuh).
+// A search of a tree. One thread carries it out, four candidates at a time (fast/cpu/packed_search.hpp), or a warp
+// carries out several together (fast/cuda/search.cuh).
 //
 // A Query is what the searches of one kind have in common:
 //   bool is_off() const                                 nothing is to be searched
@@ -30,16 +30,6 @@ struct Searches {
   TreeView tree;  ///< refitted at the positions that the query reads
   int count;      ///< searches; their numbers are those of Query::begin
   Query query;
-
-  /// The i-th, from begin to end.
-  OGC_HD void run_alone(int i) const {
-    if (query.is_off()) return;
-    Search search = query.begin(i);
-    for_each_near(tree, search.box, search.from, search.limit, [&](const Offer& offer) {
-      if (query.is_pair(search, offer))
-        search.limit = smaller(search.limit, query.meet(search, offer.primitive, offer.gap));
-    });
-  }
 };
 
 }  // namespace ogc::fast

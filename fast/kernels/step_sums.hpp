@@ -3,7 +3,7 @@
 
 #include "fast/kernels/contact_stream.hpp"
 #include "fast/kernels/metrics.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep_view.hpp"
 
 namespace ogc::fast {
 

@@ -18,8 +18,9 @@
 
 namespace ogc::fast {
 
-/// What a scene asks of the sum over the stencils of a vertex: elements of these kinds, volumes, other models of bending
-/// or damping than the usual ones (discrete hinges, damping of strains), another activation than `ogc`. One bit each.
+/// What a scene asks of the sum over the stencils of a vertex, one bit each: elements of these kinds, volumes, other
+/// models of bending or damping than the usual ones (discrete hinges, damping of strains), another activation than
+/// `ogc`.
 inline constexpr unsigned asks_triangles = 1, asks_hinges = 2, asks_springs = 4, asks_tetrahedra = 8,
                           asks_segments = 16, asks_volumes = 32, asks_any_model = 64, asks_any_activation = 128;
 
@@ -150,6 +151,14 @@ struct SweepView {
 /// A vertex that is solved: where it is, and how far it has moved since the start of the step, for damping by vertex.
 struct OwnVertex {
   Vec position, moved;  ///< x, and x − xᵗ [m]
+};
+
+/// What a step leaves of the force on a free vertex (Eq. 29). Forces in newtons.
+struct alignas(16) LeftForce {
+  float reference = 0;  ///< ‖f*‖, after the guess loop
+  float left = 0;       ///< ‖f‖ at the end
+  float rounding = 0;   ///< how much of it may come from positions that are rounded
+  int is_held = 0;      ///< 1: its next update would leave its region, so that its force stays
 };
 
 }  // namespace ogc::fast

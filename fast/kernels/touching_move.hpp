@@ -3,7 +3,7 @@
 // at each detection.
 #pragma once
 
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep_view.hpp"
 
 namespace ogc::fast {
 

@@ -9,8 +9,8 @@
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/spring.hpp"
 #include "compare/stages/tetrahedron.hpp"
-#include "fast/kernels/gather.hpp"
 #include "fast/kernels/initial_guess.hpp"
+#include "fast/kernels/sweep/gather.hpp"
 #include "fast/probes/probe_memory.hpp"
 #include "fast/stages/sweep.hpp"
 

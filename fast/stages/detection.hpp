@@ -1,7 +1,7 @@
-// A whole detection (Alg. 3 lines 4–19): trees at the current positions, both queries, lists, bounds. All of it is enqueued, nothing waits and nothing is allocated, so
-// it may stand inside Backend::when. Once a list has overflowed every launch does nothing until `grow`, so that the
-// needed size stays that of the first detection that had no room, and the contacts of the last complete one are not
-// mixed with others.
+// A whole detection (Alg. 3 lines 4–19): trees at the current positions, both queries, lists, bounds. All of it is
+// enqueued, nothing waits and nothing is allocated, so it may stand inside Backend::when. Once a list has overflowed
+// every launch does nothing until `grow`, so that the needed size stays that of the first detection that had no room,
+// and the contacts of the last complete one are not mixed with others.
 #pragma once
 
 #include <algorithm>

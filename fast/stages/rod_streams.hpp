@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "fast/kernels/rods/sweep.hpp"
+#include "fast/kernels/sweep/update_segment.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"

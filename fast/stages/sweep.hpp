@@ -9,9 +9,9 @@
 
 #include "compare/problem/volumes.hpp"
 #include "fast/kernels/contact_stream.hpp"
-#include "fast/kernels/rods/sweep.hpp"
-#include "fast/kernels/sums.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep/sums.hpp"
+#include "fast/kernels/sweep/update_segment.hpp"
+#include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/kernels/volumes/stream.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"

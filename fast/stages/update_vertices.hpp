@@ -1,9 +1,9 @@
-// The launches that a sum over stencils takes part in: for each backend and sum instantiated in a source of its own, since
-// they take longest to compile.
+// The launches that a sum over stencils takes part in: for each backend and sum instantiated in a source of its own,
+// since they take longest to compile.
 #pragma once
 
-#include "fast/kernels/sums.hpp"
-#include "fast/kernels/sweep.hpp"
+#include "fast/kernels/sweep/sums.hpp"
+#include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/stages/sweep.hpp"
 
 namespace ogc::fast {

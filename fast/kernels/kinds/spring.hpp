@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// A spring seen from its end `own`; `index`: all ends, encoded as in sweep.hpp.
+/// A spring seen from its end `own`; `index`: all ends, encoded as in sweep_view.hpp.
 struct SpringIncidence {
   int index[3] = {0, 0, 0};
   int own = 0;          ///< number of the end, 0 … 2

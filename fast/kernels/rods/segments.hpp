@@ -16,7 +16,7 @@ struct alignas(16) SegmentNeighbours {
   int number[2] = {0, 0};  ///< of the segment; its own where there is no neighbour
 };
 
-/// A free segment in the order of the sweep. Ends are encoded as in fast/kernels/sweep.hpp: prescribed and fixed ones
+/// A free segment in the order of the sweep. Ends are encoded as in fast/kernels/sweep/update_vertex.hpp: prescribed and fixed ones
 /// are read where they have moved to, free ones where they were.
 struct alignas(16) SegmentSlot {
   SegmentRest rest{};

@@ -22,7 +22,7 @@ struct alignas(16) VolumeIncidence {
 /// A contact as one of its vertices sees it.
 struct SeenVolumeContact {
   VolumeContact contact;
-  int index[4];  ///< by role, encoded as in sweep.hpp
+  int index[4];  ///< by role, encoded as in sweep_view.hpp
   int own = 0;   ///< the vertex' own role
   int together;  ///< of add_volume_contact
 };

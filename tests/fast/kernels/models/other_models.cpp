@@ -2,7 +2,7 @@
 // more.
 #include <random>
 
-#include "fast/kernels/gather.hpp"
+#include "fast/kernels/sweep/gather.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/numeric.hpp"
 

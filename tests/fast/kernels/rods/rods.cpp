@@ -5,8 +5,8 @@
 
 #include "fast/kernels/rods/contact_distance.hpp"
 #include "fast/kernels/rods/metrics.hpp"
-#include "fast/kernels/rods/sweep.hpp"
 #include "fast/kernels/rods/turn.hpp"
+#include "fast/kernels/sweep/update_segment.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/numeric.hpp"
 

@@ -1,6 +1,6 @@
 // What a sweep reads of rods: which end, which neighbour, which of two buffers, which damping. The formulas have tests
 // of their own (tests/fast/kernels/models/rod.cpp).
-#include "fast/kernels/rods/sweep.hpp"
+#include "fast/kernels/sweep/update_segment.hpp"
 
 #include <array>
 #include <random>

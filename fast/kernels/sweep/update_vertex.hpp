@@ -1,13 +1,13 @@
-// The updates of an iteration (Alg. 4): a vertex gathers its energies (gather.hpp), solves a 3×3 system, is truncated and
-// written; a prescribed vertex goes to its target, a segment of a rod to its quaternion of least energy
-// (rods/sweep.hpp).
+// The updates of an iteration (Alg. 4): a vertex gathers its energies (gather.hpp), solves a 3×3 system, is truncated
+// and written; a prescribed vertex goes to its target, a segment of a rod to its quaternion of least energy
+// (update_segment.hpp).
 #pragma once
 
 #include <cmath>
 
 #include "fast/kernels/arithmetic/solve3.hpp"
-#include "fast/kernels/gather.hpp"
 #include "fast/kernels/inertia.hpp"
+#include "fast/kernels/sweep/gather.hpp"
 #include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
@@ -73,14 +73,6 @@ struct UpdatePrescribed {
     view.write(v, kept.position);
     count_behind(*view.control, kept, region.ball.centre, view.regions);
   }
-};
-
-/// What a step leaves of the force on a free vertex (Eq. 29). Forces in newtons.
-struct alignas(16) LeftForce {
-  float reference = 0;  ///< ‖f*‖, after the guess loop
-  float left = 0;       ///< ‖f‖ at the end
-  float rounding = 0;   ///< how much of it may come from positions that are rounded
-  int is_held = 0;      ///< 1: its next update would leave its region, so that its force stays
 };
 
 /// for_each_team over all slots: the force on each vertex where all of them are. The view reads and writes one buffer,

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <tuple>
 
-#include "fast/kernels/gather.hpp"
+#include "fast/kernels/sweep/gather.hpp"
 
 namespace ogc::fast {
 
