@@ -55,8 +55,7 @@ class ReferenceStep {
     for (std::size_t v = 0; v < x_.size(); ++v)
       if (is_volume_[v] && exclusions_.groups[v] >= 0) x_[v] = out_.target[v];
     out_.query_radius = static_cast<float>(step(in_, with_start()).query_radius);
-    StepOrder order(settings_, compare::bounded_count(*in_.topology, exclusions_.groups),
-                    compare::has_volumes(*in_.scene));
+    StepOrder order(settings_, compare::bounded_count(*in_.topology, exclusions_.groups));
     for (auto kind = order.next(); kind; kind = order.next()) {
       StepEvent event;
       event.kind = *kind;

@@ -105,7 +105,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
   truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest,
                                                            settings.query_radius_cap * settings.contact_radius);
   truth.moves = held_moves(in, answer);
-  StepOrder order(settings, compare::bounded_count(*in.topology, groups), compare::has_volumes(scene));
+  StepOrder order(settings, compare::bounded_count(*in.topology, groups));
   const std::vector<Vec3f>* previous = &start;
   const std::vector<compare::VolumeContact>* volumes = nullptr;
   for (auto kind = order.next(); kind; kind = order.next()) {

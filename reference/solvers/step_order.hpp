@@ -22,7 +22,7 @@ inline constexpr double deep_share = 0.5;
 /// Says what comes next, given how many vertices each event cut. K, of bounded_count, is `moving`.
 class StepOrder {
  public:
-  StepOrder(const compare::Settings& settings, compare::Index moving, bool has_volumes = false)
+  StepOrder(const compare::Settings& settings, compare::Index moving)
       : settings_(settings), redetect_vertices_(settings.redetect_fraction * moving) {}
 
   /// Empty after the last iteration.
