@@ -22,8 +22,7 @@ HEADERS = ("compare/problem/bounds.hpp", "compare/problem/settings.hpp", "compar
            "compare/judge/cases/stage.hpp", "experiments/program/runs/solvers.hpp",
            "reference/solvers/newton/settings.hpp", "reference/solvers/variants/settings.hpp")
 # Comparisons of these ask for an absence (none), for a default with a path of its own, or for who answers what.
-COMPARED = {"MembraneModel", "BendingModel", "ContactActivation", "Stage", "Solver", "SettingKind", "Guess",
-            "ContactWeightsRule"}
+COMPARED = {"MembraneModel", "BendingModel", "ContactActivation", "Stage", "Solver", "SettingKind"}
 ENUMERATION = re.compile(r"\benum class (\w+)(?: : std::(?:int64|uint8)_t)? \{")
 COMPARISON = re.compile(r"[=!]= *(?:\w+::)*(\w+)::\w+|\b(?:\w+::)*(\w+)::\w+ *[=!]=")
 LABEL = re.compile(r"\bcase ([\w:]+)(?=:)|^ *(default):", re.M)
