@@ -7,7 +7,7 @@ packages=(
   libcgal-dev libgmp-dev libmpfr-dev libboost-dev libtbb-dev libhdf5-dev zlib1g-dev
   libeigen3-dev libsuitesparse-dev libopenblas-dev
   nlohmann-json3-dev libcli11-dev libbenchmark-dev catch2
-  libexpat1-dev libminizip-dev libpng-dev
+  libexpat1-dev libminizip-dev
   libegl1 libgl1 libgl1-mesa-dri libxrender1
 )
 # Only where the Python package index can't be reached: pictures of meshes are left out then, curves are drawn with

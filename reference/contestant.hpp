@@ -14,7 +14,6 @@
 #include "reference/illustrations/illustrations.hpp"
 #include "reference/ipc/stopping.hpp"
 #include "reference/solvers/ledger.hpp"
-#include "reference/solvers/newton/minimiser.hpp"
 #include "reference/solvers/residual.hpp"
 #include "reference/solvers/variants/settings.hpp"
 

@@ -179,12 +179,4 @@ void check_rods(std::vector<Problem>& problems, const Scene& scene, const Elemen
   check_orientations(problems, scene, segments.size());
 }
 
-void refuse_rods(const Scene& scene, std::string_view solver) {
-  const auto found = std::ranges::find_if(scene.bodies, [](const Body& body) { return body.material.rod.has_value(); });
-  if (found == scene.bodies.end()) return;
-  throw InputError("body '" + found->name + "' is a rod, which " + std::string(solver) +
-                   " does not simulate yet; leave it out, or make its edges a body without 'rod' that is fixed or " +
-                   "prescribed");
-}
-
 }  // namespace ogc::compare

@@ -51,7 +51,4 @@ void check_rods(std::vector<Problem>& problems, const Scene& scene, const Elemen
 /// The first that is no unit quaternion within unit_quaternion_slack, or −1.
 std::ptrdiff_t find_no_unit(std::span<const Quaternion> orientations);
 
-/// Throws InputError that names the scene's first rod, if it has any: `solver` does not simulate them.
-void refuse_rods(const Scene& scene, std::string_view solver);
-
 }  // namespace ogc::compare

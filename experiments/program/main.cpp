@@ -35,7 +35,6 @@ void add_commands(CLI::App& app, CommandContext& context) {
   experiments::add_suggest_command(app, context);
   experiments::add_laws_command(app, context);
   experiments::add_compare_command(app, context);
-  experiments::add_minimise_command(app, context);
   experiments::add_bench_command(app, context);
   experiments::add_export_command(app, context);
   experiments::add_illustrate_command(app, context);

@@ -12,8 +12,8 @@ struct CollectContacts {
   CollectVertexFacet vertex_facet;           ///< decides pairs whose first number is negative, ~vertex
   /// decides pairs of edges; its radius also leaves out pairs that were noted for their planes alone
   CollectEdgeEdge edge_edge;
-  ListsView lists;                    ///< where contacts are entered, and whose overflow flag ends the launch
-  const float* distances = nullptr;   ///< of the noted pairs, rounded down [m], where those beyond r are noted, too
+  ListsView lists;                   ///< where contacts are entered, and whose overflow flag ends the launch
+  const float* distances = nullptr;  ///< of the noted pairs, rounded down [m], where those beyond r are noted, too
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;

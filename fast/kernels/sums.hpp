@@ -1,6 +1,9 @@
 // Which sums over the stencils of a vertex are compiled, and which of them a scene takes.
 #pragma once
 
+#include <cstddef>
+#include <tuple>
+
 #include "fast/kernels/gather.hpp"
 
 namespace ogc::fast {
@@ -9,6 +12,9 @@ namespace ogc::fast {
 template <class... Sums>
 struct SumList {
   static constexpr int count = sizeof...(Sums);
+  /// The sum of this number.
+  template <std::size_t number>
+  using At = std::tuple_element_t<number, std::tuple<Sums...>>;
 
   /// The first that gives all that is asked.
   static constexpr int first_that_gives(unsigned asked) {
@@ -24,17 +30,17 @@ struct SumList {
   }
 };
 
-/// Of scenes of surfaces with the usual models, of solids and of rods, each alone.
+/// Of scenes of surfaces with the usual models, and of solids, each alone.
 using GatherSurfaces = Gather<OgcActivation, UsualTriangles, UsualHinges>;
 using GatherSolids = Gather<OgcActivation, UsualTetrahedra>;
-using GatherRods = Gather<OgcActivation, UsualSegments>;
 
-/// On a device.
-using DeviceSums = SumList<GatherSurfaces, Gather<AnyActivation, Triangles, Hinges, Springs>, GatherSolids,
+/// On a device, where a part that a scene lacks costs registers and a warp of each block. A sum is here because a scene
+/// gains 5 % by it (fast/PERFORMANCE.md, Sums).
+using DeviceSums = SumList<GatherSurfaces, Gather<OgcActivation, UsualTriangles, UsualHinges, VolumeContacts>,
+                           Gather<OgcActivation, UsualTriangles, UsualHinges, Springs, VolumeContacts>, GatherSolids,
+                           Gather<OgcActivation, Springs, UsualSegments>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra>,
-                           Gather<AnyActivation, Triangles, Hinges, Springs, VolumeContacts>,
-                           Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts>, GatherRods,
-                           Gather<OgcActivation, Springs, UsualSegments>, GatherAll>;
+                           Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts>, GatherAll>;
 /// On the host, whose packs leave out what a vertex does not have.
 using HostSums = SumList<GatherAll>;
 

@@ -231,6 +231,13 @@ inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene)
          (usual_models ? 0u : asks_any_model) | (rest.activation == ContactActivation::ogc ? 0u : asks_any_activation);
 }
 
+/// One launch over the vertices of a colour: teams of `lanes` team lanes, of which there are `count`.
+template <class Backend, class Sum>
+void update_vertices(Backend& backend, int lanes, int count, const UpdateVertex<Sum>& kernel, Start start);
+/// One launch over all slots. Sums have one width, as no position is made of them.
+template <class Backend>
+void measure_vertices(Backend& backend, int slots, const MeasureVertex<GatherAll>& kernel);
+
 /// The resident streams and their launches. `complete` gives a view what belongs to the sweep; positions, bounds and
 /// control of an iteration are the caller's.
 template <class Backend>
@@ -359,16 +366,15 @@ class Sweep {
       const bool is_first = c == 0 && !is_before, asks_late = is_first && start == Start::overlapping;
       const Start own_start = is_first ? start : Start::overlapping;
       Sums::with(sum_, [&](auto sum) {
-        update(count, UpdateVertex<decltype(sum)>{view, colour_begin_[k], asks_late}, own_start);
+        update_vertices(backend_, lanes_, count, UpdateVertex<decltype(sum)>{view, colour_begin_[k], asks_late},
+                        own_start);
       });
     }
   }
 
-  /// The force on each free vertex, into `left`; as MeasureVertex. Sums have one width, as no position is made of them.
+  /// The force on each free vertex, into `left`; as MeasureVertex.
   void measure(const SweepView& view, LeftForce* left, bool is_end) const {
-    constexpr int width = 8;
-    backend_.template for_each_team<width>(slots(), MeasureVertex<GatherAll>{view, left, is_end},
-                                           Start::after_previous);
+    measure_vertices(backend_, slots(), MeasureVertex<GatherAll>{view, left, is_end});
   }
 
  private:
@@ -383,16 +389,6 @@ class Sweep {
   template <class T>
   static void upload(Buffer<T>& buffer, const std::vector<T>& items) {
     buffer.upload(items.data(), items.size());
-  }
-
-  template <class Gather>
-  void update(int count, const UpdateVertex<Gather>& kernel, Start start) {
-    switch (lanes_) {
-      case 2: return backend_.template for_each_team<2>(count, kernel, start);
-      case 4: return backend_.template for_each_team<4>(count, kernel, start);
-      case 8: return backend_.template for_each_team<8>(count, kernel, start);
-      default: return backend_.template for_each_team<16>(count, kernel, start);
-    }
   }
 
   Backend& backend_;

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from paper_figures.workflow import layers, release, slide
 from paper_figures.workflow.audited import Audit
 from paper_figures.workflow.first_meeting import FirstMeeting
-from paper_figures.workflow.jobs import Command, Job, Share, Step
+from paper_figures.workflow.jobs import Job, Share, Step
 
 TWIST, THREE_CLOTHS = "large_radius_twist", "three_cloths_on_sphere"
 ONE_ITERATION, ACTIVATIONS = "one_iteration_drop", "activation_drop"
@@ -373,7 +373,7 @@ def threads(scale, cores):
     return [Job(f"threads_{n}", ("--threads", n, "--audit", "off"), scene=scene) for n in numbers]
 
 
-# Distances to Newton's minimiser, of the state after this step: cloths in the middle of their impact and at Fig. 17's
+# Where VBD and Newton end in the step after this one: cloths in the middle of their impact and at Fig. 17's
 # step, twist after its first turn, before triangles collapse (fast/PERFORMANCE.md): afterwards the energy is not convex
 # between the two states.
 MINIMISER_STEPS = {"smoke": {"cloth_on_sphere": 22, "three_cloths_on_sphere": 22, "twist": 600},
@@ -382,14 +382,15 @@ MINIMISER_STEPS = {"smoke": {"cloth_on_sphere": 22, "three_cloths_on_sphere": 22
 
 
 def minimiser(scale, backend):
-    """Runs to the state that is looked at, profiled, so that nobody takes their times for a result, and the table."""
-    steps = MINIMISER_STEPS[scale]
-    for scene, step in steps.items():
-        options = ("--steps", step, "--set", f"frame_steps={step}", "--audit", "end", "--profile")
-        yield Job(scene, (scene, "--scale", scale, "--backend", backend, *options))
-    frames = [f"{{root}}/{scene}/frames/frame_{step:06d}.h5" for scene, step in steps.items()]
-    words = ("minimise", *frames, "--backend", backend, "--csv", "{root}/minimiser.csv")
-    yield Command("minimiser", words, "minimiser.csv", tuple(steps))
+    """Runs to the state that is looked at, and its next step twice, each time until nothing moves: by VBD and by
+    Newton. Profiled, so that nobody takes their times for a result."""
+    for scene, step in MINIMISER_STEPS[scale].items():
+        shared_words = (scene, "--scale", scale, "--audit", "end", "--profile", "--set", "frame_steps=" + str(step))
+        yield Job(scene, (*shared_words, "--backend", backend, "--steps", step))
+        last = (*shared_words[:-1], "frame_steps=1", *ANY, *BY_VBD)
+        by_vbd_alone = ("--backend", backend, "--residual", "--set", "iterations=3000")
+        for solver, options in (("vbd", by_vbd_alone), ("newton", (*NEWTON, "--set", "newton_iterations=200"))):
+            yield Job(f"{scene}_{solver}", (*last, *options), (scene, Step(step)), 1)
 
 
 # What the parts of a step do to energy and momentum, by balls and by planes: of so many steps after a step of a plain
@@ -512,32 +513,3 @@ def yarn_at_rest(scale, backend):
     hanging = Job("hanging", (*held, "--steps", steps), scene=braked)
     yield twisted, let_go, released, without_friction(released.name)
     yield hanging, without_friction(hanging.name)
-
-
-# Smaller measurements beside Table 1 (fast/PERFORMANCE.md).
-def sphere(scale, backend):
-    """Fig. 18's scene audited twice, which must give the same bits, then timed, by stage, too, and on the CPU."""
-    base = ("cloth_on_sphere", "--scale", scale, "--set", "frame_steps=5")
-    kinds = {"audited": ("--audit", "every"), "audited_again": ("--audit", "every"), "timed": ("--audit", "off"),
-             "profiled": ("--audit", "off", "--profile")}
-    yield from (Job(kind, (*base, "--backend", backend, *options)) for kind, options in kinds.items())
-    yield Job("on_the_cpu", (*base, "--backend", "cpu", "--audit", "off"))
-
-
-def beginning_of_twist(scale, backend, steps=1200):
-    base = ("twist", "--scale", scale, "--steps", steps, "--backend", backend)
-    yield Job("audited", (*base, "--audit", "frame"))
-    yield Job("timed", (*base, "--audit", "off", "--set", "frame_steps=100"))
-
-
-def strict(scale, backends):
-    """By a program of the strict build: the same bits on every backend (python3 -m plots.agreement RUN RUN)."""
-    base = ("cloth_on_sphere", "--scale", scale, "--set", "frame_steps=1", "--audit", "off")
-    return [Job(backend, (*base, "--backend", backend)) for backend in backends]
-
-
-def sanitized(backend):
-    """A short run watched by each tool of CUDA's."""
-    words = ("cloth_on_sphere", "--scale", "smoke", "--steps", 12, "--profile", "--audit", "off", "--backend", backend)
-    return [Job(tool, words, under=("compute-sanitizer", "--tool", tool, "--error-exitcode", "9"))
-            for tool in ("memcheck", "racecheck", "initcheck")]

@@ -1,22 +1,27 @@
 """Runs the command of one step of the workflow with a log; where it fails, shows the command and the log's last lines.
-Beside the log it writes how long the command took.
+Beside the log a record says the command, and at its end how long it took.
 
-Usage: python3 -m paper_figures.workflow.job LOG OUTPUT COMMAND …; what an interrupted attempt left where OUTPUT goes is
-removed first, if it is a run folder. Where OGC_EVENTS names a file, it is told there when the step begins and how it
-ends (progress.py), by the log's name.
+Usage: python3 -m paper_figures.workflow.job LOG OUTPUT COMMAND …; if OUTPUT is the manifest of a run that was cut off,
+it goes on from its checkpoint, or its folder is removed first.
 """
 
 import json
-import os
 import shlex
 import sys
 import time
 from pathlib import Path
 
-from paper_figures.workflow.jobs import command_in, last_lines, remove
+from paper_figures.workflow.jobs import Limit, can_go_on, command_in, last_lines, remove
 
 LINES = 20
-EVENTS = "OGC_EVENTS"
+
+
+class StepFailure(Exception):
+    """A step that failed; the message has its command and its last words."""
+
+    def __init__(self, status, words):
+        super().__init__(words)
+        self.status = status
 
 
 def clear(output):
@@ -25,32 +30,37 @@ def clear(output):
         remove(Path(output).parent)
 
 
-def tell(**event):
-    """A line for whoever watches; one write, so that steps side by side do not mix theirs."""
-    if os.environ.get(EVENTS):
-        with open(os.environ[EVENTS], "a", encoding="utf-8") as file:
-            file.write(json.dumps(event) + "\n")
+def record(log):
+    """The command of a step's last attempt, and how long it took [s] if it came to its end; {} where there was none."""
+    path = Path(f"{log}.json")
+    return json.loads(path.read_text()) if path.is_file() else {}
 
 
-def run(log, output, command):
-    """Exit status of the command; 1 where it succeeded without making its output."""
-    clear(output)
-    log = Path(log)
-    tell(what="begins", step=log.stem)
+def run(log, output, command, limit=Limit()):
+    """What the command took [s]; of a run that was cut off its last attempt. Throws StepFailure, also where the command
+    made no output."""
+    log, command = Path(log), list(map(str, command))
+    kept, before = log.with_name(log.name + ".json"), record(log)
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    cut_off = before.get("command") == command and "seconds" not in before and command[1:2] == ["run"]
+    goes_on = cut_off and can_go_on(Path(output).parent, command[1:], command[0])
+    if not goes_on:
+        clear(output)
+    kept.write_text(json.dumps({"command": command}))
     begun = time.monotonic()
-    status, _ = command_in(command, log=log)
+    status, _ = command_in([command[0], "run", "--resume", Path(output).parent] if goes_on else command, limit, log)
     if status == 0 and Path(output).is_file():
         seconds = round(time.monotonic() - begun, 2)
-        log.with_name(log.name + ".json").write_text(json.dumps({"command": command, "seconds": seconds}))
-        tell(what="ends", step=log.stem, seconds=seconds)
-        return 0
+        kept.write_text(json.dumps({"command": command, "seconds": seconds}))
+        return seconds
     why = f"exit status {status}" if status else f"no {output}"
-    whole = f"(the whole log: {log.resolve()})"
-    words = f"FAILED ({why}): {shlex.join(command)}\n  {last_lines(log, LINES)}\n  {whole}"
-    tell(what="fails", step=log.stem, words=words)
-    print(words, file=sys.stderr)
-    return status or 1
+    raise StepFailure(status or 1, f"FAILED ({why}): {shlex.join(command)}\n  {last_lines(log, LINES)}\n"
+                                   f"  (the whole log: {log.resolve()})")
 
 
 if __name__ == "__main__":
-    sys.exit(run(sys.argv[1], sys.argv[2], sys.argv[3:]))
+    try:
+        run(sys.argv[1], sys.argv[2], sys.argv[3:])
+    except StepFailure as failure:
+        print(failure, file=sys.stderr)
+        sys.exit(failure.status)

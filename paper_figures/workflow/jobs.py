@@ -115,9 +115,8 @@ class Job:
 
     `state`: (another job's name, frame) that it begins with, `more_steps` long where that is not 0. `scene`: a file
     that it writes first (layers.Stack). `may_fail`: to fail is a result. `processor_time`: what it uses of it is kept
-    beside the run. `under`: a program that the run is watched by. `pictured`: frames of it are packed, the `first` ones
-    among them. `seconds`: it is asked to stop after so long, and is whole then; where it must have `least` steps, not
-    before it has them."""
+    beside the run. `pictured`: frames of it are packed, the `first` ones among them. `seconds`: it is asked to stop
+    after so long, and is whole then; where it must have `least` steps, not before it has them."""
 
     name: str
     arguments: tuple
@@ -126,7 +125,6 @@ class Job:
     scene: object = None
     may_fail: bool = False
     processor_time: bool = False
-    under: tuple = ()
     pictured: bool = True
     first: int = 0
     seconds: float = 0
@@ -152,13 +150,6 @@ class Job:
         ended = ended or bool(status) and (root / self.name / ENDED_BY_TIME).is_file()
         return ended and same_command(root / self.name, self.words(root))
 
-    def goes_on(self, program, root):
-        """Whether the folder holds a part of this run from which this program can go on."""
-        folder = root / self.name
-        status = manifest_of(folder).get("status", "failed")
-        return (not status.startswith("failed") and (folder / "checkpoint.h5").is_file()
-                and same_command(folder, self.words(root)) and is_of(folder, program))
-
     def make(self, program, root, limit=Limit(), shown=False):
         """`shown`: with its progress on the screen."""
         folder = root / self.name
@@ -166,11 +157,11 @@ class Job:
             return KEPT
         if limit.left() == 0:
             return STOPPED
-        goes_on = self.goes_on(program, root)
+        goes_on = can_go_on(folder, self.words(root), program)
         if not goes_on:
             self.begin_anew(program, root)
         words = ["run", "--resume", str(folder)] if goes_on else self.words(root)
-        command = [*self.under, str(program), *words]
+        command = [str(program), *words]
         log = None if shown else root / f"{self.name}.log"
         if shown:
             print(" ".join(command), file=sys.stderr, flush=True)
@@ -209,8 +200,6 @@ class Job:
             return STOPPED
         if self.may_fail and status.startswith("failed"):
             return FINISHED
-        if self.under and status == "finished":  # what watched it found something: its log says what, the run nothing
-            shutil.rmtree(folder)
         raise RunFailure(f"{' '.join(command)}: exit status {code}\n  {last_lines(log)}")
 
     def results(self, root, frames, last):
@@ -226,42 +215,6 @@ class Job:
         yield from chosen
         if chosen:
             yield from sorted(path for path in (folder / "scene").glob("*") if path.is_file())
-
-
-@dataclass(frozen=True)
-class Command:
-    """`ogc WORDS`, which makes the file `output` of the part out of the runs `of`: whole, or not at all. "{root}" in
-    the words is the part's folder."""
-
-    name: str
-    words: tuple
-    output: str
-    of: tuple = ()
-    on_device = False
-
-    def done(self, root):
-        output, stamp = root / self.output, Path(os.environ.get("OGC_STAMP") or "/nonexistent")
-        inputs = [*(root / name / "run.json" for name in self.of), *([stamp] if stamp.is_file() else [])]
-        return output.is_file() and all(path.is_file() and path.stat().st_mtime <= output.stat().st_mtime
-                                        for path in inputs)
-
-    def make(self, program, root, limit=Limit(), shown=False):
-        if self.done(root):
-            return KEPT
-        if limit.left() == 0:
-            return STOPPED
-        command = [str(program), *(str(word).format(root=root) for word in self.words)]
-        log = None if shown else root / f"{self.name}.log"
-        code, _ = command_in(command, limit, log)
-        if code == 0 and (root / self.output).is_file():
-            return FINISHED
-        (root / self.output).unlink(missing_ok=True)
-        if limit.left() == 0:
-            return STOPPED
-        raise RunFailure(f"{' '.join(command)}: exit status {code}\n  {last_lines(log)}")
-
-    def results(self, root, _frames, _last):
-        yield from [root / self.output] if (root / self.output).is_file() else []
 
 
 def manifest_of(folder):
@@ -295,6 +248,13 @@ def is_of(folder, program):
     """Whether this program's commit made the run: no other can go on with it."""
     said = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=False).stdout
     return f"commit {manifest_of(folder)['commit']}" in said
+
+
+def can_go_on(folder, words, program):
+    """Whether the folder holds a part of the run of these words from which this program can go on."""
+    status = manifest_of(folder).get("status", "failed")
+    return (not status.startswith("failed") and (folder / "checkpoint.h5").is_file() and same_command(folder, words)
+            and is_of(folder, program))
 
 
 def taken_before(folder):

@@ -98,7 +98,7 @@ def of_figures(wanted):
         # A figure of the CPU, as its recipe says: a ratio is of the same cores, and of nothing beside them.
         "fig18_solvers": Part(folder("fig18_solvers", "cpu"), (solvers,), "fig18_solvers", frames=21),
         **of_mat(wanted),
-        "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0),
+        "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0, last=1),
         "quality": Part(folder("table1"), (tuple(commands.to_quality(scale, backend)),), "quality", frames=0),
         "ledger": Part(folder("ledger"), (tuple(commands.ledgers(scale, backend)),), "ledger", frames=0),
         "fig15": Part(folder("fig15"), tuple(commands.yarn_stretched(scale, backend)), "fig15", frames=13, last=1),
@@ -158,13 +158,8 @@ def of_growth(wanted):
 
 def measurements(wanted):
     """What belongs to no figure."""
-    scale, backend, folder = wanted.scale, wanted.backend, wanted.folder
-    counts = Counts(backend, wanted.share, wanted.seed, wanted.stages or tuple(STAGES))
-    return {"sphere": Part(folder("sphere"), (tuple(commands.sphere(scale, backend)),)),
-            "twist_beginning": Part(folder("twist_beginning"), (tuple(commands.beginning_of_twist(scale, backend)),)),
-            "strict": Part(folder("strict"), (tuple(commands.strict(scale, wanted.backends)),), frames=21),
-            "sanitizer": Part(folder("sanitizer"), (tuple(commands.sanitized(backend)),), frames=0),
-            "judge": Part(f"judge-{backend}", ((counts,),))}
+    counts = Counts(wanted.backend, wanted.share, wanted.seed, wanted.stages or tuple(STAGES))
+    return {"judge": Part(f"judge-{wanted.backend}", ((counts,),))}
 
 
 def chosen(parts, names=(), figures=()):

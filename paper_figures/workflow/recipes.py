@@ -1,5 +1,5 @@
 """Figures as steps: which command makes which file out of which. One YAML file a figure (figNN.yaml) says what is run
-and drawn; Snakemake (paper_figures/workflow/Snakefile) runs the steps, or `in_order` where Snakemake can't be had.
+and drawn; `local.py` does the steps on this machine, Snakemake (paper_figures/workflow/Snakefile) on a Slurm cluster.
 Paths are relative to the folder of the runs.
 
 Keys of a YAML file: `illustrations`, with a title for each; or `title` with `scene`, `script` (a module of
@@ -57,7 +57,9 @@ class Step:
 
     @property
     def log(self):
-        return f"{Path(self.output).parent}/{self.name}.log"
+        """Beside the output, or beside the folder of a run, which is removed where it begins anew."""
+        here = Path(self.output).parent
+        return f"{here.parent if Path(self.output).name == 'run.json' else here}/{self.name}.log"
 
 
 @dataclass(frozen=True)
@@ -227,12 +229,13 @@ def program_stamp(runs, ogc):
 def seconds_of(recipe, scale, backend, runs):
     """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that
     found them done was quick. Unpacked runs have no logs of steps: what they took alone."""
-    logs = [log for log in (runs / f"{step.log}.json" for step in steps(recipe, scale, backend, "ogc"))
-            if log.is_file()]
+    records = [json.loads(path.read_text()) for path in (runs / f"{step.log}.json" for step in
+                                                         steps(recipe, scale, backend, "ogc")) if path.is_file()]
+    took = [record["seconds"] for record in records if "seconds" in record]
     of_runs = sum(map(seconds_of_run, (runs / recipe.folder(scale, backend)).rglob("run.json")))
-    if 0 < len(logs) < len(steps(recipe, scale, backend, "ogc")) or not (logs or of_runs):
+    if 0 < len(took) < len(steps(recipe, scale, backend, "ogc")) or not (took or of_runs):
         return None
-    return max(sum(json.loads(log.read_text())["seconds"] for log in logs), of_runs)
+    return max(sum(took), of_runs)
 
 
 def seconds_of_run(path):

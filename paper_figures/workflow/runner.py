@@ -2,9 +2,9 @@
 cut off goes on from its checkpoint at the next call. Needs Python's own library and a program `ogc`
 (experiments/bundle).
 
-Exit status: 0 all is finished, 75 the limit came first (call again to go on), 1 a job failed or did not fit into the
-archive, 2 wrong words. An interrupt, or SIGTERM, as a cluster sends it, is a limit that comes now. A job that is asked
-to stop has a minute for the step at hand and its checkpoint: leave it that.
+Exit status: 0 all is finished, 75 the limit came first (call again to go on), 1 a job failed, 2 wrong words. An
+interrupt, or SIGTERM, as a cluster sends it, is a limit that comes now. A job that is asked to stop has a minute for
+the step at hand and its checkpoint: leave it that.
 
   python3 -m paper_figures.workflow.runner --program bundle/ogc --out runs --time-limit 500 --pack packed twist fig02
   python3 -m paper_figures.workflow.runner --program build/default/ogc --out runs --unpack packed    # where it is drawn
@@ -25,7 +25,6 @@ from paper_figures.workflow.device_memory import DeviceMemory
 from paper_figures.workflow.jobs import (CALL_AGAIN, FAILED, FINISHED, KEPT, MEMORY, STOPPED, Limit, RunFailure,
                                          manifest_of)
 from paper_figures.workflow.judge_counts import STAGES
-from paper_figures.workflow.unpacking import UnpackError
 
 
 class Runner:
@@ -102,8 +101,6 @@ def arguments():
     add("--part-limit", type=float, metavar="SECONDS", help="of each part")
     add("--jobs", type=int, default=1, help="chains of a part that go on side by side (default: 1)")
     add("--pack", type=Path, metavar="FOLDER", help="after each part, pack what is finished and was not packed before")
-    add("--piece-size", type=int, default=0, metavar="MIB", help="cut the archive into pieces of so much")
-    add("--pack-size", type=int, default=0, metavar="MIB", help="the most that one call packs; the rest is named")
     add("--unpack", type=Path, metavar="FOLDER", help="unpack what --pack packed, and run nothing")
     table = parser.add_argument_group("Table 1")
     add = table.add_argument
@@ -130,7 +127,7 @@ def unpacked(options):
     try:
         for path in packing.unpack(options.unpack, options.out, options.program):
             print(path)
-    except UnpackError as error:
+    except packing.UnpackError as error:
         print(f"runner: {options.unpack}: {error}; nothing is unpacked", file=sys.stderr)
         return 1
     return 0
@@ -142,15 +139,14 @@ def made(options, chosen):
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, lambda *_: limit.stop())
     runner = Runner(options.program, options.out, limit, options.part_limit, options.jobs)
-    sizes = options.piece_size, options.pack_size
-    archive = packing.Archive(options.pack, options.out, *sizes) if options.pack else None
+    archive = packing.Archive(options.pack, options.out) if options.pack else None
     ends, lines = [], []
     for name, part in chosen.items():
         ends.append(runner.make(name, part))
         if archive:
             lines = archive.write(chosen)
     print("\n".join(lines), end="\n" if lines else "")
-    if FAILED in ends or archive and archive.left_out:
+    if FAILED in ends:
         return 1
     return CALL_AGAIN if STOPPED in ends else 0
 

@@ -5,8 +5,6 @@
 
 #include "compare/files/bytes.hpp"
 #include "compare/record/vtp.hpp"
-#include "experiments/program/audits/picture.hpp"
-#include "experiments/program/audits/png.hpp"
 #include "experiments/program/output.hpp"
 
 namespace ogc::experiments {
@@ -118,15 +116,12 @@ std::string show_offenders(const std::filesystem::path& folder, const std::strin
                            const compare::AuditResult& result, const compare::Topology& topology,
                            const std::vector<compare::Vec3>& positions) {
   const Offenders offenders = offenders_of(result, topology);
-  const std::filesystem::path stem = folder / file_name(name);
-  const std::string vtp = stem.string() + ".vtp", png = stem.string() + ".png";
+  const std::string vtp = (folder / file_name(name)).string() + ".vtp";
   compare::write_bytes(vtp, offenders_vtp(result, topology, positions));
-  const std::string where = " " + region_of(offenders, topology, positions) + ": ";
-  if (offenders.triangles.empty())  // curves alone: pictures are of triangles
-    return name + ": " + counted(offenders.edges.size(), "edge") + where + vtp;
-  if (has_png()) compare::write_bytes(png, png_bytes(picture_of(offenders, topology, positions)));
-  return name + ": " + counted(offenders.triangles.size(), "triangle") + where +
-         (has_png() ? png : "no picture (this program was built without libpng; install libpng-dev)") + ", " + vtp;
+  const bool only_curves = offenders.triangles.empty();
+  return name + ": " +
+         counted((only_curves ? offenders.edges : offenders.triangles).size(), only_curves ? "edge" : "triangle") +
+         " " + region_of(offenders, topology, positions) + ": " + vtp;
 }
 
 }  // namespace ogc::experiments

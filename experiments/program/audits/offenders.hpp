@@ -1,4 +1,4 @@
-// The part of a mesh that an audit complains about: to be looked at, alone or in a picture.
+// The part of a mesh that an audit complains about: written for ParaView and plots/offenders.py.
 #pragma once
 
 #include <filesystem>
@@ -31,9 +31,8 @@ std::string region_of(const Offenders& offenders, const compare::Topology& topol
 std::string offenders_vtp(const compare::AuditResult& result, const compare::Topology& topology,
                           const std::vector<compare::Vec3>& positions);
 
-/// Writes NAME.vtp and, where a triangle is met, NAME.png (picture.hpp) to the folder, which is made where it is
-/// missing; returns one line that names them and says where the intersections are. Without libpng the picture is left
-/// out, and the line says so. Throws compare::ResourceError.
+/// Writes NAME.vtp to the folder, which is made where it is missing; returns one line that names the file and says
+/// where the intersections are. Throws compare::ResourceError.
 std::string show_offenders(const std::filesystem::path& folder, const std::string& name,
                            const compare::AuditResult& result, const compare::Topology& topology,
                            const std::vector<compare::Vec3>& positions);

@@ -30,12 +30,12 @@ using compare::SmallestDistances;
 
 struct Options {
   AuditRequest request;
-  std::string show;               ///< folder of the pictures; empty: none
+  std::string show;               ///< folder of the .vtp files; empty: none
   std::optional<double> deepest;  ///< [m] deeper inside a volume a state fails; empty: none does
   bool between = false;           ///< asks the straight ways between states, too
 };
 
-/// How many states get pictures: the first ones tell what the others would.
+/// How many states get a file: the first ones tell what the others would.
 constexpr std::size_t most_shown = 8;
 
 struct State {
@@ -411,9 +411,10 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "--mesh", options->request.topology,
       "A mesh, or an array (.npy, .npz), with the triangles of frames in .npy or .pc2 files, or in a .npz "
       "without any");
-  command->add_option(
-      "--show", options->show,
-      "Write a picture and a .vtp of what intersects to this folder, for each of the first 8 such states");
+  command->add_option("--show", options->show,
+                      "Write what intersects as .vtp files to this folder, for the first 8 such states; python3 -m "
+                      "plots.offenders FILE "
+                      "draws one");
   command
       ->add_option("--deepest", options->deepest,
                    "A state with a vertex deeper than so much inside a volume fails (default: none does)")
@@ -460,7 +461,7 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "Examples:\n"
       "  ogc audit shirt.obj\n"
       "  ogc audit runs/twist-small-20250801-120000\n"
-      "  ogc audit their_run/*.ply --show pictures\n"
+      "  ogc audit their_run/*.ply --show crossings\n"
       "  ogc audit cloth.pc2 --mesh cloth.obj --between\n"
       "  ogc audit frames.npz --json --limit 20 > verdict.json");
   command->callback([options, &context] { context.status = run(*options, context); });

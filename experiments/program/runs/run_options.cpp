@@ -187,9 +187,8 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
                    "With newton: the same, with the condition number of each matrix, also without friction and without "
                    "contact (slow)");
   command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
-  command.add_option(
-      "--show", options->show,
-      "Folder for a picture and a .vtp of what intersects, where the start, or a later state, is refused");
+  command.add_option("--show", options->show,
+                     "Folder for a .vtp of what intersects, where the start, or a later state, is refused");
   command
       .add_option("--checkpoint", options->checkpoint_seconds,
                   "Seconds between two checkpoints, at least; 0: at each state that is judged")

@@ -59,7 +59,7 @@ struct RunRequest {
   bool residual = false, ledger = false;
   std::optional<StepRange> meetings;  ///< likewise: steps whose meetings are counted
   std::filesystem::path folder;
-  std::filesystem::path show;  ///< folder for pictures of what an audit refuses; empty: none
+  std::filesystem::path show;  ///< folder for .vtp files of what an audit refuses; empty: none
   std::string command_line;
 };
 

@@ -87,12 +87,12 @@ void RunSession::tell_pairs() const {
            judge_->describe(listed));
 }
 
-/// Where the intersections of a state are, and the picture, or how to get one.
+/// Where the intersections of a state are, and the file of them, or how to get one.
 std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
   const compare::Topology topology = build_topology(request_.scene);
   const std::vector<compare::Vec3> positions = compare::to_double(state.positions);
   const std::string where = region_of(offenders_of(result, topology), topology, positions);
-  if (request_.show.empty()) return where + " (for a picture of them add --show DIR)";
+  if (request_.show.empty()) return where + " (to have them as a mesh add --show DIR)";
   return where + "\n" + show_offenders(request_.show, name, result, topology, positions);
 }
 

@@ -140,11 +140,3 @@ TEST_CASE("constants of rods are rounded to single precision as all others", "[u
     CHECK(value == static_cast<double>(static_cast<float>(value)));
   }
 }
-
-TEST_CASE("whoever can't simulate rods says so by name", "[unit]") {
-  Scene scene = scene_of(chain(3));
-  CHECK_THROWS_WITH(refuse_rods(scene, "minimise"),
-                    Contains("body 'yarn' is a rod, which minimise does not simulate yet"));
-  scene.bodies[1].material.rod.reset();
-  CHECK_NOTHROW(refuse_rods(scene, "minimise"));
-}

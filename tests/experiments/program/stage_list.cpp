@@ -47,7 +47,7 @@ TEST_CASE("every stage has a contract, a reference, a CPU and a CUDA implementat
       CHECK(can_judge(stage, fast::contestant(fast::Backend::cuda), authority));
   }
   // Both backends instantiate one list of probes: what the CPU has, CUDA has.
-  for (const char* file : {"fast/cpu/probes.cpp", "fast/cuda/probes.cu"})
+  for (const char* file : {"fast/cpu/instantiate.cpp", "fast/cuda/instantiate.cu"})
     CHECK(read(file).find("= probe_contestant(\"") != std::string::npos);
 }
 

@@ -1,8 +1,11 @@
-"""The table of distances to the minimiser, made from smoke runs: a row a scene, each distance within its bounds, and
-nothing is made twice.
+"""The table of the distances between VBD's ends and Newton's, made from smoke runs: a row a scene, and nothing is made
+twice.
 
-Usage: minimiser.py SOURCE_DIR OGC
+Usage: minimiser.py SOURCE_DIR OGC. Exit status 77: skipped, a package that plots need is missing.
 """
+
+import csv
+import json
 
 import subprocess
 import sys
@@ -12,39 +15,46 @@ from pathlib import Path
 
 OGC, SOURCE = Path(sys.argv.pop(2)).resolve(), Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
-from paper_figures.figures import minimiser  # noqa: E402
-from paper_figures.workflow import commands  # noqa: E402
+try:
+    from paper_figures.figures import minimiser  # noqa: F401
+    from paper_figures.workflow import commands
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+
+
+# A contact pushes with k_c (r − d). Ends that lie a hundredth of r apart differ by a hundredth of the full force k_c r,
+# seven times the largest residual that either of them leaves (0.0013).
+SHARE_OF_RADIUS = 1e-2
 
 
 class Table(unittest.TestCase):
-    def made(self, folder):
-        command = [sys.executable, "-m", "paper_figures.figures.minimiser", str(folder), "--ogc", str(OGC), "--scale",
-                   "smoke",
-                   "--no-picture"]
-        return subprocess.run(command, cwd=SOURCE, capture_output=True, text=True)
+    def made(self, folder, program=OGC):
+        command = [sys.executable, "-m", "paper_figures.figures.minimiser", folder, "--ogc", program,
+                   "--scale", "smoke"]
+        return subprocess.run(list(map(str, command)), cwd=SOURCE, capture_output=True, text=True)
 
-    def test_a_row_a_scene_each_within_its_bounds(self):
+    def test_a_row_a_scene_whose_two_ends_are_near(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             done = self.made(folder)
             self.assertEqual(done.returncode, 0, done.stderr)
-            rows = minimiser.rows_of(folder / "minimiser.csv")
+            with (folder / "minimiser.csv").open(newline="") as file:
+                rows = list(csv.DictReader(file))
             self.assertEqual({row["scene"]: int(row["step [1]"]) - 1 for row in rows},
                              commands.MINIMISER_STEPS["smoke"])
             for row in rows:
-                distance, bounds = float(row["largest_distance [m]"]), ("bound_by_energy [m]", "bound_by_gradient [m]")
-                self.assertEqual((row["reached_floor"], row["newton_converged"]), ("yes", "yes"))
-                self.assertTrue(0 < distance <= min(float(row[bound]) for bound in bounds), row)
-                self.assertLessEqual(set(minimiser.DISTANCES), set(row))
+                settings = json.loads((folder / row["scene"] / "run.json").read_text())["settings"]
+                radius = float(settings["contact_radius"]["value"])
+                self.assertTrue(0 < float(row["largest_distance [m]"]) <= SHARE_OF_RADIUS * radius, row)
             made = {path: path.stat().st_mtime_ns for path in folder.glob("*/run.json")}
+            self.assertEqual(len(made), 9)
             self.assertEqual(self.made(folder).returncode, 0)
             self.assertEqual(made, {path: path.stat().st_mtime_ns for path in folder.glob("*/run.json")})
 
     def test_a_program_that_fails_is_named(self):
         with tempfile.TemporaryDirectory() as name:
-            command = [sys.executable, "-m", "paper_figures.figures.minimiser", name, "--ogc", "/bin/false",
-                       "--no-picture"]
-            done = subprocess.run(command, cwd=SOURCE, capture_output=True, text=True)
+            done = self.made(name, "/bin/false")
             self.assertEqual(done.returncode, 1)
             self.assertIn("minimiser: /bin/false run cloth_on_sphere", done.stderr)
 

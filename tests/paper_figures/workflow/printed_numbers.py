@@ -22,11 +22,12 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import whole_runs  # noqa: E402
+from paper_figures.workflow import ablation_tables, whole_runs  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS  # noqa: E402
 
-DOCUMENTS = ("README.md", "fast/PERFORMANCE.md", "reference/README.md", "paper_figures/results/h200/README.md",
-             "paper_figures/results/two_cores/README.md", "tests/mutants/README.md")
+DOCUMENTS = ("README.md", "fast/PERFORMANCE.md", "reference/README.md", "paper_figures/ablations.md",
+             "paper_figures/results/h200/README.md", "paper_figures/results/two_cores/README.md",
+             "tests/mutants/README.md")
 SHORT = {"sphere": "cloth_on_sphere"}  # names of scenes in documents, where they are not the scenes' own
 NOT_OURS = ("floor", "quoted")
 LINK = re.compile(r"\[[^\]]*\]\(([^)#]*\.csv)\)")
@@ -141,6 +142,15 @@ class Documents(unittest.TestCase):
         folder = RESULTS / "h200"
         self.assertEqual(list(faults(words, folder)), [])
         self.assertEqual([found[2] for found in faults(words.replace("1.85", "1.86"), folder)], ["1.86"])
+
+    def test_tables_of_studies_are_those_of_the_files_and_a_wrong_number_in_them_is_found(self):
+        text = ablation_tables.DOCUMENT.read_text()
+        self.assertEqual(ablation_tables.rewritten(text), text)
+        studies = [path.stem for path in (SOURCE / "paper_figures/figures/ablations").glob("*.yaml")]
+        self.assertEqual(sorted(ablation_tables.PLACE.findall(text)), sorted(studies))
+        wrong = text.replace("| 10 of 10 | 9.2 |", "| 10 of 10 | 9.3 |", 1)
+        self.assertNotEqual(wrong, text)
+        self.assertEqual(ablation_tables.rewritten(wrong), text)
 
     def test_the_table_of_whole_runs_is_computed_from_the_runs_that_are_kept(self):
         for path in RESULTS.glob("*/whole_runs.csv"):

@@ -26,6 +26,7 @@ except ImportError as error:
     sys.exit(77)
 
 PROGRAM = sys.argv[1]
+sys.path.insert(0, str(Path(__file__).parents[4]))
 FRAMES, FIRST_BAD = 12, 10
 TRIANGLES = numpy.array([[0, 1, 2], [3, 4, 5]])
 
@@ -290,11 +291,29 @@ def check_refused(folder):
     assert len(verdict["states"]) == FRAMES - 1 and "frame 11: the file ends at byte" in verdict["stopped"]
 
 
+def check_drawn(folder):
+    """What meets in one frame is drawn from what `--show` wrote: two pictures side by side, neither of one colour."""
+    from plots import offenders, render
+    if not render.available()[0]:
+        return
+    x = positions()[FIRST_BAD].tolist()
+    mesh = folder / "drawn.obj"
+    mesh.write_text("".join("v {} {} {}\n".format(*point) for point in x) + "f 1 2 3\nf 4 5 6\n")
+    audit(mesh, "--show", folder / "show", status=1)
+    offenders.draw(folder / "show/drawn.vtp", mesh, folder / "drawn.png")
+    import pyvista
+    picture = pyvista.read(folder / "drawn.png")
+    assert picture.dimensions[:2] == (1280, 480), picture.dimensions
+    halves = numpy.asarray(picture.point_data["PNGImage"]).reshape(480, 1280, -1)
+    assert halves[:, :640].std() > 0 and halves[:, 640:].std() > 0
+
+
 with tempfile.TemporaryDirectory() as scratch:
     check_arrays(Path(scratch))
     check_layouts(Path(scratch))
     check_digits(Path(scratch))
     check_vtp(Path(scratch))
     check_vtk(Path(scratch))
+    check_drawn(Path(scratch))
     check_interrupted(Path(scratch))
     check_refused(Path(scratch))

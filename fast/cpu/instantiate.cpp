@@ -1,5 +1,5 @@
-// The stages and the resident simulation instantiated for the host's threads: in one source, because a trace runs the
-// simulation's own kernels.
+// The stages, the resident simulation and the detection of ContactFinder instantiated for the host's threads: in one
+// source, because they run the same kernels. Updates of vertices stand in update_vertices.cpp.
 #include <string>
 #include <utility>
 

@@ -1,11 +1,9 @@
-"""What `reproduce` says while it works: which figure, which step of how many, how long yet; the workflow's own output
-goes to a log. Also what a build says.
+"""The steps of figures on one machine: which are due, that nothing is beside a step that uses all cores, that an
+interrupt keeps what is finished, and what `reproduce` says meanwhile. Also what a build says.
 
-Usage: progress.py SOURCE_DIR. Exit status 77: skipped, PyYAML or matplotlib is missing; without Snakemake its part is
-left out, and the test says so.
+Usage: local.py SOURCE_DIR. Exit status 77: skipped, PyYAML or matplotlib is missing.
 """
 
-import importlib.util
 import io
 import os
 import pty
@@ -15,13 +13,14 @@ import sys
 import tempfile
 import time
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 try:
     import matplotlib  # noqa: F401  (the steps draw with it)
-    from paper_figures.workflow import progress
+    from paper_figures.workflow import job, local, recipes
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
@@ -50,19 +49,12 @@ class Words(Scratch):
         self.now = 0.0
         (self.folder / "fig18-smoke-cpu").mkdir()
         (self.folder / "fig18-smoke-cpu/fig18.log.json").write_text('{"seconds": 40}')
-        self.known = progress.Known(self.folder, "smoke", "cpu", ["fig18", "fig07"])
+        self.known = local.Known(self.folder, "smoke", "cpu", ["fig18", "fig07"])
         self.known.seconds.update({"fig18_run": 100, "fig07": None})
-        self.course = progress.Course(self.known, lambda: self.now)
-        self.course.take({"due": ["fig18_run", "fig18", "fig07"]})
-
-    def begin(self, name):
-        self.course.take({"what": "begins", "step": name})
-
-    def end(self, name):
-        return self.course.take({"what": "ends", "step": name, "seconds": 7})
+        self.course = local.Course(self.known, ["fig18_run", "fig18", "fig07"], lambda: self.now)
 
     def test_the_line_says_figure_step_and_time_from_what_steps_took_before(self):
-        self.begin("fig18_run")
+        self.course.begins("fig18_run")
         self.now = 10
         begin = r"^Step 1 of 3, fig18 \(.+\): simulating cloth_on_sphere; "
         self.assertRegex(self.course.line(), begin + "at least 2 min left$")
@@ -70,7 +62,7 @@ class Words(Scratch):
         self.assertRegex(self.course.line(), r"^Step 1 of 2, .*; about 2 min left$")  # 90 of the run, 40 of drawing
 
     def test_how_far_the_running_program_says_it_is_counts_more(self):
-        self.begin("fig18_run")
+        self.course.begins("fig18_run")
         log = self.known.logs["fig18_run"]
         log.parent.mkdir(parents=True, exist_ok=True)
         log.write_text("step 1/30, 2 ms a step\nstep 10/30, 2 ms a step, 3 contacts\n")
@@ -78,10 +70,9 @@ class Words(Scratch):
         self.assertRegex(self.course.line(), "simulating cloth_on_sphere, 10 of 30; about 10 s left$")
 
     def test_of_a_study_runs_count_and_not_the_steps_of_one(self):
-        known = progress.Known(self.folder, "smoke", "cpu", ["ablation_membrane"])
-        course = progress.Course(known, lambda: self.now)
-        course.take({"due": ["ablation_membrane"]})
-        course.take({"what": "begins", "step": "ablation_membrane"})
+        known = local.Known(self.folder, "smoke", "cpu", ["ablation_membrane"])
+        course = local.Course(known, ["ablation_membrane"], lambda: self.now)
+        course.begins("ablation_membrane")
         log, self.now = known.logs["ablation_membrane"], 30
         log.parent.mkdir(parents=True, exist_ok=True)
         log.write_text("s: twist (1 of 2): ogc ablate twist\ndefault,seed=1 (1 of 4)\nstep 1/720, 2 s left\n")
@@ -94,20 +85,21 @@ class Words(Scratch):
         self.assertRegex(course.line(), ", 4 of 8; about 30 s left$")
 
     def test_a_finished_step_is_said_with_its_time_and_counted(self):
-        self.begin("fig18_run")
-        self.assertRegex(self.end("fig18_run"), r"^Step 1 of 3, fig18 .*: simulating cloth_on_sphere took 7 s$")
-        self.begin("fig18")
-        self.begin("fig07")
+        self.course.begins("fig18_run")
+        self.course.ends("fig18_run", 7)
+        self.assertRegex(self.course.said[0], r"^Step 1 of 3, fig18 .*: simulating cloth_on_sphere took 7 s$")
+        self.course.begins("fig18")
+        self.course.begins("fig07")
         self.assertRegex(self.course.line(), r"^Step 2 of 3, .*, 1 more beside it; at least 40 s left$")
 
     def test_a_failure_is_said_at_once_with_its_words(self):
-        self.begin("fig18_run")
-        said = self.course.take({"what": "fails", "step": "fig18_run", "words": "FAILED (exit status 3): ogc run"})
-        self.assertRegex(said, r"^fig18 .*: FAILED \(exit status 3\): ogc run$")
+        self.course.begins("fig18_run")
+        self.course.fails("fig18_run", "FAILED (exit status 3): ogc run")
+        self.assertRegex(self.course.said[0], r"^fig18 .*: FAILED \(exit status 3\): ogc run$")
         self.assertEqual(self.course.line(), "")
 
     def test_every_recipe_has_words_for_every_step(self):
-        known = progress.Known(self.folder, "smoke", "cpu", ["all", "sweep", "ablations"])
+        known = local.Known(self.folder, "smoke", "cpu", ["all", "sweep", "ablations"])
         for name, words in known.words.items():
             self.assertNotRegex(words, r"None|simulating (,|$)", name)
         self.assertEqual(known.words["sweep_03"], "point 3 of 60")
@@ -115,21 +107,14 @@ class Words(Scratch):
         self.assertEqual(known.words["fig12_movie"], "making the movie")
         self.assertEqual(known.words["fig07_data"], "computing it exactly")
 
-    def test_the_table_of_jobs_is_read(self):
-        counts = (("all", 1), ("fig07", 1), ("fig07_data", 1), ("total", 3))
-        rows = "".join(f"{name:12}{count:7}\n" for name, count in counts)
-        text = f"Building DAG of jobs...\nJob stats:\njob           count\n----------  -------\n{rows}\n"
-        self.assertEqual(progress.due_by_snakemake(text), ["fig07", "fig07_data"])
-        self.assertIsNone(progress.due_by_snakemake(text[:60]))
-
 
 class Shown(Scratch):
     def test_a_file_gets_a_line_a_step_and_every_half_minute(self):
         out = io.StringIO()
-        screen = progress.Screen(out)
+        screen = local.Screen(out)
         screen.show("one", True)
         screen.show("two", False)
-        screen.said -= progress.SAY
+        screen.said -= local.SAY
         screen.show("three", False)
         self.assertEqual(out.getvalue(), "one\nthree\n")
 
@@ -137,7 +122,7 @@ class Shown(Scratch):
         ours, theirs = pty.openpty()
         self.addCleanup(os.close, ours)
         with os.fdopen(theirs, "w") as stream:
-            screen = progress.Screen(stream)
+            screen = local.Screen(stream)
             screen.show("x" * 1000, False)
             screen.show("two", False)
             screen.keep("kept")
@@ -149,8 +134,55 @@ class Shown(Scratch):
         self.assertTrue(shown.endswith("\rtwo\x1b[K\r\x1b[Kkept\r\n"), repr(shown[-40:]))
 
 
+class Due(Scratch):
+    """Of one step, why it is due."""
+
+    def setUp(self):
+        super().setUp()
+        self.output, self.input = self.folder / "run/out", self.folder / "in"
+        self.input.touch()
+        self.step = recipes.Step("one", str(self.output), (str(self.input),), ("touch", str(self.output)))
+
+    def why(self, made=(), step=None):
+        return local.why_due(step or self.step, set(made))
+
+    def test_missing_done_newer_input_other_command_and_interrupted(self):
+        self.assertIn("is missing", self.why())
+        job.run(self.step.log, self.output, self.step.command)
+        self.assertEqual(self.why(), "")
+        self.assertIn("made anew", self.why([str(self.input)]))
+        other = recipes.Step("one", str(self.output), (), ("touch", str(self.output), "more"))
+        self.assertEqual(self.why(step=other), "its command is another")
+        os.utime(self.input, (time.time() + 9, time.time() + 9))
+        self.assertIn("is newer", self.why())
+        with self.assertRaises(job.StepFailure):
+            job.run(self.step.log, self.output, ["false"])
+        self.assertIn("interrupted", self.why())
+
+    def test_what_another_machine_made_is_done(self):
+        self.output.parent.mkdir()
+        self.output.touch()
+        self.assertEqual(self.why(), "")
+
+    def test_nothing_is_beside_a_step_that_uses_all_cores(self):
+        cores, beside, at_work = local.Cores(3), [], []
+        steps = [recipes.Step(str(k), "", (), (), all_cores=k % 4 == 0) for k in range(12)]
+
+        def work(step):
+            with cores.taken(step):
+                at_work.append(step)
+                time.sleep(0.01)
+                beside.append((step.all_cores, len(at_work)))
+                at_work.remove(step)
+
+        with ThreadPoolExecutor(max_workers=12) as pool:
+            list(pool.map(work, steps))
+        self.assertEqual({count for alone, count in beside if alone}, {1})
+        self.assertLessEqual(max(count for _, count in beside), 3)
+
+
 class Whole(Scratch):
-    """The words of a workflow with a stand-in for `ogc`."""
+    """All of it with a stand-in for `ogc`."""
 
     def setUp(self):
         super().setUp()
@@ -158,61 +190,45 @@ class Whole(Scratch):
         self.ogc.write_text(OGC)
         self.ogc.chmod(0o755)
         self.runs = self.folder / "runs"
-        self.runs.mkdir()
-        self.variables = {**os.environ, "PYTHONPATH": str(SOURCE), "XDG_CACHE_HOME": str(self.folder / "cache")}
 
-    def words(self, command, *names, **variables):
-        begun = [sys.executable, "-m", "paper_figures.workflow.progress", str(self.runs), "smoke", "cpu", *names, "--"]
-        return subprocess.Popen([*begun, *map(str, command)], cwd=SOURCE, env={**self.variables, **variables},
+    def begun(self, *words, **variables):
+        command = [sys.executable, "-m", "paper_figures.workflow.local", self.runs, self.ogc, "smoke", "cpu", *words]
+        return subprocess.Popen(list(map(str, command)), cwd=SOURCE, env={**os.environ, **variables},
                                 stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
-    def in_order(self, **variables):
-        command = [sys.executable, "-m", "paper_figures.workflow.in_order", self.runs, self.ogc, "smoke", "cpu",
-                   "fig07"]
-        return self.words(command, "fig07", **variables)
-
-    def check(self, process, raw):
+    def said(self, *words, status=0, **variables):
+        process = self.begun(*words, **variables)
         out, said = process.communicate(timeout=120)
-        self.assertNotEqual(process.returncode, 0, "the stand-in's data can't be drawn")
-        self.assertEqual(out, "")
-        lines = said.splitlines()
-        self.assertRegex(lines[0], r"^Step 1 of 2, fig07 \(.+\): computing it exactly(, 3 of 4)?; (about|at least) \d+ "
-                                   r"s left$")
+        self.assertEqual((process.returncode, out), (status, ""), said)
+        return said
+
+    def test_what_is_due_is_said_done_and_not_done_again_but_for_what_failed(self):
+        self.assertRegex(self.said("fig07", "--dry-run"), r"fig07_data → illustrations/fig07.json: .* is missing\n"
+                                                          r"fig07 → illustrations/fig07.png: .* is missing\n")
+        said = self.said("fig07", OGC_SLOW="1", status=1)
+        self.assertRegex(said, r"^Step 1 of 2, fig07 \(.+\): computing it exactly(, 3 of 4)?; (about|at least) \d+ s "
+                               r"left\n")
         self.assertRegex(said, r"\nStep 1 of 2, fig07 \(.+\): computing it exactly took \d+ s\n")
-        self.assertRegex(said, r"\nfig07 \(.+\): FAILED \(exit status 1\): ")
-        log = self.runs.resolve() / progress.LOG
-        self.assertEqual(lines[-1], f"1 of 2 steps FAILED, 1 done; what the workflow said: {log}")
-        self.assertNotIn(raw, said)
-        self.assertIn(raw, (self.runs / progress.LOG).read_text())
+        self.assertRegex(said, r"\nfig07 \(.+\): FAILED \(exit status 1\): ")  # the stand-in's data can't be drawn
+        self.assertTrue(said.endswith("1 of 2 steps FAILED, 1 done\n"), said)
+        again = self.said("fig07", "--dry-run")
+        self.assertNotIn("fig07_data", again)
+        (self.runs / "illustrations/fig07.png").touch()
+        self.assertIn("interrupted, or failed", self.said("fig07", "--dry-run"))
+        self.ogc.write_text(OGC + "# another program\n")
+        self.assertIn("program.txt is newer", self.said("fig07", "--dry-run"))
 
-    def test_without_snakemake(self):
-        self.check(self.in_order(OGC_SLOW="1"), "fig07_data → illustrations/fig07.json")
-
-    @unittest.skipUnless(importlib.util.find_spec("snakemake"), "Snakemake is not installed: its part is left out")
-    def test_with_snakemake(self):
-        command = [sys.executable, "-m", "snakemake", "-s", SOURCE / "paper_figures/workflow/Snakefile", "-d",
-                   self.runs,
-                   "--nolock", "--cores", "1", "--config", "figures=fig07", "scale=smoke", f"ogc={self.ogc}"]
-        self.check(self.words(command, "fig07", OGC_SLOW="1"), "Building DAG of jobs")
-
-    def test_nothing_due_and_a_workflow_that_fails_by_itself(self):
-        for program, status, words in ((["true"], 0, "Nothing is missing or changed\n"),
-                                       (["sh", "-c", "echo no such rule; exit 4"], 4, "no such rule")):
-            process = self.words(program, "fig07")
-            _, said = process.communicate(timeout=60)
-            self.assertEqual(process.returncode, status)
-            self.assertIn(words, said)
-
-    def test_an_interrupt_says_that_what_is_finished_is_kept(self):
-        process = self.in_order(OGC_SLOW="20")
+    def test_an_interrupt_keeps_what_is_finished(self):
+        process = self.begun("fig07", OGC_SLOW="20")
         self.assertIn("computing it exactly", process.stderr.readline())
-        time.sleep(1)
-        children = (Path(f"/proc/{process.pid}/task/{process.pid}/children")).read_text().split()
-        for pid in (*children, process.pid):  # a terminal's Ctrl-C reaches them all
-            os.kill(int(pid), signal.SIGINT)
+        process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130)
+        self.assertEqual(process.returncode, 130, said)
         self.assertIn("What is finished is kept: call it again to go on", said)
+        self.assertNotIn("FAILED", said)
+
+    def test_a_figure_that_is_not_there_is_refused(self):
+        self.assertIn("no figure or scene 'fig99'", self.said("fig99", status=1))
 
 
 class Building(Scratch):

@@ -1,0 +1,13 @@
+// Updates of vertices on the host's threads.
+#include "fast/stages/update_vertices.hpp"
+
+#include "fast/cpu/backend.hpp"
+
+namespace ogc::fast {
+
+static_assert(HostSums::count == 1);
+template void update_vertices(CpuBackend& backend, int lanes, int count, const UpdateVertex<HostSums::At<0>>& kernel,
+                              Start start);
+template void measure_vertices(CpuBackend& backend, int slots, const MeasureVertex<GatherAll>& kernel);
+
+}  // namespace ogc::fast

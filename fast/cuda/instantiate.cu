@@ -1,0 +1,56 @@
+// The stages, the resident simulation and the detection of ContactFinder instantiated for the device: in one source,
+// because they run the same kernels, which two sources would compile twice. Updates of vertices, whose sums take longest
+// to compile, are sources of their own (update_vertices.cu).
+#include <memory>
+
+#include "fast/cuda/backend.cuh"
+#include "fast/cuda/cuda.hpp"
+#include "fast/probes/contact_engine.hpp"
+#include "fast/probes/probes.hpp"
+#include "fast/stages/simulation.hpp"
+
+namespace ogc::fast {
+
+compare::Contestant cuda_contestant(const LaunchShape& shape) {
+  compare::Contestant contestant = probe_contestant("cuda", std::make_shared<CudaBackend>(shape),
+                                                    [shape] { return CudaBackend(shape); });
+  contestant.start = [](const compare::Scene& scene, const compare::SimulationOptions& options) {
+    return start_cuda(scene, options);
+  };
+  return contestant;
+}
+
+std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, const compare::SimulationOptions& options,
+                                                int list_capacity) {
+  return std::make_unique<ResidentSimulation<CudaBackend>>(CudaBackend{}, scene, options, cuda_info().description,
+                                                           list_capacity);
+}
+
+namespace {
+
+/// Brings its own backend, as other people's solvers have none of ours.
+class CudaContactEngine : public ContactEngine {
+ public:
+  CudaContactEngine(const compare::Topology& topology, const compare::ExclusionView& exclusions)
+      : engine_(backend_, topology, exclusions) {}
+
+  ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) override {
+    return engine_.find(positions, query);
+  }
+  ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
+    return engine_.find_resident(positions, query);
+  }
+
+ private:
+  CudaBackend backend_;
+  BackendContactEngine<CudaBackend> engine_;
+};
+
+}  // namespace
+
+std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology,
+                                                   const compare::ExclusionView& exclusions) {
+  return std::make_unique<CudaContactEngine>(topology, exclusions);
+}
+
+}  // namespace ogc::fast

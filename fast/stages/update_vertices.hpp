@@ -1,0 +1,26 @@
+// The launches that a sum over stencils takes part in: for each backend and sum instantiated in a source of its own, since
+// they take longest to compile.
+#pragma once
+
+#include "fast/kernels/sums.hpp"
+#include "fast/kernels/sweep.hpp"
+#include "fast/stages/sweep.hpp"
+
+namespace ogc::fast {
+
+template <class Backend, class Sum>
+void update_vertices(Backend& backend, int lanes, int count, const UpdateVertex<Sum>& kernel, Start start) {
+  switch (lanes) {
+    case 2: return backend.template for_each_team<2>(count, kernel, start);
+    case 4: return backend.template for_each_team<4>(count, kernel, start);
+    case 8: return backend.template for_each_team<8>(count, kernel, start);
+    default: return backend.template for_each_team<16>(count, kernel, start);
+  }
+}
+
+template <class Backend>
+void measure_vertices(Backend& backend, int slots, const MeasureVertex<GatherAll>& kernel) {
+  backend.template for_each_team<8>(slots, kernel, Start::after_previous);
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,98 @@
+"""The tables of ablations.md, one a study, from the accepted medians and ranges: a row a scene and point, of the
+largest size that the scene was run at. A number that is bold lies apart from the first point's: every run of one is
+above, or below, every run of the other.
+
+Usage: python3 -m paper_figures.workflow.ablation_tables [--write]: says whether the document's tables are those of the
+files, exit status 1 where they are not, or writes them. The standard library is enough.
+"""
+
+import argparse
+import csv
+import re
+import sys
+
+from paper_figures.workflow.evidence import RESULTS, ROOM, opened
+
+DOCUMENT = ROOM / "ablations.md"
+FILES = {"smoke": "two_cores/ablations_smoke.csv.gz", "small": "h200/ablations_small.csv.gz",
+         "paper": "h200/ablations_paper.csv.gz"}  # the largest size last
+# Metric -> its title and factor. A column that a study has no number for is left out.
+COLUMNS = {"guarantee_kept": ("kept [runs]", 1), "detections_a_step": ("detections a step", 1),
+           "contacts_a_step": ("contacts a step", 1), "median_step": ("step [ms]", 1),
+           "smallest_distance": ("smallest distance [mm]", 1e3), "largest_share_cut": ("vertices cut [%]", 100),
+           "largest_momentum_lost_guess": ("momentum lost, guess [%]", 100), "largest_lag": ("lag [mm]", 1e3),
+           "last_elastic_energy": ("elastic energy [J]", 1), "last_kinetic_energy": ("kinetic energy [J]", 1),
+           "last_mean_stretch": ("mean stretch", 1)}
+RODS = "ablation_frames"  # of whose columns and points these say all
+OF_RODS = ("median_step", "last_kinetic_energy", "last_mean_stretch")
+POINTS_OF_RODS = re.compile(r"(?!.*iterations=)|.*iterations=(1|16|64)$")
+PLACE = re.compile(r"<!-- table (\w+) -->\n.*?<!-- end -->", re.S)
+
+
+def largest_runs(study, folder=RESULTS):
+    """(scene, size) -> {point: {metric: row}} of a study."""
+    found = {}
+    for size, name in FILES.items():
+        with opened(folder / name) as file:
+            for row in csv.DictReader(file):
+                left_out = study == RODS and not POINTS_OF_RODS.match(row["point"])
+                if row["study"] == study and row["median"] not in ("", "nan") and not left_out:
+                    points = found.setdefault(row["scene"], {}).setdefault(size, {})
+                    points.setdefault(row["point"], {})[row["metric"]] = row
+    return {(scene, list(sizes)[-1]): sizes[list(sizes)[-1]] for scene, sizes in sorted(found.items())}
+
+
+def rounded(value):
+    """To three digits, with commas between 1,000 and 100,000."""
+    short = f"{value:.3g}"
+    return f"{float(short):,.0f}" if 1e3 <= abs(value) < 1e5 else short
+
+
+def cell(metric, row, first):
+    """The median of a metric's row; bold where the runs lie apart from those of the row `first`."""
+    if row is None:
+        return ""
+    low, high = float(row["smallest"]), float(row["largest"])
+    if metric == "guarantee_kept":  # its number is how many runs kept it
+        text, apart = f"{float(row['median']):g} of {row['runs']}", row["median"] != first["median"]
+    else:
+        text = rounded(float(row["median"]) * COLUMNS[metric][1])
+        apart = first is not None and (low > float(first["largest"]) or high < float(first["smallest"]))
+    return f"**{text}**" if apart else text
+
+
+def table(study, folder=RESULTS):
+    """The lines of a study's table in Markdown."""
+    runs = largest_runs(study, folder)
+    there = {metric for points in runs.values() for metrics in points.values() for metric in metrics}
+    columns = [metric for metric in COLUMNS if metric in there and (study != RODS or metric in OF_RODS)]
+    lines = [f"| scene, size | point | {' | '.join(COLUMNS[metric][0] for metric in columns)} |",
+             "|---" * (2 + len(columns)) + "|"]
+    for (scene, size), points in runs.items():
+        first = next(iter(points.values()))
+        lines += [f"| `{scene}`, {size} | {point} | "
+                  + " | ".join(cell(metric, metrics.get(metric), first.get(metric)) for metric in columns) + " |"
+                  for point, metrics in points.items()]
+    return lines
+
+
+def rewritten(text, folder=RESULTS):
+    """The document with its tables made anew."""
+    return PLACE.sub(lambda place: f"<!-- table {place[1]} -->\n\n" + "\n".join(table(place[1], folder))
+                     + "\n\n<!-- end -->", text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--write", action="store_true", help="write them into the document")
+    options = parser.parse_args()
+    before = DOCUMENT.read_text()
+    after = rewritten(before)
+    if options.write:
+        DOCUMENT.write_text(after)
+    elif after != before:
+        sys.exit(f"{DOCUMENT.name}: its tables are not those of the files: write them with --write")
+
+
+if __name__ == "__main__":
+    main()
