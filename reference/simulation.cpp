@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/readers.hpp"
 #include "compare/problem/rods.hpp"
 #include "reference/solvers/newton/solver.hpp"
 #include "reference/solvers/vbd_solver.hpp"
@@ -77,40 +78,30 @@ class ReferenceSimulation : public compare::Simulation {
   compare::Snapshot state_;
 };
 
-/// What neither of Newton's solvers takes.
-void refuse_for_newton(const compare::Scene& scene, const char* solver) {
-  if (traits_of(scene.settings.bounds).divides)
-    throw compare::InputError(
-        "setting 'bounds' can't be 'dat' with Newton's method, whose line search scales all vertices at once; give "
-        "bounds=planes or --solver vbd");
-  refuse_sweep_variants(scene.settings, solver);
+/// A rod has no pairs with planes.
+void refuse_rods_between_planes(const compare::Scene& scene) {
+  if (has_rods(scene) && moves_planes(newton_settings(scene.settings).truncation))
+    throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");
 }
 
 }  // namespace
 
 std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
                                                   const compare::SimulationOptions& options) {
-  refuse_for_newton(scene, "newton");
-  if (has_rods(scene) && moves_planes(newton_settings(scene.settings).truncation))
-    throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");
+  refuse_unread(scene.settings, "newton");
+  refuse_rods_between_planes(scene);
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options);
 }
 
 std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
                                                    const compare::SimulationOptions& options) {
-  const compare::Settings& settings = scene.settings;
-  if (traits_of(settings.bounds).certifies || settings.activation != compare::ContactActivation::quadratic)
-    throw compare::InputError(
-        "a penalty method has bounds=off and activation=quadratic; give both, or --solver newton");
-  if (moves_planes(newton_settings(settings).truncation))
-    throw compare::InputError(
-        "setting 'truncation' can't be 'pair' with penalty, which truncates nothing; leave it out");
-  refuse_for_newton(scene, "penalty");
+  refuse_unread(scene.settings, "penalty");
   return std::make_unique<ReferenceSimulation<NewtonSolver>>(scene, options, NewtonSteps::whole);
 }
 
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour) {
+  refuse_unread(scene.settings, "reference_vbd");
   return std::make_unique<ReferenceSimulation<VbdSolver>>(scene, options, std::move(colour));
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 namespace ogc::compare {
 
@@ -29,8 +28,5 @@ constexpr BoundsTraits traits_of(Bounds bounds) {
   }
   return {};
 }
-
-/// As `--set bounds` has it.
-std::string_view name_of(Bounds bounds);
 
 }  // namespace ogc::compare

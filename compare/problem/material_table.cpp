@@ -27,9 +27,6 @@ constexpr std::array<MaterialInfo, 12> table{{
     {"solid_damping", "s", "stiffness-proportional damping k_d of tetrahedra", 0, most, &Material::solid_damping},
 }};
 
-constexpr std::array<std::string_view, 3> membrane_names{"none", "st_venant_kirchhoff", "stable_neo_hookean"};
-constexpr std::array<std::string_view, 3> bending_names{"none", "discrete_hinge", "isometric_quadratic"};
-
 }  // namespace
 
 std::span<const MaterialInfo> material_table() { return table; }
@@ -44,13 +41,5 @@ void set_elasticity(Material& material, const Elasticity& elasticity) {
   material.solid_mu = young / (2 * (1 + poisson));
   material.solid_lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
 }
-
-std::span<const std::string_view> membrane_model_names() { return membrane_names; }
-
-std::span<const std::string_view> bending_model_names() { return bending_names; }
-
-std::string_view name_of(MembraneModel model) { return membrane_names[static_cast<std::size_t>(model)]; }
-
-std::string_view name_of(BendingModel model) { return bending_names[static_cast<std::size_t>(model)]; }
 
 }  // namespace ogc::compare

@@ -34,13 +34,4 @@ Elasticity elasticity_of(const Material& material);
 /// μ = E/(2(1 + ν)), λ = Eν/((1 + ν)(1 − 2ν)).
 void set_elasticity(Material& material, const Elasticity& elasticity);
 
-/// Name of a model in scene files: "none", "st_venant_kirchhoff", "stable_neo_hookean".
-std::string_view name_of(MembraneModel model);
-/// Name of a model in scene files: "none", "discrete_hinge", "isometric_quadratic".
-std::string_view name_of(BendingModel model);
-/// All names, in the order of the enumeration.
-std::span<const std::string_view> membrane_model_names();
-/// All names, in the order of the enumeration.
-std::span<const std::string_view> bending_model_names();
-
 }  // namespace ogc::compare

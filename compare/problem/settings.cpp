@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/text.hpp"
 
@@ -17,13 +18,11 @@ namespace {
 constexpr double most_count = 1 << 30, most_seed = 0x1p53;
 constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
-constexpr std::array<std::string_view, 5> activations{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
-constexpr std::array<std::string_view, 2> damping_forms{"strain", "per_vertex"};
-constexpr std::array<std::string_view, 4> bounds_names{"ball", "planes", "off", "dat"};
-constexpr std::array<std::string_view, 2> orientation_updates{"exact", "as_published"};
-constexpr std::array<std::string_view, 2> start_frames_names{"turned", "kept"};
+/// The last number of a choice.
+template <class Choice>
+constexpr double last = choice_count<Choice> - 1;
 
-constexpr std::array<SettingInfo, 19> problem_table{{
+constexpr auto problem_table = std::to_array<SettingInfo>({
     {"time_step", "s", "simulated time that one step covers, h; smaller steps are more accurate and cost more in all",
      0x1p-20, 1, &Settings::time_step},
     {"steps", "1", "number of steps of the run", 0, most_count, &Settings::steps},
@@ -36,7 +35,7 @@ constexpr std::array<SettingInfo, 19> problem_table{{
     {"bounds", "1",
      "what keeps a vertex from passing through others between two detections: a ball as in the paper, planes between "
      "near pairs, nothing, or planes as in Divide and Truncate (vbd)",
-     0, 3, &Settings::bounds, bounds_names},
+     0, last<Bounds>, &Settings::bounds, choice_names<Bounds>},
     {"bound_relaxation", "1",
      "share of its distance to the nearest neighbour that a vertex may move before the next detection, γ_p of Eq. 21",
      0x1p-10, 0.5 - 0x1p-10, &Settings::bound_relaxation},
@@ -57,17 +56,17 @@ constexpr std::array<SettingInfo, 19> problem_table{{
     {"lanes", "1", "partial sums that forces on a vertex are added up in, W (vbd); bits depend on it; 0: by mesh size",
      0, 16, &Settings::lanes},
     {"activation", "1",
-     "how the repulsion grows as surfaces approach: the paper's, as printed there, or another to compare with", 0, 4,
-     &Settings::activation, activations},
-    {"damping", "1", "what damping resists: the change of strains, or the motion of each vertex alone (vbd)", 0, 1,
-     &Settings::damping, damping_forms},
+     "how the repulsion grows as surfaces approach: the paper's, as printed there, or another to compare with", 0,
+     last<ContactActivation>, &Settings::activation, choice_names<ContactActivation>},
+    {"damping", "1", "what damping resists: the change of strains, or the motion of each vertex alone (vbd)", 0,
+     last<DampingForm>, &Settings::damping, choice_names<DampingForm>},
     {"seed", "1", "which of its random starts a scene takes; recorded with the run", 0, most_seed, &Settings::seed},
     {"orientation", "1",
      "how a sweep sets the frame of a rod's segment: to the least energy, or as Stable Cosserat Rods has it (vbd)", 0,
-     1, &Settings::orientation, orientation_updates},
-    {"start_frames", "1", "what frames of rods' segments a step begins with: turned with them, or kept (vbd)", 0, 1,
-     &Settings::start_frames, start_frames_names},
-}};
+     last<OrientationUpdate>, &Settings::orientation, choice_names<OrientationUpdate>},
+    {"start_frames", "1", "what frames of rods' segments a step begins with: turned with them, or kept (vbd)", 0,
+     last<StartFrames>, &Settings::start_frames, choice_names<StartFrames>},
+});
 
 /// The problem's settings, and those that contestants have declared.
 struct Table {
@@ -136,12 +135,6 @@ SettingKind kind_of(const SettingInfo& info) {
   if (const auto* declared = std::get_if<DeclaredSetting>(&info.field)) return declared->kind;
   return std::holds_alternative<double Settings::*>(info.field) ? SettingKind::real : SettingKind::whole;
 }
-
-std::string_view name_of(Bounds bounds) { return bounds_names[static_cast<std::size_t>(bounds)]; }
-
-std::span<const std::string_view> activation_names() { return activations; }
-
-std::span<const std::string_view> damping_form_names() { return damping_forms; }
 
 std::string describe_range(const SettingInfo& info) {
   const bool whole = kind_of(info) == SettingKind::whole;

@@ -52,10 +52,6 @@ constexpr bool turns(StartFrames frames) {
   return true;
 }
 
-/// Names of the activations and damping forms, in the order of the enumerations.
-std::span<const std::string_view> activation_names();
-std::span<const std::string_view> damping_form_names();
-
 /// The settings of a scene; `setting_table` has their units, ranges and defaults.
 struct Settings {
   double time_step = 0.01;          ///< h [s]

@@ -15,8 +15,6 @@
 namespace ogc::compare {
 namespace {
 
-constexpr std::array<std::string_view, 2> contact_names{"surface", "volume"};
-
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// An edge as one of its triangles runs through it; those of one edge stand next to each other in order.
@@ -264,10 +262,6 @@ Index free_vertices(const Scene& scene, const Body& body) {
 }
 
 }  // namespace
-
-std::string_view name_of(BodyContact contact) { return contact_names[static_cast<std::size_t>(contact)]; }
-
-std::span<const std::string_view> body_contact_names() { return contact_names; }
 
 std::vector<VolumePart> volume_parts(const Scene& scene) {
   std::vector<VolumePart> parts;

@@ -12,11 +12,6 @@
 
 namespace ogc::compare {
 
-/// Name of a body's contact in scene files: "surface", "volume".
-std::string_view name_of(BodyContact contact);
-/// All names, in the order of the enumeration.
-std::span<const std::string_view> body_contact_names();
-
 /// A part of a volume, which is asked by itself: a connected component of its surface, or of its tetrahedra, with its
 /// cavities (compare/problem/cavities.hpp). Triangles that share a vertex are connected.
 struct VolumePart {

@@ -9,6 +9,7 @@
 #include "compare/files/json_reader.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 

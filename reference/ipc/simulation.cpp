@@ -4,7 +4,7 @@
 
 #include <tbb/task_arena.h>
 
-#include "compare/problem/error.hpp"
+#include "compare/problem/readers.hpp"
 #include "compare/problem/volumes.hpp"
 #include "reference/ipc/solver.hpp"
 #include "reference/solvers/detection.hpp"
@@ -110,6 +110,7 @@ class IpcSimulation : public compare::Simulation {
 }  // namespace
 
 std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, const compare::SimulationOptions& options) {
+  refuse_unread(scene.settings, "ipc");
   refuse_volumes(scene, "ipc",
                  "whose barrier lets nothing enter a body: leave the body a surface (--set contact=surface)");
   return std::make_unique<IpcSimulation>(scene, options);

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <random>
 
+#include "reference/solvers/kinds/kinds.hpp"
+
 namespace ogc::reference {
 
 using compare::Index;
@@ -61,20 +63,15 @@ void shuffle(std::vector<Index>& order, std::int64_t seed) {
 std::vector<std::vector<Index>> neighbours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
                                               const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> near(groups.size());
-  const auto is_free = [&](Index v) { return groups[static_cast<std::size_t>(v)] == -1; };
+  const auto is_free = [&](Index v) { return v >= 0 && groups[static_cast<std::size_t>(v)] == -1; };
   const auto meet = [&](const auto& vertices) {
     for (const Index a : vertices)
       for (const Index b : vertices)
         if (a != b && is_free(a) && is_free(b)) near[static_cast<std::size_t>(a)].push_back(b);
   };
-  for (const compare::RestTriangle& t : rest.triangles) meet(t.corner);
-  for (const compare::RestHinge& h : rest.hinges) meet(h.vertex);
-  for (const compare::RestTetrahedron& t : rest.tetrahedra) meet(t.corner);
-  for (const compare::RestSegment& s : rest.segments) meet(s.end);
-  for (const compare::Spring& s : scene.springs) {
-    meet(std::array{s.first, s.second});
-    if (s.third >= 0) meet(std::array{s.first, s.second, s.third});
-  }
+  for_each_kind([&]<class Kind, std::size_t>() {
+    for (std::size_t i = 0; i < Kind::count(scene, rest); ++i) meet(Kind::vertices(scene, rest, i));
+  });
   return near;
 }
 

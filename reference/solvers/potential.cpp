@@ -42,67 +42,13 @@ double energy_share(const std::array<float, 2>& rest_squared, const std::array<T
   return overlap_share(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
 }
 
-double contact_term_energy(const ContactTerm& term, const State& x) {
+double energy_of(const ContactTerm& term, const State& x) {
   const ClosestForm form = closest_form(term.sides, contact_corners(term.sides, term.vertex, x));
   return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(form, corners); });
 }
-
-MembraneTerm membrane_term(const compare::Scene& scene, const compare::RestTriangle& rest) {
-  const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
-  MembraneTerm term;
-  term.vertex = rest.corner;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    for (std::size_t k = 0; k < 2; ++k) term.gradient[k + 1][axis] = double{rest.gradient[k][axis]};
-    term.gradient[0][axis] = -term.gradient[1][axis] - term.gradient[2][axis];
-  }
-  term.area = double{rest.area};
-  term.lambda = material.lame_lambda;
-  term.mu = material.lame_mu;
-  term.damping = material.membrane_damping / scene.settings.time_step;
-  term.model = material.membrane;
-  return term;
-}
-
-HingeTerm hinge_term(const compare::Scene& scene, const compare::RestHinge& rest) {
-  const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
-  HingeTerm term{rest.vertex, double{rest.stiffness}, double{rest.rest_angle},
-                 material.bending_damping / scene.settings.time_step};
-  term.model = material.bending;
-  for (std::size_t k = 0; k < 3; ++k) {
-    term.weight[k + 1] = double{rest.weight[k]};
-    term.weight[0] -= term.weight[k + 1];
-  }
-  return term;
-}
-
-SpringTerm spring_term(const compare::Scene& scene, const compare::Spring& spring) {
-  const double s = spring.ratio;
-  return {{spring.first, spring.second, spring.third, -1},
-          {1, s - 1, -s, 0},
-          spring.stiffness,
-          spring.rest_length,
-          spring.damping / scene.settings.time_step};
-}
-
-TetrahedronTerm tetrahedron_term(const compare::Scene& scene, const compare::RestTetrahedron& rest) {
-  const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
-  TetrahedronTerm term;
-  term.vertex = rest.corner;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t k = 0; k < 3; ++k) {
-      term.gradient[k + 1][axis] = double{rest.gradient[k][axis]};
-      term.gradient[0][axis] -= term.gradient[k + 1][axis];
-    }
-  term.volume = double{rest.volume};
-  term.lambda = material.solid_lambda;
-  term.mu = material.solid_mu;
-  term.damping = material.solid_damping / scene.settings.time_step;
-  return term;
-}
-
-double angle_at(const Hinge<double>& x) {
-  const Fold<double> fold(x);
-  return fold.collapsed() ? 0 : fold.angle();
+double energy_of(const VolumeTerm& term, const State& x) { return term.energy(gathered<4>(term.vertex, x)); }
+double energy_of(const FrictionTerm& term, const State& x) {
+  return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
 }
 
 double largest_coordinate(const State& x) {
@@ -137,7 +83,7 @@ Potential::Potential(const compare::Scene& scene, const compare::Topology& topol
       mobility_(mobility_of(scene)),
       mass_(rest_.mass.begin(), rest_.mass.end()),
       step_(scene.settings.time_step),
-      rods_(scene, rest_) {
+      elements_(ListsOf<ElementKinds>::made(scene, rest_)) {
   switch (scene.settings.damping) {
     case compare::DampingForm::strain: break;
     case compare::DampingForm::per_vertex:
@@ -146,13 +92,9 @@ Potential::Potential(const compare::Scene& scene, const compare::Topology& topol
           "damping=strain");
   }
   unknowns_ = mobility_;
-  for (std::size_t e = 0; e < rods_.segments(); ++e)
-    unknowns_.push_back(rods_.is_free(e) ? Mobility::free : Mobility::fixed);
+  for (std::size_t e = 0; e < rods().segments(); ++e)
+    unknowns_.push_back(rods().is_free(e) ? Mobility::free : Mobility::fixed);
   free_count_ = static_cast<std::size_t>(std::count(mobility_.begin(), mobility_.end(), Mobility::free));
-  for (const compare::RestTriangle& rest : rest_.triangles) membranes_.push_back(membrane_term(scene, rest));
-  for (const compare::RestHinge& rest : rest_.hinges) hinges_.push_back(hinge_term(scene, rest));
-  for (const compare::Spring& spring : scene.springs) springs_.push_back(spring_term(scene, spring));
-  for (const compare::RestTetrahedron& rest : rest_.tetrahedra) tetrahedra_.push_back(tetrahedron_term(scene, rest));
 }
 
 void Potential::begin_step(const State& start, const State& target) {
@@ -161,14 +103,11 @@ void Potential::begin_step(const State& start, const State& target) {
   contacts_.clear();
   frictions_.clear();
   volumes_.clear();
-  for (MembraneTerm& term : membranes_)
-    term.start = strain(deformation<double>(gathered<3>(term.vertex, start), term.gradient));
-  for (HingeTerm& term : hinges_) term.start = angle_at(gathered<4>(term.vertex, start));
-  for (SpringTerm& term : springs_) {
-    term.start = norm(separation(term.weight, spring_corners(term, start)));
-  }
-  for (TetrahedronTerm& term : tetrahedra_)
-    term.start = solid_strain(solid_deformation<double>(gathered<4>(term.vertex, start), term.gradient));
+  // rods begin with the number of the step
+  const auto begin = [&](auto& list) {
+    if constexpr (requires { list.begin(start); }) list.begin(start);
+  };
+  std::apply([&](auto&... lists) { (begin(lists), ...); }, elements_);
 }
 
 void Potential::set_contacts(const ContactSets& sets, const State& previous) {
@@ -244,21 +183,28 @@ void Potential::lag_friction(const State& x) {
   }
 }
 
+template <class Use>
+auto Potential::in_its_list(std::size_t stencil, Use use) const {
+  decltype(use(contacts_, stencil)) result{};
+  const auto in_one = [&](const auto& list) {
+    const std::size_t count = list.size();
+    if (stencil < count) return result = use(list, stencil), true;
+    stencil -= count;
+    return false;
+  };
+  std::apply([&](const auto&... lists) { return (in_one(lists) || ...); },
+             std::tuple_cat(std::apply([](const auto&... lists) { return std::tie(lists...); }, elements_),
+                            std::tie(contacts_, volumes_, frictions_)));
+  return result;
+}
+
 std::array<Index, 4> Potential::vertices(std::size_t stencil) const {
-  if (stencil < membranes_.size())
-    return {membranes_[stencil].vertex[0], membranes_[stencil].vertex[1], membranes_[stencil].vertex[2], -1};
-  stencil -= membranes_.size();
-  if (stencil < hinges_.size()) return hinges_[stencil].vertex;
-  stencil -= hinges_.size();
-  if (stencil < springs_.size()) return springs_[stencil].vertex;
-  stencil -= springs_.size();
-  if (stencil < tetrahedra_.size()) return tetrahedra_[stencil].vertex;
-  stencil -= tetrahedra_.size();
-  if (stencil < rods_.stencil_count()) return rods_.vertices(stencil);
-  stencil -= rods_.stencil_count();
-  if (stencil < contacts_.size()) return contacts_[stencil].vertex;
-  stencil -= contacts_.size();
-  return stencil < volumes_.size() ? volumes_[stencil].vertex : frictions_[stencil - volumes_.size()].vertex;
+  return in_its_list(stencil, [](const auto& list, std::size_t i) -> std::array<Index, 4> {
+    if constexpr (requires { list.vertices(i); })
+      return list.vertices(i);
+    else
+      return list[i].vertex;
+  });
 }
 
 std::vector<std::array<Index, 4>> Potential::vertices() const {
@@ -273,26 +219,17 @@ std::vector<Mobility> Potential::unknowns() const { return unknowns_; }
 std::vector<double> Potential::inertias() const {
   std::vector<double> all;
   for (std::size_t v = 0; v < mass_.size(); ++v) all.push_back(inertia(v));
-  for (std::size_t e = 0; e < rods_.segments(); ++e) all.push_back(rods_.regularisation(e));
+  for (std::size_t e = 0; e < rods().segments(); ++e) all.push_back(rods().regularisation(e));
   return all;
 }
 
 double Potential::stencil_energy(std::size_t stencil, const State& x) const {
-  if (stencil < membranes_.size()) return membranes_[stencil].energy(gathered<3>(membranes_[stencil].vertex, x));
-  stencil -= membranes_.size();
-  if (stencil < hinges_.size()) return hinges_[stencil].energy(gathered<4>(hinges_[stencil].vertex, x));
-  stencil -= hinges_.size();
-  if (stencil < springs_.size()) return springs_[stencil].energy(spring_corners(springs_[stencil], x));
-  stencil -= springs_.size();
-  if (stencil < tetrahedra_.size()) return tetrahedra_[stencil].energy(gathered<4>(tetrahedra_[stencil].vertex, x));
-  stencil -= tetrahedra_.size();
-  if (stencil < rods_.stencil_count()) return rods_.energy(stencil, x);
-  stencil -= rods_.stencil_count();
-  if (stencil < contacts_.size()) return contact_term_energy(contacts_[stencil], x);
-  stencil -= contacts_.size();
-  if (stencil < volumes_.size()) return volumes_[stencil].energy(gathered<4>(volumes_[stencil].vertex, x));
-  const FrictionTerm& term = frictions_[stencil - volumes_.size()];
-  return with_count(term.sides, term.vertex, x, [&](const auto& corners) { return term.energy(corners); });
+  return in_its_list(stencil, [&](const auto& list, std::size_t i) {
+    if constexpr (requires { list.energy(i, x); })
+      return list.energy(i, x);
+    else
+      return energy_of(list[i], x);
+  });
 }
 
 PotentialTerms Potential::terms(const State& x) const {
@@ -329,20 +266,17 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   for (std::vector<double>* sums : {&result.slopes, &result.curvatures}) sums->resize(stencil_count());
   result.stencil.resize(stencil_count());
   std::size_t first = 0;
+  const auto add_elements = [&](const auto& list) {
+    list.differentiate(x, projection, result.stencil.data() + first,
+                       [&, first](std::size_t i) { measure(first + i, list.corners(i), result); });
+    first += list.size();
+  };
+  std::apply([&](const auto&... lists) { (add_elements(lists), ...); }, elements_);
   const auto add = [&](const auto& terms) {
     differentiate(std::span(terms), x, projection, result.stencil.data() + first,
                   [&, first](std::size_t i) { measure(first + i, 4, result); });
     first += terms.size();
   };
-  add(membranes_);
-  add(hinges_);
-  add(springs_);
-  add(tetrahedra_);
-  tbb::parallel_for(std::size_t{0}, rods_.stencil_count(), [&](std::size_t i) {
-    result.stencil[first + i] = rods_.derivatives(i, x, projection);
-    measure(first + i, rods_.corners(i), result);
-  });
-  first += rods_.stencil_count();
   add(contacts_);
   add(volumes_);
   add(frictions_);
@@ -398,14 +332,15 @@ void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const
 
 /// Of rods: what rounding of frames does to forces, and of both kinds of unknowns to torques.
 void Potential::add_frame_noise(const State& x, PotentialDerivatives& result) const {
-  if (!rods_.is_used()) return;
+  const RodSystem& rods = this->rods();
+  if (!rods.is_used()) return;
   const double largest = largest_coordinate(x);
   double slopes = 0, forces = 0, torques = 0;
-  const std::size_t first = elastic_count() - rods_.stencil_count();
-  for (std::size_t i = 0; i < rods_.stencil_count(); ++i) {
+  const std::size_t first = elastic_count() - rods.size();
+  for (std::size_t i = 0; i < rods.size(); ++i) {
     const StencilDerivatives& derivatives = result.stencil[first + i];
-    const std::size_t positions = 3 * rods_.corners(i);
-    const auto vertex = rods_.vertices(i);
+    const std::size_t positions = 3 * rods.corners(i);
+    const auto vertex = rods.vertices(i);
     for (std::size_t row = 0; row < 12 && vertex[row / 3] >= 0; ++row) {
       if (unknowns_[static_cast<std::size_t>(vertex[row / 3])] != Mobility::free) continue;
       if (row >= positions) slopes += std::abs(derivatives.gradient[row]);
@@ -425,15 +360,12 @@ void Potential::add_frame_noise(const State& x, PotentialDerivatives& result) co
 
 double Potential::elastic_energy(const State& x) const {
   double sum = 0;
-  for (const MembraneTerm& term : membranes_) sum += term.elastic(gathered<3>(term.vertex, x));
-  for (const HingeTerm& term : hinges_) sum += term.elastic(gathered<4>(term.vertex, x));
-  for (const SpringTerm& term : springs_) sum += term.elastic(spring_corners(term, x));
-  for (const TetrahedronTerm& term : tetrahedra_) sum += term.elastic(gathered<4>(term.vertex, x));
-  return sum + rods_.elastic_energy(x);
+  std::apply([&](const auto&... lists) { (lists.add_elastic(x, sum), ...); }, elements_);
+  return sum;
 }
 
 std::int64_t Potential::inverted_tetrahedra(const State& x) const {
-  return std::count_if(tetrahedra_.begin(), tetrahedra_.end(), [&](const TetrahedronTerm& term) {
+  return std::ranges::count_if(elements<TetrahedronKind>().terms(), [&](const TetrahedronTerm& term) {
     const SolidDeformation<double> f = solid_deformation<double>(gathered<4>(term.vertex, x), term.gradient);
     return !(dot(f[0], cross(f[1], f[2])) > 0);
   });
@@ -441,8 +373,8 @@ std::int64_t Potential::inverted_tetrahedra(const State& x) const {
 
 double Potential::contact_energy(const State& x) const {
   double sum = 0;
-  for (const ContactTerm& term : contacts_) sum += contact_term_energy(term, x);
-  for (const VolumeTerm& term : volumes_) sum += term.energy(gathered<4>(term.vertex, x));
+  for (const ContactTerm& term : contacts_) sum += energy_of(term, x);
+  for (const VolumeTerm& term : volumes_) sum += energy_of(term, x);
   return sum;
 }
 

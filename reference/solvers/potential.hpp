@@ -11,12 +11,9 @@
 #include "reference/energies/stencils/stencil_derivatives.hpp"
 #include "reference/energies/volume_term.hpp"
 #include "reference/solvers/contacts.hpp"
-#include "reference/solvers/rods/rod_system.hpp"
+#include "reference/solvers/kinds/kinds.hpp"
 
 namespace ogc::reference {
-
-/// Positions of all vertices [m].
-using State = std::vector<Triple<double>>;
 
 /// The positions in double.
 State widened(const std::vector<compare::Vec3f>& positions);
@@ -69,7 +66,7 @@ class Potential {
   std::size_t stencil_count() const { return frictionless_count() + frictions_.size(); }
   /// the first stencils: those that never change
   std::size_t elastic_count() const {
-    return membranes_.size() + hinges_.size() + springs_.size() + tetrahedra_.size() + rods_.stencil_count();
+    return std::apply([](const auto&... lists) { return (lists.size() + ...); }, elements_);
   }
   /// the stencils before those of friction
   std::size_t frictionless_count() const { return elastic_count() + contacts_.size() + volumes_.size(); }
@@ -88,19 +85,20 @@ class Potential {
   const std::vector<Mobility>& mobility() const { return mobility_; }
   /// Rest shape, rounded as the fast path has it.
   const compare::RestStateOut& rest() const { return rest_; }
-  /// The stencils of the present contacts and of all else but friction.
-  const std::vector<MembraneTerm>& membranes() const { return membranes_; }
-  const std::vector<HingeTerm>& hinges() const { return hinges_; }
-  const std::vector<SpringTerm>& springs() const { return springs_; }
-  const std::vector<TetrahedronTerm>& tetrahedra() const { return tetrahedra_; }
+  /// The elements of a kind.
+  template <class Kind>
+  const typename Kind::List& elements() const {
+    return std::get<typename Kind::List>(elements_);
+  }
+  /// The stencils of the present contacts.
   const std::vector<ContactTerm>& contacts() const { return contacts_; }
   const std::vector<VolumeTerm>& volumes() const { return volumes_; }
   /// Friction of a contact with λ, n and w of these corners (all four places; those that it lacks are read by none);
   /// empty where there is none.
   std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
   /// Segments of rods with their orientations, at which energies and forces are evaluated.
-  RodSystem& rods() { return rods_; }
-  const RodSystem& rods() const { return rods_; }
+  RodSystem& rods() { return std::get<RodSystem>(elements_); }
+  const RodSystem& rods() const { return elements<SegmentKind>(); }
   const State& target() const { return target_; }                                       ///< y of the step [m]
   double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
   /// Of each unknown: m/h² of a vertex [N/m], of a segment what makes its twist definite
@@ -111,6 +109,10 @@ class Potential {
  private:
   void add_contact(const ContactStencil& stencil, const State& previous);
   void add_contact(const compare::VolumeContact& contact);
+  /// What `use` makes of the list that has the stencil and of its place there: a list of elements, contacts, volumes
+  /// or friction.
+  template <class Use>
+  auto in_its_list(std::size_t stencil, Use use) const;
   double stencil_energy(std::size_t stencil, const State& x) const;
   /// `corners`: how many of the stencil's first unknowns are vertices.
   void measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const;
@@ -125,14 +127,10 @@ class Potential {
   std::vector<double> mass_;
   double step_;
   std::size_t free_count_ = 0;
-  std::vector<MembraneTerm> membranes_;
-  std::vector<HingeTerm> hinges_;
-  std::vector<SpringTerm> springs_;
-  std::vector<TetrahedronTerm> tetrahedra_;
+  ElementLists elements_;
   std::vector<ContactTerm> contacts_;
   std::vector<FrictionTerm> frictions_;
   std::vector<VolumeTerm> volumes_;
-  RodSystem rods_;
   State start_, target_;
 };
 

@@ -7,27 +7,6 @@
 namespace ogc::reference {
 namespace {
 
-template <std::size_t Count, class Term>
-std::array<Triple<double>, Count> corners_of(const Term& term, const State& x) {
-  if constexpr (std::is_same_v<Term, SpringTerm>)
-    return spring_corners(term, x);
-  else
-    return gathered<Count>(term.vertex, x);
-}
-
-/// Terms in their order: those of one body are alike.
-template <std::size_t Count, class Term, class Kernel>
-void in_order(std::span<const Term> terms, const State& x, HessianProjection projection, Kernel kernel,
-              StencilDerivatives* to, const Finished& finished) {
-  tbb::parallel_for(std::size_t{0}, (terms.size() + batch_width - 1) / batch_width, [&](std::size_t number) {
-    const std::size_t begin = number * batch_width, end = std::min(terms.size(), begin + batch_width);
-    Batch<Term, Count> batch;
-    for (std::size_t i = begin; i < end; ++i) batch.add(terms[i], corners_of<Count>(terms[i], x), to[i]);
-    kernel(batch, projection);
-    for (std::size_t i = begin; i < end; ++i) finished(i);
-  });
-}
-
 std::size_t vertex_count(FormKind form) { return form == FormKind::points ? 2 : form == FormKind::point_line ? 3 : 4; }
 
 /// A contact before its kernel.
@@ -92,26 +71,6 @@ std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group) {
   std::copy_if(open.begin(), open.end(), std::back_inserter(full),
                [](const Bundle& bundle) { return bundle.size > 0; });
   return full;
-}
-
-void differentiate(std::span<const MembraneTerm> terms, const State& x, HessianProjection projection,
-                   StencilDerivatives* to, const Finished& finished) {
-  in_order<3>(terms, x, projection, stencil_kernels().membranes, to, finished);
-}
-
-void differentiate(std::span<const HingeTerm> terms, const State& x, HessianProjection projection,
-                   StencilDerivatives* to, const Finished& finished) {
-  in_order<4>(terms, x, projection, stencil_kernels().hinges, to, finished);
-}
-
-void differentiate(std::span<const SpringTerm> terms, const State& x, HessianProjection projection,
-                   StencilDerivatives* to, const Finished& finished) {
-  in_order<4>(terms, x, projection, stencil_kernels().springs, to, finished);
-}
-
-void differentiate(std::span<const TetrahedronTerm> terms, const State& x, HessianProjection projection,
-                   StencilDerivatives* to, const Finished& finished) {
-  in_order<4>(terms, x, projection, stencil_kernels().tetrahedra, to, finished);
 }
 
 void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,

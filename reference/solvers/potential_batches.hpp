@@ -1,5 +1,5 @@
-// The stencils of a mesh in batches of one kind (energies/stencils/stencil_kernels.hpp), in parallel over the batches:
-// each stencil has its place, so neither threads nor what shares its batch changes a bit.
+// The stencils of contacts in batches of one form (energies/stencils/stencil_kernels.hpp), in parallel over the
+// batches: each stencil has its place, so neither threads nor what shares its batch changes a bit.
 #pragma once
 
 #include <functional>
@@ -25,14 +25,6 @@ std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group);
 using Finished = std::function<void(std::size_t stencil)>;
 
 /// Derivatives of all terms at x, into the places behind `to`.
-void differentiate(std::span<const MembraneTerm> terms, const State& x, HessianProjection projection,
-                   StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const HingeTerm> terms, const State& x, HessianProjection projection,
-                   StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const SpringTerm> terms, const State& x, HessianProjection projection,
-                   StencilDerivatives* to, const Finished& finished);
-void differentiate(std::span<const TetrahedronTerm> terms, const State& x, HessianProjection projection,
-                   StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianProjection projection,
@@ -40,27 +32,12 @@ void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianPro
 void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 
-template <std::size_t Count, class Vertices>
-std::array<Triple<double>, Count> gathered(const Vertices& vertex, const State& x) {
-  std::array<Triple<double>, Count> corners;
-  for (std::size_t k = 0; k < Count; ++k) corners[k] = x[static_cast<std::size_t>(vertex[k])];
-  return corners;
-}
-
 /// All four places; those that the contact lacks are at the origin.
 inline std::array<Triple<double>, 4> contact_corners(compare::ContactSides sides,
                                                      const std::array<compare::Index, 4>& vertex, const State& x) {
   std::array<Triple<double>, 4> corners{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(sides)); ++k)
     corners[k] = x[static_cast<std::size_t>(vertex[k])];
-  return corners;
-}
-
-/// Zero where there is no vertex, as its weight is.
-inline std::array<Triple<double>, 4> spring_corners(const SpringTerm& term, const State& x) {
-  std::array<Triple<double>, 4> corners{};
-  for (std::size_t k = 0; k < 4; ++k)
-    if (term.vertex[k] >= 0) corners[k] = x[static_cast<std::size_t>(term.vertex[k])];
   return corners;
 }
 

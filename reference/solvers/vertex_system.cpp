@@ -20,33 +20,6 @@ std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& 
   return corners;
 }
 
-void add_membrane(const MembraneTerm& term, std::size_t place, const std::array<Triple<double>, 3>& corners,
-                  VertexSystem& sum) {
-  const MembraneCorner<double> at(term, place, corners);
-  add_damping(term, at, sum);
-  add_elastic(term, at, sum);
-}
-
-void add_hinge(const HingeTerm& term, std::size_t place, const Hinge<double>& corners, VertexSystem& sum) {
-  const Hinge<ByOwn<double>> x = with_own<ByOwn<double>>(corners, place);
-  add_positions(term, x, sum);
-  if (!term.has_angle()) return;
-  const Fold<ByOwn<double>> fold(x);
-  if (!fold.collapsed()) add_angle(term, fold.angle(), sum);
-}
-
-void add_spring(const SpringTerm& term, std::size_t place, const std::array<Triple<double>, 4>& ends,
-                VertexSystem& sum) {
-  add_spring(term, term.weight[place], separation(term.weight, with_own<ByOwn<double>>(ends, place)), sum);
-}
-
-void add_tetrahedron(const TetrahedronTerm& term, std::size_t place, const std::array<Triple<double>, 4>& corners,
-                     VertexSystem& sum) {
-  const TetrahedronCorner<double> at(term, place, corners);
-  add_exactly(term.elastic_of(at.f), sum);
-  add_damping(term, at, sum);
-}
-
 /// Which of a contact's vertices are updated at the same time as the own one, itself included.
 using Updated = std::array<bool, 4>;
 
@@ -133,10 +106,7 @@ void VertexSystems::list(const Terms& terms, Incidences& incidences) const {
 
 VertexSystems::VertexSystems(const Potential& potential, ContactBlocks blocks)
     : potential_(potential), blocks_(blocks) {
-  list(potential.membranes(), membranes_);
-  list(potential.hinges(), hinges_);
-  list(potential.springs(), springs_);
-  list(potential.tetrahedra(), tetrahedra_);
+  for_each_kind([&]<class Kind, std::size_t number>() { list(potential.elements<Kind>().terms(), elements_[number]); });
   read_contacts();
 }
 
@@ -152,26 +122,12 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
     sum.force[axis] = inertia * (potential_.target()[v][axis] - x.old[v][axis]);
   add_identity(inertia, sum.block);
-  for (const Incidence& incidence : membranes_[v]) {
-    const MembraneTerm& term = potential_.membranes()[incidence.stencil];
-    add_membrane(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
-  }
-  for (const Incidence& incidence : hinges_[v]) {
-    const HingeTerm& term = potential_.hinges()[incidence.stencil];
-    add_hinge(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
-  }
-  for (const Incidence& incidence : springs_[v]) {
-    const SpringTerm& term = potential_.springs()[incidence.stencil];
-    add_spring(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
-  }
-  for (const Incidence& incidence : tetrahedra_[v]) {
-    const TetrahedronTerm& term = potential_.tetrahedra()[incidence.stencil];
-    add_tetrahedron(term, incidence.place, plain_corners(term.vertex, vertex, x), sum);
-  }
-  for (const Index e : potential_.rods().at(vertex)) {
-    const std::size_t end = potential_.rods().end_of(e, vertex);
-    potential_.rods().add_force(e, end, plain_corners(potential_.rods().ends(e), vertex, x), sum);
-  }
+  for_each_kind([&]<class Kind, std::size_t number>() {
+    const typename Kind::List& elements = potential_.elements<Kind>();
+    for (const Incidence& incidence : elements_[number][v])
+      Kind::add(elements, incidence.stencil, incidence.place,
+                plain_corners(elements.terms()[incidence.stencil].vertex, vertex, x), sum);
+  });
   for (const Incidence& incidence : contacts_[v]) {
     const ContactTerm& term = potential_.contacts()[incidence.stencil];
     add_contact(potential_, term, updated_with(vertex, term.vertex, x, blocks_), incidence.place,

@@ -1,5 +1,5 @@
 // The 3×3 system of one vertex in double, for whole runs: the sum of the forces and blocks of its stencils (method.md
-// §4). Each energy derives its own, beside itself (energies/membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp). The
+// §4). Each energy derives its own, beside itself (kinds/kinds.hpp lists them). The
 // judged sweep (vertex_terms.hpp) sums what the stages answer about single-precision positions, each with its errors;
 // its blocks are the same functions over another number type.
 #pragma once
@@ -58,7 +58,8 @@ class VertexSystems {
 
   const Potential& potential_;
   ContactBlocks blocks_;
-  Incidences membranes_, hinges_, springs_, tetrahedra_, contacts_, volumes_;
+  std::array<Incidences, kind_count> elements_;  ///< by kind
+  Incidences contacts_, volumes_;
 };
 
 }  // namespace ogc::reference

@@ -3,13 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/energies/bending.hpp"
-#include "reference/energies/membrane.hpp"
-#include "reference/energies/rods/rod.hpp"
-#include "reference/energies/spring.hpp"
-#include "reference/energies/tetrahedron.hpp"
 #include "reference/solvers/contacts.hpp"
-#include "reference/solvers/rods/segment_questions.hpp"
 #include "reference/solvers/symmetric3.hpp"
 
 namespace ogc::reference {
@@ -26,131 +20,25 @@ void add_element(ElementsOfVertex& rows, std::size_t element, const Vertices& ve
   }
 }
 
-float rounded(double x) { return static_cast<float>(x); }
-
-/// Seen from one corner; the other two follow in the order of the mesh. ∇N₀ is not stored and is rounded here.
-compare::MembraneCase membrane_question(const compare::SweepIn& in, const compare::RestTriangle& triangle,
-                                        std::size_t corner, const SweepPositions& x) {
-  const compare::Material& material = in.scene->bodies[static_cast<std::size_t>(triangle.body)].material;
-  const auto& g = triangle.gradient;
-  const std::array<std::array<float, 2>, 3> gradient{
-      {{rounded(-double{g[0][0]} - double{g[1][0]}), rounded(-double{g[0][1]} - double{g[1][1]})}, g[0], g[1]}};
-  compare::MembraneCase question;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Index v = triangle.corner[(corner + k) % 3];
-    question.corner[k] = x[v];
-    question.start[k] = in.start[static_cast<std::size_t>(v)];
-    if (k > 0) question.gradient[k - 1] = gradient[(corner + k) % 3];
-  }
-  question.area = triangle.area;
-  question.lame_lambda = rounded(material.lame_lambda);
-  question.lame_mu = rounded(material.lame_mu);
-  question.damping = rounded(material.membrane_damping / in.scene->settings.time_step);
-  question.model = material.membrane;
-  question.damping_form = in.scene->settings.damping;
-  return question;
-}
-
-compare::BendingCase bending_question(const compare::SweepIn& in, const compare::RestHinge& hinge, std::size_t role,
-                                      const SweepPositions& x) {
-  compare::BendingCase question;
-  for (std::size_t k = 0; k < 4; ++k) {
-    question.vertex[k] = x[hinge.vertex[k]];
-    question.start[k] = in.start[static_cast<std::size_t>(hinge.vertex[k])];
-  }
-  question.stiffness = hinge.stiffness;
-  question.rest_angle = hinge.rest_angle;
-  const compare::Material& material = in.scene->bodies[static_cast<std::size_t>(hinge.body)].material;
-  question.damping = rounded(material.bending_damping / in.scene->settings.time_step);
-  question.model = material.bending;
-  question.weight = hinge.weight;
-  question.damping_form = in.scene->settings.damping;
-  question.own = static_cast<std::int32_t>(role);
-  return question;
-}
-
-/// The second vertex for a third one that is not there.
-std::array<Index, 3> ends_of(const compare::Spring& spring) {
-  return {spring.first, spring.second, spring.third < 0 ? spring.second : spring.third};
-}
-
-compare::SpringCase spring_question(const compare::SweepIn& in, const compare::Spring& spring, std::size_t place,
-                                    const SweepPositions& x) {
-  const std::array<Index, 3> ends = ends_of(spring);
-  compare::SpringCase question;
-  question.own = static_cast<std::int32_t>(place);
-  question.ratio = rounded(spring.ratio);
-  for (std::size_t k = 0; k < 3; ++k) {
-    question.vertex[k] = x[ends[k]];
-    question.start[k] = in.start[static_cast<std::size_t>(ends[k])];
-  }
-  question.stiffness = rounded(spring.stiffness);
-  question.rest_length = rounded(spring.rest_length);
-  question.damping = rounded(spring.damping / in.scene->settings.time_step);
-  question.damping_form = in.scene->settings.damping;
-  return question;
-}
-
-/// The other corners in the order in which a corner sees a positive volume at rest: those of the face opposite to it.
-constexpr std::array<std::array<std::size_t, 3>, 4> seen_from{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
-/// The index of V ∇N_k·∇N_l among the weights of a tetrahedron.
-std::size_t index_of_pair(std::size_t k, std::size_t l) {
-  const auto [low, high] = std::minmax(k, l);
-  return low == 0 ? high - 1 : low + high;
-}
-
-/// ∇N₀ is not stored and is rounded here.
-std::array<float, 3> gradient_of(const compare::RestTetrahedron& rest, std::size_t corner) {
-  if (corner > 0) return rest.gradient[corner - 1];
-  std::array<float, 3> own;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    own[axis] = rounded(-double{rest.gradient[0][axis]} - double{rest.gradient[1][axis]} -
-                        double{rest.gradient[2][axis]});
-  return own;
-}
-
-compare::TetrahedronCase tetrahedron_question(const compare::SweepIn& in, const compare::RestTetrahedron& rest,
-                                              std::size_t corner, const SweepPositions& x) {
-  const compare::Material& material = in.scene->bodies[static_cast<std::size_t>(rest.body)].material;
-  compare::TetrahedronCase question;
-  question.corner[0] = x[rest.corner[corner]];
-  question.start[0] = in.start[static_cast<std::size_t>(rest.corner[corner])];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t other = seen_from[corner][k];
-    question.corner[k + 1] = x[rest.corner[other]];
-    question.start[k + 1] = in.start[static_cast<std::size_t>(rest.corner[other])];
-    question.weight[k] = rest.weight[index_of_pair(corner, other)];
-    question.gradient[k] = gradient_of(rest, other);
-  }
-  question.inverse = rest.inverse;
-  question.volume = rest.volume;
-  question.lame_lambda = rounded(material.solid_lambda);
-  question.lame_mu = rounded(material.solid_mu);
-  question.damping = rounded(material.solid_damping / in.scene->settings.time_step);
-  question.damping_form = in.scene->settings.damping;
-  return question;
+/// The vertices on which an element acts, by place.
+template <class Kind>
+auto acting(const compare::Scene& scene, const compare::RestStateOut& rest, std::size_t element) {
+  if constexpr (requires { Kind::pulled(scene, rest, element); })
+    return Kind::pulled(scene, rest, element);
+  else
+    return Kind::vertices(scene, rest, element);
 }
 
 }  // namespace
 
 SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*in.scene)) {
   const std::size_t count = in.old.size();
-  for (ElementsOfVertex* rows :
-       {&triangles, &hinges, &springs, &tetrahedra, &segments, &vertex_facet, &edge_edge, &volumes})
-    rows->resize(count);
-  for (std::size_t i = 0; i < in.rest->triangles.size(); ++i) add_element(triangles, i, in.rest->triangles[i].corner);
-  for (std::size_t i = 0; i < in.rest->hinges.size(); ++i) add_element(hinges, i, in.rest->hinges[i].vertex);
-  for (std::size_t i = 0; i < in.scene->springs.size(); ++i) {
-    const compare::Spring& spring = in.scene->springs[i];
-    if (spring.ratio > 0)
-      add_element(springs, i, ends_of(spring));
-    else
-      add_element(springs, i, std::array{spring.first, spring.second});
-  }
-  for (std::size_t i = 0; i < in.rest->tetrahedra.size(); ++i)
-    add_element(tetrahedra, i, in.rest->tetrahedra[i].corner);
-  for (std::size_t i = 0; i < in.rest->segments.size(); ++i) add_element(segments, i, in.rest->segments[i].end);
+  for (ElementsOfVertex& rows : elements) rows.resize(count);
+  for (ElementsOfVertex* rows : {&vertex_facet, &edge_edge, &volumes}) rows->resize(count);
+  for_each_kind([&]<class Kind, std::size_t number>() {
+    for (std::size_t i = 0; i < Kind::count(*in.scene, *in.rest); ++i)
+      add_element(elements[number], i, acting<Kind>(*in.scene, *in.rest, i));
+  });
   for (std::size_t i = 0; i < in.vertex_facet.size(); ++i)
     add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);
   for (std::size_t i = 0; i < in.edge_edge.size(); ++i)
@@ -192,32 +80,11 @@ VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& ste
   const auto v = static_cast<std::size_t>(vertex);
   constexpr double inputs = compare::sweep_input_tolerance;
   VertexTerms sum;
-  for (const auto& [triangle, corner] : stencils.triangles[v]) {
-    const auto question = membrane_question(in, in.rest->triangles[triangle], corner, positions);
-    sum.terms.push_back(term_of(membrane(question), compare::membrane_force_tolerance + inputs,
-                                compare::membrane_block_tolerance + inputs));
-  }
-  for (const auto& [hinge, role] : stencils.hinges[v]) {
-    const auto question = bending_question(in, in.rest->hinges[hinge], role, positions);
-    sum.terms.push_back(term_of(bending(question), compare::bending_force_tolerance + inputs,
-                                compare::bending_block_tolerance + inputs));
-  }
-  for (const auto& [spring, place] : stencils.springs[v]) {
-    const auto question = spring_question(in, in.scene->springs[spring], place, positions);
-    sum.terms.push_back(term_of({reference::spring(question)}, compare::spring_force_tolerance + inputs,
-                                compare::spring_block_tolerance + inputs));
-  }
-  for (const auto& [tetrahedron, corner] : stencils.tetrahedra[v]) {
-    const auto question = tetrahedron_question(in, in.rest->tetrahedra[tetrahedron], corner, positions);
-    sum.terms.push_back(term_of({reference::tetrahedron(question)}, compare::tetrahedron_force_tolerance + inputs,
-                                compare::tetrahedron_block_tolerance + inputs));
-  }
-  for (const auto& [segment, end] : stencils.segments[v]) {
-    const compare::Edge& ends = in.rest->segments[segment].end;
-    const auto question = rod_question(in, positions.answer(), segment, end, {positions[ends[0]], positions[ends[1]]});
-    sum.terms.push_back(term_of({reference::rod(question)}, compare::rod_force_tolerance + inputs,
-                                compare::rod_block_tolerance + inputs));
-  }
+  for_each_kind([&]<class Kind, std::size_t number>() {
+    for (const auto& [element, place] : stencils.elements[number][v])
+      sum.terms.push_back(term_of(Kind::answers(Kind::question(in, element, place, positions)),
+                                  Kind::force_tolerance + inputs, Kind::block_tolerance + inputs));
+  });
   add_contact_terms(in, stencils, positions, vertex, sum);
   return sum;
 }

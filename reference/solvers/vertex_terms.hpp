@@ -1,12 +1,14 @@
 // The stencils of one vertex as questions of the force stages: what the sweep sums is exactly what those stages answer.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "compare/stages/force.hpp"
 #include "compare/stages/sweep.hpp"
+#include "reference/solvers/kinds/kinds.hpp"
 
 namespace ogc::reference {
 
@@ -32,7 +34,8 @@ using ElementsOfVertex = std::vector<std::vector<std::pair<std::size_t, std::siz
 
 /// Which elements meet at which vertex.
 struct SweepStencils {
-  ElementsOfVertex triangles, hinges, springs, tetrahedra, segments, vertex_facet, edge_edge, volumes;
+  std::array<ElementsOfVertex, kind_count> elements;  ///< by kind
+  ElementsOfVertex vertex_facet, edge_edge, volumes;
   std::vector<compare::Index> body;  ///< by vertex
   explicit SweepStencils(const compare::SweepIn& in);
 };

@@ -140,9 +140,9 @@ void forget_facets(reference::SweepStencils& stencils) {
 }
 
 void forget_last_triangle(reference::SweepStencils& stencils) {
-  const auto row = std::find_if(stencils.triangles.rbegin(), stencils.triangles.rend(),
-                                [](const auto& triangles) { return !triangles.empty(); });
-  if (row != stencils.triangles.rend()) row->pop_back();
+  reference::ElementsOfVertex& rows = stencils.elements[0];
+  const auto row = std::find_if(rows.rbegin(), rows.rend(), [](const auto& triangles) { return !triangles.empty(); });
+  if (row != rows.rend()) row->pop_back();
 }
 
 /// A fault of contacts with volumes, which the cases of their generator show.

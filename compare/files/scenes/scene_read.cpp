@@ -17,6 +17,7 @@
 #include "compare/problem/error.hpp"
 #include "compare/problem/local_origin.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/rods.hpp"
 #include "compare/problem/text.hpp"
@@ -116,9 +117,9 @@ void read_material(const JsonNode& node, Material& material) {
     });
   }
   object.optional("membrane",
-                  [&](const JsonNode& value) { read_model(value, membrane_model_names(), material.membrane); });
+                  [&](const JsonNode& value) { read_model(value, choice_names<MembraneModel>, material.membrane); });
   object.optional("bending",
-                  [&](const JsonNode& value) { read_model(value, bending_model_names(), material.bending); });
+                  [&](const JsonNode& value) { read_model(value, choice_names<BendingModel>, material.bending); });
   object.finish();
 }
 
@@ -274,8 +275,9 @@ class SceneReader {
     std::vector<Vec3> rest, velocities;
     object.optional_value("name", body.name);
     object.optional_value("fixed", body.fixed);
-    object.optional("contact",
-                    [&](const JsonNode& value) { read_model(value, body_contact_names(), body.contact, "contact"); });
+    object.optional("contact", [&](const JsonNode& value) {
+      read_model(value, choice_names<BodyContact>, body.contact, "contact");
+    });
     object.optional("orientations", [&](const JsonNode& value) { read_orientations_file(value); });
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
     object.required("mesh", [&](const JsonNode& value) {

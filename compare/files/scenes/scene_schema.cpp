@@ -3,6 +3,7 @@
 #include "compare/files/json_reader.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
 
@@ -90,15 +91,15 @@ Json material_schema() {
   between("solid_young", "tetrahedra: Young's modulus; with solid_poisson in place of Lamé constants [Pa]", least_young,
           most_young);
   between("solid_poisson", "tetrahedra: Poisson's ratio [1]", 0, most_poisson);
-  properties["membrane"] = model_schema(membrane_model_names(), name_of(defaults.membrane));
-  properties["bending"] = model_schema(bending_model_names(), name_of(defaults.bending));
+  properties["membrane"] = model_schema(choice_names<MembraneModel>, name_of(defaults.membrane));
+  properties["bending"] = model_schema(choice_names<BendingModel>, name_of(defaults.bending));
   properties["rod"] = rod_schema();
   properties["rod"]["description"] = "of the body's loose edges, its segments; without it they have no mass";
   return object(properties, {});
 }
 
 Json body_schema() {
-  Json contact = model_schema(body_contact_names(), name_of(Body{}.contact));
+  Json contact = model_schema(choice_names<BodyContact>, name_of(Body{}.contact));
   contact["description"] = "surface: nothing passes through it; volume: others may enter it, and are pushed out";
   const Json properties = {
       {"name", value("string", "letters, digits, _ and -; default: that of the mesh's file")},

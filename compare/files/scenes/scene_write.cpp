@@ -12,6 +12,7 @@
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/rods.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/volumes.hpp"

@@ -30,14 +30,11 @@ void add_spring(Random& random, const std::vector<Index>& groups, Scene& scene) 
 }  // namespace
 
 void choose_models(Random& random, Scene& scene) {
-  scene.settings.activation = static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size())));
-  if (random.one_in(3)) scene.settings.damping = DampingForm::per_vertex;
+  scene.settings.activation = random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
+  if (random.one_in(3)) scene.settings.damping = another(random, DampingForm::strain);
   for (Body& body : scene.bodies) {
-    if (body.material.membrane != MembraneModel::none)
-      body.material.membrane = random.one_in(2) ? MembraneModel::stable_neo_hookean
-                                                : MembraneModel::st_venant_kirchhoff;
-    if (body.material.bending != BendingModel::none && random.one_in(2))
-      body.material.bending = BendingModel::isometric_quadratic;
+    if (body.material.membrane != MembraneModel::none) body.material.membrane = any_model<MembraneModel>(random);
+    if (body.material.bending != BendingModel::none) body.material.bending = any_model<BendingModel>(random);
   }
   add_springs(random, scene);
   round_to_single(scene);
@@ -54,9 +51,10 @@ void add_springs(Random& random, Scene& scene) {
   }
 }
 
-void bend_isometrically(Scene& scene) {
+void bend_otherwise(Random& random, Scene& scene) {
   for (Body& body : scene.bodies)
-    if (body.material.bending != BendingModel::none) body.material.bending = BendingModel::isometric_quadratic;
+    if (body.material.bending != BendingModel::none)
+      body.material.bending = another(random, BendingModel::discrete_hinge);
 }
 
 }  // namespace ogc::compare

@@ -8,6 +8,7 @@
 
 #include "compare/judge/cases/generators.hpp"
 #include "compare/judge/cases/placement.hpp"
+#include "compare/problem/names.hpp"
 
 namespace ogc::compare {
 
@@ -272,7 +273,7 @@ Shape any_shape(Random& random) {
   }
 }
 ContactActivation any_activation(Random& random) {
-  return static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size())));
+  return random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
 }
 
 /// Next to a boundary: of a feature, of the radius, between the stages.

@@ -282,7 +282,7 @@ template <CaseData (*make)(Random&)>
 CaseData isometric(Random& random) {
   RestStateCase test = case_of<RestStateCase>(make(random));
   Scene scene = *test.scene;
-  bend_isometrically(scene);
+  bend_otherwise(random, scene);
   test.scene = std::make_shared<Scene>(std::move(scene));
   return test;
 }

@@ -46,7 +46,7 @@ struct StepBuilder {
   /// about it.
   Material material() {
     Material m;
-    m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has both
+    m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has all
     m.density = 0.2 * random.magnitude(-0.5, 0.5);
     const double inertia = m.density * spacing * spacing / (scene.settings.time_step * scene.settings.time_step);
     m.lame_mu = inertia * random.magnitude(-1, 2.5);
@@ -395,7 +395,7 @@ CaseData solid(Random& random) {
   else
     builder.sheet(side(random), side(random), {}, {}, random.one_in(2));
   builder.jitter(random.between(0.01, 0.09));
-  if (random.one_in(4)) builder.scene.settings.damping = DampingForm::per_vertex;
+  if (random.one_in(4)) builder.scene.settings.damping = another(random, DampingForm::strain);
   return builder.finish();
 }
 

@@ -39,7 +39,7 @@ struct Motion {
 
 Material material(Random& random) {
   Material m;
-  m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has both
+  m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has all
   m.density = random.magnitude(-1, 0);
   m.lame_mu = random.magnitude(0, 2);
   m.lame_lambda = random.one_in(4) ? 0 : random.magnitude(0, 2);
@@ -394,7 +394,7 @@ CaseData solid(Random& random) {
   const double size = 0.02, moved = size * (random.one_in(3) ? random.magnitude(-5, -2) : random.between(0.1, 1));
   const Mesh block = jittered_block(random, size, 1);
   append_body(scene, body, block);
-  if (random.one_in(4)) scene.settings.damping = DampingForm::per_vertex;
+  if (random.one_in(4)) scene.settings.damping = another(random, DampingForm::strain);
   round_to_single(scene);
   const std::size_t first = scene.mesh.positions.size() - block.positions.size();
   for (std::size_t v = first; v < scene.mesh.positions.size(); ++v) {

@@ -9,6 +9,7 @@
 
 #include "compare/judge/cases/cases.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 
 namespace ogc::compare {
 
@@ -158,10 +159,10 @@ inline constexpr std::array<std::string_view, 4> side_names{"point_point", "poin
 
 /// The names of an enumeration's values, in their order.
 inline std::span<const std::string_view> names_of(ContactSides) { return side_names; }
-inline std::span<const std::string_view> names_of(MembraneModel) { return membrane_model_names(); }
-inline std::span<const std::string_view> names_of(BendingModel) { return bending_model_names(); }
-inline std::span<const std::string_view> names_of(ContactActivation) { return activation_names(); }
-inline std::span<const std::string_view> names_of(DampingForm) { return damping_form_names(); }
+inline std::span<const std::string_view> names_of(MembraneModel) { return choice_names<MembraneModel>; }
+inline std::span<const std::string_view> names_of(BendingModel) { return choice_names<BendingModel>; }
+inline std::span<const std::string_view> names_of(ContactActivation) { return choice_names<ContactActivation>; }
+inline std::span<const std::string_view> names_of(DampingForm) { return choice_names<DampingForm>; }
 
 /// What names_of takes.
 template <class T>

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/rods.hpp"
 #include "compare/problem/settings.hpp"
 #include "compare/problem/validate.hpp"
@@ -61,10 +62,10 @@ Body to_body(const Json& json) {
   body.first_triangle = json.at("triangles").at(0).get<Index>();
   body.triangle_count = json.at("triangles").at(1).get<Index>();
   body.fixed = json.at("fixed").get<bool>();
-  if (json.contains("contact")) body.contact = to_model<BodyContact>(json.at("contact"), body_contact_names());
+  if (json.contains("contact")) body.contact = to_model<BodyContact>(json.at("contact"), choice_names<BodyContact>);
   const Json& material = json.at("material");
-  body.material.membrane = to_model<MembraneModel>(material.at("membrane"), membrane_model_names());
-  body.material.bending = to_model<BendingModel>(material.at("bending"), bending_model_names());
+  body.material.membrane = to_model<MembraneModel>(material.at("membrane"), choice_names<MembraneModel>);
+  body.material.bending = to_model<BendingModel>(material.at("bending"), choice_names<BendingModel>);
   if (json.contains("tetrahedra")) {
     body.first_tetrahedron = json.at("tetrahedra").at(0).get<Index>();
     body.tetrahedron_count = json.at("tetrahedra").at(1).get<Index>();

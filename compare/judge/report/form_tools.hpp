@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compare/judge/report/wrong_forms.hpp"
+#include "compare/problem/names.hpp"
 
 namespace ogc::compare {
 
@@ -53,5 +54,6 @@ inline constexpr std::array<NamedActivation, 4> other_activations{
      {ContactActivation::quadratic, "quadratic", "k_c/2 (r − d)² at every distance"},
      {ContactActivation::ipc_log, "ipc_log", "IPC's barrier −k_c (d − r)² ln(d/r)"},
      {ContactActivation::cubic, "cubic", "2 k_c/(3r) (r − d)³"}}};
+static_assert(other_activations.size() + 1 == choice_count<ContactActivation>);
 
 }  // namespace ogc::compare

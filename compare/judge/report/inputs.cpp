@@ -3,6 +3,7 @@
 #include "compare/judge/cases/stage_traits.hpp"
 #include "compare/judge/report/quantities.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 
 namespace ogc::compare {
 

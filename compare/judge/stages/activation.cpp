@@ -10,6 +10,7 @@
 #include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/parameter_ranges.hpp"
 #include "compare/judge/stages/stage_of.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/text.hpp"
 
 namespace ogc::compare {
@@ -55,7 +56,7 @@ CaseData activation_touching(Random& random) {
 
 ActivationCase with_any_activation(Random& random, const CaseData& data) {
   ActivationCase question = case_of<ActivationCase>(data);
-  question.activation = static_cast<ContactActivation>(random.below(static_cast<int>(activation_names().size())));
+  question.activation = random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
   return question;
 }
 
@@ -264,21 +265,22 @@ struct Activation : BatchStage<Activation, &Contestant::activation, &Authority::
     return {{"distance", hexadecimal(c.distance)},
             {"contact_radius", hexadecimal(c.contact_radius)},
             {"stiffness", hexadecimal(c.stiffness)},
-            {"activation", activation_names()[static_cast<std::size_t>(c.activation)]}};
+            {"activation", choice_names<ContactActivation>[static_cast<std::size_t>(c.activation)]}};
   }
   static Case read(const Json& data) {
     const auto name = data.at("activation").get<std::string>();
-    const auto found = std::find(activation_names().begin(), activation_names().end(), name);
-    if (found == activation_names().end()) throw InputError(unknown_name("activation", name, activation_names()));
+    const auto found = std::find(choice_names<ContactActivation>.begin(), choice_names<ContactActivation>.end(), name);
+    if (found == choice_names<ContactActivation>.end())
+      throw InputError(unknown_name("activation", name, choice_names<ContactActivation>));
     return {number(data.at("distance")), number(data.at("contact_radius")), number(data.at("stiffness")),
-            static_cast<ContactActivation>(found - activation_names().begin())};
+            static_cast<ContactActivation>(found - choice_names<ContactActivation>.begin())};
   }
 
   static Shape shape(const Case&) { return {}; }
   static std::vector<Quantity> inputs(const Case& c) {
     return {scalar("distance", "m", c.distance), scalar("contact_radius", "m", c.contact_radius),
             scalar("stiffness", "N/m", c.stiffness),
-            word("activation", std::string(activation_names()[static_cast<std::size_t>(c.activation)]))};
+            word("activation", std::string(choice_names<ContactActivation>[static_cast<std::size_t>(c.activation)]))};
   }
 
   static In question(Cases cases) {

@@ -1,6 +1,7 @@
 // Stage bending.
 #include "compare/judge/stages/force_forms.hpp"
 #include "compare/judge/stages/force_stage.hpp"
+#include "compare/problem/names.hpp"
 
 namespace ogc::compare {
 
@@ -20,7 +21,8 @@ std::vector<WrongForm> bending_forms() {
   }));
   forms.push_back(case_asked("weights_exchanged", "isometric weights of o0 and o1 exchanged", stage,
                              [](BendingCase& c) { std::swap(c.weight[1], c.weight[2]); }));
-  for (const auto model : {BendingModel::discrete_hinge, BendingModel::isometric_quadratic}) {
+  for (const BendingModel model : choices<BendingModel>) {
+    if (model == BendingModel::none) continue;
     const std::string name(name_of(model));
     forms.push_back(
         case_asked(name + "_for_every_model", name + ", whichever model is asked for", stage, [model](BendingCase& c) {

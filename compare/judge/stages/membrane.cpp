@@ -3,6 +3,7 @@
 
 #include "compare/judge/stages/force_forms.hpp"
 #include "compare/judge/stages/force_stage.hpp"
+#include "compare/problem/names.hpp"
 
 namespace ogc::compare {
 
@@ -22,7 +23,8 @@ std::vector<WrongForm> membrane_forms() {
                              [](MembraneCase& c) {
                                if (c.model == MembraneModel::stable_neo_hookean) c.lame_lambda -= c.lame_mu;
                              }));
-  for (const auto model : {MembraneModel::st_venant_kirchhoff, MembraneModel::stable_neo_hookean}) {
+  for (const MembraneModel model : choices<MembraneModel>) {
+    if (model == MembraneModel::none) continue;
     const std::string name(name_of(model));
     forms.push_back(
         case_asked(name + "_for_every_model", name + ", whichever model is asked for", stage, [model](MembraneCase& c) {

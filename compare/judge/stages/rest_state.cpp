@@ -12,6 +12,7 @@
 #include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/stage_of.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/rods.hpp"
 
 namespace ogc::compare {
@@ -283,8 +284,8 @@ Body to_body(const Json& json, const Scene& scene) {
   body.triangle_count = json.at("triangles").get<Index>();
   body.tetrahedron_count = json.value("tetrahedra", Index{0});
   body.fixed = json.at("fixed").get<bool>();
-  body.material.membrane = static_cast<MembraneModel>(number_of(json.at("membrane"), membrane_model_names()));
-  body.material.bending = static_cast<BendingModel>(number_of(json.at("bending"), bending_model_names()));
+  body.material.membrane = static_cast<MembraneModel>(number_of(json.at("membrane"), choice_names<MembraneModel>));
+  body.material.bending = static_cast<BendingModel>(number_of(json.at("bending"), choice_names<BendingModel>));
   // A case that is older than a constant has its default.
   for (const MaterialInfo& info : material_table())
     if (json.contains(info.name)) body.material.*info.field = number(json.at(std::string(info.name)));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "compare/judge/cases/any_models.hpp"
 #include "compare/judge/cases/placement.hpp"
 #include "compare/judge/stages/force_forms.hpp"
 #include "compare/judge/stages/force_stage.hpp"
@@ -18,7 +19,7 @@ CaseData with_material(Random& random, SpringCase question, double rest_length) 
   question.stiffness = static_cast<float>(random.magnitude(-2, 5));
   question.rest_length = static_cast<float>(rest_length);
   question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
-  if (random.one_in(4)) question.damping_form = DampingForm::per_vertex;
+  if (random.one_in(4)) question.damping_form = another(random, DampingForm::strain);
   return question;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "compare/judge/cases/any_models.hpp"
 #include "compare/judge/cases/placement.hpp"
 #include "compare/judge/stages/force_forms.hpp"
 #include "compare/judge/stages/force_stage.hpp"
@@ -51,7 +52,7 @@ void set_material(Random& random, TetrahedronCase& question) {
   question.lame_lambda = random.one_in(8) ? 0 : static_cast<float>(random.magnitude(2, 9));
   question.lame_mu = static_cast<float>(random.magnitude(2, 9));
   question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
-  if (random.one_in(4)) question.damping_form = DampingForm::per_vertex;
+  if (random.one_in(4)) question.damping_form = another(random, DampingForm::strain);
 }
 
 /// `x` are the corners of a deformed rest shape; the start lies near them in half of the cases, at rest otherwise. The

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/names.hpp"
 
 namespace ogc::experiments {
 namespace {

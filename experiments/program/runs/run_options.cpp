@@ -8,6 +8,7 @@
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate_mesh.hpp"
@@ -88,14 +89,14 @@ void set(compare::Scene& scene, const std::string& key, const std::string& value
   using compare::Material;
   expect_setting(key);
   if (!set_material(scene, key, value) &&
-      !set_model(scene, key, "membrane", value, compare::membrane_model_names(), &Material::membrane) &&
-      !set_model(scene, key, "bending", value, compare::bending_model_names(), &Material::bending))
+      !set_model(scene, key, "membrane", value, compare::choice_names<compare::MembraneModel>, &Material::membrane) &&
+      !set_model(scene, key, "bending", value, compare::choice_names<compare::BendingModel>, &Material::bending))
     compare::set_setting(scene.settings, key, value);
 }
 
 /// Before all settings, one of which goes with it.
 void apply_contact(compare::Scene& scene, const std::string& value) {
-  const auto names = compare::body_contact_names();
+  const auto names = compare::choice_names<compare::BodyContact>;
   const auto found = std::ranges::find(names, value);
   if (found == names.end()) throw compare::InputError("contact: " + compare::unknown_name("contact", value, names));
   set_body_contact(scene, static_cast<compare::BodyContact>(found - names.begin()));
@@ -225,13 +226,13 @@ std::string settings_help() {
   const compare::Settings defaults;
   for (const compare::SettingInfo& info : compare::setting_table())
     add(info.name, info.unit, value_text(defaults, info), compare::range_text(info), info.meaning);
-  add("membrane", "1", "the scene's", compare::joined(compare::membrane_model_names()),
+  add("membrane", "1", "the scene's", compare::joined(compare::choice_names<compare::MembraneModel>),
       "how cloth resists stretch: the model of every body that does");
-  add("bending", "1", "the scene's", compare::joined(compare::bending_model_names()),
+  add("bending", "1", "the scene's", compare::joined(compare::choice_names<compare::BendingModel>),
       "how cloth resists bending: the model of every body that does");
   for (const MaterialSetting& constant : material_settings())
     add(constant.name, constant.unit, "the scene's", constant.range, constant.meaning);
-  add("contact", "1", "the scene's", compare::joined(compare::body_contact_names()),
+  add("contact", "1", "the scene's", compare::joined(compare::choice_names<compare::BodyContact>),
       "bodies that a motion drives: inside the guarantee, or volumes that push out, with redetect_fraction 0 or 0.01");
   add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
   std::istringstream lines(table(rows, 4));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/readers.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
 
@@ -49,16 +50,17 @@ SolverOptions options_of(Solver solver) {
 }
 
 void require_settings(Solver solver, std::span<const std::string> assigned, compare::Settings& settings) {
-  if (solver == Solver::vbd || solver == Solver::ipc)
-    reference::refuse_variants(settings, names[static_cast<std::size_t>(solver)]);
-  if (!options_of(solver).is_penalty) return;
-  for (const auto& [key, value] : {std::pair<std::string, std::string>{"bounds", "off"}, {"activation", "quadratic"}}) {
+  const std::string_view name = names[static_cast<std::size_t>(solver)];
+  for (const compare::RequiredSetting& own : compare::required_settings()) {
+    if (own.solver != name) continue;
+    const std::string key(own.setting), given = key + "=" + std::string(own.value);
     for (const std::string& assignment : assigned)
-      if (assignment.starts_with(key + "=") && assignment != key + "=" + value)
-        throw compare::InputError("--set " + assignment + ": --solver penalty has " + key + "=" + value +
+      if (assignment.starts_with(key + "=") && assignment != given)
+        throw compare::InputError("--set " + assignment + ": --solver " + std::string(name) + " has " + given +
                                   "; leave it out, or take --solver newton");
-    compare::set_setting(settings, key, value);
+    compare::set_setting(settings, key, own.value);
   }
+  compare::refuse_unread(settings, name);
 }
 
 compare::Contestant contestant_of(Solver solver, bool on_device) {

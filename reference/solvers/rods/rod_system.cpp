@@ -74,7 +74,7 @@ std::vector<compare::Quaternion> start_orientations(const compare::Scene& scene,
 }
 
 RodSystem::RodSystem(const compare::Scene& scene, const compare::RestStateOut& rest)
-    : scene_(scene), around_(scene.mesh.positions.size()), scene_start_(start_orientations(scene, rest)) {
+    : scene_(scene), vertex_count_(scene.mesh.positions.size()), scene_start_(start_orientations(scene, rest)) {
   const std::vector<Index> held = compare::segment_groups(scene, compare::rod_segments(scene));
   for (std::size_t e = 0; e < rest.segments.size(); ++e) {
     const compare::RestSegment& from = rest.segments[e];
@@ -88,7 +88,6 @@ RodSystem::RodSystem(const compare::Scene& scene, const compare::RestStateOut& r
     for (std::size_t end = 0; end < 2; ++end) {
       term.weight[end] = double{from.weight[end]};
       term.rest[end] = wide(from.relative[end]);
-      around_[place(from.end[end])].push_back(static_cast<Index>(e));
     }
     term.held = held[e];
     terms_.push_back(term);
@@ -294,14 +293,14 @@ void RodSystem::add_force(Index e, std::size_t end, const std::array<Triple<doub
 }
 
 std::array<Index, 4> RodSystem::vertices(std::size_t stencil) const {
-  const auto unknown = [&](std::size_t e) { return static_cast<Index>(around_.size() + e); };
+  const auto unknown = [&](std::size_t e) { return static_cast<Index>(vertex_count_ + e); };
   if (stencil < terms_.size()) return {terms_[stencil].vertex[0], terms_[stencil].vertex[1], unknown(stencil), -1};
   const Joint& joint = joints_[stencil - terms_.size()];
   return {unknown(joint.first), unknown(joint.second), -1, -1};
 }
 
 Frame RodSystem::orientation(std::size_t e, const Positions& x) const {
-  return x.size() > around_.size() ? turned_by<double>(q_[e], x[around_.size() + e]) : q_[e];
+  return x.size() > vertex_count_ ? turned_by<double>(q_[e], x[vertex_count_ + e]) : q_[e];
 }
 
 void RodSystem::turn_by(const Positions& x) {

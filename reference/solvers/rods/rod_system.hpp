@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+
 #include "compare/problem/scene.hpp"
 #include "compare/stages/rest_state.hpp"
 #include "reference/energies/rods/on_sphere.hpp"
@@ -57,22 +59,15 @@ class RodSystem {
   /// Each free segment to its minimiser, colour by colour.
   void sweep(const std::vector<Triple<double>>& x);
 
-  /// The segments at a vertex.
-  std::span<const compare::Index> at(compare::Index vertex) const { return around_[static_cast<std::size_t>(vertex)]; }
+  /// All segments.
+  std::span<const RodTerm> terms() const { return terms_; }
   /// Adds segment `e` as its end `end` feels it; `ends`: where its ends are.
   void add_force(compare::Index e, std::size_t end, const std::array<Triple<double>, 2>& ends,
                  VertexSystemOf<double>& sum) const;
-  /// The end of segment `e` that is `vertex`.
-  std::size_t end_of(compare::Index e, compare::Index vertex) const {
-    return terms_[static_cast<std::size_t>(e)].vertex[0] == vertex ? 0 : 1;
-  }
-  const std::array<compare::Index, 2>& ends(compare::Index e) const {
-    return terms_[static_cast<std::size_t>(e)].vertex;
-  }
 
   // As stencils of Newton's method: segments, then joints. Behind the vertices, at `vertex_count + e`, stands ω of
   // segment e, three unknowns: positions that hold it mean q exp(ω/2), others q.
-  std::size_t stencil_count() const { return terms_.size() + joints_.size(); }
+  std::size_t size() const { return terms_.size() + joints_.size(); }
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   /// How many of these, the first ones, are vertices: two of a segment, none of a joint.
   std::size_t corners(std::size_t stencil) const { return stencil < terms_.size() ? 2 : 0; }
@@ -81,6 +76,15 @@ class RodSystem {
   /// At ω = 0.
   StencilDerivatives derivatives(std::size_t stencil, const std::vector<Triple<double>>& x,
                                  HessianProjection projection) const;
+  /// Into the places behind `to`. Calls `finished` with the number of each stencil, on the thread that did it.
+  template <class Finished>
+  void differentiate(const std::vector<Triple<double>>& x, HessianProjection projection, StencilDerivatives* to,
+                     Finished finished) const {
+    tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) {
+      to[i] = derivatives(i, x, projection);
+      finished(i);
+    });
+  }
   double length(std::size_t segment) const { return terms_[segment].length; }  ///< l [m]
   std::size_t segments() const { return terms_.size(); }
   bool is_free(std::size_t segment) const { return terms_[segment].held == -1; }
@@ -90,6 +94,8 @@ class RodSystem {
   void turn_by(const std::vector<Triple<double>>& x);
 
   double elastic_energy(const std::vector<Triple<double>>& x) const;  ///< without damping [J]
+  /// Adds it to a sum [J].
+  void add_elastic(const std::vector<Triple<double>>& x, double& sum) const { sum += elastic_energy(x); }
   /// Mean of ‖(I − q qᵀ)(M q + b)‖ over the free segments [N m].
   double mean_torque(const std::vector<Triple<double>>& x) const;
   /// Mean and largest ‖D‖/l − 1.
@@ -111,8 +117,8 @@ class RodSystem {
   const compare::Scene& scene_;
   std::vector<RodTerm> terms_;
   std::vector<Joint> joints_;
-  std::vector<std::vector<compare::Index>> around_;  ///< by vertex
-  std::vector<std::vector<std::size_t>> classes_;    ///< free segments by colour
+  std::size_t vertex_count_;
+  std::vector<std::vector<std::size_t>> classes_;  ///< free segments by colour
   std::vector<compare::Quaternion> scene_start_;
   std::vector<FourOf<double>> start_, q_;
   Positions start_positions_;

@@ -1,9 +1,6 @@
 #include "reference/solvers/variants/settings.hpp"
 
 #include <array>
-#include <string>
-
-#include "compare/problem/error.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -46,25 +43,6 @@ Variants variants_of(const compare::Settings& settings) {
           .colours = choice_of<Colouring>(settings, "colours"),
           .contact_blocks = choice_of<ContactBlocks>(settings, "contact_blocks"),
           .cut_after = choice_of<CutAfter>(settings, "cut_after")};
-}
-
-void refuse_variants(const compare::Settings& settings, std::string_view solver) {
-  if (get_setting(settings, "contact_set") != 0)
-    throw compare::InputError(
-        "setting 'contact_set' is read by the reference's solvers alone; give --solver reference_vbd or newton, or "
-        "leave "
-        "it out with --solver " +
-        std::string(solver));
-  refuse_sweep_variants(settings, solver);
-}
-
-void refuse_sweep_variants(const compare::Settings& settings, std::string_view solver) {
-  for (const std::string_view name : {"colours", "contact_blocks", "cut_after"}) {
-    if (get_setting(settings, name) == 0) continue;
-    throw compare::InputError("setting '" + std::string(name) +
-                              "' is read by --solver reference_vbd alone; give that, or leave it out with --solver " +
-                              std::string(solver));
-  }
 }
 
 }  // namespace ogc::reference

@@ -2,8 +2,6 @@
 // They are no part of the method; reference_vbd at their defaults is the method.
 #pragma once
 
-#include <string_view>
-
 #include "compare/problem/settings.hpp"
 
 namespace ogc::reference {
@@ -59,10 +57,5 @@ struct Variants {
 
 /// As the problem carries them.
 Variants variants_of(const compare::Settings& settings);
-
-/// For a solver that reads none of them, or `contact_set` alone: throws compare::InputError that names a setting which
-/// would change nothing.
-void refuse_variants(const compare::Settings& settings, std::string_view solver);
-void refuse_sweep_variants(const compare::Settings& settings, std::string_view solver);
 
 }  // namespace ogc::reference

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "compare/problem/names.hpp"
 #include "compare/problem/rods.hpp"
 #include "tests/catch.hpp"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/names.hpp"
 #include "compare/problem/ranges.hpp"
 #include "tests/catch.hpp"
 
@@ -25,6 +26,19 @@ TEST_CASE("every setting has a name of its own and a default within its range", 
     CHECK(std::ranges::count(info.meaning, ' ') >= 3);  // words, not a symbol
     CHECK(!info.unit.empty());
   }
+}
+
+TEST_CASE("traits of each policy of bounds fit together, and its name sets it", "[unit]") {
+  for (const Bounds bounds : choices<Bounds>) {
+    const BoundsTraits policy = traits_of(bounds);
+    INFO(name_of(bounds));
+    CHECK((policy.has_planes || (policy.slides && !policy.divides)));
+    CHECK((policy.certifies || !policy.has_planes));
+    Settings settings;
+    set_setting(settings, "bounds", name_of(bounds));
+    CHECK(settings.bounds == bounds);
+  }
+  CHECK(traits_of(Bounds{}).certifies);
 }
 
 TEST_CASE("the table reaches every byte of the settings but those that contestants declare", "[unit]") {

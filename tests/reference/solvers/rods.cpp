@@ -69,7 +69,7 @@ struct Bent {
   }
   double energy(const Positions& at) const {
     double sum = 0;
-    for (std::size_t i = 0; i < system.stencil_count(); ++i) sum += system.energy(i, at);
+    for (std::size_t i = 0; i < system.size(); ++i) sum += system.energy(i, at);
     return sum;
   }
 };
@@ -81,11 +81,13 @@ TEST_CASE("rods: forces are slopes of the energy, with damping and without", "[p
     const Bent bent(damping);
     for (std::size_t v = 0; v < bent.x.size(); ++v) {
       reference::VertexSystemOf<double> sum;
-      for (const Index e : bent.system.at(static_cast<Index>(v))) {
-        const auto& ends = bent.system.ends(e);
-        bent.system.add_force(e, bent.system.end_of(e, static_cast<Index>(v)),
-                              {bent.x[static_cast<std::size_t>(ends[0])], bent.x[static_cast<std::size_t>(ends[1])]},
-                              sum);
+      for (std::size_t e = 0; e < bent.system.segments(); ++e) {
+        const auto& ends = bent.system.terms()[e].vertex;
+        for (std::size_t end = 0; end < 2; ++end)
+          if (ends[end] == static_cast<Index>(v))
+            bent.system.add_force(
+                static_cast<Index>(e), end,
+                {bent.x[static_cast<std::size_t>(ends[0])], bent.x[static_cast<std::size_t>(ends[1])]}, sum);
       }
       for (std::size_t axis = 0; axis < 3; ++axis) {
         constexpr double step = 1e-6;

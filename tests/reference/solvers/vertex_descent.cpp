@@ -98,9 +98,9 @@ Change change_by(const reference::Potential& potential, compare::Index v, const 
   Change change;
   change.real = 0.5 * potential.inertia(i) * reference::dot(to - from, to + from);
   change.model = change.real;
-  for (const auto& term : potential.membranes())
+  for (const auto& term : potential.elements<reference::TriangleKind>().terms())
     if (has(term.vertex, v)) change.real += change_of<reference::MembraneTerm, 3>(term, before, after);
-  for (const auto& term : potential.hinges())
+  for (const auto& term : potential.elements<reference::HingeKind>().terms())
     if (has(term.vertex, v)) change.real += change_of<reference::HingeTerm, 4>(term, before, after);
   for (const reference::ContactTerm& term : potential.contacts()) {
     if (!has(term.vertex, v)) continue;

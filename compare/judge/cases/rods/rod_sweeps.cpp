@@ -68,7 +68,7 @@ Four frame_of(Random& random, const Vec3f& a, const Vec3f& b) {
 }
 
 SweepCase finished(Random& random, SweepCase test, Scene scene) {
-  if (random.one_in(6)) scene.settings.damping = DampingForm::per_vertex;
+  if (random.one_in(6)) scene.settings.damping = another(random, DampingForm::strain);
   test.colour = random_colours(random, scene, build_topology(scene));
   test.segment_colour = random_segment_colours(random, scene);
   for (const Index e : rod_segments(scene)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compare/judge/cases/any_models.hpp"
 #include "compare/judge/cases/placement.hpp"
 #include "compare/judge/stages/force_forms.hpp"
 #include "compare/judge/stages/force_stage.hpp"
@@ -20,7 +21,7 @@ using rod_cases::Four;
 void set_material(Random& random, RodCase& question) {
   question.stretch = static_cast<float>(random.one_in(3) ? 0.1 : random.magnitude(-3, 6));
   question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
-  if (random.one_in(4)) question.damping_form = DampingForm::per_vertex;
+  if (random.one_in(4)) question.damping_form = another(random, DampingForm::strain);
   question.own = random.below(2);
 }
 

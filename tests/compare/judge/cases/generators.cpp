@@ -14,6 +14,7 @@
 #include "compare/judge/report/inputs.hpp"
 #include "compare/problem/error.hpp"
 #include "compare/problem/material_table.hpp"
+#include "compare/problem/names.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
@@ -163,10 +164,11 @@ TEST_CASE("each model that has a name is among the cases of the stages that read
     const auto wanted = [&](std::span<const std::string_view> names) {
       return stage == Stage::sweep ? all(names) : without_none(names);  // bodies of a step have both energies
     };
-    if (has_scene || stage == Stage::membrane) CHECK(seen.membrane == wanted(membrane_model_names()));
-    if (has_scene || stage == Stage::bending) CHECK(seen.bending == wanted(bending_model_names()));
-    if (has_scene || stage == Stage::membrane) CHECK(seen.damping == all(damping_form_names()));
-    if (stage != Stage::membrane && stage != Stage::bending) CHECK(seen.activation == all(activation_names()));
+    if (has_scene || stage == Stage::membrane) CHECK(seen.membrane == wanted(choice_names<MembraneModel>));
+    if (has_scene || stage == Stage::bending) CHECK(seen.bending == wanted(choice_names<BendingModel>));
+    if (has_scene || stage == Stage::membrane) CHECK(seen.damping == all(choice_names<DampingForm>));
+    if (stage != Stage::membrane && stage != Stage::bending)
+      CHECK(seen.activation == all(choice_names<ContactActivation>));
   }
 }
 

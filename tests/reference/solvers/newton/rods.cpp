@@ -60,7 +60,7 @@ TEST_CASE("rods: gradients and Hessians of segments and joints are those of thei
     for (std::size_t axis = 0; axis < 3; ++axis) x[v][axis] += 1e-4 * std::sin(3.0 * static_cast<double>(3 * v + axis));
   system.sweep(x);  // frames that are neither those of the start nor at rest
   x.resize(x.size() + system.segments());
-  for (std::size_t i = 0; i < system.stencil_count(); ++i) {
+  for (std::size_t i = 0; i < system.size(); ++i) {
     const auto unknown = system.vertices(i);
     const reference::StencilDerivatives at = system.derivatives(i, x, reference::HessianProjection::none);
     CHECK(at.energy == Approx(system.energy(i, x)));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/readers.hpp"
 #include "reference/energies/rest_state.hpp"
 #include "reference/simulation.hpp"
 #include "reference/solvers/colouring.hpp"
@@ -197,15 +198,40 @@ TEST_CASE("cut_after=iteration and other contact sets keep vertices in their bou
   CHECK(end_of("contact_blocks", "majorised") == plain);
 }
 
-TEST_CASE("a setting that changes nothing with a solver is refused by name", "[unit]") {
-  compare::Settings settings;
-  reference::refuse_variants(settings, "vbd");
-  set_setting(settings, "contact_set", "pairs");
-  CHECK_THROWS_WITH(reference::refuse_variants(settings, "vbd"), ContainsSubstring("contact_set"));
-  reference::refuse_sweep_variants(settings, "newton");
-  set_setting(settings, "colours", "random");
-  CHECK_THROWS_WITH(reference::refuse_sweep_variants(settings, "newton"), ContainsSubstring("colours"));
+TEST_CASE("a setting that a solver does not read is refused by name, with its value and who reads it", "[unit]") {
+  const auto refused = [](const char* name, const char* value, const char* solver) {
+    compare::Settings settings;
+    if (std::string_view(solver) == "penalty") {
+      set_setting(settings, "bounds", "off");
+      set_setting(settings, "activation", "quadratic");
+    }
+    set_setting(settings, name, value);
+    try {
+      compare::refuse_unread(settings, solver);
+    } catch (const compare::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(refused("contact_set", "pairs", "vbd"), ContainsSubstring("'contact_set' can't be 'pairs'"));
+  CHECK(refused("contact_set", "pairs", "newton").empty());
+  CHECK_THAT(refused("colours", "random", "newton"), ContainsSubstring("take --solver reference_vbd"));
+  CHECK(refused("colours", "random", "reference_vbd").empty());
+  CHECK_THAT(refused("bounds", "dat", "newton"), ContainsSubstring("line search scales all vertices at once"));
+  CHECK(refused("bounds", "planes", "newton").empty());
+  CHECK(refused("bounds", "dat", "vbd").empty());
+  CHECK_THAT(refused("bounds", "ball", "penalty"), ContainsSubstring("has bounds=off"));
+  CHECK(refused("bounds", "off", "penalty").empty());
+  CHECK_THAT(refused("truncation", "pair", "penalty"), ContainsSubstring("take --solver newton"));
   compare::Scene scene = two_sheets();
-  scene.settings = settings;
+  set_setting(scene.settings, "colours", "random");
   CHECK_THROWS_AS(reference::start_newton(scene, {}), compare::InputError);
+}
+
+TEST_CASE("no solver refuses the defaults, and what one requires can be set", "[unit]") {
+  for (const compare::RequiredSetting& own : compare::required_settings()) {
+    compare::Settings settings;
+    set_setting(settings, own.setting, own.value);
+  }
+  for (const char* solver : {"vbd", "newton", "reference_vbd", "ipc"}) compare::refuse_unread({}, solver);
 }

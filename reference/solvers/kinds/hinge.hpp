@@ -1,0 +1,86 @@
+// Hinges with a bending energy.
+#pragma once
+
+#include "compare/stages/sweep.hpp"
+#include "reference/energies/bending.hpp"
+#include "reference/solvers/kinds/elements.hpp"
+
+namespace ogc::reference {
+
+/// See kinds.hpp.
+struct HingeKind {
+  /// One of them, over doubles.
+  using Term = HingeTerm;
+  /// All of them.
+  using List = Elements<HingeKind>;
+  /// Derivatives of a batch.
+  static constexpr auto kernel = &StencilKernels::hinges;
+  /// Of the stage, in units of u · scale.
+  static constexpr double force_tolerance = compare::bending_force_tolerance,
+                          block_tolerance = compare::bending_block_tolerance;
+
+  /// How many a scene has.
+  static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.hinges.size(); }
+  /// Whom it joins; −1 where there is none.
+  static std::array<compare::Index, 4> vertices(const compare::Scene&, const compare::RestStateOut& rest,
+                                                std::size_t i) {
+    return rest.hinges[i].vertex;
+  }
+
+  /// As the rest state has it.
+  static Term term(const compare::Scene& scene, const compare::RestStateOut& from, std::size_t i) {
+    const compare::RestHinge& rest = from.hinges[i];
+    const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;
+    Term term{rest.vertex, double{rest.stiffness}, double{rest.rest_angle},
+              material.bending_damping / scene.settings.time_step};
+    term.model = material.bending;
+    for (std::size_t k = 0; k < 3; ++k) {
+      term.weight[k + 1] = double{rest.weight[k]};
+      term.weight[0] -= term.weight[k + 1];
+    }
+    return term;
+  }
+  /// Where its vertices are [m].
+  static std::array<Triple<double>, 4> corners(const Term& term, const State& x) { return gathered<4>(term.vertex, x); }
+  /// xᵗ of a step: what damping counts from [m].
+  static void begin(Term& term, const State& start) {
+    const Fold<double> fold(corners(term, start));
+    term.start = fold.collapsed() ? 0 : fold.angle();
+  }
+
+  /// Adds force and block of the vertex at a place.
+  static void add(const List& list, std::size_t i, std::size_t place, const std::array<Triple<double>, 4>& corners,
+                  VertexSystemOf<double>& sum) {
+    const Term& term = list.terms()[i];
+    const Hinge<ByOwn<double>> x = with_own<ByOwn<double>>(corners, place);
+    add_positions(term, x, sum);
+    if (!term.has_angle()) return;
+    const Fold<ByOwn<double>> fold(x);
+    if (!fold.collapsed()) add_angle(term, fold.angle(), sum);
+  }
+
+  /// What its stage is asked about the vertex at a place.
+  template <class Positions>
+  static compare::BendingCase question(const compare::SweepIn& in, std::size_t i, std::size_t role,
+                                       const Positions& x) {
+    const compare::RestHinge& hinge = in.rest->hinges[i];
+    const compare::Material& material = in.scene->bodies[static_cast<std::size_t>(hinge.body)].material;
+    compare::BendingCase question;
+    for (std::size_t k = 0; k < 4; ++k) {
+      question.vertex[k] = x[hinge.vertex[k]];
+      question.start[k] = in.start[static_cast<std::size_t>(hinge.vertex[k])];
+    }
+    question.stiffness = hinge.stiffness;
+    question.rest_angle = hinge.rest_angle;
+    question.damping = static_cast<float>(material.bending_damping / in.scene->settings.time_step);
+    question.model = material.bending;
+    question.weight = hinge.weight;
+    question.damping_form = in.scene->settings.damping;
+    question.own = static_cast<std::int32_t>(role);
+    return question;
+  }
+  /// All that are accepted, the exact one first.
+  static std::vector<compare::ForceAnswer> answers(const compare::BendingCase& question) { return bending(question); }
+};
+
+}  // namespace ogc::reference

@@ -1,0 +1,53 @@
+// The one list of the kinds of elements that the reference knows. Potential, vertex systems, the judged sweep and
+// colours fold over it; what a kind is to each of them its header says:
+//
+//     List                    all elements in double, Elements<Kind> or what has its members
+//     count, vertices         how many there are, and whom each joins; `pulled`, where that is not all whom it moves
+//     term, begin, corners,   of Elements: a term of the rest state, its start of a step, the positions that it reads,
+//     kernel                  and its batched derivatives
+//     add                     force and block of one vertex, in double
+//     question, answers,      the same as a question of the kind's stage, with the stage's tolerances
+//     force_tolerance, block_tolerance
+#pragma once
+
+#include <tuple>
+#include <utility>
+
+#include "reference/solvers/kinds/hinge.hpp"
+#include "reference/solvers/kinds/segment.hpp"
+#include "reference/solvers/kinds/spring.hpp"
+#include "reference/solvers/kinds/tetrahedron.hpp"
+#include "reference/solvers/kinds/triangle.hpp"
+
+namespace ogc::reference {
+
+/// In the order in which sums go through them.
+using ElementKinds = std::tuple<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
+/// How many there are.
+inline constexpr std::size_t kind_count = std::tuple_size_v<ElementKinds>;
+
+/// Calls `visit` with each kind and its number as a constant: visit.operator()<Kind, number>().
+template <class Visit>
+void for_each_kind(Visit visit) {
+  [&]<std::size_t... number>(std::index_sequence<number...>) {
+    (visit.template operator()<std::tuple_element_t<number, ElementKinds>, number>(), ...);
+  }
+  (std::make_index_sequence<kind_count>{});
+}
+
+/// The elements of a scene, by kind.
+template <class Kinds>
+struct ListsOf;
+template <class... Kinds>
+struct ListsOf<std::tuple<Kinds...>> {
+  /// A list for each kind.
+  using type = std::tuple<typename Kinds::List...>;
+  /// Of a rounded scene, by its rest state.
+  static type made(const compare::Scene& scene, const compare::RestStateOut& rest) {
+    return type(typename Kinds::List(scene, rest)...);
+  }
+};
+/// Those of the list.
+using ElementLists = ListsOf<ElementKinds>::type;
+
+}  // namespace ogc::reference

@@ -1,0 +1,44 @@
+// Segments of rods, whose list has frames beside vertices (solvers/rods/rod_system.hpp).
+#pragma once
+
+#include "compare/stages/sweep.hpp"
+#include "reference/energies/rods/rod.hpp"
+#include "reference/solvers/rods/rod_system.hpp"
+#include "reference/solvers/rods/segment_questions.hpp"
+
+namespace ogc::reference {
+
+/// See kinds.hpp.
+struct SegmentKind {
+  /// All of them.
+  using List = RodSystem;
+  /// Of the stage, in units of u · scale.
+  static constexpr double force_tolerance = compare::rod_force_tolerance,
+                          block_tolerance = compare::rod_block_tolerance;
+
+  /// How many a scene has.
+  static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.segments.size(); }
+  /// Whom it joins; −1 where there is none.
+  static compare::Edge vertices(const compare::Scene&, const compare::RestStateOut& rest, std::size_t i) {
+    return rest.segments[i].end;
+  }
+
+  /// Adds force and block of the vertex at a place.
+  static void add(const List& list, std::size_t i, std::size_t end, const std::array<Triple<double>, 2>& ends,
+                  VertexSystemOf<double>& sum) {
+    list.add_force(static_cast<compare::Index>(i), end, ends, sum);
+  }
+
+  /// What its stage is asked about the vertex at a place.
+  template <class Positions>
+  static compare::RodCase question(const compare::SweepIn& in, std::size_t i, std::size_t end, const Positions& x) {
+    const compare::Edge& ends = in.rest->segments[i].end;
+    return rod_question(in, x.answer(), i, end, {x[ends[0]], x[ends[1]]});
+  }
+  /// All that are accepted, the exact one first.
+  static std::vector<compare::ForceAnswer> answers(const compare::RodCase& question) {
+    return {reference::rod(question)};
+  }
+};
+
+}  // namespace ogc::reference
