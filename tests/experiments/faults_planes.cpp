@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <tuple>
 
 #include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/pair_planes.hpp"
@@ -44,46 +42,29 @@ bool is_second(const PlaneIn& in, const PrimitivePair& pair, Index v) {
          in.topology->edges[static_cast<std::size_t>(pair.first)].end();
 }
 
-/// The right rows, spoiled.
-Fault row_fault(const std::string& name, const std::function<void(const PlaneIn&, Rows&)>& spoil) {
-  return {"plane: " + name, Stage::plane, [spoil](Contestant& contestant, const Authority&) {
-            contestant.plane = [right = contestant.plane, spoil](const PlaneIn& in) {
-              PlaneOut out = right(in);
-              Rows rows = rows_of(out);
-              spoil(in, rows);
-              out.planes = planes_of(rows);
-              return out;
-            };
-          }};
+/// The right answer, spoiled.
+template <class Spoil>
+Fault ball_fault(const std::string& name, Spoil spoil) {
+  return spoiled("plane: " + name, &Contestant::plane, spoil);
+}
+
+/// The same, all half-spaces.
+template <class Spoil>
+Fault row_fault(const std::string& name, Spoil spoil) {
+  return ball_fault(name, [spoil](const PlaneIn& in, PlaneOut& out) {
+    Rows rows = rows_of(out);
+    spoil(in, rows);
+    out.planes = planes_of(rows);
+  });
 }
 
 /// The same, each half-space for itself.
-Fault plane_fault(const std::string& name, const std::function<void(const PlaneIn&, Index, VertexPlane&)>& spoil) {
+template <class Spoil>
+Fault plane_fault(const std::string& name, Spoil spoil) {
   return row_fault(name, [spoil](const PlaneIn& in, Rows& rows) {
     for (std::size_t v = 0; v < rows.size(); ++v)
       for (VertexPlane& plane : rows[v]) spoil(in, static_cast<Index>(v), plane);
   });
-}
-
-Fault ball_fault(const std::string& name, const std::function<void(const PlaneIn&, PlaneOut&)>& spoil) {
-  return {"plane: " + name, Stage::plane, [spoil](Contestant& contestant, const Authority&) {
-            contestant.plane = [right = contestant.plane, spoil](const PlaneIn& in) {
-              PlaneOut out = right(in);
-              spoil(in, out);
-              return out;
-            };
-          }};
-}
-
-/// The right answer to a question that is changed first.
-Fault asked_wrongly(const std::string& name, const std::function<void(PlaneIn&)>& change) {
-  return {"plane: " + name, Stage::plane, [change](Contestant& contestant, const Authority&) {
-            contestant.plane = [right = contestant.plane, change](const PlaneIn& in) {
-              PlaneIn other = in;
-              change(other);
-              return right(other);
-            };
-          }};
 }
 
 std::array<std::vector<Index>, 2> sides_of(const Topology& topology, const PrimitivePair& pair) {
@@ -133,14 +114,8 @@ double divided(double a, double b) {
 
 std::vector<Fault> division_faults() {
   return {
-      asked_wrongly("a gap halved where approach divides it", [](PlaneIn& in) { in.displacement = {}; }),
       divided_otherwise("offsets swapped: who approaches slowly gets the room",
                         [](const Speeds& w) { return divided(largest(w.second), largest(w.first)); }),
-      divided_otherwise("speeds of the wrong side: those of leaving",
-                        [](const Speeds& w) {
-                          return divided(std::max(0.0, -*std::ranges::min_element(w.first)),
-                                         std::max(0.0, -*std::ranges::min_element(w.second)));
-                        }),
       divided_otherwise("negative approach not clamped",
                         [](const Speeds& w) {
                           const double a = *std::ranges::max_element(w.first), b = *std::ranges::max_element(w.second);
@@ -292,10 +267,6 @@ std::vector<Fault> ball_by_ball() {
                  [share_of_reach](const PlaneIn& in, PlaneOut& out) {
                    for (float& b : out.bound) b = std::min(b, share_of_reach(in));
                  }),
-      asked_wrongly("γ_p left out", [](PlaneIn& in) { in.bound_relaxation = 0.5f - 0x1p-10f; }),
-      asked_wrongly("rigid groups ignored", [](PlaneIn& in) { in.exclusions.groups = {}; }),
-      asked_wrongly("excluded pairs ignored", [](PlaneIn& in) { in.exclusions.partners = nullptr; }),
-      asked_wrongly("pairs beyond half of r_q not seen", [](PlaneIn& in) { in.query_radius /= 2; }),
   };
 }
 
@@ -347,8 +318,6 @@ Fault fixed_as_free() {
 }
 
 }  // namespace
-
-void add_right_planes(Contestant& exact, const Authority&) { exact.plane = reference::pair_planes; }
 
 std::vector<Fault> plane_faults() {
   std::vector<Fault> all = plane_by_plane();

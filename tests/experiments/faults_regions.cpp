@@ -18,21 +18,18 @@ double size(const Vec3f& n, const Vec3f& x) {
   return std::abs(double{n.x} * x.x) + std::abs(double{n.y} * x.y) + std::abs(double{n.z} * x.z);
 }
 
-/// The right answer to a question that is changed first.
-Fault asked_wrongly(const std::string& name, const std::function<void(TruncateIn&)>& change) {
-  return {"truncate: " + name, Stage::truncate, [change](Contestant& contestant, const Authority&) {
-            contestant.truncate = [right = contestant.truncate, change](const TruncateIn& in) {
-              TruncateIn other = in;
-              if (!in.half_spaces.offsets.empty()) change(other);
-              return right(other);
-            };
-          }};
+/// The right answer to a question that is changed first, where half-spaces hold anything.
+template <class Change>
+Fault region_asked(const std::string& name, Change change) {
+  return asked_wrongly("truncate: " + name, &Contestant::truncate, [change](TruncateIn& in) {
+    if (!in.half_spaces.offsets.empty()) change(in);
+  });
 }
 
 /// Without the half-spaces of which `is_lost(in, case, number)` holds.
 template <class Lost>
 Fault lost_half_spaces(const std::string& name, Lost is_lost) {
-  return asked_wrongly(name, [is_lost](TruncateIn& in) {
+  return region_asked(name, [is_lost](TruncateIn& in) {
     HalfSpacesIn kept = in.half_spaces;
     kept.items.clear();
     for (std::size_t i = 0; i < in.position.size(); ++i) {
@@ -47,15 +44,12 @@ Fault lost_half_spaces(const std::string& name, Lost is_lost) {
 }
 
 /// The right answer, spoiled where half-spaces hold the vertex.
-Fault spoiled(const std::string& name, const std::function<void(const TruncateIn&, std::size_t, TruncateOut&)>& spoil) {
-  return {"truncate: " + name, Stage::truncate, [spoil](Contestant& contestant, const Authority&) {
-            contestant.truncate = [right = contestant.truncate, spoil](const TruncateIn& in) {
-              TruncateOut out = right(in);
-              for (std::size_t i = 0; i < in.position.size(); ++i)
-                if (!in.half_spaces.of(i).empty()) spoil(in, i, out);
-              return out;
-            };
-          }};
+template <class Spoil>
+Fault region_spoiled(const std::string& name, Spoil spoil) {
+  return spoiled("truncate: " + name, &Contestant::truncate, [spoil](const TruncateIn& in, TruncateOut& out) {
+    for (std::size_t i = 0; i < in.position.size(); ++i)
+      if (!in.half_spaces.of(i).empty()) spoil(in, i, out);
+  });
 }
 
 /// n·x in single precision.
@@ -84,52 +78,43 @@ std::vector<Fault> region_faults() {
                          const HalfSpace& h = in.half_spaces.of(i)[k];
                          return single_height(h.normal, in.position[i]) <= static_cast<float>(h.offset);
                        }),
-      asked_wrongly("the ball ignored beside half-spaces",
-                    [](TruncateIn& in) {
-                      for (std::size_t i = 0; i < in.bound.size(); ++i)
-                        if (!in.half_spaces.of(i).empty()) in.bound[i] = 0x1p60f;
-                    }),
-      asked_wrongly("scaled in place of slid",
-                    [](TruncateIn& in) { std::ranges::fill(in.half_spaces.is_prescribed, std::uint8_t{1}); }),
-      asked_wrongly("slid by distance", [](TruncateIn& in) { std::ranges::fill(in.half_spaces.block, inertia_block); }),
-      asked_wrongly("a prescribed vertex slides",
-                    [](TruncateIn& in) {
-                      for (std::size_t i = 0; i < in.half_spaces.is_prescribed.size(); ++i)
-                        if (std::exchange(in.half_spaces.is_prescribed[i], std::uint8_t{0}) != 0)
-                          in.half_spaces.block[i] = inertia_block;
-                    }),
-      spoiled("slid without the final test",
-              [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
-                if (out.cut[i] == 0 || in.half_spaces.of(i).size() != 1) return;
-                const auto& [n, offset] = in.half_spaces.of(i)[0];
-                const double t = (height(n, out.position[i]) - offset) / height(n, n);
-                out.position[i] = {static_cast<float>(out.position[i].x - t * n.x),
-                                   static_cast<float>(out.position[i].y - t * n.y),
-                                   static_cast<float>(out.position[i].z - t * n.z)};
-              }),
-      spoiled("what is cut stays where it is",
-              [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
-                if (out.cut[i] != 0) out.position[i] = in.half_spaces.current[i];
-              }),
-      spoiled("what is cut goes back to X_prev",
-              [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
-                if (out.cut[i] != 0) out.position[i] = in.previous[i];
-              }),
-      spoiled("a way along a half-space halved",
-              [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
-                const Vec3f& x = in.half_spaces.current[i];
-                const auto is_on = [&](const HalfSpace& h) {
-                  return height(h.normal, x) >= h.offset - 0x1p-40 * size(h.normal, x);
-                };
-                if (out.cut[i] == 0 || in.half_spaces.is_prescribed[i] == 0) return;
-                if (std::ranges::none_of(in.half_spaces.of(i), is_on)) return;
-                Vec3f& to = out.position[i];
-                to = {0.5f * (x.x + to.x), 0.5f * (x.y + to.y), 0.5f * (x.z + to.z)};
-              }),
-      spoiled("vertices that half-spaces cut are not counted",
-              [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
-                out.cut[i] = obeys_bound(in.position[i], in.previous[i], in.bound[i]) ? 0 : 1;
-              }),
+      region_asked("the ball ignored beside half-spaces",
+                   [](TruncateIn& in) {
+                     for (std::size_t i = 0; i < in.bound.size(); ++i)
+                       if (!in.half_spaces.of(i).empty()) in.bound[i] = 0x1p60f;
+                   }),
+      region_spoiled("slid without the final test",
+                     [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
+                       if (out.cut[i] == 0 || in.half_spaces.of(i).size() != 1) return;
+                       const auto& [n, offset] = in.half_spaces.of(i)[0];
+                       const double t = (height(n, out.position[i]) - offset) / height(n, n);
+                       out.position[i] = {static_cast<float>(out.position[i].x - t * n.x),
+                                          static_cast<float>(out.position[i].y - t * n.y),
+                                          static_cast<float>(out.position[i].z - t * n.z)};
+                     }),
+      region_spoiled("what is cut stays where it is",
+                     [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
+                       if (out.cut[i] != 0) out.position[i] = in.half_spaces.current[i];
+                     }),
+      region_spoiled("what is cut goes back to X_prev",
+                     [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
+                       if (out.cut[i] != 0) out.position[i] = in.previous[i];
+                     }),
+      region_spoiled("a way along a half-space halved",
+                     [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
+                       const Vec3f& x = in.half_spaces.current[i];
+                       const auto is_on = [&](const HalfSpace& h) {
+                         return height(h.normal, x) >= h.offset - 0x1p-40 * size(h.normal, x);
+                       };
+                       if (out.cut[i] == 0 || in.half_spaces.is_prescribed[i] == 0) return;
+                       if (std::ranges::none_of(in.half_spaces.of(i), is_on)) return;
+                       Vec3f& to = out.position[i];
+                       to = {0.5f * (x.x + to.x), 0.5f * (x.y + to.y), 0.5f * (x.z + to.z)};
+                     }),
+      region_spoiled("vertices that half-spaces cut are not counted",
+                     [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
+                       out.cut[i] = obeys_bound(in.position[i], in.previous[i], in.bound[i]) ? 0 : 1;
+                     }),
   };
 }
 

@@ -1,6 +1,5 @@
-// Faults of rod and orientation.
+// Faults of rods: small shares, single entries, and what a whole step does with frames.
 #include <cmath>
-#include <utility>
 
 #include "tests/compare/judge/faults.hpp"
 
@@ -10,89 +9,11 @@ using namespace compare;
 
 namespace {
 
-/// `change(case)` spoils the question of either stage.
-Fault of_rod(const std::string& name, const std::function<void(RodCase&)>& change) {
-  return {"rod: " + name, Stage::rod, [change](Contestant& contestant, const Authority&) {
-            contestant.rod = [right = contestant.rod, change](const RodIn& in) {
-              RodIn other = in;
-              for (RodCase& c : other.cases) change(c);
-              return right(other);
-            };
-          }};
-}
-
-Fault of_force(const std::string& name, const std::function<void(Vec3f&, std::array<float, 6>&)>& spoil) {
-  return {"rod: " + name, Stage::rod, [spoil](Contestant& contestant, const Authority&) {
-            contestant.rod = [right = contestant.rod, spoil](const RodIn& in) {
-              ForceOut out = right(in);
-              for (std::size_t i = 0; i < out.force.size(); ++i) spoil(out.force[i], out.block[i]);
-              return out;
-            };
-          }};
-}
-
-Fault of_orientation(const std::string& name, const std::function<void(OrientationCase&)>& change) {
-  return {"orientation: " + name, Stage::orientation, [change](Contestant& contestant, const Authority&) {
-            contestant.orientation = [right = contestant.orientation, change](const OrientationIn& in) {
-              OrientationIn other = in;
-              for (OrientationCase& c : other.cases) change(c);
-              return right(other);
-            };
-          }};
-}
-
-Fault of_answer(const std::string& name, const std::function<void(const OrientationCase&, Quaternion&)>& spoil) {
-  return {"orientation: " + name, Stage::orientation, [spoil](Contestant& contestant, const Authority&) {
-            contestant.orientation = [right = contestant.orientation, spoil](const OrientationIn& in) {
-              OrientationOut out = right(in);
-              for (std::size_t i = 0; i < in.cases.size(); ++i) spoil(in.cases[i], out.orientation[i]);
-              return out;
-            };
-          }};
-}
-
-/// `change(b of each choice of signs, M b, σ)` gives another q, as a formula would.
-using Formula = std::function<std::array<double, 4>(const OrientationAnswer&)>;
-Fault of_formula(const std::string& name, const Formula& formula) {
-  return {"orientation: " + name, Stage::orientation, [formula](Contestant& contestant, const Authority& authority) {
-            contestant.orientation = [ask = authority.orientation, formula](const OrientationIn& in) {
-              OrientationOut out;
-              const OrientationTruth truth = ask(in);
-              for (const auto& accepted : truth.accepted) {
-                const std::array<double, 4> q = formula(accepted[0]);
-                out.orientation.push_back({static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]),
-                                           static_cast<float>(q[3])});
-              }
-              return out;
-            };
-          }};
-}
-
-double size(const std::array<double, 4>& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); }
-
-/// (μ + M) b, of unit length, with the published μ = σ + ‖b‖.
-std::array<double, 4> published(const OrientationAnswer& answer) {
-  const auto& b = answer.vector;
-  const double sigma = size(answer.matrix[0]);  // M² = σ² I
-  std::array<double, 4> q{};
-  for (std::size_t row = 0; row < 4; ++row) {
-    q[row] = (sigma + size(b)) * b[row];
-    for (std::size_t k = 0; k < 4; ++k) q[row] += answer.matrix[row][k] * b[k];
-  }
-  const double length = size(q);
-  if (!(length > 0)) return answer.orientation;
-  for (double& x : q) x /= length;
-  return q;
-}
-
 void conjugate(Quaternion& q) {
   for (std::size_t k = 0; k < 3; ++k) q[k] = -q[k];
 }
 
-void both(OrientationCase& c, const std::function<void(RodNeighbour&)>& change) {
-  change(c.behind);
-  change(c.ahead);
-}
+double size(const std::array<double, 4>& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); }
 
 /// What a neighbour asks for: q_f p̄ ahead, q_f p behind.
 std::array<double, 4> asked_for(const RodNeighbour& f, bool is_ahead) {
@@ -117,85 +38,70 @@ void never_flipped(OrientationCase& c) {
   for (std::size_t k = 0; k < 4; ++k) c.orientation[k] = static_cast<float>(between[k] / length);
 }
 
-std::vector<Fault> rod_faults_of_forces() {
-  return {of_rod("R(q) transposed", [](RodCase& c) { conjugate(c.orientation); }),
-          of_rod("frame of the start read", [](RodCase& c) { c.orientation = c.orientation_start; }),
-          of_rod("damping turns back with R(qt) in place of its transpose",
-                 [](RodCase& c) { conjugate(c.orientation_start); }),
-          of_rod("damping forgotten", [](RodCase& c) { c.damping = 0; }),
-          of_rod("damping of the change of D, not of what the frame sees of it",
-                 [](RodCase& c) { c.orientation_start = c.orientation; }),
-          of_rod("the length at rest missing", [](RodCase& c) { c.rest_length = 1; }),
-          of_rod("half the stiffness", [](RodCase& c) { c.stretch *= 0.5f; }),
-          of_rod("the real part of q first",
-                 [](RodCase& c) {
-                   c.orientation = {c.orientation[1], c.orientation[2], c.orientation[3], c.orientation[0]};
-                 }),
-          of_force("force of the other sign",
-                   [](Vec3f& f, std::array<float, 6>&) {
-                     f = {-f.x, -f.y, -f.z};
-                   }),
-          of_force("force 0.01 % too small",
-                   [](Vec3f& f, std::array<float, 6>&) {
-                     f = {f.x * 0.9999f, f.y * 0.9999f, f.z * 0.9999f};
-                   }),
-          of_force("block of the stretch alone: a diagonal entry is lost",
-                   [](Vec3f&, std::array<float, 6>& b) { b[5] = 0; })};
+/// q (s k + w) for an angle of 0.01 degrees.
+void turn_slightly(Quaternion& q) {
+  const double s = std::sin(8.7e-5), w = std::cos(8.7e-5);
+  const std::array<double, 4> a{q[0], q[1], q[2], q[3]};
+  q = {static_cast<float>(w * a[0] + s * a[1]), static_cast<float>(w * a[1] - s * a[0]),
+       static_cast<float>(w * a[2] + s * a[3]), static_cast<float>(w * a[3] - s * a[2])};
 }
 
-std::vector<Fault> orientation_faults() {
-  return {
-      of_orientation("p of the neighbour ahead not conjugated", [](OrientationCase& c) { conjugate(c.ahead.rest); }),
-      of_orientation("rest rotation transposed",
-                     [](OrientationCase& c) { both(c, [](RodNeighbour& f) { conjugate(f.rest); }); }),
-      of_orientation("signs never flipped", never_flipped),
-      of_orientation("half angle: 2 k_b for 4 k_b",
-                     [](OrientationCase& c) { both(c, [](RodNeighbour& f) { f.weight *= 0.5f; }); }),
-      of_orientation("frames of the start read",
-                     [](OrientationCase& c) { both(c, [](RodNeighbour& f) { f.now = f.start; }); }),
-      of_orientation("M without its factor 2", [](OrientationCase& c) { c.stretch *= 0.5f; }),
-      of_orientation("D of the other end", [](OrientationCase& c) { std::swap(c.vertex[0], c.vertex[1]); }),
-      of_orientation("damping forgotten", [](OrientationCase& c) { c.damping = 0; }),
-      of_orientation("one neighbour forgotten", [](OrientationCase& c) { c.behind.weight = 0; }),
-      of_orientation("no twist: neighbours left out", [](OrientationCase& c) { c.behind.weight = c.ahead.weight = 0; }),
-      of_formula("the published multiplier", published),
-      of_answer("not of unit length",
-                [](const OrientationCase&, Quaternion& q) {
-                  for (float& x : q) x *= 1 + 0x1p-20f;
-                }),
-      of_answer("q of the other sign",
-                [](const OrientationCase&, Quaternion& q) {
-                  for (float& x : q) x = -x;
-                }),
-      of_answer("the old q stays", [](const OrientationCase& c, Quaternion& q) { q = c.orientation; }),
-      of_answer("turned by 0.01 degrees about the director", [](const OrientationCase&, Quaternion& q) {
-        const double s = std::sin(8.7e-5), w = std::cos(8.7e-5);  // q (s k + w)
-        const std::array<double, 4> a{q[0], q[1], q[2], q[3]};
-        q = {static_cast<float>(w * a[0] + s * a[1]), static_cast<float>(w * a[1] - s * a[0]),
-             static_cast<float>(w * a[2] + s * a[3]), static_cast<float>(w * a[3] - s * a[2])};
-      })};
+Fault of_answer(const std::string& name, void (*spoil)(Quaternion&)) {
+  return spoiled("orientation: " + name, &Contestant::orientation, [spoil](const OrientationIn&, OrientationOut& out) {
+    for (Quaternion& q : out.orientation) spoil(q);
+  });
+}
+
+/// Shown by scenes with rods.
+Fault of_rods(Fault fault) {
+  fault.generator = "rods";
+  return fault;
+}
+
+Fault of_rest(const std::string& name, void (*spoil)(const Scene&, RestStateOut&)) {
+  return of_rods(spoiled("rest_state: " + name, &Contestant::rest_state,
+                         [spoil](const RestStateIn& in, RestStateOut& out) { spoil(*in.scene, out); }));
+}
+
+Fault of_step(const std::string& name, void (*spoil)(StepOut&)) {
+  return of_rods(spoiled("step: " + name, &Contestant::step, [spoil](const StepIn&, StepOut& out) { spoil(out); }));
 }
 
 }  // namespace
 
 std::vector<Fault> rod_faults() {
-  std::vector<Fault> all = rod_faults_of_forces();
-  for (Fault& fault : orientation_faults()) all.push_back(std::move(fault));
-  return all;
-}
-
-void add_right_rods(Contestant& exact, const Authority& authority) {
-  exact.rod = [ask = authority.rod](const RodIn& in) { return rounded(ask(in)); };
-  exact.orientation = [ask = authority.orientation](const OrientationIn& in) {
-    OrientationOut out;
-    const OrientationTruth truth = ask(in);
-    for (const auto& accepted : truth.accepted) {
-      const auto& q = accepted[0].orientation;
-      out.orientation.push_back(
-          {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]), static_cast<float>(q[3])});
-    }
-    return out;
-  };
+  return {forces_short_of(0.0001f, "rod: force 0.01 % too small", &Contestant::rod),
+          forces_spoiled("rod: block of the stretch alone: a diagonal entry is lost", &Contestant::rod,
+                         [](const RodCase&, Vec3f&, std::array<float, 6>& b) { b[5] = 0; }),
+          cases_asked_wrongly("orientation: signs never flipped", &Contestant::orientation, never_flipped),
+          of_answer("not of unit length",
+                    [](Quaternion& q) {
+                      for (float& x : q) x *= 1 + 0x1p-20f;
+                    }),
+          of_answer("turned by 0.01 degrees about the director", turn_slightly),
+          of_rest("half the mass of rods",
+                  [](const Scene& scene, RestStateOut& out) {
+                    for (const Body& body : scene.bodies)
+                      for (Index v = body.first_vertex; body.material.rod && v < body.first_vertex + body.vertex_count;
+                           ++v)
+                        out.mass[static_cast<std::size_t>(v)] *= 0.5f;
+                  }),
+          of_rest("weights of segments 1 % too large",
+                  [](const Scene&, RestStateOut& out) {
+                    for (RestSegment& s : out.segments)
+                      for (float& w : s.weight) w *= 1.01f;
+                  }),
+          of_rest("three segments at a vertex bend",
+                  [](const Scene&, RestStateOut& out) {
+                    for (std::size_t e = 1; e < out.segments.size(); ++e)
+                      if (out.segments[e].neighbour[0] < 0) out.segments[e].neighbour[0] = static_cast<Index>(e - 1);
+                  }),
+          of_step("frames are not turned at the start", [](StepOut& out) { out.turned = out.orientation_start; }),
+          of_step("two neighbours share a colour",
+                  [](StepOut& out) {
+                    for (Index& c : out.segment_colour) c = c < 0 ? c : 0;
+                  }),
+          of_step("the last frames are not kept", [](StepOut& out) { out.orientation = out.turned; })};
 }
 
 }  // namespace ogc::tests

@@ -15,28 +15,25 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-using SpoilFacets = std::function<void(const DetectIn&, const Authority&, DetectVertexFacetOut&)>;
-using SpoilEdges = std::function<void(const DetectIn&, const Authority&, DetectEdgeEdgeOut&)>;
-
-Fault facet_fault(const std::string& name, const SpoilFacets& spoil) {
-  return {name, Stage::detect_vertex_facet, [spoil](Contestant& contestant, const Authority& authority) {
-            contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet, spoil,
-                                              authority](const DetectIn& in) {
-              DetectVertexFacetOut out = right(in);
+/// `spoil(in, authority, out)`.
+template <class Out, class Spoil>
+Fault set_fault(const std::string& name, Answering<Out, DetectIn> stage, Spoil spoil) {
+  return {name, stage_of(name), [stage, spoil](Contestant& contestant, const Authority& authority) {
+            contestant.*stage = [right = contestant.*stage, spoil, authority](const DetectIn& in) {
+              Out out = right(in);
               spoil(in, authority, out);
               return out;
             };
           }};
 }
 
-Fault edge_fault(const std::string& name, const SpoilEdges& spoil) {
-  return {name, Stage::detect_edge_edge, [spoil](Contestant& contestant, const Authority& authority) {
-            contestant.detect_edge_edge = [right = contestant.detect_edge_edge, spoil, authority](const DetectIn& in) {
-              DetectEdgeEdgeOut out = right(in);
-              spoil(in, authority, out);
-              return out;
-            };
-          }};
+template <class Spoil>
+Fault facet_fault(const std::string& name, Spoil spoil) {
+  return set_fault("detect_vertex_facet: " + name, &Contestant::detect_vertex_facet, spoil);
+}
+template <class Spoil>
+Fault edge_fault(const std::string& name, Spoil spoil) {
+  return set_fault("detect_edge_edge: " + name, &Contestant::detect_edge_edge, spoil);
 }
 
 bool has(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
@@ -228,13 +225,6 @@ void fixed_capacity(const DetectIn&, const Authority&, DetectVertexFacetOut& out
   std::erase_if(out.contacts, [&](const VertexFacetContact& c) { return ++by_owner[c.owner] > 4; });
 }
 
-void without_one_ring(const DetectIn& in, const Authority&, DetectVertexFacetOut& out) {
-  std::erase_if(out.contacts, [&](const VertexFacetContact& c) {
-    const auto near = in.topology->vertex_neighbours[static_cast<std::size_t>(c.vertex)];
-    return std::any_of(near.begin(), near.end(), [&](Index v) { return has(in.topology->triangles[c.owner], v); });
-  });
-}
-
 /// An update lost: the minimum of one triangle, or edge, stays where it began.
 void lost_update(std::vector<float>& minima, float query_radius) {
   const auto it = std::find_if(minima.begin(), minima.end(), [&](float d) { return d < query_radius; });
@@ -259,81 +249,45 @@ auto stale() {
   };
 }
 
-/// Pairs inside a rigid group kept.
-Fault groups_ignored() {
-  return {"detect_vertex_facet: rigid groups ignored", Stage::detect_vertex_facet,
-          [](Contestant& contestant, const Authority&) {
-            contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet](const DetectIn& in) {
-              const std::vector<Index> free(in.positions.size(), -1);
-              DetectIn other = in;
-              other.exclusions.groups = free;
-              return right(other);
-            };
-          }};
-}
-
-/// Pairs beside a seam kept.
-Fault partners_ignored(Stage stage) {
-  return {std::string(stage_name(stage)) + ": excluded pairs ignored", stage,
-          [stage](Contestant& contestant, const Authority&) {
-            const auto without = [](DetectIn in) {
-              in.exclusions.partners = nullptr;
-              return in;
-            };
-            if (stage == Stage::detect_vertex_facet)
-              contestant.detect_vertex_facet = [right = contestant.detect_vertex_facet, without](const DetectIn& in) {
-                return right(without(in));
-              };
-            else
-              contestant.detect_edge_edge = [right = contestant.detect_edge_edge, without](const DetectIn& in) {
-                return right(without(in));
-              };
-          }};
-}
-
 std::vector<Fault> facet_faults() {
   return {
-      facet_fault("detect_vertex_facet: one contact dropped",
+      facet_fault("one contact dropped",
                   [](const auto&, const auto&, auto& out) {
                     if (!out.contacts.empty()) out.contacts.pop_back();
                   }),
-      facet_fault("detect_vertex_facet: one contact twice",
+      facet_fault("one contact twice",
                   [](const auto&, const auto&, auto& out) {
                     if (!out.contacts.empty()) out.contacts.push_back(out.contacts.front());
                   }),
-      facet_fault("detect_vertex_facet: wrong owner", highest_owner),
-      facet_fault("detect_vertex_facet: no feasible-region test", without_feasible_region),
-      facet_fault("detect_vertex_facet: list of fixed capacity, overflow dropped", fixed_capacity),
-      facet_fault("detect_vertex_facet: pairs within one ring left out", without_one_ring),
-      facet_fault("detect_vertex_facet: missing atomic at d_min of a triangle",
+      facet_fault("wrong owner", highest_owner),
+      facet_fault("no feasible-region test", without_feasible_region),
+      facet_fault("list of fixed capacity, overflow dropped", fixed_capacity),
+      facet_fault("missing atomic at d_min of a triangle",
                   [](const auto& in, const auto&, auto& out) { lost_update(out.d_min_triangle, in.query_radius); }),
-      facet_fault("detect_vertex_facet: stale list", stale<DetectVertexFacetOut>()),
-      facet_fault("detect_vertex_facet: d_min of a vertex one ulp too large",
+      facet_fault("stale list", stale<DetectVertexFacetOut>()),
+      facet_fault("d_min of a vertex one ulp too large",
                   [](const auto&, const auto&, auto& out) {
                     for (float& d : out.d_min_vertex) d = std::nextafter(d, infinity);
                   }),
-      facet_fault("detect_vertex_facet: d_min of a vertex always 0",
+      facet_fault("d_min of a vertex always 0",
                   [](const auto&, const auto&, auto& out) {
                     std::fill(out.d_min_vertex.begin(), out.d_min_vertex.end(), 0.0f);
                   }),
-      groups_ignored(),
-      partners_ignored(Stage::detect_vertex_facet),
   };
 }
 
 std::vector<Fault> edge_faults() {
   return {
-      edge_fault("detect_edge_edge: one contact dropped",
+      edge_fault("one contact dropped",
                  [](const auto&, const auto&, auto& out) {
                    if (!out.contacts.empty()) out.contacts.pop_back();
                  }),
-      partners_ignored(Stage::detect_edge_edge),
-      edge_fault("detect_edge_edge: all but pairs of end points", all_but_end_points),
-      edge_fault("detect_edge_edge: nearly parallel edges untested", nearly_parallel_untested),
-      edge_fault("detect_edge_edge: parallel edges asked at one end of their overlap", one_end_of_overlap),
-      edge_fault("detect_edge_edge: parallel loose edges tested", strands_tested),
-      edge_fault("detect_edge_edge: ends passed over where a neighbour is as near", ends_passed_over),
-      edge_fault("detect_edge_edge: edge ends swapped",
+      edge_fault("all but pairs of end points", all_but_end_points),
+      edge_fault("nearly parallel edges untested", nearly_parallel_untested),
+      edge_fault("parallel edges asked at one end of their overlap", one_end_of_overlap),
+      edge_fault("parallel loose edges tested", strands_tested),
+      edge_fault("ends passed over where a neighbour is as near", ends_passed_over),
+      edge_fault("edge ends swapped",
                  [](const auto& in, const auto&, auto& out) {
                    for (EdgeEdgeContact& c : out.contacts) {
                      if (c.first.kind != FaceKind::vertex) continue;
@@ -341,22 +295,13 @@ std::vector<Fault> edge_faults() {
                      c.first.index = e[0] == c.first.index ? e[1] : e[0];
                    }
                  }),
-      edge_fault("detect_edge_edge: the two edges swapped",
-                 [](const auto&, const auto&, auto& out) {
-                   for (EdgeEdgeContact& c : out.contacts) std::swap(c.first_edge, c.second_edge);
-                 }),
-      edge_fault("detect_edge_edge: missing atomic at d_min of an edge",
+      edge_fault("missing atomic at d_min of an edge",
                  [](const auto& in, const auto&, auto& out) { lost_update(out.d_min_edge, in.query_radius); }),
-      edge_fault("detect_edge_edge: stale list", stale<DetectEdgeEdgeOut>()),
+      edge_fault("stale list", stale<DetectEdgeEdgeOut>()),
   };
 }
 
 }  // namespace
-
-void add_right_sets(Contestant& exact, const Authority& authority) {
-  exact.detect_vertex_facet = [authority](const DetectIn& in) { return authority.detect_vertex_facet(in).exact; };
-  exact.detect_edge_edge = [authority](const DetectIn& in) { return authority.detect_edge_edge(in).exact; };
-}
 
 std::vector<Fault> set_faults() {
   std::vector<Fault> all = facet_faults();

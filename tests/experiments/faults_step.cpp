@@ -322,10 +322,6 @@ void velocity_from_last_detection(const StepIn& in, StepOut& out) {
 
 }  // namespace
 
-void add_right_step(Contestant& exact, const Authority&) {
-  exact.step = [](const StepIn& in) { return reference::reference_step(in); };
-}
-
 std::vector<Fault> step_faults() {
   std::vector<Fault> faults{
       asked_wrongly("threshold rounded down", round_threshold_down),

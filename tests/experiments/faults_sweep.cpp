@@ -72,11 +72,6 @@ Fault gathered_wrongly(const std::string& name, const std::function<void(referen
           }};
 }
 
-void change_free(SweepCopy& copy, const std::function<Index(Index)>& to) {
-  for (Index& c : copy.colour)
-    if (c >= 0) c = to(c);
-}
-
 /// By colour, then number: inside a colour, too, each vertex sees those before it.
 void order_within_colours(SweepCopy& copy) {
   std::vector<std::size_t> order(copy.colour.size());
@@ -92,10 +87,6 @@ void forget_one_inertia(SweepCopy& copy) {
   if (free == copy.colour.end()) return;
   const auto v = static_cast<std::size_t>(free - copy.colour.begin());
   copy.target[v] = copy.in.old[v];
-}
-
-void forget_damping(SweepCopy& copy) {
-  for (Body& body : copy.scene.bodies) body.material.membrane_damping = body.material.bending_damping = 0;
 }
 
 /// As printed in Algorithm 3: positions are cut when the iteration is over.
@@ -187,10 +178,6 @@ void truncate_by_volumes(SweepCopy& copy) {
 
 }  // namespace
 
-void add_right_sweep(Contestant& exact, const Authority&) {
-  exact.sweep = [](const SweepIn& in) { return reference::reference_sweep(in, reference::SweepStencils(in)); };
-}
-
 std::vector<Fault> sweep_faults() {
   return {
       asked_wrongly("one contact dropped",
@@ -199,30 +186,13 @@ std::vector<Fault> sweep_faults() {
                         copy.in.vertex_facet = copy.in.vertex_facet.first(copy.in.vertex_facet.size() - 1);
                     }),
       asked_wrongly("contacts beyond r without a block", end_at_radius),
-      asked_wrongly("plain Jacobi", [](SweepCopy& copy) { change_free(copy, [](Index) { return 0; }); }),
-      asked_wrongly("neighbours of higher colour read from the new buffer",
-                    [](SweepCopy& copy) {
-                      const Index last = *std::max_element(copy.colour.begin(), copy.colour.end());
-                      change_free(copy, [last](Index c) { return last - c; });
-                    }),
       asked_wrongly("contacts read fresh within a colour", order_within_colours),
       asked_wrongly("inertia missing on one vertex", forget_one_inertia),
-      asked_wrongly("damping forgotten", forget_damping),
-      asked_wrongly("friction and damping since the last iteration",
-                    [](SweepCopy& copy) { copy.start.assign(copy.in.old.begin(), copy.in.old.end()); }),
-      asked_wrongly("prescribed vertices stay", [](SweepCopy& copy) { copy.scene.motions.clear(); }),
       gathered_wrongly("contact forces on one side only", forget_facets),
       gathered_wrongly("a triangle missing at one vertex", forget_last_triangle),
-      {"sweep: one cut not counted", Stage::sweep,
-       [](Contestant& contestant, const Authority&) {
-         contestant.sweep = [right = contestant.sweep](const SweepIn& in) {
-           SweepOut out = right(in);
-           if (out.cut > 0) --out.cut;
-           return out;
-         };
-       }},
+      spoiled("sweep: one cut not counted", &Contestant::sweep,
+              [](const SweepIn&, SweepOut& out) { out.cut = std::max(0, out.cut - 1); }),
       truncated_late(),
-      about_volumes("contacts with volumes left out", [](SweepCopy& copy) { copy.in.volumes = {}; }),
       about_volumes(
           "one contact of a vertex with volumes alone",
           [](SweepCopy& copy) {

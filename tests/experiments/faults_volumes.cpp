@@ -13,26 +13,9 @@ using namespace compare;
 
 namespace {
 
-Fault asked(const std::string& name, const std::function<void(VolumeForceCase&)>& change) {
-  return {"volume_force: " + name, Stage::volume_force, [change](Contestant& contestant, const Authority&) {
-            contestant.volume_force = [right = contestant.volume_force, change](const VolumeForceIn& in) {
-              VolumeForceIn other = in;
-              for (VolumeForceCase& c : other.cases) change(c);
-              return right(other);
-            };
-          }};
-}
-
-using Spoil = std::function<void(const VolumeForceCase&, Vec3f&, std::array<float, 6>&)>;
-
-Fault spoiled(const std::string& name, const Spoil& spoil) {
-  return {"volume_force: " + name, Stage::volume_force, [spoil](Contestant& contestant, const Authority&) {
-            contestant.volume_force = [right = contestant.volume_force, spoil](const VolumeForceIn& in) {
-              ForceOut out = right(in);
-              for (std::size_t i = 0; i < in.cases.size(); ++i) spoil(in.cases[i], out.force[i], out.block[i]);
-              return out;
-            };
-          }};
+template <class Change>
+Fault asked(const std::string& name, Change change) {
+  return cases_asked_wrongly("volume_force: " + name, &Contestant::volume_force, change);
 }
 
 /// n·Σ wᵢ (x₀ − xᵢ).
@@ -57,51 +40,32 @@ void lower(VolumeForceCase& c, double step) {
   }
 }
 
-/// The exact contacts, rounded.
-VolumeDepthOut rounded(const VolumeDepthTruth& truth) {
-  VolumeDepthOut out;
-  const auto add = [&](const VolumeAnswer& a) {
-    VolumeContact c = a.contact;
-    for (std::size_t k = 0; k < 3; ++k) c.weights[k] = static_cast<float>(a.weights[k]);
-    c.direction = {static_cast<float>(a.direction.x), static_cast<float>(a.direction.y),
-                   static_cast<float>(a.direction.z)};
-    c.depth = static_cast<float>(a.depth);
-    out.contacts.push_back(c);
-  };
-  for (std::size_t i = 0; i < truth.parts.size(); ++i)
-    for (const VolumePartTruth& part : truth.parts[i]) {
-      for (const VolumeAnswer* answer : exact_answers(part)) add(*answer);
-      out.unresolved.insert(out.unresolved.end(), exact_unresolved(part), static_cast<Index>(i));
-    }
-  return out;
-}
-
 void sort(VolumeDepthOut& out) {
   std::ranges::sort(out.contacts, {},
                     [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
 }
 
 /// `change(in, out)` spoils the right contacts.
-Fault depth_spoiled(const std::string& name, const std::function<void(const VolumeDepthIn&, VolumeDepthOut&)>& change) {
-  return {"volume_depth: " + name, Stage::volume_depth, [change](Contestant& contestant, const Authority&) {
-            contestant.volume_depth = [right = contestant.volume_depth, change](const VolumeDepthIn& in) {
-              VolumeDepthOut out = right(in);
-              change(in, out);
-              sort(out);
-              return out;
-            };
-          }};
+template <class Change>
+Fault depth_spoiled(const std::string& name, Change change) {
+  return spoiled("volume_depth: " + name, &Contestant::volume_depth,
+                 [change](const VolumeDepthIn& in, VolumeDepthOut& out) {
+                   change(in, out);
+                   sort(out);
+                 });
 }
 
 /// `change(contact, in)` for each contact.
-Fault each_spoiled(const std::string& name, const std::function<void(VolumeContact&, const VolumeDepthIn&)>& change) {
+template <class Change>
+Fault each_spoiled(const std::string& name, Change change) {
   return depth_spoiled(name, [change](const VolumeDepthIn& in, VolumeDepthOut& out) {
     for (VolumeContact& c : out.contacts) change(c, in);
   });
 }
 
 /// Contacts for which `is_lost(contact, in)` holds are left out.
-Fault lost(const std::string& name, const std::function<bool(const VolumeContact&, const VolumeDepthIn&)>& is_lost) {
+template <class Lost>
+Fault lost(const std::string& name, Lost is_lost) {
   return depth_spoiled(name, [is_lost](const VolumeDepthIn& in, VolumeDepthOut& out) {
     std::erase_if(out.contacts, [&](const VolumeContact& c) { return is_lost(c, in); });
   });
@@ -128,15 +92,9 @@ void turn_over(VolumeContact& c, float radius) {
   c.inside = c.inside == 0;
 }
 
-/// `change(in)` before the right answer is given.
-Fault depth_asked(const std::string& name, const std::function<void(VolumeDepthIn&)>& change) {
-  return {"volume_depth: " + name, Stage::volume_depth, [change](Contestant& contestant, const Authority&) {
-            contestant.volume_depth = [right = contestant.volume_depth, change](const VolumeDepthIn& in) {
-              VolumeDepthIn other = in;
-              change(other);
-              return right(other);
-            };
-          }};
+template <class Change>
+Fault depth_asked(const std::string& name, Change change) {
+  return asked_wrongly("volume_depth: " + name, &Contestant::volume_depth, change);
 }
 
 Vec3 from_to(const Vec3f& a, const Vec3f& b) { return {double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z}; }
@@ -230,10 +188,6 @@ std::vector<Fault> depth_faults() {
             const double height = plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).second;
             if (c.face.kind != FaceKind::triangle && (height < 0) != (c.inside != 0)) turn_over(c, in.contact_radius);
           }),
-      each_spoiled("depth without r inside",
-                   [](VolumeContact& c, const VolumeDepthIn& in) {
-                     if (c.inside != 0) c.depth -= in.contact_radius;
-                   }),
       depth_spoiled("inside and outside entered together",
                     [](const VolumeDepthIn& in, VolumeDepthOut& out) {
                       const std::size_t count = out.contacts.size();
@@ -296,14 +250,7 @@ std::vector<Fault> depth_faults() {
            return right(other);
          };
        }},
-      {"volume_depth: radius 0.01 % too large", Stage::volume_depth,
-       [](Contestant& contestant, const Authority&) {
-         contestant.volume_depth = [right = contestant.volume_depth](const VolumeDepthIn& in) {
-           VolumeDepthIn other = in;
-           other.contact_radius *= 1.0001f;
-           return right(other);
-         };
-       }},
+      depth_asked("radius 0.01 % too large", [](VolumeDepthIn& in) { in.contact_radius *= 1.0001f; }),
       depth_spoiled("rims with an inner side",
                     [](const VolumeDepthIn& in, VolumeDepthOut& out) {
                       for (VolumeContact& c : out.contacts) {
@@ -317,40 +264,21 @@ std::vector<Fault> depth_faults() {
   };
 }
 
-}  // namespace
-
-void add_right_volumes(Contestant& exact, const Authority& authority) {
-  exact.volume_depth = [authority](const VolumeDepthIn& in) {
-    VolumeDepthOut out = rounded(authority.volume_depth(in));
-    sort(out);
-    return out;
-  };
-  exact.volume_force = [authority](const VolumeForceIn& in) { return rounded(authority.volume_force(in)); };
-}
-
-namespace {
-
 std::vector<Fault> force_faults_of_volumes() {
+  const auto told = [](const std::string& name, auto spoil) {
+    return forces_spoiled("volume_force: " + name, &Contestant::volume_force, spoil);
+  };
+  using Block = std::array<float, 6>;
   return {
-      asked("n of the other sign",
-            [](VolumeForceCase& c) {
-              for (float& x : c.direction) x = -x;
-            }),
       asked("n turned inward where the point is inside",
             [](VolumeForceCase& c) {
               if (height(c) < 0)
                 for (float& x : c.direction) x = -x;
             }),
-      asked("depth without r", [](VolumeForceCase& c) { c.contact_radius = 0x1p-20f; }),
       asked("depth r at the surface from inside, as from outside: ‖φ‖ for φ",
             [](VolumeForceCase& c) {
               const double h = height(c);
               if (h < 0) lower(c, 2 * h);
-            }),
-      asked("slip since now, not since the start of the step", [](VolumeForceCase& c) { c.start = c.vertex; }),
-      asked("slip of the point alone: a moving volume does not carry along",
-            [](VolumeForceCase& c) {
-              for (std::size_t k = 1; k < 4; ++k) c.start[k] = c.vertex[k];
             }),
       asked("friction with the wrong sign of the slip",
             [](VolumeForceCase& c) {
@@ -360,39 +288,32 @@ std::vector<Fault> force_faults_of_volumes() {
                 c.start[k] = {2 * x.x - s.x, 2 * x.y - s.y, 2 * x.z - s.z};
               }
             }),
-      asked("friction forgotten", [](VolumeForceCase& c) { c.friction = 0; }),
-      asked("1/y below the limit too", [](VolumeForceCase& c) { c.slip_limit = 0x1p-38f; }),
-      asked("weights of two corners exchanged", [](VolumeForceCase& c) { std::swap(c.weights[1], c.weights[2]); }),
       asked("weights of the nearest corner alone",
             [](VolumeForceCase& c) {
-              const auto largest = std::max_element(c.weights.begin(), c.weights.end());
-              const std::ptrdiff_t k = largest - c.weights.begin();
+              const std::ptrdiff_t k = std::ranges::max_element(c.weights) - c.weights.begin();
               c.weights = {};
               c.weights[static_cast<std::size_t>(k)] = 1;
             }),
       asked("radius 0.01 % too large", [](VolumeForceCase& c) { c.contact_radius *= 1.0001f; }),
-      spoiled("weight not squared in the block",
-              [](const VolumeForceCase& c, Vec3f&, std::array<float, 6>& block) {
-                const float w = weight(c);
-                if (w > 0)
-                  for (float& b : block) b /= w;
-              }),
-      spoiled("nothing left on the corners: action without reaction",
-              [](const VolumeForceCase& c, Vec3f& force, std::array<float, 6>&) {
-                if (c.own > 0) force = {};
-              }),
-      spoiled("the corners pushed the way of the point",
-              [](const VolumeForceCase& c, Vec3f& force, std::array<float, 6>&) {
-                if (c.own > 0) force = {-force.x, -force.y, -force.z};
-              }),
-      spoiled("no force deeper than r",
-              [](const VolumeForceCase& c, Vec3f& force, std::array<float, 6>& block) {
-                if (height(c) < -c.contact_radius) force = {}, block = {};
-              }),
-      spoiled("force 0.1 % too small",
-              [](const VolumeForceCase&, Vec3f& force, std::array<float, 6>&) {
-                force = {0.999f * force.x, 0.999f * force.y, 0.999f * force.z};
-              }),
+      told("weight not squared in the block",
+           [](const VolumeForceCase& c, Vec3f&, Block& block) {
+             const float w = weight(c);
+             if (w > 0)
+               for (float& b : block) b /= w;
+           }),
+      told("nothing left on the corners: action without reaction",
+           [](const VolumeForceCase& c, Vec3f& force, Block&) {
+             if (c.own > 0) force = {};
+           }),
+      told("the corners pushed the way of the point",
+           [](const VolumeForceCase& c, Vec3f& force, Block&) {
+             if (c.own > 0) force = {-force.x, -force.y, -force.z};
+           }),
+      told("no force deeper than r",
+           [](const VolumeForceCase& c, Vec3f& force, Block& block) {
+             if (height(c) < -c.contact_radius) force = {}, block = {};
+           }),
+      forces_short_of(0.001f, "volume_force: force 0.1 % too small", &Contestant::volume_force),
   };
 }
 

@@ -134,6 +134,12 @@ std::vector<WrongForm> barrier_forms() {
                       truth.slope[i] *= 2 * std::sqrt(double{c.squared_distance});
                     }),
           asked_case("thickness_ignored", "ξ = 0", [](BarrierCase& c) { c.thickness = 0; }),
+          asked_case("support_without_thickness", "d̂² for the support, with a thickness, too",
+                     [](BarrierCase& c) {
+                       const float squared = c.thickness * c.thickness;
+                       if (c.squared_distance > squared) c.squared_distance -= squared;
+                       c.thickness = 0;
+                     }),
           asked_case("distance_for_its_square", "d where D = d² is asked for",
                      [](BarrierCase& c) { c.squared_distance = std::sqrt(c.squared_distance); })};
 }

@@ -279,6 +279,15 @@ std::vector<WrongForm> ccd_forms() {
                    for (std::size_t k = 0; k < 4; ++k)
                      if (!is_first(c.kind, k)) c.to[k] = c.from[k];
                  }),
+      skipping("planar_skipped", "motions in a plane z = const never meet",
+               [](const CcdCase& c) {
+                 const auto is_at = [&](const Vec3f& x) { return x.z == c.from[0].z; };
+                 return std::ranges::all_of(c.from, is_at) && std::ranges::all_of(c.to, is_at);
+               }),
+      asked_case("last_corner_twice", "the triangle's last corner in place of the one before, too",
+                 [](CcdCase& c) {
+                   if (c.kind == CcdKind::vertex_triangle) c.from[2] = c.from[3], c.to[2] = c.to[3];
+                 }),
       asked_case("backwards", "the motion from its end to its start", [](CcdCase& c) { std::swap(c.from, c.to); })};
   for (const auto& [text, epsilon] : thresholds)
     forms.push_back(

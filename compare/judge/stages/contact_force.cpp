@@ -64,6 +64,14 @@ std::vector<WrongForm> contact_force_forms() {
   forms.push_back(without_weights("weight_not_squared", "the block with w in place of w²", 0, 1));
   forms.push_back(without_weights("block_without_weight", "the block without w²", 0, 2));
   forms.push_back(block_ends_at_radius());
+  forms.push_back(case_asked("edges_exchanged",
+                             "the second edge first, so that the middle of an overlap is taken on the other one",
+                             &Authority::contact_force, [](ContactForceCase& c) {
+                               if (c.sides != ContactSides::edge_edge) return;
+                               c.vertex = {c.vertex[2], c.vertex[3], c.vertex[0], c.vertex[1]};
+                               c.own ^= 2;
+                               c.together = static_cast<std::uint8_t>((c.together & 3) << 2 | c.together >> 2);
+                             }));
   return forms;
 }
 

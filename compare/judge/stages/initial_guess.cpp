@@ -267,12 +267,17 @@ std::vector<WrongForm> initial_guess_forms() {
       guess_asked("acceleration_missing", "y without h² a_ext", [](InitialGuessCase& c) { c.acceleration = {}; }),
       guess_asked("half_acceleration", "h²/2 a_ext for h² a_ext",
                   [](InitialGuessCase& c) { c.acceleration = times(c.acceleration, 0.5f); }),
+      guess_asked("acceleration_times_h", "h a_ext for h² a_ext",
+                  [](InitialGuessCase& c) { c.acceleration = times(c.acceleration, 1 / c.time_step); }),
       guess_asked("acceleration_flipped", "a_ext with the other sign",
                   [](InitialGuessCase& c) { c.acceleration = times(c.acceleration, -1); }),
       guess_asked("velocity_missing", "y without h vᵗ", [](InitialGuessCase& c) { c.velocity = {}; }),
       guess_asked("from_previous", "y from X_prev in place of xᵗ", [](InitialGuessCase& c) { c.start = c.previous; }),
       turn_asked("turn_missing", "frames stay as they were", [](TurnCase& c) { c.now = c.before; }),
-      turn_asked("turn_back", "the rotation from D to Dᵗ", [](TurnCase& c) { std::swap(c.now, c.before); })};
+      turn_asked("turn_back", "the rotation from D to Dᵗ", [](TurnCase& c) { std::swap(c.now, c.before); }),
+      turn_asked("turn_of_conjugate", "the conjugate of the frame, turned", [](TurnCase& c) {
+        for (std::size_t k = 0; k < 3; ++k) c.orientation[k] = -c.orientation[k];
+      })};
 }
 
 struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Authority::initial_guess>,

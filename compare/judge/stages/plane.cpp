@@ -109,61 +109,63 @@ void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& trut
 
 namespace {
 
-/// A change of the question about an answer.
+/// `change(in)` changes the question.
 template <class Change>
 WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
     Authority wrong = authority;
-    wrong.plane = [right = authority.plane, change](const PlaneIn& in, const PlaneOut& out) {
-      return change(right, in, out);
+    wrong.plane = [right = authority.plane, change](PlaneIn in, const PlaneOut& out) {
+      change(in);
+      return right(in, out);
     };
     return wrong;
   });
 }
 
-using AskPlane = std::function<PlaneTruth(const PlaneIn&, const PlaneOut&)>;
+/// `accept(out, freedom)`: what is no mistake where the answer has this form.
+WrongForm plane_accepted(std::string name, std::string meaning, void (*accept)(const PlaneOut&, PlaneFreedom&)) {
+  return {std::move(name), std::move(meaning), [accept](const Evidence& evidence, const Authority& authority) {
+            Authority wrong = authority;
+            wrong.plane = [right = authority.plane, accept](const PlaneIn& in, const PlaneOut& out) {
+              PlaneTruth truth = right(in, out);
+              accept(out, truth.freedom);
+              return truth;
+            };
+            return agrees(evidence, wrong);
+          }};
+}
 
 std::vector<WrongForm> plane_forms() {
-  return {plane_asked("groups_ignored", "pairs inside one rigid group are kept",
-                      [](const AskPlane& right, PlaneIn in, const PlaneOut& out) {
-                        in.exclusions.groups = {};
-                        return right(in, out);
-                      }),
-          plane_asked("excluded_pairs_ignored", "pairs beside a stitch are kept",
-                      [](const AskPlane& right, PlaneIn in, const PlaneOut& out) {
-                        in.exclusions.partners = nullptr;
-                        return right(in, out);
-                      }),
-          plane_asked("halved", "the gap is halved where displacements divide it",
-                      [](const AskPlane& right, PlaneIn in, const PlaneOut& out) {
-                        in.displacement = {};
-                        return right(in, out);
-                      }),
-          plane_asked("leaving_for_approaching", "sides that leave each other get the room of those that approach",
-                      [](const AskPlane& right, PlaneIn in, const PlaneOut& out) {
-                        std::vector<Vec3f> turned(in.displacement.begin(), in.displacement.end());
-                        for (Vec3f& w : turned) w = {-w.x, -w.y, -w.z};
-                        in.displacement = turned;
-                        return right(in, out);
-                      }),
-          plane_asked("balls_alone", "no planes: each vertex has the ball of its nearest pair",
-                      [](const AskPlane& right, const PlaneIn& in, const PlaneOut& out) {
-                        PlaneTruth truth = right(in, out);
-                        if (out.planes.items.empty()) truth.freedom.missing = 0;
-                        return truth;
-                      }),
-          plane_asked("ball_of_all_pairs", "the ball is that of the nearest pair, whether it has a plane or not",
-                      [](const AskPlane& right, const PlaneIn& in, const PlaneOut& out) {
-                        PlaneTruth truth = right(in, out);
-                        std::ranges::fill(truth.freedom.ball_shortfall, 0.0);
-                        return truth;
-                      }),
-          plane_asked("inside_bounded", "vertices inside solids are bounded like those of the surface",
-                      [](const AskPlane& right, const PlaneIn& in, const PlaneOut& out) {
-                        PlaneTruth truth = right(in, out);
-                        truth.freedom.bounded_inside = 0;
-                        return truth;
-                      })};
+  return {
+      plane_asked("groups_ignored", "pairs inside one rigid group are kept",
+                  [](PlaneIn& in) { in.exclusions.groups = {}; }),
+      plane_asked("excluded_pairs_ignored", "pairs beside a stitch are kept",
+                  [](PlaneIn& in) { in.exclusions.partners = nullptr; }),
+      plane_asked("relaxation_missing", "γ_p left out: a half of the gap, all but 2⁻¹⁰",
+                  [](PlaneIn& in) { in.bound_relaxation = 0.5f - 0x1p-10f; }),
+      plane_asked("half_the_query_radius", "pairs up to r_q/2, not up to r_q",
+                  [](PlaneIn& in) { in.query_radius /= 2; }),
+      plane_asked("halved", "the gap is halved where displacements divide it",
+                  [](PlaneIn& in) { in.displacement = {}; }),
+      form_of("leaving_for_approaching", "sides that leave each other get the room of those that approach",
+              [](const Authority& authority) {
+                Authority wrong = authority;
+                wrong.plane = [right = authority.plane](PlaneIn in, const PlaneOut& out) {
+                  std::vector<Vec3f> turned(in.displacement.begin(), in.displacement.end());
+                  for (Vec3f& w : turned) w = {-w.x, -w.y, -w.z};
+                  in.displacement = turned;
+                  return right(in, out);
+                };
+                return wrong;
+              }),
+      plane_accepted("balls_alone", "no planes: each vertex has the ball of its nearest pair",
+                     [](const PlaneOut& out, PlaneFreedom& freedom) {
+                       if (out.planes.items.empty()) freedom.missing = 0;
+                     }),
+      plane_accepted("ball_of_all_pairs", "the ball is that of the nearest pair, whether it has a plane or not",
+                     [](const PlaneOut&, PlaneFreedom& freedom) { std::ranges::fill(freedom.ball_shortfall, 0.0); }),
+      plane_accepted("inside_bounded", "vertices inside solids are bounded like those of the surface",
+                     [](const PlaneOut&, PlaneFreedom& freedom) { freedom.bounded_inside = 0; })};
 }
 
 struct Plane : Numbered, InEveryRun {

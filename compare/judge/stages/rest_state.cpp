@@ -197,6 +197,12 @@ void round_exact(RestStateTruth& truth) {
     exact.hinges[i].rest_angle = static_cast<float>(truth.rest_angle[i]);
     exact.hinges[i].stiffness = static_cast<float>(truth.stiffness[i]);
   }
+  for (std::size_t i = 0; i < exact.tetrahedra.size(); ++i) {
+    RestTetrahedron& t = exact.tetrahedra[i];
+    t.volume = static_cast<float>(truth.volume[i]), t.inverse = static_cast<float>(truth.inverse[i]);
+    std::ranges::copy(truth.tetrahedron_weight[i], t.weight.begin());
+    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(truth.tetrahedron_gradient[i][k], t.gradient[k].begin());
+  }
   for (std::size_t e = 0; e < exact.segments.size(); ++e)
     for (std::size_t end = 0; end < 2; ++end) {
       exact.segments[e].weight[end] = static_cast<float>(truth.segment_weight[e][end]);
@@ -241,9 +247,45 @@ std::vector<WrongForm> rest_state_forms() {
                     for (auto& p : relative)
                       for (std::size_t k = 0; k < 3; ++k) p[k] = -p[k];
                 }),
-      rest_told("gradients_exchanged", "∇N₁ and ∇N₂ exchanged", [](RestStateTruth& truth) {
-        for (auto& gradient : truth.gradient) std::swap(gradient[0], gradient[1]);
-        for (auto& scales : truth.gradient_scale) std::swap(scales[0], scales[1]);
+      rest_told("gradients_exchanged", "∇N₁ and ∇N₂ exchanged",
+                [](RestStateTruth& truth) {
+                  for (auto& gradient : truth.gradient) std::swap(gradient[0], gradient[1]);
+                  for (auto& scales : truth.gradient_scale) std::swap(scales[0], scales[1]);
+                }),
+      rest_told("axes_exchanged", "the two axes of a triangle exchanged in its gradients",
+                [](RestStateTruth& truth) {
+                  for (auto& gradient : truth.gradient)
+                    for (auto& g : gradient) std::swap(g[0], g[1]);
+                }),
+      rest_told("second_axis_flipped", "the third corner below the first axis, not above",
+                [](RestStateTruth& truth) {
+                  for (auto& gradient : truth.gradient)
+                    for (auto& g : gradient) g[1] = -g[1];
+                }),
+      rest_told("volume_six_times", "6V in place of V",
+                [](RestStateTruth& truth) {
+                  scale(truth.volume, 6), scale(truth.volume_scale, 6);
+                  scale(truth.inverse, 1.0 / 6), scale(truth.inverse_scale, 1.0 / 6);
+                  for (auto& weights : truth.tetrahedron_weight)
+                    for (double& w : weights) w *= 6;
+                  scale(truth.tetrahedron_weight_scale, 6);
+                }),
+      rest_told("inverse_of_volume", "1/V for 1/(6V)",
+                [](RestStateTruth& truth) { scale(truth.inverse, 6), scale(truth.inverse_scale, 6); }),
+      rest_told("opposite_weights_exchanged", "the weights of a tetrahedron's opposite edges exchanged",
+                [](RestStateTruth& truth) {
+                  for (auto& weights : truth.tetrahedron_weight) std::swap(weights[0], weights[5]);
+                }),
+      rest_told("tetrahedron_gradients_transposed", "the matrix of a tetrahedron's ∇N transposed",
+                [](RestStateTruth& truth) {
+                  for (auto& gradient : truth.tetrahedron_gradient)
+                    for (std::size_t k = 0; k < 3; ++k)
+                      for (std::size_t axis = 0; axis < k; ++axis) std::swap(gradient[k][axis], gradient[axis][k]);
+                }),
+      rest_told("tetrahedron_gradients_flipped", "−∇N for ∇N of a tetrahedron", [](RestStateTruth& truth) {
+        for (auto& gradient : truth.tetrahedron_gradient)
+          for (auto& row : gradient)
+            for (double& g : row) g = -g;
       })};
 }
 

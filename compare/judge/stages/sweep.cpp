@@ -194,6 +194,12 @@ std::vector<WrongForm> sweep_forms() {
                   [](Read& read) {
                     for (RestSegment& segment : read.rest.segments) segment.weight = {};
                   }),
+      sweep_asked("rods_half_as_stiff", "k_s/2 for k_s of rods", materials([](Material& m) {
+                    if (m.rod) m.rod->stretch /= 2;
+                  })),
+      sweep_asked("rod_damping_missing", "rods without damping", materials([](Material& m) {
+                    if (m.rod) m.rod->damping = 0;
+                  })),
       sweep_asked("segments_jacobi", "neighbours of a segment are read before the sweep, whatever their colour",
                   [](Read& read) {
                     for (Index& colour : read.segment_colour)
@@ -215,7 +221,16 @@ std::vector<WrongForm> sweep_forms() {
                   [](Read& read) {
                     for (Index& colour : read.colour)
                       if (colour > 0) colour = 0;
-                  })};
+                  }),
+      sweep_asked("colours_backwards", "neighbours of higher colour are read after their update, others before",
+                  [](Read& read) {
+                    const Index last = *std::ranges::max_element(read.colour);
+                    for (Index& colour : read.colour)
+                      if (colour >= 0) colour = last - colour;
+                  }),
+      sweep_asked("start_of_iteration", "slip and damping since the last iteration, not since the start of the step",
+                  [](Read& read) { read.in.start = read.in.old; }),
+      sweep_asked("prescribed_stay", "prescribed vertices stay", [](Read& read) { read.scene.motions.clear(); })};
   for (const auto& [kind, name, meaning] : other_activations)
     forms.push_back(sweep_asked(name, std::string(meaning) + ", where `ogc` is asked for", [to = kind](Read& read) {
       if (read.scene.settings.activation == ContactActivation::ogc) read.scene.settings.activation = to;

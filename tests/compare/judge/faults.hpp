@@ -1,6 +1,7 @@
-// Planted faults: wrong contestants that the judge must catch. Each is the exact answer spoiled in one way, most of
-// them as published codes have it. The exact contestant itself must pass: that checks the judge, its tolerances and its
-// grey zone against themselves.
+// Wrong contestants that the judge must catch: the exact answer, spoiled in one way. Most follow from wrong forms of
+// a stage (compare/judge/report/wrong_forms.hpp). Planted by hand is what no form can be: a last bit, a share of 0.1 %,
+// one item of a list, the order of events, a whole step. The exact contestant itself must pass: that checks the judge,
+// its tolerances and its grey zone against themselves.
 #pragma once
 
 #include <functional>
@@ -9,53 +10,98 @@
 
 #include "compare/contestant.hpp"
 #include "compare/judge/cases/stage.hpp"
+#include "compare/judge/report/wrong_forms.hpp"
 
 namespace ogc::tests {
 
 /// Answers with the authority's exact answers, rounded to single precision where the contract allows.
 compare::Contestant exact_contestant(const compare::Authority& authority);
 
+/// The contestant that answers as the form says. The form has an authority, and is none of Stage::step, whose forms
+/// change what a right guess is taken for.
+compare::Contestant contestant_of(const compare::WrongForm& form, const compare::Authority& authority);
+
+/// The forms that say an answer, each for a contestant of its own.
+std::vector<compare::WrongForm> answering_forms(compare::Stage stage);
+
 struct Fault {
-  std::string name;
+  std::string name;  ///< "bound: 1 % too large"
   compare::Stage stage;
   /// Spoils the stage of a right contestant.
   std::function<void(compare::Contestant&, const compare::Authority&)> plant;
   std::string generator{};  ///< whose cases alone can show it; empty: those of all
 };
 
-/// All of them, at least one a stage.
+/// All that are planted by hand.
 std::vector<Fault> faults();
 
-/// The exact force and block of each case, rounded.
-compare::ForceOut rounded(const compare::ForceTruth& truth);
-
-/// By file, faults_pairs.cpp, faults_sets.cpp, …: the faults of its stages, and their right answers, put into a
-/// contestant.
+/// By file: faults_pairs.cpp, faults_sets.cpp, …
 std::vector<Fault> pair_faults();
-void add_right_pairs(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> set_faults();
-void add_right_sets(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> plane_faults();
-void add_right_planes(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> region_faults();
 std::vector<Fault> scalar_faults();
-void add_right_scalars(compare::Contestant& exact, const compare::Authority& authority);
-std::vector<Fault> contact_faults();
-void add_right_contacts(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> force_faults();
-void add_right_forces(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> rest_faults();
-void add_right_rest(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> step_faults();
-void add_right_step(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> sweep_faults();
-void add_right_sweep(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> volume_faults();
-void add_right_volumes(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> rod_faults();
-void add_right_rods(compare::Contestant& exact, const compare::Authority& authority);
 std::vector<Fault> ipc_faults();
-void add_right_ipc(compare::Contestant& exact, const compare::Authority& authority);
-std::vector<Fault> rod_step_faults();
+
+/// The stage that a fault's name begins with.
+compare::Stage stage_of(const std::string& fault);
+
+/// A stage of a contestant.
+template <class Out, class In>
+using Answering = std::function<Out(const In&)> compare::Contestant::*;
+
+/// The right answer to a question that is changed first: `change(in)`.
+template <class Out, class In, class Change>
+Fault asked_wrongly(const std::string& name, Answering<Out, In> stage, Change change) {
+  return {name, stage_of(name), [stage, change](compare::Contestant& contestant, const compare::Authority&) {
+            contestant.*stage = [right = contestant.*stage, change](const In& in) {
+              In other = in;
+              change(other);
+              return right(other);
+            };
+          }};
+}
+
+/// The right answer, spoiled: `spoil(in, out)`.
+template <class Out, class In, class Spoil>
+Fault spoiled(const std::string& name, Answering<Out, In> stage, Spoil spoil) {
+  return {name, stage_of(name), [stage, spoil](compare::Contestant& contestant, const compare::Authority&) {
+            contestant.*stage = [right = contestant.*stage, spoil](const In& in) {
+              Out out = right(in);
+              spoil(in, out);
+              return out;
+            };
+          }};
+}
+
+/// Every case of the question changed first: `change(case)`.
+template <class Out, class In, class Change>
+Fault cases_asked_wrongly(const std::string& name, Answering<Out, In> stage, Change change) {
+  return asked_wrongly(name, stage, [change](In& in) {
+    for (auto& c : in.cases) change(c);
+  });
+}
+
+/// Force and block of every case spoiled: `spoil(case, force, block)`.
+template <class In, class Spoil>
+Fault forces_spoiled(const std::string& name, Answering<compare::ForceOut, In> stage, Spoil spoil) {
+  return spoiled(name, stage, [spoil](const In& in, compare::ForceOut& out) {
+    for (std::size_t i = 0; i < in.cases.size(); ++i) spoil(in.cases[i], out.force[i], out.block[i]);
+  });
+}
+
+/// Forces `share` too small.
+template <class In>
+Fault forces_short_of(float share, const std::string& name, Answering<compare::ForceOut, In> stage) {
+  return forces_spoiled(name, stage, [share](const auto&, compare::Vec3f& force, std::array<float, 6>&) {
+    force = {(1 - share) * force.x, (1 - share) * force.y, (1 - share) * force.z};
+  });
+}
 
 }  // namespace ogc::tests

@@ -72,12 +72,13 @@ TEST_CASE("the table of stages in compare/README.md is the one that ogc compare 
   CHECK(printed.out == table);
 }
 
-TEST_CASE("every stage has at least three planted faults", "[unit]") {
-  std::map<Stage, int> by_stage;
+// Each form's contestant and each planted fault is caught in a test (tests/experiments/diagnose.cpp, compare.cpp).
+TEST_CASE("every stage can be wrong in at least three ways that the judge is shown to catch", "[unit]") {
+  std::map<Stage, std::size_t> by_stage;
   for (const tests::Fault& fault : tests::faults()) ++by_stage[fault.stage];
   for (const Stage stage : all_stages) {
     INFO(stage_name(stage));
-    CHECK(by_stage[stage] >= 3);
+    CHECK(by_stage[stage] + tests::answering_forms(stage).size() >= 3);
   }
 }
 

@@ -432,6 +432,8 @@ std::vector<WrongForm> orientation_forms() {
   add("rest_transposed", "p° for p̄°: the rest rotation the other way", [](OrientationCase& c) {
     for (RodNeighbour* f : {&c.behind, &c.ahead}) f->rest = turned_back(f->rest);
   });
+  add("rest_ahead_transposed", "p° for p̄° of the neighbour ahead",
+      [](OrientationCase& c) { c.ahead.rest = turned_back(c.ahead.rest); });
   add("rest_missing", "p° is 1: neighbours ask for their own frame", [](OrientationCase& c) {
     for (RodNeighbour* f : {&c.behind, &c.ahead}) f->rest = {0, 0, 0, 1};
   });
@@ -455,6 +457,8 @@ std::vector<WrongForm> orientation_forms() {
       });
   add("ahead_alone", "the neighbour behind is left out", [](OrientationCase& c) { c.behind.weight = 0; });
   add("behind_alone", "the neighbour ahead is left out", [](OrientationCase& c) { c.ahead.weight = 0; });
+  add("neighbours_missing", "both neighbours are left out: no bend and no twist",
+      [](OrientationCase& c) { c.behind.weight = c.ahead.weight = 0; });
   add("neighbours_exchanged", "the neighbour ahead as that behind, and the reverse",
       [](OrientationCase& c) { std::swap(c.ahead, c.behind); });
   add("ends_exchanged", "D = x₀ − x₁", [](OrientationCase& c) {
