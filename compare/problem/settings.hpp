@@ -126,7 +126,8 @@ void set_setting(Settings& settings, const SettingInfo& info, double value);
 /// "a number from 1 to 1024 r (cap of …)": what may stand in this row, for messages and help.
 std::string describe_range(const SettingInfo& info);
 
-/// Whether the value lies within the row's bounds (and, for `lanes`, is 0 or a power of two above 1); not-a-number does not.
+/// Whether the value lies within the row's bounds (and, for `lanes`, is 0 or a power of two above 1); not-a-number does
+/// not.
 bool in_range(const SettingInfo& info, double value);
 
 /// The value as a user would type it: the name of a choice, otherwise the shortest decimal text.

@@ -1,6 +1,6 @@
 // The stages, the resident simulation and the detection of ContactFinder instantiated for the device: in one source,
-// because they run the same kernels, which two sources would compile twice. Updates of vertices, whose sums take longest
-// to compile, are sources of their own (update_vertices.cu).
+// because they run the same kernels, which two sources would compile twice. Updates of vertices, whose sums take
+// longest to compile, are sources of their own (update_vertices.cu).
 #include <memory>
 
 #include "fast/cuda/backend.cuh"

@@ -16,8 +16,8 @@ struct alignas(16) SegmentNeighbours {
   int number[2] = {0, 0};  ///< of the segment; its own where there is no neighbour
 };
 
-/// A free segment in the order of the sweep. Ends are encoded as in fast/kernels/sweep/update_vertex.hpp: prescribed and fixed ones
-/// are read where they have moved to, free ones where they were.
+/// A free segment in the order of the sweep. Ends are encoded as in fast/kernels/sweep_view.hpp: prescribed and
+/// fixed ones are read where they have moved to, free ones where they were.
 struct alignas(16) SegmentSlot {
   SegmentRest rest{};
   int segment = -1;  ///< its number

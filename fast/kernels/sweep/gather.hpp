@@ -1,5 +1,5 @@
-// The sum over the stencils of a vertex, inertia left out: one template over kinds of elements. A part that a vertex has
-// no items of changes no bit (team.hpp), so that which of the sums a scene takes is a question of time alone.
+// The sum over the stencils of a vertex, inertia left out: one template over kinds of elements. A part that a vertex
+// has no items of changes no bit (team.hpp), so that which of the sums a scene takes is a question of time alone.
 #pragma once
 
 #include <type_traits>
