@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "compare/stages/activation.hpp"
+#include "compare/stages/bound.hpp"
 #include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/models/activation.hpp"
 #include "fast/kernels/truncate.hpp"

@@ -13,6 +13,7 @@
 #include "compare/judge/engine/judge.hpp"
 #include "compare/judge/report/corpus.hpp"
 #include "compare/judge/report/explanation.hpp"
+#include "compare/stages/bound.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
 #include "reference/solvers/step.hpp"

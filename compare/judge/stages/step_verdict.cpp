@@ -11,6 +11,7 @@
 #include "compare/judge/engine/volume_question.hpp"
 #include "compare/judge/stages/mesh_case.hpp"
 #include "compare/judge/stages/verdict.hpp"
+#include "compare/stages/pair_guess.hpp"
 
 namespace ogc::compare {
 

@@ -6,6 +6,7 @@
 
 #include "compare/problem/error.hpp"
 #include "compare/problem/rods.hpp"
+#include "compare/stages/initial_guess.hpp"
 #include "reference/contestant.hpp"
 
 namespace ogc::experiments {

@@ -11,6 +11,7 @@
 #include "compare/contestant.hpp"
 #include "compare/judge/cases/stage.hpp"
 #include "compare/judge/report/wrong_forms.hpp"
+#include "compare/stages/pair_guess.hpp"
 
 namespace ogc::tests {
 

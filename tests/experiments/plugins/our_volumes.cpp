@@ -2,6 +2,8 @@
 // known to be enough, and wrong where the environment variable OGC_BROKEN says.
 #include <algorithm>
 
+#include "compare/stages/volume_depth.hpp"
+#include "compare/stages/volume_force.hpp"
 #include "tests/experiments/plugins/ours.hpp"
 
 OGC_PLUGIN("our volumes", OGC_HOST_MEMORY)

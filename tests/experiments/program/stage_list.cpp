@@ -1,5 +1,6 @@
 // The list of stages against the tree and compare/README.md, and the determinism that it states.
 #include "experiments/program/stage_list.hpp"
+#include "compare/stages/bound.hpp"
 
 #include <filesystem>
 #include <map>

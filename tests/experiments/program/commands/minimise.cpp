@@ -3,6 +3,7 @@
 #include <map>
 
 #include "compare/files/bytes.hpp"
+#include "compare/stages/sweep.hpp"
 #include "experiments/program/runs/to_minimiser.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "fast/contestant.hpp"
