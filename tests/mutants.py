@@ -54,7 +54,7 @@ FOR_AVX2 = "fast/cpu/packed_sweep.cpp"  # compiled a second time
 STAGES = ("closest_face closest_points activation truncate membrane bending spring tetrahedron rod orientation bound "
           "plane block "
           "volume_depth detect_vertex_facet detect_edge_edge contact_force "
-          "friction_force volume_force initial_guess rest_state sweep ccd barrier step").split()
+          "friction_force volume_force initial_guess rest_state sweep step").split()
 AS_THEY_ARE = ["tests/mutants/judge.cpp", "tests/mutants/unit_tests.cpp"]
 
 BINARY = {  # operator -> (struct, what its alternatives are)

@@ -1,5 +1,5 @@
 // Stage barrier: IPC's barrier over the squared distance, its slope and its curvature (Li et al. 2020, Eq. 6; with a
-// thickness Li et al. 2021, Eq. 10). Nothing of a step of the fast path asks it.
+// thickness Li et al. 2021, Eq. 10). Plug-ins may answer it; the fast path does not have it.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // Stage ccd: the time of impact of a vertex and a triangle, or of two edges, whose vertices move straight: what an IPC
-// solver's line search and any continuous detection ask. Nothing of a step of the fast path asks it.
+// solver's line search and any continuous detection ask. Plug-ins may answer it; the fast path does not have it.
 #pragma once
 
 #include <cstdint>

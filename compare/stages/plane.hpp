@@ -9,38 +9,9 @@
 #include "compare/problem/mesh.hpp"
 #include "compare/stages/detect.hpp"
 #include "compare/stages/truncate.hpp"
+#include "compare/stages/vertex_planes.hpp"
 
 namespace ogc::compare {
-
-/// A pair of primitives that share no vertex: a vertex and a triangle, or two edges, the lower-numbered first.
-struct PrimitivePair {
-  enum class Kind : std::uint8_t { vertex_triangle, edge_edge };  ///< of what the pair consists
-  Kind kind = Kind::vertex_triangle;                              ///< what `first` and `second` count
-  Index first = -1, second = -1;  ///< numbers of the vertex and the triangle, or of the edges
-  friend bool operator==(const PrimitivePair&, const PrimitivePair&) = default;
-};
-
-/// n·x ≤ o: one side of the plane of a pair, as one of its vertices bears it. The vertices of the pair's first side
-/// have the normal n, those of its second −n, bit by bit; n need not be a unit vector.
-struct VertexPlane {
-  PrimitivePair pair;  ///< whose sides the plane holds apart
-  Vec3f normal;        ///< n, away from the vertex's side
-  double offset = 0;   ///< [m] times the length of n
-};
-
-/// Row v, items[offsets[v] … offsets[v + 1]), is what vertex v bears. Empty where there are no planes.
-struct VertexPlanes {
-  std::vector<Index> offsets;      ///< [vertices + 1], or empty
-  std::vector<VertexPlane> items;  ///< of all vertices, one after the other
-
-  /// What vertex v bears.
-  std::span<const VertexPlane> of(Index v) const {
-    if (offsets.empty()) return {};
-    const auto i = static_cast<std::size_t>(v);
-    return std::span(items).subspan(static_cast<std::size_t>(offsets[i]),
-                                    static_cast<std::size_t>(offsets[i + 1] - offsets[i]));
-  }
-};
 
 /// What stage truncate is asked about a vertex that bears these planes and that inertia alone holds; empty where it
 /// bears none. `is_prescribed`: it does not slide; with bounds=dat none does, and `current` is X_prev.

@@ -10,6 +10,7 @@
 #include "compare/judge/cases/generators.hpp"
 #include "compare/judge/cases/stage_traits.hpp"
 #include "compare/judge/engine/benchmark.hpp"
+#include "compare/judge/engine/judge.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "reference/contestant.hpp"
 
@@ -59,6 +60,8 @@ BenchmarkCall make_call(Stage stage, const Contestant& contestant, const std::st
 void register_stage_benchmarks(const BenchOptions& options) {
   for (const fast::Backend backend : options.backends) {
     for (const Stage stage : compare::all_stages) {
+      // Both backends have the same stages.
+      if (!compare::can_judge(stage, fast::contestant(fast::Backend::cpu), reference::authority())) continue;
       const std::string name = "stage/" + std::string(stage_name(stage)) +
                                (takes_scene(stage) ? "/" + options.scale : "") + "/" + name_of(backend);
       const auto body = [stage, backend, scale = options.scale,

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/volume_depth.hpp"
 #include "experiments/plugins/process.hpp"
 
 namespace ogc::experiments {

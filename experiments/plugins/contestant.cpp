@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "compare/stages/all.hpp"
 #include "experiments/plugins/arrays.hpp"
 #include "experiments/plugins/scenes.hpp"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/contestant.hpp"
+#include "compare/stages/step.hpp"
 #include "experiments/plugins/process.hpp"
 
 namespace ogc::experiments {

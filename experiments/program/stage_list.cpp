@@ -75,7 +75,9 @@ std::string stage_list_markdown() {
     text += "| " + link(name, "stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " +
             std::string(info.unit) + " | " + link("exact", "../" + std::string(info.reference)) +
             (is_there ? " | yes | yes | " : " | no | no | ") + generators_of(stage) + " | " +
-            link("CPU", "../tests/experiments/compare.cpp") + ", " + link("CUDA", "../tests/fast/cuda/agreement.cu") +
+            (is_there ? link("CPU", "../tests/experiments/compare.cpp") + ", " +
+                            link("CUDA", "../tests/fast/cuda/agreement.cu")
+                      : link("plug-in", "../tests/experiments/plugins/build_plugins.sh")) +
             " | " + std::string(determinism_name(info.determinism)) + " |\n";
   }
   return text;

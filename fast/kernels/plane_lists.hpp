@@ -11,6 +11,7 @@
 // vertices bear no plane and have no row.
 #pragma once
 
+#include "compare/stages/truncate.hpp"
 #include "fast/kernels/bound.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/lists.hpp"

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "compare/stages/activation.hpp"
+#include "compare/stages/bound.hpp"
 #include "fast/kernels/closest_points.hpp"
 #include "fast/kernels/models/activation.hpp"
 #include "fast/kernels/truncate.hpp"
@@ -17,7 +19,6 @@
 #include "fast/probes/probe_contacts.hpp"
 #include "fast/probes/probe_forces.hpp"
 #include "fast/probes/probe_guess.hpp"
-#include "fast/probes/probe_ipc.hpp"
 #include "fast/probes/probe_memory.hpp"
 #include "fast/probes/probe_planes.hpp"
 #include "fast/probes/probe_rods.hpp"
@@ -221,8 +222,6 @@ compare::Contestant probe_contestant(
   contestant.bound = [backend](const compare::BoundIn& in) { return probe_bound(*backend, in); };
   contestant.plane = [backend](const compare::PlaneIn& in) { return probe_plane(*backend, in); };
   contestant.activation = [backend](const compare::ActivationIn& in) { return probe_activation(*backend, in); };
-  contestant.barrier = [backend](const compare::BarrierIn& in) { return probe_barrier(*backend, in); };
-  contestant.ccd = [backend](const compare::CcdIn& in) { return probe_ccd(*backend, in); };
   contestant.truncate = [backend](const compare::TruncateIn& in) { return probe_truncate(*backend, in); };
   contestant.membrane = [backend](const compare::MembraneIn& in) { return probe_membrane(*backend, in); };
   contestant.bending = [backend](const compare::BendingIn& in) { return probe_bending(*backend, in); };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "compare/stages/step.hpp"
 #include "reference/solvers/contacts.hpp"
 
 namespace ogc::reference {

@@ -13,6 +13,7 @@
 #include "compare/judge/engine/judge.hpp"
 #include "compare/judge/report/corpus.hpp"
 #include "compare/judge/report/explanation.hpp"
+#include "compare/stages/bound.hpp"
 #include "fast/contestant.hpp"
 #include "reference/contestant.hpp"
 #include "reference/solvers/step.hpp"
@@ -240,6 +241,18 @@ TEST_CASE("ogc compare judges stages and writes a report", "[agreement]") {
   REQUIRE(std::filesystem::exists(folder / "report" / "report.txt"));
 }
 
+TEST_CASE("ogc compare says which stages the fast path does not have, and passes without them", "[agreement]") {
+  const tests::ProgramResult all = tests::run_ogc("compare --cases 20");
+  INFO(all.out << all.err);
+  CHECK(all.status == 0);
+  CHECK(tests::contains(all.out, {"\nccd: skipped, for the contestant does not have this stage\n",
+                                  "\nbarrier: skipped, for the contestant does not have this stage\n"}));
+  CHECK_FALSE(tests::contains(all.out, {"truncate: skipped"}));
+  const tests::ProgramResult one = tests::run_ogc("compare --problem 'stage=ccd gen=uniform seed=1 index=0'");
+  CHECK(one.status == 1);
+  CHECK(tests::contains(one.out, {"ccd: skipped"}));
+}
+
 TEST_CASE("ogc compare reports the end of a stage once", "[agreement]") {
   const tests::ProgramResult result = tests::run_ogc("compare truncate --cases 50000");
   const std::string end = "50000/50000";
@@ -266,10 +279,11 @@ TEST_CASE(
     "[agreement]") {
   const Authority authority = reference::authority();
   const Contestant fast = fast::contestant(fast::Backend::cpu);
+  const Contestant exact = tests::exact_contestant(authority);
   for (const Stage stage : all_stages)
     for (std::uint64_t index = 0; index < 3; ++index) {
       const TestCase test = generate({stage, std::string(generators(stage)[0].name), 5, index, "", {}});
-      const Explanation told = explain(test, fast, authority);
+      const Explanation told = explain(test, can_judge(stage, fast, authority) ? fast : exact, authority);
       INFO(explanation_text(told));
       CHECK(told.messages.empty());
       std::size_t units = 0;
@@ -333,4 +347,5 @@ TEST_CASE("ogc compare refuses unknown stages, generators, backends and files wi
   refuses("--batch nothing.txt", "nothing.txt");
   refuses("--problem \"stage=bound\"", "gen");
   refuses("--states nothing", "nothing");
+  refuses("ccd", "the fast path does not have the stage ccd");
 }

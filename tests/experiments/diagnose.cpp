@@ -7,6 +7,7 @@
 #include "compare/judge/engine/judge.hpp"
 #include "compare/judge/report/diagnose.hpp"
 #include "compare/judge/report/report.hpp"
+#include "compare/stages/activation.hpp"
 #include "reference/contestant.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/judge/faults.hpp"

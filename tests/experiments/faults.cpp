@@ -7,6 +7,7 @@
 
 #include "compare/judge/engine/exact_sum.hpp"
 #include "compare/judge/stages/verdict.hpp"
+#include "compare/stages/all.hpp"
 #include "reference/geometry/pair_planes.hpp"
 #include "reference/geometry/truncate.hpp"
 #include "reference/solvers/step.hpp"

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {

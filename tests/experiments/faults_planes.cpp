@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/stages/bound.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
 #include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/pair_planes.hpp"
 #include "tests/compare/judge/faults.hpp"

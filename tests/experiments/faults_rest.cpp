@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/stages/rest_state.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {

@@ -1,6 +1,7 @@
 // Faults of rods: small shares, single entries, and what a whole step does with frames.
 #include <cmath>
 
+#include "compare/stages/step.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/stages/bound.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {

@@ -5,6 +5,10 @@
 #include <map>
 #include <memory>
 
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
 #include "tests/compare/judge/faults.hpp"
 
 namespace ogc::tests {

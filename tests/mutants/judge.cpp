@@ -31,6 +31,7 @@
 
 #include "compare/judge/engine/judge.hpp"
 #include "compare/judge/report/corpus.hpp"
+#include "compare/stages/all.hpp"
 #include "reference/contestant.hpp"
 #include "tests/mutants/apart.hpp"
 #include "tests/mutants/contestant.hpp"

@@ -10,6 +10,7 @@
 #include "compare/problem/error.hpp"
 #include "compare/problem/rods.hpp"
 #include "compare/record/run_folder.hpp"
+#include "compare/stages/plane.hpp"
 
 namespace ogc::compare {
 

@@ -14,6 +14,9 @@
 #include "compare/contestant.hpp"
 #include "compare/judge/cases/cases.hpp"
 #include "compare/judge/cases/random.hpp"
+#include "compare/stages/detect_edge_edge.hpp"
+#include "compare/stages/detect_vertex_facet.hpp"
+#include "compare/stages/rest_state.hpp"
 
 namespace ogc::compare {
 

@@ -4,6 +4,8 @@
 #include <array>
 
 #include "compare/judge/cases/states.hpp"
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
 
 namespace ogc::compare {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "compare/stages/step.hpp"
 
 namespace ogc::compare {
 

@@ -5,6 +5,7 @@
 
 #include "compare/judge/engine/exact_sum.hpp"
 #include "compare/judge/engine/volume_question.hpp"
+#include "compare/stages/bound.hpp"
 
 namespace ogc::compare {
 

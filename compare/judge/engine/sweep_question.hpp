@@ -4,6 +4,7 @@
 
 #include "compare/contestant.hpp"
 #include "compare/judge/cases/cases.hpp"
+#include "compare/stages/sweep.hpp"
 
 namespace ogc::compare {
 

@@ -185,8 +185,12 @@ std::string report_table(std::span<const StageReport> reports) {
     for (const ReportRow& row : report_rows(report)) rows.push_back(row);
   std::string text = print_rows(rows) + "\n" + report_total(reports) + "\n";
   for (const StageReport& report : reports) {
-    if (report.skipped) continue;
-    text += "\n" + std::string(stage_name(report.tally.stage)) + ": " + verdict(report) + "; worst cases:\n";
+    const std::string name(stage_name(report.tally.stage));
+    if (report.skipped) {
+      text += "\n" + name + ": skipped, for the contestant does not have this stage\n";
+      continue;
+    }
+    text += "\n" + name + ": " + verdict(report) + "; worst cases:\n";
     if (!report.note.empty()) text += "  " + report.note + "\n";
     text += confinement(report.tally);
     if (report.diagnosis) text += "  " + diagnosis_text(*report.diagnosis);

@@ -9,6 +9,7 @@
 #include "compare/judge/cases/stage_traits.hpp"
 #include "compare/judge/engine/ask.hpp"
 #include "compare/judge/report/answers.hpp"
+#include "compare/stages/all.hpp"
 
 namespace ogc::compare {
 

@@ -9,6 +9,7 @@
 
 #include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/pairs.hpp"
+#include "compare/stages/closest_points.hpp"
 
 namespace ogc::compare {
 

@@ -7,6 +7,11 @@
 
 #include "compare/contestant.hpp"
 #include "compare/judge/engine/ask.hpp"
+#include "compare/stages/activation.hpp"
+#include "compare/stages/bound.hpp"
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
+#include "compare/stages/step.hpp"
 
 namespace ogc::compare {
 

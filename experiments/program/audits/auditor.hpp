@@ -19,6 +19,7 @@
 #include "compare/oracle/smallest_distances.hpp"
 #include "compare/oracle/volume_audit.hpp"
 #include "compare/problem/element_names.hpp"
+#include "compare/stages/plane.hpp"
 
 namespace ogc::experiments {
 

@@ -105,6 +105,15 @@ std::vector<Stage> stages_of(const CompareOptions& options) {
   return stages;
 }
 
+/// A stage that is named must be there.
+void check_stages(const CompareOptions& options, const Judged& judged, const compare::Authority& authority) {
+  if (options.stages.empty()) return;
+  for (const Stage stage : stages_of(options))
+    if (!compare::can_judge(stage, judged.contestant, authority))
+      throw InputError("the fast path does not have the stage " + std::string(compare::stage_name(stage)) +
+                       "; a kernel of your own may: --plugin FILE (compare/plugin.h)");
+}
+
 /// Cases given one by one: --problem, --batch, --replay.
 std::vector<compare::TestCase> given_cases(const CompareOptions& options, OpenStates& states) {
   std::vector<compare::TestCase> cases;
@@ -197,6 +206,7 @@ int run(CompareOptions options, const CommandContext& context) {
   const Judged judged = judged_of(options);
   if (judged.plugin) choose_stages_of_plugin(options, judged);
   const compare::Authority authority = reference::authority();
+  if (!judged.plugin) check_stages(options, judged, authority);
   OpenStates states(authority);
   const bool is_given = !options.problem.empty() || !options.batch.empty() || !options.replay.empty();
   const std::vector<compare::TestCase> given = given_cases(options, states);

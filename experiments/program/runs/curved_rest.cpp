@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "compare/stages/rest_state.hpp"
 #include "experiments/program/output.hpp"
 #include "fast/contestant.hpp"
 

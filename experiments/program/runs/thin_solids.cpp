@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "compare/stages/detect_vertex_facet.hpp"
 #include "experiments/program/output.hpp"
 #include "fast/contestant.hpp"
 

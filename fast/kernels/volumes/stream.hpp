@@ -2,6 +2,7 @@
 // of a triangle that others press. A driven volume stands still while a step is solved.
 #pragma once
 
+#include "compare/stages/volume_depth.hpp"
 #include "fast/kernels/metrics.hpp"
 #include "fast/kernels/sweep_view.hpp"
 #include "fast/kernels/team.hpp"

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/stages/initial_guess.hpp"
+#include "compare/stages/step.hpp"
+#include "compare/stages/tetrahedron.hpp"
 #include "fast/kernels/touching_move.hpp"
 #include "tests/experiments/plugins/ours.hpp"
 

@@ -290,26 +290,24 @@ TEST_CASE("a sweep that hangs is ended", "[agreement]") {
   CHECK(contains(result.out, {"no answer: it hangs"}));
 }
 
-TEST_CASE("our own impacts, barriers, volumes and their forces pass as a plug-in", "[agreement]") {
-  const ProgramResult result = compare_ours("", "--cases 1000 --json", "our_impacts");
+TEST_CASE("our own volumes and their forces pass as a plug-in", "[agreement]") {
+  const ProgramResult result = compare_ours("", "--cases 1000 --json", "our_volumes");
   INFO(result.out << result.err);
   REQUIRE(result.status == 0);
   const auto json = nlohmann::json::parse(result.out);
-  REQUIRE(json.at("stages").size() == 4);
+  REQUIRE(json.at("stages").size() == 2);
   for (const auto& stage : json.at("stages")) {
     CHECK(stage.at("mismatches") == 0);
     CHECK(stage.at("cases") >= 1000);
   }
 }
 
-TEST_CASE("wrong plug-ins of impacts, barriers and volumes are found", "[agreement]") {
+TEST_CASE("wrong plug-ins of volumes are found", "[agreement]") {
   const auto [how, stage, what] = GENERATE(table<std::string, std::string, std::string>(
-      {{"late", "ccd", "ccd: mismatch"},
-       {"slope over the distance", "barrier", "slope"},
-       {"never inside", "volume_depth", "volume_depth: mismatch"},
+      {{"never inside", "volume_depth", "volume_depth: mismatch"},
        {"face of no kind", "volume_depth", "a contact names a face of kind 3"},
        {"no friction", "volume_force", "volume_force: mismatch"}}));
-  const ProgramResult result = compare_ours(how, stage + " --cases 400", "our_impacts");
+  const ProgramResult result = compare_ours(how, stage + " --cases 400", "our_volumes");
   INFO(how << "\n" << result.out << result.err);
   CHECK(result.status == 1);
   CHECK(contains(result.out, {what}));

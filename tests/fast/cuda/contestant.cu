@@ -8,6 +8,8 @@
 
 #include <cuda_runtime.h>
 
+#include "compare/stages/closest_face.hpp"
+#include "compare/stages/closest_points.hpp"
 #include "tests/catch.hpp"
 
 #include "compare/problem/scene.hpp"

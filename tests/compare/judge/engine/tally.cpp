@@ -1,4 +1,5 @@
 #include "compare/judge/engine/tally.hpp"
+#include "compare/stages/bound.hpp"
 
 #include <limits>
 

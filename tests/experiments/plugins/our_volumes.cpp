@@ -1,10 +1,12 @@
-// Our own kernels of impacts, barriers and volumes behind the C interface: right, so that what the structures carry is
+// Our own kernels of volumes behind the C interface: right, so that what the structures carry is
 // known to be enough, and wrong where the environment variable OGC_BROKEN says.
 #include <algorithm>
 
+#include "compare/stages/volume_depth.hpp"
+#include "compare/stages/volume_force.hpp"
 #include "tests/experiments/plugins/ours.hpp"
 
-OGC_PLUGIN("our impacts", OGC_HOST_MEMORY)
+OGC_PLUGIN("our volumes", OGC_HOST_MEMORY)
 
 namespace {
 
@@ -25,33 +27,6 @@ Topology topology_of(const ogc_topology& t) {
 }
 
 }  // namespace
-
-int ogc_ccd(const ogc_ccd_in* in, ogc_ccd_out* out) {
-  CcdIn question;
-  for (int64_t i = 0; i < in->n; ++i) {
-    const ogc_ccd_case& c = in->cases[i];
-    CcdCase asked;
-    asked.kind = c.kind == OGC_CCD_EDGE_EDGE ? CcdKind::edge_edge : CcdKind::vertex_triangle;
-    copy(c.from, asked.from), copy(c.to, asked.to);
-    question.cases.push_back(asked);
-  }
-  const std::vector<float> time = ours().ccd(question).time;
-  for (int64_t i = 0; i < in->n; ++i)
-    out->time[i] = breaks("late") && time[static_cast<std::size_t>(i)] > 0 ? 1 : time[static_cast<std::size_t>(i)];
-  return 0;
-}
-
-int ogc_barrier(const ogc_barrier_in* in, ogc_barrier_out* out) {
-  BarrierIn question;
-  for (int64_t i = 0; i < in->n; ++i)
-    question.cases.push_back({in->squared_distance[i], in->activation_distance[i], in->thickness[i]});
-  const BarrierOut answer = ours().barrier(question);
-  std::copy(answer.energy.begin(), answer.energy.end(), out->energy);
-  std::transform(answer.slope.begin(), answer.slope.end(), out->slope,
-                 [](float slope) { return breaks("slope over the distance") ? 2 * slope : slope; });
-  std::copy(answer.curvature.begin(), answer.curvature.end(), out->curvature);
-  return 0;
-}
 
 int ogc_volume_depth(const ogc_volume_depth_in* in, ogc_volume_depth_out* out) {
   const Topology topology = topology_of(in->topology);
