@@ -74,6 +74,11 @@ find_python() {
 
 seconds_between_lines=30  # of a build that nobody watches
 
+# Whether a build folder was configured with CUDA, or without, as OGC_CUDA says; true where that is empty.
+has_cuda_as_asked() {
+  [ -z "${OGC_CUDA:-}" ] || grep -q "^OGC_CUDA:[A-Z]*=$OGC_CUDA\$" "$1/CMakeCache.txt"
+}
+
 # Says how far a build is until it is killed or the shell that began it ends: watch_build <log>. On a terminal one
 # line that is redrawn, else lines.
 watch_build() {
@@ -102,9 +107,10 @@ build() {
   shift 2
   log=$root/build/$preset/log.txt
   mkdir -p "$root/build/$preset"
-  if [ ! -f "$root/build/$preset/build.ninja" ]; then
+  if [ ! -f "$root/build/$preset/build.ninja" ] || ! has_cuda_as_asked "$root/build/$preset"; then
     say "Configuring build/$preset"
-    (cd "$root" && cmake --preset "$preset" -G Ninja) > "$log" 2>&1 || { cat "$log" >&2; return 1; }
+    (cd "$root" && cmake --preset "$preset" -G Ninja ${OGC_CUDA:+-DOGC_CUDA="$OGC_CUDA"}) > "$log" 2>&1 ||
+      { cat "$log" >&2; return 1; }
   fi
   say "Building build/$preset (log: build/$preset/log.txt)"
   : > "$log"
