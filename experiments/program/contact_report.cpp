@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/problem/scene.hpp"
+#include "compare/stages/bound.hpp"
 #include "fast/contestant.hpp"
 
 namespace ogc::experiments {

@@ -78,14 +78,14 @@ void change_rounds(StepOut& out, int first, Change change) {
 }
 
 /// From the second round on vertices that touch something stay where they are.
-void hold_from_second_round(const StepIn& in, StepOut& out) {
+void hold_from_second_round(const StepIn&, StepOut& out) {
   change_rounds(out, 1, [](StepEvent& guess, const StepEvent& detection, std::size_t v) {
     guess.position[v] = detection.position[v];
   });
 }
 
 /// Contacts take nothing: what touches goes to y, truncated.
-void fall_into_partners(const StepIn& in, StepOut& out) {
+void fall_into_partners(const StepIn&, StepOut& out) {
   change_rounds(out, 0, [&](StepEvent& guess, const StepEvent& detection, std::size_t v) {
     const Vec3f &p = detection.position[v], &y = out.target[v];
     const TruncateTruth truth = reference::truncate({{p}, {y}, {detection.bound[v]}});

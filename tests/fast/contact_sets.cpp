@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compare/problem/error.hpp"
+#include "compare/stages/bound.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/meshes.hpp"
 

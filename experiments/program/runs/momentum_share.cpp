@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compare/stages/rest_state.hpp"
 #include "fast/contestant.hpp"
 
 namespace ogc::experiments {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/stages/bound.hpp"
 #include "compare/stages/initial_guess.hpp"
 #include "compare/stages/step.hpp"
 #include "compare/stages/tetrahedron.hpp"

@@ -258,14 +258,14 @@ TEST_CASE("yarn tied by springs has the bits that it has beside a triangle that 
     compare::round_to_single(scene);
     return scene;
   };
-  const auto kind = [](const compare::Scene& scene) { return needed_sum(rest_of(scene), scene); };
+  const auto asked = [](const compare::Scene& scene) { return asked_of_sum(rest_of(scene), scene) & ~asks_any_model; };
   const auto colours = [](const compare::Scene& scene) { return colour_vertices(rest_of(scene)).count; };
   for (const auto damping : {compare::DampingForm::strain, compare::DampingForm::per_vertex}) {
     const compare::Scene alone = scene_with(true, false, damping), beside = scene_with(true, true, damping),
                          untied = scene_with(false, false, damping);
-    CHECK(kind(untied) == SweepSum::rods);
-    CHECK(kind(alone) == SweepSum::tied_rods);
-    CHECK(kind(beside) == SweepSum::anything_with_rods);
+    CHECK(asked(untied) == asks_segments);
+    CHECK(asked(alone) == (asks_segments | asks_springs));
+    CHECK(asked(beside) == (asks_segments | asks_springs | asks_triangles));
     REQUIRE(colours(alone) == colours(beside));  // else the order of a sweep is another
     const auto one = start_cpu(alone, {}), other = start_cpu(beside, {}), without = start_cpu(untied, {});
     const std::vector<compare::StepMetrics> rows = one->advance(80);

@@ -179,18 +179,21 @@ TEST_CASE("solids give the same bits run to run, with any number of threads, and
   }
 }
 
-TEST_CASE("a solid alone has the sum of tetrahedra and contacts, one with a sheet the sum of everything", "[unit]") {
-  const auto needed = [](const compare::Scene& scene) {
-    return needed_sum(build_rest_state(scene, build_topology(scene)), scene);
+TEST_CASE("a scene asks of its sum what it has: kinds, volumes, other models, another activation", "[unit]") {
+  const auto asked = [](const compare::Scene& scene) {
+    return asked_of_sum(build_rest_state(scene, build_topology(scene)), scene);
   };
-  CHECK(needed(drop_scene(false)) == SweepSum::solids);
-  CHECK(needed(drop_scene(true)) == SweepSum::everything);
+  const unsigned sheet = asks_triangles | asks_hinges;
+  CHECK(asked(drop_scene(false)) == asks_tetrahedra);
+  CHECK(asked(drop_scene(true)) == (asks_tetrahedra | sheet));
   compare::Scene with_volume = drop_scene(true);
   with_volume.bodies.back().contact = compare::BodyContact::volume;
-  CHECK(needed(with_volume) == SweepSum::everything_and_volumes);
-  compare::Scene by_vertex = drop_scene(false);
-  by_vertex.settings.damping = compare::DampingForm::per_vertex;
-  CHECK(needed(by_vertex) == SweepSum::everything);
+  CHECK((asked(with_volume) & asks_volumes) != 0);
+  compare::Scene other = drop_scene(false);
+  other.settings.damping = compare::DampingForm::per_vertex;
+  CHECK(asked(other) == (asks_tetrahedra | asks_any_model));
+  other.settings.activation = compare::ContactActivation::quadratic;
+  CHECK(asked(other) == (asks_tetrahedra | asks_any_model | asks_any_activation));
 }
 
 TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free corners", "[unit]") {

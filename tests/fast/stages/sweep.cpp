@@ -118,7 +118,7 @@ struct MadeStream {
   StepLaunches launches(Detection<Backend>& detection, Sweep<Backend>& sweep, const std::vector<Vec>& at) {
     previous = at;
     const ContactView view = detection.view();
-    return {{{at.data(), {previous.data(), view.bound}, previous.data(), &control}},
+    return {{at.data(), {previous.data(), view.bound}, previous.data(), &control},
             {&control, detection.overflow()},
             sweep.contact_rows(view.incidence_offsets, detection.loose_incidences(), detection.overflow()),
             sweep.slots(),

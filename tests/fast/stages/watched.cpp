@@ -9,6 +9,7 @@
 #include "fast/probes/contact_engine.hpp"
 #include "fast/probes/probe_step.hpp"
 #include "fast/stages/simulation.hpp"
+#include "fast/stages/update_vertices.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/scenes.hpp"
 

@@ -1,0 +1,38 @@
+#include "fast/kernels/sweep/sums.hpp"
+
+#include <vector>
+
+#include "tests/catch.hpp"
+
+using namespace ogc::fast;
+
+namespace {
+
+template <class... Sums>
+std::vector<unsigned> gives(SumList<Sums...>) {
+  return {Sums::gives...};
+}
+
+constexpr unsigned everything = 2 * asks_any_activation - 1;
+
+}  // namespace
+
+TEST_CASE("a scene takes the first sum that gives all it asks for, and there is always one", "[unit]") {
+  for (const std::vector<unsigned>& sums : {gives(DeviceSums{}), gives(HostSums{})}) {
+    CHECK(sums.back() == everything);
+    for (unsigned asked = 0; asked <= everything; ++asked) {
+      const bool on_device = sums.size() == DeviceSums::count;
+      const auto number = static_cast<std::size_t>(on_device ? DeviceSums::first_that_gives(asked)
+                                                             : HostSums::first_that_gives(asked));
+      REQUIRE(number < sums.size());
+      CHECK((asked & ~sums[number]) == 0);
+      for (std::size_t before = 0; before < number; ++before) CHECK((asked & ~sums[before]) != 0);
+    }
+  }
+}
+
+TEST_CASE("each sum of a device is one that some scene takes", "[unit]") {
+  const std::vector<unsigned> sums = gives(DeviceSums{});
+  for (std::size_t number = 0; number < sums.size(); ++number)
+    CHECK(DeviceSums::first_that_gives(sums[number]) == static_cast<int>(number));
+}
