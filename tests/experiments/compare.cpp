@@ -279,11 +279,11 @@ TEST_CASE(
     "[agreement]") {
   const Authority authority = reference::authority();
   const Contestant fast = fast::contestant(fast::Backend::cpu);
-  const Contestant exact = tests::exact_contestant(authority);
+  const Contestant right = tests::exact_contestant(authority);
   for (const Stage stage : all_stages)
     for (std::uint64_t index = 0; index < 3; ++index) {
       const TestCase test = generate({stage, std::string(generators(stage)[0].name), 5, index, "", {}});
-      const Explanation told = explain(test, can_judge(stage, fast, authority) ? fast : exact, authority);
+      const Explanation told = explain(test, can_judge(stage, fast, authority) ? fast : right, authority);
       INFO(explanation_text(told));
       CHECK(told.messages.empty());
       std::size_t units = 0;

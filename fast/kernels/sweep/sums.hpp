@@ -36,9 +36,8 @@ using GatherSolids = Gather<OgcActivation, UsualTetrahedra>;
 
 /// On a device, where a part that a scene lacks costs registers and a warp of each block. A sum is here because a scene
 /// gains 5 % by it (fast/PERFORMANCE.md, Sums).
-using DeviceSums = SumList<GatherSurfaces, Gather<OgcActivation, UsualTriangles, UsualHinges, VolumeContacts>,
-                           Gather<OgcActivation, UsualTriangles, UsualHinges, Springs, VolumeContacts>, GatherSolids,
-                           Gather<OgcActivation, Springs, UsualSegments>,
+using DeviceSums = SumList<GatherSurfaces, Gather<OgcActivation, UsualTriangles, UsualHinges, Springs, VolumeContacts>,
+                           GatherSolids, Gather<OgcActivation, Springs, UsualSegments>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts>, GatherAll>;
 /// On the host, whose packs leave out what a vertex does not have.
