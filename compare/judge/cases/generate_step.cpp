@@ -25,7 +25,7 @@ struct StepBuilder {
 
   explicit StepBuilder(Random& source) : random(source), spacing(0.01 * source.magnitude(-0.5, 0.5)) {
     constexpr std::array<double, 4> steps{0.01, 0.01, 0x1p-6, 0.001}, caps{1, 1.5, 4, 16}, fractions{0.01, 0.1, 0.5, 1};
-    constexpr std::array<std::int64_t, 4> every{0, 0, 1, 2}, lanes{0, 1, 4, 32};
+    constexpr std::array<std::int64_t, 4> every{0, 0, 1, 2}, lanes{0, 2, 4, 16};
     constexpr std::array<std::int64_t, 3> rounds{1, 2, 16};
     scene.name = "step";
     Settings& s = scene.settings;

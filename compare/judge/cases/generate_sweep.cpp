@@ -86,7 +86,7 @@ Body body(Random& random, bool fixed = false) {
 }
 
 void settings(Random& random, Settings& s) {
-  constexpr std::array<std::int64_t, 5> lanes{1, 4, 16, 32, 0};
+  constexpr std::array<std::int64_t, 5> lanes{2, 4, 8, 16, 0};
   s.time_step = random.magnitude(-3, -1.5);
   s.lanes = random.pick(std::span<const std::int64_t>(lanes));
   s.friction_velocity = random.magnitude(-3, -1);

@@ -94,7 +94,7 @@ SweepCase with_rod(Random& random, SweepCase test) {
 }
 
 SweepCase rods_alone(Random& random) {
-  constexpr std::array<std::int64_t, 5> lanes{1, 4, 16, 32, 0};
+  constexpr std::array<std::int64_t, 5> lanes{2, 4, 8, 16, 0};
   SweepCase test;
   Scene scene;
   scene.name = "sweep";
