@@ -88,8 +88,14 @@ void Failures::explain_given(const std::vector<compare::StageReport>& reports) {
       return std::any_of(all.begin(), all.end(), [&](const compare::Mismatch& one) { return one.name == test.name; });
     });
   };
+  const auto is_skipped = [&](const compare::TestCase& test) {
+    return std::any_of(reports.begin(), reports.end(), [&](const compare::StageReport& report) {
+      return report.skipped && report.tally.stage == test.name.stage;
+    });
+  };
   for (const compare::TestCase& test : given_)
-    if (explanations_.size() < most_explained && (given_.size() == 1 || fails(test))) explain(test, {});
+    if (explanations_.size() < most_explained && !is_skipped(test) && (given_.size() == 1 || fails(test)))
+      explain(test, {});
 }
 
 void Failures::diagnose(std::vector<compare::StageReport>& reports, std::uint64_t seed) {
