@@ -166,7 +166,7 @@ struct Contestant {
   bool has_steps_with_planes = true;
   /// Whether its planes divide gaps by approach. A plug-in's do not: compare/plugin.h has no displacements there.
   bool divides_by_approach = true;
-  /// Whether its volumes know cavities. A plug-in's do not: compare/plugin.h has none.
+  /// Whether it is asked about volumes with cavities. A plug-in is not: compare/plugin.h describes none.
   bool has_cavities = true;
   /// Whether its sweeps and steps know volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
   bool has_volumes = true;

@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// First launch: the regions that end are certified, X_prev ← x, and the detection begins. Index as there.
+/// First launch: the regions that end are certified, X_prev ← x, and the detection begins. Index as of BeginDetection.
 struct BeginStepDetection {
   BeginRegions regions;
   BeginDetection detection;

@@ -25,6 +25,14 @@ OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
   return {count, load, add};
 }
 
+/// The `load` of a Part whose item k is the k-th of a row.
+template <class Item>
+struct LoadFrom {
+  const Item* first;  ///< of the row
+
+  OGC_HD Item operator()(int k) const { return first[k]; }
+};
+
 /// Terms of items begin + k that read nothing of the team's vertex, so that a block's threads may share out the terms
 /// of all its teams: term(load(item)) is an Accumulator.
 template <class Load, class Term>

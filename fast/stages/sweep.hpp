@@ -231,10 +231,10 @@ inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene)
          (usual_models ? 0u : asks_any_model) | (rest.activation == ContactActivation::ogc ? 0u : asks_any_activation);
 }
 
-/// One launch over the vertices of a colour: teams of `lanes` team lanes, of which there are `count`.
+/// Launches a team of `lanes` team lanes for each of `count` vertices of a colour.
 template <class Backend, class Sum>
 void update_vertices(Backend& backend, int lanes, int count, const UpdateVertex<Sum>& kernel, Start start);
-/// One launch over all slots. Sums have one width, as no position is made of them.
+/// Launches a team for each slot. The width is fixed, because no position depends on these sums.
 template <class Backend>
 void measure_vertices(Backend& backend, int slots, const MeasureVertex<GatherAll>& kernel);
 

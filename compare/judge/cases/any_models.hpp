@@ -36,7 +36,7 @@ void choose_models(Random& random, Scene& scene);
 /// Such springs alone, with the pairs beside them left out or not; the scene is not rounded.
 void add_springs(Random& random, Scene& scene);
 
-/// Another model than hinges for every body with a bending energy.
+/// Gives each body with a bending energy another model than hinges.
 void bend_otherwise(Random& random, Scene& scene);
 
 }  // namespace ogc::compare

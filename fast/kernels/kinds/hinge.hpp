@@ -74,12 +74,6 @@ OGC_HD inline void add_any_hinge(const SweepView& view, const HingeIncidence& in
   }
 }
 
-/// Hinge k of a vertex.
-struct LoadHinge {
-  const HingeIncidence* first;  ///< of the vertex's row
-
-  OGC_HD HingeIncidence operator()(int k) const { return first[k]; }
-};
 /// Adds a discrete hinge with damping of strains.
 struct AddDiscreteHinge {
   const SweepView& view;
@@ -122,8 +116,9 @@ struct AddAnyHinge {
 struct UsualHinges {
   static constexpr unsigned gives = asks_hinges;
 
-  OGC_HD static Part<LoadHinge, AddDiscreteHinge> part_of(const SweepView& view, int, const SweepVertex& vertex,
-                                                          const OwnVertex& own) {
+  OGC_HD static Part<LoadFrom<HingeIncidence>, AddDiscreteHinge> part_of(const SweepView& view, int,
+                                                                         const SweepVertex& vertex,
+                                                                         const OwnVertex& own) {
     return {vertex.hinge_count, {view.hinges + vertex.hinge_begin}, {view, view.materials[vertex.body], own.position}};
   }
 };

@@ -13,12 +13,6 @@ OGC_HD inline Vec segment_direction(const RodStream& rods, int segment) {
   return rods.direction != nullptr ? rods.direction[segment] : Vec{0.0f, 0.0f, 1.0f};
 }
 
-/// Segment k of a vertex.
-struct LoadRod {
-  const RodIncidence* first;  ///< of the vertex's row
-
-  OGC_HD RodIncidence operator()(int k) const { return first[k]; }
-};
 /// Adds a segment of a vertex.
 struct AddRod {
   const SweepView& view;
@@ -42,8 +36,8 @@ struct AddRod {
 struct UsualSegments {
   static constexpr unsigned gives = asks_segments | asks_any_model;
 
-  OGC_HD static Part<LoadRod, AddRod> part_of(const SweepView& view, int slot, const SweepVertex& vertex,
-                                              const OwnVertex& own) {
+  OGC_HD static Part<LoadFrom<RodIncidence>, AddRod> part_of(const SweepView& view, int slot, const SweepVertex& vertex,
+                                                             const OwnVertex& own) {
     const RodRow row = view.rods.rows[slot];
     const float damping = view.rods.damping != nullptr ? view.rods.damping[vertex.body] : 0.0f;
     return {row.count, {view.rods.incidences + row.begin}, {view, own, damping}};
@@ -51,8 +45,8 @@ struct UsualSegments {
 };
 /// The same of a scene that may have none.
 struct Segments : UsualSegments {
-  OGC_HD static Part<LoadRod, AddRod> part_of(const SweepView& view, int slot, const SweepVertex& vertex,
-                                              const OwnVertex& own) {
+  OGC_HD static Part<LoadFrom<RodIncidence>, AddRod> part_of(const SweepView& view, int slot, const SweepVertex& vertex,
+                                                             const OwnVertex& own) {
     if (view.rods.rows != nullptr) return UsualSegments::part_of(view, slot, vertex, own);
     return {0, {view.rods.incidences}, {view, own, 0.0f}};
   }

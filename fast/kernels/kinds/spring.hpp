@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// A spring seen from its end `own`; `index`: all ends, encoded as in sweep_view.hpp.
+/// A spring as its end `own` sees it. `index` names all ends, encoded as sweep_view.hpp says.
 struct SpringIncidence {
   int index[3] = {0, 0, 0};
   int own = 0;          ///< number of the end, 0 … 2
@@ -45,12 +45,6 @@ OGC_HD inline void add_any_spring(const SweepView& view, const SpringIncidence& 
   }
 }
 
-/// Spring k of a vertex.
-struct LoadSpring {
-  const SpringIncidence* first;  ///< of the vertex's row
-
-  OGC_HD SpringIncidence operator()(int k) const { return first[k]; }
-};
 /// Adds a spring of a vertex.
 struct AddSpring {
   const SweepView& view;
@@ -66,8 +60,8 @@ struct AddSpring {
 struct Springs {
   static constexpr unsigned gives = asks_springs | asks_any_model;
 
-  OGC_HD static Part<LoadSpring, AddSpring> part_of(const SweepView& view, int slot, const SweepVertex& vertex,
-                                                    const OwnVertex& own) {
+  OGC_HD static Part<LoadFrom<SpringIncidence>, AddSpring> part_of(const SweepView& view, int slot,
+                                                                   const SweepVertex& vertex, const OwnVertex& own) {
     SpringRow row;
     if (view.spring_rows != nullptr) row = view.spring_rows[slot];
     return {row.count, {view.springs + row.begin}, {view, view.models[vertex.body], own}};

@@ -8,8 +8,8 @@
 
 namespace ogc::fast {
 
-/// A tetrahedron seen from one of its corners. `index`: the others, in the order in which they have a positive volume
-/// at rest, encoded as in sweep_view.hpp.
+/// A tetrahedron as one of its corners sees it. `index` names the other three in the order in which they make a
+/// positive volume at rest, encoded as sweep_view.hpp says.
 struct alignas(16) TetrahedronIncidence {
   int index[3] = {0, 0, 0};      ///< a, b, c of models/tetrahedron.hpp
   int tetrahedron = -1;          ///< number in RestState::tetrahedra

@@ -8,23 +8,22 @@
 
 namespace ogc::fast {
 
-/// A triangle seen from one of its corners. `index`: the other two, in the triangle's order, encoded as said above.
+/// A triangle as one of its corners sees it. `index` names the other two in the triangle's order, encoded as
+/// sweep_view.hpp says.
 struct alignas(16) MembraneIncidence {
   int index[2] = {0, 0};      ///< x_b, x_c
   int triangle = -1;          ///< number in RestState::triangles
   MembraneStencil stencil{};  ///< gradients and area
 };
 
-// What a stencil reads beside its incidence, all at once: the latency of reads, not arithmetic, is what a vertex costs
-// on a device.
-
-/// Of a triangle: the other corners, and Gᵗ where it is damped.
+/// What a triangle reads beside its incidence: the other corners, and Gᵗ where it is damped. It reads all at once: on a
+/// device a vertex waits for reads, not for arithmetic.
 struct MembraneReads {
   Vec b, c;                   ///< positions [m]
   Symmetric2 strain_start{};  ///< Gᵗ; 0 without damping
 };
 
-/// What a triangle reads.
+/// Reads it.
 OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneIncidence& incidence,
                                           const SurfaceMaterial& material) {
   MembraneReads reads{view.read(incidence.index[0]), view.read(incidence.index[1])};
@@ -43,23 +42,9 @@ OGC_HD inline void add_membrane_incidence(const MembraneIncidence& incidence, co
 // Models are chosen inside of the form of damping, and what a model shares with others stands outside of its choice:
 // a device contracts products and sums within a branch, so where a branch ends decides a bit.
 
-/// Adds a triangle with damping of strains, given the functor of its model.
-struct AddMembrane {
-  /// Arguments of a membrane model's `add` (models/membrane_models.hpp): edges to the other corners [m], Gᵗ; `sum`
-  /// takes force and block.
-  const MembraneStencil& stencil;
-  const SurfaceMaterial& material;
-  Vec to_b, to_c;
-  const Symmetric2& strain_start;
-  ForceAndBlock& sum;
-
-  template <class Model>
-  OGC_HD void operator()(Model) const {
-    Model::add(stencil, material, to_b, to_c, strain_start, sum);
-  }
-};
-/// Adds a triangle without damping, likewise.
+/// Adds a triangle without damping, given the functor of its model.
 struct AddElasticMembrane {
+  /// Arguments of a membrane model's `add_elastic`: edges to the other corners [m]; `sum` takes force and block.
   const MembraneStencil& stencil;
   const SurfaceMaterial& material;
   Vec to_b, to_c;
@@ -71,7 +56,7 @@ struct AddElasticMembrane {
   }
 };
 
-/// A triangle of whatever model.
+/// Adds a triangle of any model with any damping.
 OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneIncidence& incidence,
                                     const SurfaceMaterial& material, const SurfaceModels& models, const OwnVertex& own,
                                     ForceAndBlock& sum) {
@@ -85,16 +70,10 @@ OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneInciden
     }
     case compare::DampingForm::strain:
       return with_membrane(models.membrane,
-                           AddMembrane{incidence.stencil, material, to_b, to_c, reads.strain_start, sum});
+                           AddDampedMembrane<float>{incidence.stencil, material, to_b, to_c, reads.strain_start, sum});
   }
 }
 
-/// Triangle k of a vertex.
-struct LoadTriangle {
-  const MembraneIncidence* first;  ///< of the vertex's row
-
-  OGC_HD MembraneIncidence operator()(int k) const { return first[k]; }
-};
 /// Adds a triangle with damping of strains.
 struct AddTriangle {
   const SweepView& view;
@@ -122,8 +101,9 @@ struct AddAnyTriangle {
 struct UsualTriangles {
   static constexpr unsigned gives = asks_triangles;
 
-  OGC_HD static Part<LoadTriangle, AddTriangle> part_of(const SweepView& view, int, const SweepVertex& vertex,
-                                                        const OwnVertex& own) {
+  OGC_HD static Part<LoadFrom<MembraneIncidence>, AddTriangle> part_of(const SweepView& view, int,
+                                                                       const SweepVertex& vertex,
+                                                                       const OwnVertex& own) {
     return {vertex.membrane_count,
             {view.membrane + vertex.membrane_begin},
             {view, view.materials[vertex.body], view.models[vertex.body].membrane, own.position}};
@@ -133,8 +113,9 @@ struct UsualTriangles {
 struct Triangles : UsualTriangles {
   static constexpr unsigned gives = asks_triangles | asks_any_model;
 
-  OGC_HD static Part<LoadTriangle, AddAnyTriangle> part_of(const SweepView& view, int, const SweepVertex& vertex,
-                                                           const OwnVertex& own) {
+  OGC_HD static Part<LoadFrom<MembraneIncidence>, AddAnyTriangle> part_of(const SweepView& view, int,
+                                                                          const SweepVertex& vertex,
+                                                                          const OwnVertex& own) {
     return {vertex.membrane_count,
             {view.membrane + vertex.membrane_begin},
             {view, view.materials[vertex.body], view.models[vertex.body], own}};

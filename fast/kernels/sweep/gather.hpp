@@ -105,12 +105,12 @@ struct ContactParts {
   }
 };
 
-/// The sum over these kinds, in this order, and then the contacts: vertex–facet ones, edge–edge ones. Each kind is a
-/// part: `gives` says which scenes it serves, `part_of` makes it.
+/// Adds up these kinds in this order, then vertex–facet contacts, then edge–edge contacts. Each kind is a part of the
+/// sum: `gives` says what a scene may ask of it, `part_of` makes the part of a vertex.
 template <class Activation, class... Kinds>
 struct Gather {
   static constexpr int parts = sizeof...(Kinds) + 2;  ///< warps of a block where teams are spread (fast/cuda/team.cuh)
-  /// What a scene may ask for: other models than the usual ones if all kinds have them.
+  /// All that a scene may ask of this sum. It has other models than the usual ones only where all of its kinds do.
   static constexpr unsigned gives = ((Kinds::gives | ...) & ~asks_any_model) | (Kinds::gives & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);
   /// Whether a vertex may lie deep inside a volume.
@@ -141,7 +141,7 @@ struct Gather {
   }
 };
 
-/// Of any scene.
+/// The sum that any scene can take.
 using GatherAll = Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts, Segments>;
 
 }  // namespace ogc::fast

@@ -30,17 +30,17 @@ struct SumList {
   }
 };
 
-/// Of scenes of surfaces with the usual models, and of solids, each alone.
+/// The sums of scenes that have surfaces with the usual models alone, or solids alone.
 using GatherSurfaces = Gather<OgcActivation, UsualTriangles, UsualHinges>;
 using GatherSolids = Gather<OgcActivation, UsualTetrahedra>;
 
-/// On a device, where a part that a scene lacks costs registers and a warp of each block. A sum is here because a scene
-/// gains 5 % by it (fast/PERFORMANCE.md, Sums).
+/// The sums of a device. There a part that a scene lacks costs registers and a warp of each block, so that a scene must
+/// gain 5 % by each of them (fast/PERFORMANCE.md, Sums).
 using DeviceSums = SumList<GatherSurfaces, Gather<OgcActivation, UsualTriangles, UsualHinges, Springs, VolumeContacts>,
                            GatherSolids, Gather<OgcActivation, Springs, UsualSegments>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts>, GatherAll>;
-/// On the host, whose packs leave out what a vertex does not have.
+/// The sums of the host, whose packs leave out what a vertex does not have.
 using HostSums = SumList<GatherAll>;
 
 }  // namespace ogc::fast

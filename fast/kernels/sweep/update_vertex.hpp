@@ -12,9 +12,9 @@
 
 namespace ogc::fast {
 
-/// The leader writes a position of the vertex's region, counts where the proposal was changed, and gets it; others get
-/// `stay`. One that is not finite is not written: the vertex stays and the step fails. All threads that hold the team's
-/// total call it together.
+/// Truncates the proposal to the vertex's region. The leader writes the position, counts a cut and returns the
+/// position; other threads return `stay`. A proposal that is not finite is not written: the vertex stays, and the step
+/// fails. All threads that hold the team's total call it together.
 template <class Metric, class Team>
 OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
                       const Metric& metric, const Team& team) {

@@ -36,10 +36,10 @@ class Elements {
     for (std::size_t i = 0; i < Kind::count(scene, rest); ++i) terms_.push_back(Kind::term(scene, rest, i));
   }
 
-  /// One after the other, each with its vertices.
+  /// The elements in the order of the rest state, each with its vertices.
   std::span<const Term> terms() const { return terms_; }
   std::size_t size() const { return terms_.size(); }  ///< the number of its stencils
-  /// Of a stencil; −1 where it has no fourth one.
+  /// The vertices of a stencil; −1 in the last place where it has three.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const {
     std::array<compare::Index, 4> all{-1, -1, -1, -1};
     std::ranges::copy(terms_[stencil].vertex, all.begin());

@@ -9,19 +9,19 @@ namespace ogc::reference {
 
 /// See kinds.hpp.
 struct HingeKind {
-  /// One of them, over doubles.
+  /// One element, in double.
   using Term = HingeTerm;
-  /// All of them.
+  /// All elements of a scene.
   using List = Elements<HingeKind>;
   /// Derivatives of a batch.
   static constexpr auto kernel = &StencilKernels::hinges;
-  /// Of the stage, in units of u · scale.
+  /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::bending_force_tolerance,
                           block_tolerance = compare::bending_block_tolerance;
 
   /// How many a scene has.
   static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.hinges.size(); }
-  /// Whom it joins; −1 where there is none.
+  /// The vertices that it joins; −1 for one that it lacks.
   static std::array<compare::Index, 4> vertices(const compare::Scene&, const compare::RestStateOut& rest,
                                                 std::size_t i) {
     return rest.hinges[i].vertex;
@@ -59,7 +59,7 @@ struct HingeKind {
     if (!fold.collapsed()) add_angle(term, fold.angle(), sum);
   }
 
-  /// What its stage is asked about the vertex at a place.
+  /// The question that the kind's stage is asked about the vertex at a place.
   template <class Positions>
   static compare::BendingCase question(const compare::SweepIn& in, std::size_t i, std::size_t role,
                                        const Positions& x) {
@@ -79,7 +79,7 @@ struct HingeKind {
     question.own = static_cast<std::int32_t>(role);
     return question;
   }
-  /// All that are accepted, the exact one first.
+  /// Returns all accepted answers, the exact one first.
   static std::vector<compare::ForceAnswer> answers(const compare::BendingCase& question) { return bending(question); }
 };
 

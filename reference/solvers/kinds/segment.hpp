@@ -10,15 +10,15 @@ namespace ogc::reference {
 
 /// See kinds.hpp.
 struct SegmentKind {
-  /// All of them.
+  /// All elements of a scene.
   using List = RodSystem;
-  /// Of the stage, in units of u · scale.
+  /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::rod_force_tolerance,
                           block_tolerance = compare::rod_block_tolerance;
 
   /// How many a scene has.
   static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.segments.size(); }
-  /// Whom it joins; −1 where there is none.
+  /// The vertices that it joins; −1 for one that it lacks.
   static compare::Edge vertices(const compare::Scene&, const compare::RestStateOut& rest, std::size_t i) {
     return rest.segments[i].end;
   }
@@ -29,13 +29,13 @@ struct SegmentKind {
     list.add_force(static_cast<compare::Index>(i), end, ends, sum);
   }
 
-  /// What its stage is asked about the vertex at a place.
+  /// The question that the kind's stage is asked about the vertex at a place.
   template <class Positions>
   static compare::RodCase question(const compare::SweepIn& in, std::size_t i, std::size_t end, const Positions& x) {
     const compare::Edge& ends = in.rest->segments[i].end;
     return rod_question(in, x.answer(), i, end, {x[ends[0]], x[ends[1]]});
   }
-  /// All that are accepted, the exact one first.
+  /// Returns all accepted answers, the exact one first.
   static std::vector<compare::ForceAnswer> answers(const compare::RodCase& question) {
     return {reference::rod(question)};
   }

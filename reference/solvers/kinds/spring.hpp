@@ -9,25 +9,25 @@ namespace ogc::reference {
 
 /// See kinds.hpp.
 struct SpringKind {
-  /// One of them, over doubles.
+  /// One element, in double.
   using Term = SpringTerm;
-  /// All of them.
+  /// All elements of a scene.
   using List = Elements<SpringKind>;
   /// Derivatives of a batch.
   static constexpr auto kernel = &StencilKernels::springs;
-  /// Of the stage, in units of u · scale.
+  /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::spring_force_tolerance,
                           block_tolerance = compare::spring_block_tolerance;
 
   /// How many a scene has.
   static std::size_t count(const compare::Scene& scene, const compare::RestStateOut&) { return scene.springs.size(); }
-  /// Whom it joins; −1 where there is none.
+  /// The vertices that it joins; −1 for one that it lacks.
   static std::array<compare::Index, 3> vertices(const compare::Scene& scene, const compare::RestStateOut&,
                                                 std::size_t i) {
     const compare::Spring& spring = scene.springs[i];
     return {spring.first, spring.second, spring.third};
   }
-  /// Those that it pulls: −1 in place of a third one whose weight is 0.
+  /// The vertices that it pulls. A third vertex whose weight is 0 is not pulled: −1 stands in its place.
   static std::array<compare::Index, 3> pulled(const compare::Scene& scene, const compare::RestStateOut&,
                                               std::size_t i) {
     const compare::Spring& spring = scene.springs[i];
@@ -45,7 +45,7 @@ struct SpringKind {
             spring.rest_length,
             spring.damping / scene.settings.time_step};
   }
-  /// Zero where there is no vertex, as its weight is.
+  /// Where its vertices are [m]. A vertex that it lacks has the weight 0, and counts as at the origin.
   static std::array<Triple<double>, 4> corners(const Term& term, const State& x) {
     std::array<Triple<double>, 4> corners{};
     for (std::size_t k = 0; k < 4; ++k)
@@ -65,7 +65,7 @@ struct SpringKind {
     add_spring(term, term.weight[place], separation(term.weight, with_own<ByOwn<double>>(ends, place)), sum);
   }
 
-  /// What its stage is asked about the vertex at a place.
+  /// The question that the kind's stage is asked about the vertex at a place.
   template <class Positions>
   static compare::SpringCase question(const compare::SweepIn& in, std::size_t i, std::size_t place,
                                       const Positions& x) {
@@ -84,7 +84,7 @@ struct SpringKind {
     question.damping_form = in.scene->settings.damping;
     return question;
   }
-  /// All that are accepted, the exact one first.
+  /// Returns all accepted answers, the exact one first.
   static std::vector<compare::ForceAnswer> answers(const compare::SpringCase& question) {
     return {reference::spring(question)};
   }

@@ -9,19 +9,19 @@ namespace ogc::reference {
 
 /// See kinds.hpp.
 struct TetrahedronKind {
-  /// One of them, over doubles.
+  /// One element, in double.
   using Term = TetrahedronTerm;
-  /// All of them.
+  /// All elements of a scene.
   using List = Elements<TetrahedronKind>;
   /// Derivatives of a batch.
   static constexpr auto kernel = &StencilKernels::tetrahedra;
-  /// Of the stage, in units of u · scale.
+  /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::tetrahedron_force_tolerance,
                           block_tolerance = compare::tetrahedron_block_tolerance;
 
   /// How many a scene has.
   static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.tetrahedra.size(); }
-  /// Whom it joins; −1 where there is none.
+  /// The vertices that it joins; −1 for one that it lacks.
   static compare::Tetrahedron vertices(const compare::Scene&, const compare::RestStateOut& rest, std::size_t i) {
     return rest.tetrahedra[i].corner;
   }
@@ -59,7 +59,7 @@ struct TetrahedronKind {
     add_damping(term, at, sum);
   }
 
-  /// What its stage is asked about the vertex at a place.
+  /// The question that the kind's stage is asked about the vertex at a place.
   template <class Positions>
   static compare::TetrahedronCase question(const compare::SweepIn& in, std::size_t i, std::size_t corner,
                                            const Positions& x) {
@@ -83,7 +83,7 @@ struct TetrahedronKind {
     question.damping_form = in.scene->settings.damping;
     return question;
   }
-  /// All that are accepted, the exact one first.
+  /// Returns all accepted answers, the exact one first.
   static std::vector<compare::ForceAnswer> answers(const compare::TetrahedronCase& question) {
     return {reference::tetrahedron(question)};
   }

@@ -9,19 +9,19 @@ namespace ogc::reference {
 
 /// See kinds.hpp.
 struct TriangleKind {
-  /// One of them, over doubles.
+  /// One element, in double.
   using Term = MembraneTerm;
-  /// All of them.
+  /// All elements of a scene.
   using List = Elements<TriangleKind>;
   /// Derivatives of a batch.
   static constexpr auto kernel = &StencilKernels::membranes;
-  /// Of the stage, in units of u · scale.
+  /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::membrane_force_tolerance,
                           block_tolerance = compare::membrane_block_tolerance;
 
   /// How many a scene has.
   static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.triangles.size(); }
-  /// Whom it joins; −1 where there is none.
+  /// The vertices that it joins; −1 for one that it lacks.
   static compare::Triangle vertices(const compare::Scene&, const compare::RestStateOut& rest, std::size_t i) {
     return rest.triangles[i].corner;
   }
@@ -83,7 +83,7 @@ struct TriangleKind {
     question.damping_form = in.scene->settings.damping;
     return question;
   }
-  /// All that are accepted, the exact one first.
+  /// Returns all accepted answers, the exact one first.
   static std::vector<compare::ForceAnswer> answers(const compare::MembraneCase& question) { return membrane(question); }
 };
 
