@@ -16,7 +16,7 @@ BackendInfo device_info() {
 #if defined(OGC_HAS_CUDA)
   return cuda_info();
 #else
-  return {false, false, "this program was built without CUDA: install nvcc and build with the default preset"};
+  return {false, false, "this program was built without CUDA: install nvcc and configure it with -DOGC_CUDA=ON"};
 #endif
 }
 
