@@ -1,4 +1,4 @@
-// Stage activation.
+// Makes the traits of stage activation.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,19 +35,19 @@ CaseData activation_lattice(Random& random) {
   return ActivationCase{d, r, static_cast<float>(1 + random.below(4))};
 }
 
-/// d → r, where the curvature jumps.
+/// Approaches d = r, where the curvature jumps.
 CaseData activation_radius(Random& random) {
   const float r = random.one_in(2) ? random.pattern() : 0.005f;
   return ActivationCase{beside(random, r), r, static_cast<float>(random.magnitude(-1, 6))};
 }
 
-/// d → τ = r/2, where the stages join.
+/// Approaches d = τ = r/2, where the stages join.
 CaseData activation_switch(Random& random) {
   const float r = random.one_in(2) ? random.pattern() : 0.005f;
   return ActivationCase{beside(random, r / 2), r, static_cast<float>(random.magnitude(-1, 6))};
 }
 
-/// d → 0, where the logarithm grows.
+/// Approaches d = 0, where the logarithm grows.
 CaseData activation_touching(Random& random) {
   const float r = static_cast<float>(random.magnitude(-3, 0));
   return ActivationCase{static_cast<float>(r * std::pow(10.0, -1 - random.below(12))), r,
@@ -62,7 +62,7 @@ ActivationCase with_any_activation(Random& random, const CaseData& data) {
 
 CaseData activation_variants(Random& random) { return with_any_activation(random, activation_uniform(random)); }
 
-/// Where the variants change over or cancel: r, τ (where a logarithm may, too), 0.
+/// Approaches the places where the variants change over or cancel: r, τ (where logarithms may cancel, too) and 0.
 CaseData activation_ladders(Random& random) {
   switch (random.below(8)) {
     case 0: return with_any_activation(random, activation_touching(random));
@@ -83,7 +83,7 @@ constexpr std::array<Generator, 8> activation_table{{{"uniform", 20, true, activ
                                                      {"variants", 8, true, activation_variants},
                                                      {"ladder.variants", 40, false, activation_ladders}}};
 
-/// Whether d lies near r, or near τ = r/2 where the stages of the activation meet.
+/// Checks whether d lies near r, or near τ = r/2 where the stages of the activation meet.
 bool near_join(double d, double r) { return std::min(std::abs(d - r), std::abs(d - r / 2)) <= near_factor * d; }
 
 }  // namespace
@@ -111,7 +111,7 @@ void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth
 
 namespace {
 
-/// Thresholds that people write: 1e-2 … 1e-8, in metres.
+/// Thresholds that people write [m].
 constexpr std::array<std::pair<const char*, float>, 7> thresholds{{{"1e-2", 1e-2f},
                                                                    {"1e-3", 1e-3f},
                                                                    {"1e-4", 1e-4f},
@@ -120,7 +120,7 @@ constexpr std::array<std::pair<const char*, float>, 7> thresholds{{{"1e-2", 1e-2
                                                                    {"1e-7", 1e-7f},
                                                                    {"1e-8", 1e-8f}}};
 
-/// `change(in, i, truth)` spoils the truth about each case.
+/// Makes a form that spoils the truth about each case by `change(in, i, truth)`.
 template <class Change>
 WrongForm activation_told(std::string name, std::string meaning, Change change) {
   return told(std::move(name), std::move(meaning), &Authority::activation,
@@ -141,7 +141,7 @@ bool is_logarithmic(const ActivationIn& in, std::size_t i) {
   return in.activation[i] == ContactActivation::ogc && 2 * double{in.distance[i]} < in.contact_radius[i];
 }
 
-/// k' of the logarithmic stage multiplied; energies stay equal at τ.
+/// Makes the form that multiplies k' of the logarithmic stage; energies stay equal at τ.
 WrongForm logarithm_times(float factor, std::string name, std::string meaning) {
   return form(std::move(name), std::move(meaning), &Authority::activation,
               [factor](const std::function<ActivationTruth(const ActivationIn&)>& right, const ActivationIn& in) {
@@ -297,7 +297,7 @@ struct Activation : BatchStage<Activation, &Contestant::activation, &Authority::
   static constexpr auto judge = judge_activation;
   static auto arrays(const Out& out) { return std::tie(out.energy, out.slope, out.curvature); }
 
-  /// `Out` and `Truth` have the same members.
+  /// Takes `Out` and `Truth`, which have the same members.
   template <class Answer>
   static std::vector<Quantity> outputs(const In&, const Answer& answer) {
     return {scalar("energy", "J", answer.energy.at(0)), scalar("slope", "N", answer.slope.at(0)),

@@ -1,4 +1,4 @@
-// Stage bending.
+// Makes the traits of stage bending.
 #include "compare/judge/stages/force_forms.hpp"
 #include "compare/judge/stages/force_stage.hpp"
 #include "compare/problem/names.hpp"

@@ -1,6 +1,7 @@
-// Stage ccd. Motions are made from the moment at which the faces are nearest, backwards and forwards. Ladders lead to
-// rims that are just hit or just missed, to parallel edges, to long slides at a small gap, to gaps that vanish, to
-// faces that touch at the start, to motions in one plane, and to edges that turn through each other.
+// Makes the traits of stage ccd. Generators make a motion from the moment at which the faces are nearest, backwards and
+// forwards. Ladders lead to rims that are just hit or just missed, to parallel edges, to long slides at a small gap, to
+// gaps that vanish, to faces that touch at the start, to motions in one plane, and to edges that turn through each
+// other.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,7 +38,7 @@ CcdKind some_kind(Random& random) { return random.one_in(2) ? CcdKind::vertex_tr
 
 bool is_first(CcdKind kind, std::size_t k) { return k < (kind == CcdKind::edge_edge ? 2u : 1u); }
 
-/// Vertices of each face in any order.
+/// Exchanges vertices within each face, and the two edges.
 void shuffle(Random& random, CcdCase& c) {
   const auto swap = [&](std::size_t i, std::size_t j) {
     std::swap(c.from[i], c.from[j]);
@@ -53,7 +54,7 @@ void shuffle(Random& random, CcdCase& c) {
   }
 }
 
-/// Both ends of the motion, placed together.
+/// Places both ends of the motion together.
 CcdCase placed(Random& random, const Draft& draft) {
   std::array<Vec3, 8> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -67,7 +68,8 @@ CcdCase placed(Random& random, const Draft& draft) {
   return c;
 }
 
-/// In the plane z = 0: a vertex at weights (a, b) of a triangle, or edges that cross at parameters a and b at an angle.
+/// Returns faces in the plane z = 0: a vertex at weights (a, b) of a triangle, or edges that cross at parameters a and
+/// b at an angle of this sine.
 Four touching_faces(Random& random, CcdKind kind, double a, double b, double sine) {
   if (kind == CcdKind::edge_edge) {
     const double cosine = std::sqrt(1 - sine * sine), length = random.magnitude(-1, 1);
@@ -85,7 +87,7 @@ void lift(Draft& draft, double height) {
     if (is_first(draft.kind, k)) draft.x[k].z += height;
 }
 
-/// The first face moves against the second, each vertex a little by itself.
+/// Moves the first face against the second; each vertex also moves a little by itself.
 void approach(Random& random, Draft& draft, double speed, double own) {
   for (std::size_t k = 0; k < 4; ++k) {
     draft.v[k] = scaled(in_box(random, -1, 1), own * speed);
@@ -108,7 +110,7 @@ CaseData uniform(Random& random) {
   return placed(random, draft);
 }
 
-/// They meet somewhere on the way.
+/// Lets the faces meet somewhere on the way.
 CaseData aimed(Random& random) {
   Draft draft{.kind = some_kind(random), .at = random.unit()};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), random.between(0.2, 1));
@@ -126,7 +128,7 @@ CaseData bits(Random& random) {
   return c;
 }
 
-/// Small whole numbers: collapsed faces, one plane, one line, contacts at the start and at the end.
+/// Makes small whole numbers: collapsed faces, one plane, one line, contacts at the start and at the end.
 CaseData lattice(Random& random) {
   CcdCase c{.kind = some_kind(random)};
   const double size = std::ldexp(1.0, random.below(9) - 4);
@@ -137,7 +139,7 @@ CaseData lattice(Random& random) {
   return c;
 }
 
-/// A rim or an end that is hit or missed by a rung.
+/// Lets a rim or an end be hit or missed by a rung.
 CaseData grazing(Random& random) {
   Draft draft{.kind = some_kind(random), .at = random.unit()};
   const double a = random.rung(), b = random.one_in(2) ? random.rung() : inside(random);
@@ -146,7 +148,7 @@ CaseData grazing(Random& random) {
   return placed(random, draft);
 }
 
-/// Angle → 0.
+/// Approaches an angle of 0 between the edges.
 CaseData parallel(Random& random) {
   Draft draft{.kind = CcdKind::edge_edge, .at = random.between(0, 1.2)};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), std::abs(random.rung()));
@@ -155,7 +157,7 @@ CaseData parallel(Random& random) {
   return placed(random, draft);
 }
 
-/// Along each other at a small gap, closing slowly or not at all.
+/// Slides the faces along each other at a small gap, which closes slowly or not at all.
 CaseData slide(Random& random) {
   Draft draft{.kind = some_kind(random)};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), random.between(0.2, 1));
@@ -169,7 +171,7 @@ CaseData slide(Random& random) {
   return placed(random, draft);
 }
 
-/// The first gap → 0, the way as long, shorter or longer; and none.
+/// Approaches a first gap of 0, or makes it 0; the way is as long as the gap, shorter or longer.
 CaseData gap(Random& random) {
   Draft draft{.kind = some_kind(random)};
   const double height = random.rung();
@@ -179,7 +181,7 @@ CaseData gap(Random& random) {
   return placed(random, draft);
 }
 
-/// All in one plane, for ever: edges and rims meet within it.
+/// Keeps all motion in one plane: edges and rims meet within it.
 CaseData planar(Random& random) {
   Draft draft{.kind = some_kind(random)};
   draft.x = points_in_box(random);
@@ -191,7 +193,7 @@ CaseData planar(Random& random) {
   return placed(random, draft);
 }
 
-/// A long edge or triangle turns about a point near the other face, through it and back, or beside it.
+/// Turns a long edge or triangle about a point near the other face: through it and back, or beside it.
 CaseData turning(Random& random) {
   Draft draft{.kind = some_kind(random), .at = 0.5};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), random.between(0.2, 1));
@@ -201,7 +203,7 @@ CaseData turning(Random& random) {
   return placed(random, draft);
 }
 
-/// Far from the origin: the differences of coordinates are few bits.
+/// Moves a case far from the origin, where the differences of coordinates have few bits.
 CaseData offset(Random& random) {
   const Vec3 far = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
   CcdCase c = case_of<CcdCase>(aimed(random));
@@ -210,7 +212,7 @@ CaseData offset(Random& random) {
   return c;
 }
 
-/// Needles: faces without an area or a length, nearly.
+/// Makes needles: faces with nearly no area or no length.
 CaseData needle(Random& random) {
   Draft draft{.kind = some_kind(random), .at = random.between(0, 1.2)};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), std::abs(random.rung()));
@@ -233,7 +235,7 @@ constexpr std::array<Generator, 13> ccd_table{{{"uniform", 12, true, uniform},
                                                {"ladder.needle", 8, false, needle},
                                                {"ladder.offset", 6, false, offset}}};
 
-/// Of two edges at the start: ‖e × e'‖² [m⁴], and ‖e‖² ‖e'‖².
+/// Returns, of the two edges at the start, ‖e × e'‖² and ‖e‖² ‖e'‖² [m⁴].
 std::pair<double, double> parallelism(const CcdCase& c) {
   const auto side = [&](std::size_t i, std::size_t j) {
     return Vec3{double{c.from[j].x} - c.from[i].x, double{c.from[j].y} - c.from[i].y,
@@ -250,7 +252,7 @@ bool starts_parallel(const CcdCase& c) {
   return cross <= 1e-6 * product;
 }
 
-/// What `skips` holds of is never found to meet.
+/// Makes the form that never finds an impact of cases for which `skips` holds.
 template <class Skips>
 WrongForm skipping(std::string name, std::string meaning, Skips skips) {
   return told(std::move(name), std::move(meaning), &Authority::ccd, [skips](const CcdIn& in, CcdTruth& truth) {
@@ -322,7 +324,7 @@ struct Ccd : BatchStage<Ccd, &Contestant::ccd, &Authority::ccd>, NoParameters, I
   static const Topology* mesh(const Case&) { return nullptr; }
   static Case part(const Case& c, const MeshPart&) { return c; }
 
-  /// A near pair of a frame, on ways as long as it is wide or shorter.
+  /// Takes a near pair of a frame, on ways as long as the pair is wide or shorter.
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
     Case c{.kind = some_kind(random)};
     const std::size_t frame = states.frame(index);

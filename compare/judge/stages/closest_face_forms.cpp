@@ -20,19 +20,19 @@ using Right = Ask<ClosestFaceTruth, ClosestFaceIn>;
 
 constexpr std::array opposite_edge{TriangleFeature::edge_12, TriangleFeature::edge_20, TriangleFeature::edge_01};
 
-/// One feature, and no other.
+/// Accepts this feature alone.
 void accept(ClosestFaceTruth& truth, std::size_t i, TriangleFeature feature) {
   truth.exact.feature[i] = feature;
   truth.accepted[i] = static_cast<std::uint8_t>(1u << static_cast<unsigned>(feature));
 }
 
-/// The rounded answer from distances and weights.
+/// Sets the rounded answer from distances and weights.
 void round_answer(ClosestFaceTruth& truth, std::size_t i) {
   truth.exact.distance[i] = static_cast<float>(truth.distance[i]);
   for (std::size_t k = 0; k < 3; ++k) truth.exact.weights[i][k] = static_cast<float>(truth.weights[i][k]);
 }
 
-/// `change(in, i, truth)` spoils the truth about each case; its rounded answer follows.
+/// Makes a form that spoils the truth about each case by `change(in, i, truth)`; its rounded answer follows.
 template <class Change>
 WrongForm face_told(std::string name, std::string meaning, Change change) {
   return told(std::move(name), std::move(meaning), &Authority::closest_face,
@@ -44,7 +44,7 @@ WrongForm face_told(std::string name, std::string meaning, Change change) {
               });
 }
 
-/// Σ|δ| of the case.
+/// Returns Σ|δ| of the case.
 double size_of(const ClosestFaceIn& in, std::size_t i) {
   double size = 0;
   for (const Vec3f& corner : in.triangle[i]) size += modulus(corner, in.point[i]);
@@ -56,7 +56,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// The triangle, seen from the point.
+/// The triangle as seen from the point.
 struct Seen {
   explicit Seen(const ClosestFaceIn& in, std::size_t i)
       : corner{difference(in.triangle[i][0], in.point[i]), difference(in.triangle[i][1], in.point[i]),
@@ -64,7 +64,7 @@ struct Seen {
         normal(cross(difference(in.triangle[i][1], in.triangle[i][0]),
                      difference(in.triangle[i][2], in.triangle[i][0]))) {}
 
-  /// Weights of the foot on the triangle's plane; those of a triangle without area are no numbers.
+  /// Returns the weights of the foot on the triangle's plane; they are no numbers for a triangle without area.
   Weights foot() const {
     Weights w;
     for (std::size_t k = 0; k < 3; ++k)
@@ -72,7 +72,7 @@ struct Seen {
     return w;
   }
 
-  /// Twice the areas of the triangles that the point itself makes with the edges.
+  /// Returns twice the areas of the triangles that the point itself makes with the edges.
   Weights areas() const {
     Weights a;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -82,7 +82,7 @@ struct Seen {
     return a;
   }
 
-  /// Of the point with these weights.
+  /// Returns the distance to the point with these weights [m].
   double distance(const Weights& w) const {
     Vec3 to{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -90,7 +90,7 @@ struct Seen {
     return std::sqrt(dot(to, to));
   }
 
-  double area() const { return std::sqrt(dot(normal, normal)); }  ///< twice it
+  double area() const { return std::sqrt(dot(normal, normal)); }  ///< twice the area [m²]
 
   std::array<Vec3, 3> corner;
   Vec3 normal;
@@ -107,7 +107,7 @@ Weights moduli(Weights w) {
   return w;
 }
 
-/// The truth says this point. Its weights are not compared: rounding them differently is not the mistake.
+/// Makes this point the truth. Its weights are not compared: the mistake is not that they are rounded differently.
 void say_point(const ClosestFaceIn& in, std::size_t i, const Weights& w, ClosestFaceTruth& truth) {
   truth.weights[i] = w;
   truth.weight_condition[i] = std::numeric_limits<double>::infinity();
@@ -115,11 +115,11 @@ void say_point(const ClosestFaceIn& in, std::size_t i, const Weights& w, Closest
   truth.exact.distance_below[i] = surely_above(truth.distance[i], size_of(in, i));
 }
 
-// Permutations.
+// Forms that permute.
 
 struct NamedOrder {
   const char* name;
-  std::array<std::size_t, 3> of;  ///< place k has what belongs to corner of[k]
+  std::array<std::size_t, 3> of;  ///< place k holds what belongs to corner of[k]
 };
 constexpr std::array<NamedOrder, 5> orders{{{"swapped_01", {1, 0, 2}},
                                             {"swapped_12", {0, 2, 1}},
@@ -157,9 +157,9 @@ void add_permutations(std::vector<WrongForm>& forms) {
                             }));
 }
 
-// Another edge or corner than the nearest.
+// Forms that choose another edge or corner than the nearest.
 
-/// The closest point of one edge, as the authority has it; an edge without length is its first end.
+/// Takes the closest point of one edge from the authority; an edge without length is its first end.
 void take_edge(const Authority& authority, const ClosestFaceIn& in, std::size_t i, std::size_t edge,
                ClosestFaceTruth& truth) {
   const std::size_t from = edge, to = (edge + 1) % 3;
@@ -190,8 +190,8 @@ void take_corner(const ClosestFaceIn& in, std::size_t i, std::size_t corner, Clo
   round_answer(truth, i);
 }
 
-/// `choose(authority, in, i, truth)` chooses where the closest point is not in the interior, and the triangle has an
-/// area.
+/// Makes a form in which `choose(authority, in, i, truth)` chooses the closest point where it does not lie in the
+/// interior and the triangle has an area.
 template <class Choose>
 WrongForm chosen_outside(std::string name, std::string meaning, Choose choose) {
   return form_of(std::move(name), std::move(meaning), [choose](const Authority& authority) {
@@ -207,7 +207,7 @@ WrongForm chosen_outside(std::string name, std::string meaning, Choose choose) {
   });
 }
 
-/// The first edge, in this order, that the foot lies beyond.
+/// Makes the form that takes the first edge, in this order, beyond which the foot lies.
 WrongForm first_edge_of(const std::array<std::size_t, 3>& order) {
   constexpr std::array<const char*, 3> edges{"01", "12", "20"};
   const std::string which = std::string(edges[order[0]]) + "_" + edges[order[1]] + "_" + edges[order[2]];
@@ -221,7 +221,7 @@ WrongForm first_edge_of(const std::array<std::size_t, 3>& order) {
       });
 }
 
-/// Corner and edge by how many weights are positive: beside an obtuse corner an edge is nearer.
+/// Chooses corner or edge by how many weights are positive. Beside an obtuse corner an edge is nearer.
 void by_signs(const Authority& authority, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   const Weights w = Seen(in, i).foot();
   const auto positive = std::count_if(w.begin(), w.end(), [](double x) { return x > 0; });
@@ -231,7 +231,7 @@ void by_signs(const Authority& authority, const ClosestFaceIn& in, std::size_t i
   }
 }
 
-/// Negative weights are set to 0, and the others are divided by their sum.
+/// Sets negative weights to 0, and divides the others by their sum.
 void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   Weights w = Seen(in, i).foot();
   for (double& x : w) x = std::max(x, 0.0);
@@ -245,7 +245,7 @@ void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, Close
   round_answer(truth, i);
 }
 
-/// The corner that is nearest, or the edge whose line is.
+/// Choose the nearest corner, or the edge whose line is nearest.
 void nearest_corner(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   const Seen seen(in, i);
   const auto squared = [](const Vec3& v) { return dot(v, v); };
@@ -285,14 +285,14 @@ void add_choices(std::vector<WrongForm>& forms) {
                                  by_clamping));
 }
 
-// Areas.
+// Forms that add up areas.
 
 constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::interior);
-/// Three weights whose sum is 1, each of ten roundings in double.
+/// Bounds the error of the sum of three weights, each of ten roundings in double.
 constexpr double sum_rounding = 30 * 0x1p-53;
 
-/// Where areas of the foot's triangles, added without their signs, exceed the triangle's by no more than `slack(area)`
-/// [twice m²], the foot counts as inside.
+/// Makes the form that counts the foot as inside where areas of its triangles, added without their signs, exceed the
+/// triangle's by no more than `slack(area)` [twice m²].
 template <class Slack>
 WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack slack) {
   return face_told(std::move(name),
@@ -303,7 +303,7 @@ WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack sl
                      if (truth.exact.feature[i] == TriangleFeature::interior ||
                          !((sum_of(w) - 1) * seen.area() <= slack(seen.area())))
                        return;
-                     if (sum_of(w) - 1 <= sum_rounding) {  // on the rim they add up rightly: either name will do
+                     if (sum_of(w) - 1 <= sum_rounding) {  // on the rim the areas rightly add up: either name will do
                        truth.accepted[i] = static_cast<std::uint8_t>(truth.accepted[i] | inside_bit);
                        return;
                      }
@@ -337,9 +337,9 @@ void add_areas(std::vector<WrongForm>& forms) {
                             }));
 }
 
-// Thresholds.
+// Forms with thresholds.
 
-/// An interior point with a weight below epsilon counts as on the edge.
+/// Counts an interior point with a weight below epsilon as lying on the edge.
 void without_small_weights(ClosestFaceTruth& truth, std::size_t i, double epsilon) {
   if (truth.exact.feature[i] != TriangleFeature::interior) return;
   const auto least = std::min_element(truth.weights[i].begin(), truth.weights[i].end());
@@ -371,14 +371,14 @@ void add_thresholds(std::vector<WrongForm>& forms) {
   }
 }
 
-// What only the answer can say.
+// Forms that only the answer can show.
 
 ClosestFaceIn question_of(const Evidence& evidence) {
   const auto& c = case_of<ClosestFaceCase>(evidence.test.data);
   return {{c.point}, {c.triangle}};
 }
 
-/// Its height is below 2⁻⁹ of its longest side, as in compare/stages/contact_force.hpp.
+/// Checks whether the triangle's height is below 2⁻⁹ of its longest side, as in compare/stages/contact_force.hpp.
 bool is_needle(const ClosestFaceIn& in) {
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -388,7 +388,7 @@ bool is_needle(const ClosestFaceIn& in) {
   return Seen(in, 0).area() <= 0x1p-9 * longest;
 }
 
-/// Whether the answer is no number where the triangle is a needle, and right elsewhere.
+/// Checks whether the answer is no number where the triangle is a needle, and right elsewhere.
 bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);
@@ -397,7 +397,7 @@ bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   return is_nan ? is_needle(in) : agrees(evidence, authority);
 }
 
-/// Whether `distance` is that of the plane where the foot is not inside, and the answer is right elsewhere.
+/// Checks whether `distance` is that of the plane where the foot is not inside, and the answer is right elsewhere.
 bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceTruth truth = authority.closest_face(in);
@@ -408,8 +408,8 @@ bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) 
   return off <= closest_face_distance_tolerance * unit_roundoff * std::max(plane, size) || agrees(evidence, authority);
 }
 
-/// Whether the answer is right but for its feature, which lies at a distance that single precision does not tell from
-/// the right one.
+/// Checks whether the answer is right but for its feature, whose distance single precision cannot tell from the right
+/// one.
 bool is_rounded_choice(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);

@@ -1,4 +1,4 @@
-// Wrong forms of the stage closest_face: answers that known mistakes give.
+// Lists the wrong forms of the stage closest_face: the answers that known mistakes give.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace ogc::compare {
 
-/// Weights and corners that are exchanged, an edge or a corner that is not the nearest, areas that add up, absolute
-/// thresholds, rounded decisions, and answers that are no numbers where a triangle is a needle.
+/// Returns forms that exchange weights and corners, choose an edge or a corner that is not the nearest, add up areas,
+/// use absolute thresholds, round decisions, or answer with no numbers where a triangle is a needle.
 std::vector<WrongForm> closest_face_forms();
 
 }  // namespace ogc::compare

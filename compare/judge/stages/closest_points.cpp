@@ -1,5 +1,5 @@
-// Stage closest_points. Canonical frame of the ladders: the first edge on the x axis, so that the planes through its
-// ends are coordinate planes, the second above it.
+// Makes the traits of stage closest_points. The ladders' canonical frame has the first edge on the x axis, so that the
+// planes through its ends are coordinate planes, and the second edge above it.
 #include <array>
 #include <limits>
 #include <span>
@@ -23,7 +23,7 @@ CaseData finish(const std::array<Vec3, 4>& points) {
   return ClosestPointsCase{{single(points[0]), single(points[1])}, {single(points[2]), single(points[3])}};
 }
 
-/// Swaps ends and edges at random, then places.
+/// Swaps ends and edges at random, then places the case.
 CaseData placed(Random& random, std::array<Vec3, 4> points) {
   if (random.one_in(2)) std::swap(points[0], points[1]);
   if (random.one_in(2)) std::swap(points[2], points[3]);
@@ -41,7 +41,7 @@ CaseData uniform(Random& random) { return finish(points_in_box(random)); }
 CaseData bits(Random& random) { return finish(points_of_bits(random)); }
 CaseData lattice(Random& random) { return finish(points_on_lattice(random, 2)); }
 
-/// Two edges that cross (seen from above) at an angle of `sine`, anywhere in both interiors.
+/// Returns two edges that cross (seen from above) at an angle of `sine`, anywhere in both interiors.
 std::array<Vec3, 4> crossing(Random& random, double sine, double z) {
   const double length = random.magnitude(-1, 1), s = random.between(0.05, 0.95), t = random.between(0.05, 0.95);
   const double cosine = std::sqrt(1 - sine * sine);
@@ -49,15 +49,15 @@ std::array<Vec3, 4> crossing(Random& random, double sine, double z) {
           Vec3{(1 - t) * length * cosine, (1 - t) * length * sine, z}};
 }
 
-/// Angle → 0 with crossing interiors.
+/// Approaches an angle of 0, with crossing interiors.
 CaseData parallel(Random& random) { return placed(random, crossing(random, std::abs(random.rung()), height(random))); }
 
-/// Angle → the threshold of the rule for nearly parallel edges, sine² = 10⁻⁶, from both sides.
+/// Approaches, from both sides, the threshold of the rule for nearly parallel edges, sine² = 10⁻⁶.
 CaseData threshold(Random& random) {
   return placed(random, crossing(random, 1e-3 * (1 + random.rung()), height(random)));
 }
 
-/// Parallel edges whose projections overlap by a rung, from far apart to one inside the other.
+/// Makes parallel edges whose projections overlap by a rung, from far apart to one inside the other.
 CaseData overlap(Random& random) {
   const double length = random.magnitude(-1, 1), shift = random.one_in(2) ? 1 : -length,
                tilt = random.one_in(2) ? 0 : random.rung();
@@ -65,21 +65,21 @@ CaseData overlap(Random& random) {
   return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{x, y, z}, Vec3{x + length, y, z + tilt * length}});
 }
 
-/// Parallel edges in general position.
+/// Makes parallel edges in general position.
 CaseData exact_parallel(Random& random) {
   const double x = random.between(-2, 2), length = random.magnitude(-1, 1),
                y = random.one_in(2) ? 0 : random.between(-1, 1), z = height(random);
   return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{x, y, z}, Vec3{x + length, y, z}});
 }
 
-/// The closest point of the first edge tends to its end, that of the second to anywhere.
+/// Lets the closest point of the first edge tend to its end, that of the second to anywhere.
 CaseData end(Random& random) {
   const double x = random.rung(), slope = random.one_in(2) ? 0 : random.between(-2, 2), z = height(random);
   const double low = random.one_in(3) ? random.rung() : -random.between(0.1, 1), high = random.between(0.1, 1);
   return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{x + slope * low, low, z}, Vec3{x + slope * high, high, z}});
 }
 
-/// One or both lengths → 0.
+/// Lets one or both lengths tend to 0.
 CaseData zero_length(Random& random) {
   const Vec3 a = on_lattice(random, 2);
   const Vec3 short_side{random.rung(), random.one_in(2) ? 0 : random.rung(), 0};
@@ -91,7 +91,7 @@ CaseData zero_length(Random& random) {
   return placed(random, points);
 }
 
-/// Distance → 0: crossings, an end on an interior, a shared end, equal edges, edges on one line.
+/// Approaches a distance of 0: crossings, an end on an interior, a shared end, equal edges, edges on one line.
 CaseData near(Random& random) {
   const double z = random.rung();
   switch (random.below(5)) {
@@ -105,7 +105,7 @@ CaseData near(Random& random) {
   }
 }
 
-/// Short edges far from the origin: the differences of their coordinates are few bits.
+/// Puts short edges far from the origin, where the differences of their coordinates have few bits.
 CaseData offset(Random& random) {
   const Vec3 far = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
   std::array<Vec3, 4> points;
@@ -113,7 +113,7 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-/// Next to a boundary: one of the ladders towards ends, overlaps and the rule for nearly parallel edges, on its lower
+/// Approaches a boundary: climbs a ladder towards ends, overlaps or the rule for nearly parallel edges, on its lower
 /// rungs.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> ladders{threshold, overlap, end};
@@ -149,7 +149,7 @@ std::string features(const ClosestPointsOut& out, std::size_t i) {
          parallel;
 }
 
-/// Σ|δ| of the case.
+/// Returns Σ|δ| of the case.
 double size_of(const ClosestPointsIn& in, std::size_t i) {
   const Vec3f& from = in.first[i][0];
   return modulus(in.first[i][1], from) + modulus(in.second[i][0], from) + modulus(in.second[i][1], from);
@@ -171,8 +171,8 @@ void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestP
   if (!judge_below(out.distance_below[i], truth.exact.distance_below[i], truth.distance[i],
                    std::max(truth.distance[i], size), 2, tally))
     return;
-  // On the other side of the rule for nearly parallel edges the contact points are others: only the distance_below
-  // above can be compared.
+  // On the other side of the rule for nearly parallel edges the contact points are different ones: of the distances,
+  // only distance_below (above) can be compared.
   if (out.nearly_parallel[i] != truth.exact.nearly_parallel[i]) {
     if (!(out.contact_distance[i] >= out.distance_below[i]))
       tally.mismatch(
@@ -210,7 +210,7 @@ namespace {
 double squared(const Vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 double squared_length(const std::array<Vec3f, 2>& edge) { return squared(difference(edge[1], edge[0])); }
 
-/// The rounded answer from distance and parameters.
+/// Sets the rounded answer from distance and parameters.
 void round_answer(ClosestPointsTruth& truth, std::size_t i) {
   truth.exact.contact_distance[i] = static_cast<float>(truth.contact_distance[i]);
   for (std::size_t k = 0; k < 2; ++k) truth.exact.parameters[i][k] = static_cast<float>(truth.parameters[i][k]);
@@ -247,10 +247,10 @@ void without_parallel_rule(ClosestPointsTruth& truth, std::size_t i) {
   truth.exact.nearly_parallel[i] = 0;
   truth.contact_distance[i] = truth.distance[i];
   truth.parameter_condition[i] =
-      std::numeric_limits<double>::infinity();  // of the many closest points the rule alone picks a pair
+      std::numeric_limits<double>::infinity();  // the rule alone picks a pair of the many closest points
 }
 
-/// ‖e × e'‖².
+/// Returns ‖e × e'‖² [m⁴].
 double parallelism(const std::array<Vec3f, 2>& first, const std::array<Vec3f, 2>& second) {
   const Vec3 a = difference(first[1], first[0]), b = difference(second[1], second[0]);
   return squared({a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x});
@@ -258,8 +258,8 @@ double parallelism(const std::array<Vec3f, 2>& first, const std::array<Vec3f, 2>
 
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Answers as the rule for nearly parallel edges has it, whatever their angle: the middle of the overlap, where there
-/// is one.
+/// Answers by the rule for nearly parallel edges, whatever their angle: with the middle of the overlap, where there is
+/// one.
 void with_parallel_rule(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
   const auto& [a, a_end] = in.first[i];
   const auto& [b, b_end] = in.second[i];
@@ -280,7 +280,7 @@ void with_parallel_rule(const ClosestPointsIn& in, ClosestPointsTruth& truth, st
   accept(truth, i);
 }
 
-/// The rule by an absolute threshold on ‖e × e'‖², in place of one on the sine.
+/// Makes the form whose rule has an absolute threshold on ‖e × e'‖² in place of one on the sine.
 WrongForm parallel_by_threshold(const char* text, double epsilon) {
   return told("nearly_parallel_where_cross_product_below_" + std::string(text),
               "edges count as nearly parallel by an absolute threshold: ‖e × e'‖² below " + std::string(text) + " m⁴",
@@ -299,7 +299,8 @@ EdgeFeature feature_at(double t) {
   return t <= 0 ? EdgeFeature::end_0 : t >= 1 ? EdgeFeature::end_1 : EdgeFeature::interior;
 }
 
-/// The closest point of the second line to the start of the first edge, clamped, and back: right for parallel edges.
+/// Finds the closest point of the second line to the start of the first edge, clamps it, and goes back: right for
+/// parallel edges.
 void from_start(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
   const Vec3 e = difference(in.first[i][1], in.first[i][0]), f = difference(in.second[i][1], in.second[i][0]),
              r = difference(in.first[i][0], in.second[i][0]);
@@ -452,7 +453,7 @@ struct ClosestPoints : BatchStage<ClosestPoints, &Contestant::closest_points, &A
                     out.distance_below);
   }
 
-  /// The rounded part of an answer, and what the truth has in double.
+  /// Lists the rounded part of an answer, and what the truth has in double.
   static std::vector<Quantity> outputs(const Out& out, const Quantity& parameters, double contact_distance) {
     return {word("first_feature", feature_name(out.first_feature.at(0), "first")),
             word("second_feature", feature_name(out.second_feature.at(0), "second")),

@@ -1,4 +1,4 @@
-// What contact_force and friction_force share: a contact as a stencil.
+// Describes a contact as a stencil, for the stages contact_force and friction_force.
 #pragma once
 
 #include <array>
@@ -12,41 +12,41 @@
 
 namespace ogc::compare {
 
-/// What the vertices of a contact are.
+/// Returns what each vertex of a contact is, in words.
 std::vector<std::string> contact_roles(ContactSides sides);
 
 /// Names what makes the contact illegal.
 void check_contact(const ContactForceCase& c, FirstProblem& problem);
 
-/// The vertices that a contact has.
+/// Returns the vertices that a contact of these sides has: the first ones of `all`.
 template <class Vertices>
 auto vertices_of(Vertices& all, ContactSides sides) {
   return std::span(all).first(static_cast<std::size_t>(vertex_count(sides)));
 }
 
-Shape contact_shape(const ContactForceCase& c);  ///< its faces, the vertex asked about as a dot
+Shape contact_shape(const ContactForceCase& c);  ///< Returns the contact's faces, with a dot at the vertex asked about.
 
 /// Throws InputError where `own` names no vertex of the contact.
 void check_own(const ContactForceCase& c);
 
-/// "r" or "k_c" of the contact.
+/// Returns where the contact keeps the parameter "r" or "k_c".
 inline float* contact_parameter(ContactForceCase& c, std::string_view name) {
   return name == ranges::contact_radius.name ? &c.contact_radius : &c.stiffness;
 }
 
-/// A triangle's corners in another order: corner k is taken for corner of[k].
+/// A wrong order of a triangle's corners: corner k is taken for corner of[k].
 struct CornerOrder {
   const char* name;                ///< "swapped_01"
   std::array<std::int32_t, 3> of;  ///< by corner
 };
-/// All of them but the right one.
+/// All orders but the right one.
 inline constexpr std::array<CornerOrder, 5> corner_orders{{{"swapped_01", {1, 0, 2}},
                                                            {"swapped_12", {0, 2, 1}},
                                                            {"swapped_02", {2, 1, 0}},
                                                            {"rotated_120", {1, 2, 0}},
                                                            {"rotated_201", {2, 0, 1}}}};
 
-/// Forms of the contact inside a question: `contact(case)` finds it.
+/// Adds forms that change the contact inside a question; `contact(case)` returns that contact.
 template <class In, class Contact>
 void add_contact(std::vector<WrongForm>& forms, ForceMember<In> stage, Contact contact) {
   using Case = std::decay_t<decltype(In{}.cases[0])>;

@@ -1,12 +1,12 @@
-// Stage detect_edge_edge.
+// Makes the traits of stage detect_edge_edge.
 #include "compare/judge/stages/detection.hpp"
 
 namespace ogc::compare {
 
 namespace {
 
-/// Never: nearly parallel edges meet interior to interior also where an end is closest, beside the contact of that end
-/// with the same edge that another edge at it generates.
+/// Returns false: nearly parallel edges meet interior to interior even where an end is closest, beside the contact of
+/// that end with the same edge, which another edge at that end generates.
 bool excludes(const Topology&, const EdgeEdgeContact&, const EdgeEdgeContact&) { return false; }
 
 }  // namespace

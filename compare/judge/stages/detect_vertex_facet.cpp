@@ -1,5 +1,4 @@
-// Stage detect_vertex_facet. A missing contact that nothing replaces is named as a gap in the covering: there a vertex
-// could pass unseen.
+// Makes the traits of stage detect_vertex_facet.
 #include "compare/judge/stages/detection.hpp"
 
 namespace ogc::compare {
@@ -14,7 +13,7 @@ bool is_part(const Topology& topology, const Face& a, const Face& b) {
   return a.kind == FaceKind::vertex ? has(topology.triangles[i]) : has(topology.triangle_edges[i]);
 }
 
-/// Whether a's block lies on the other side of a boundary of b's.
+/// Checks whether a's block lies on the other side of a boundary of b's.
 bool excludes(const Topology& topology, const VertexFacetContact& a, const VertexFacetContact& b) {
   return a.vertex == b.vertex && is_part(topology, a.face, b.face);
 }

@@ -1,15 +1,15 @@
-// What the two detections share: the verdict about a contact set, the traits of a state, forms that are a change of the
-// question or a cap. The verdict sorts both sets and compares keys:
+// Holds what the two detections share: the verdict about a contact set, the traits of a stage whose case is a state,
+// and forms that change the question or cap a list. The verdict sorts both sets and compares keys:
 //
 //   exact, answered            right
 //   exact, not answered        excused by a grey decision that holds it, if another contact of that decision is
 //                              answered or absence is accepted
 //   answered, not exact        excused by a grey decision that holds it
-//   a and b answered, a ⊂ b    wrong in one grey decision: whatever the side of the boundary, their blocks share no
+//   a and b answered, a ⊂ b    wrong in one grey decision: on either side of the boundary, their blocks share no
 //                              point (§3.3, local exclusiveness). Two triangles across a slightly concave edge may
 //                              stand side by side; so may edge pairs, by the rule for nearly parallel ones
 //
-// A missing contact that nothing replaces is a gap in the covering, and named so: there a vertex could pass unseen.
+// The verdict names a missing contact that nothing replaces as a gap in the covering: a vertex could pass there unseen.
 #pragma once
 
 #include <algorithm>
@@ -33,19 +33,20 @@
 
 namespace ogc::compare {
 
-/// Whether the contact is there.
+/// Checks whether the sorted set holds the contact.
 template <class Contact>
 bool holds(const std::vector<Contact>& sorted, const Contact& contact) {
   return std::binary_search(sorted.begin(), sorted.end(), contact);
 }
 
-/// Whether the decision is about the contact.
+/// Checks whether the decision is about the contact.
 template <class Contact>
 bool lists(const GreyDecision<Contact>& decision, const Contact& contact) {
   return std::find(decision.contacts.begin(), decision.contacts.end(), contact) != decision.contacts.end();
 }
 
-/// Compares two sets. `excludes(topology, a, b)`: whether a's block lies on the other side of a boundary of b's.
+/// Compares two sets of contacts. `excludes(topology, a, b)` tells whether a's block lies on the other side of a
+/// boundary of b's block.
 template <class Contact>
 class SetVerdict {
  public:
@@ -75,7 +76,7 @@ class SetVerdict {
   }
 
  private:
-  /// In braces, so that its commas end nothing.
+  /// Prints a contact in braces, so that its commas separate nothing outside of it.
   std::string print(const Contact& contact) const { return "{" + contact_name(contact, topology_) + "}"; }
 
   std::size_t answered(const GreyDecision<Contact>& decision) const {
@@ -120,18 +121,18 @@ class SetVerdict {
   Tally& tally_;
 };
 
-/// ‖a − b‖ [m].
+/// Returns ‖a − b‖ [m].
 inline double length(const Vec3f& a, const Vec3f& b) {
   return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
 }
 
-/// The unit of a smallest distance is that of the pair which attains it, u max(d, Σ|δ|), and the judge does not know
-/// that pair. Every point of it lies within d + (longest sides) of the case's first vertex, which bounds each |δ| by √3
-/// times that: three of them for a pair of four vertices.
+/// Returns a scale for the error of a smallest distance. Its unit would be that of the pair which attains it, u max(d,
+/// Σ|δ|), but the judge does not know that pair. Every point of the pair lies within d + (longest sides) of the case's
+/// first vertex, which bounds each |δ| by √3 times that: three of them for a pair of four vertices.
 inline double pair_scale(double d, double sides) { return 3 * std::sqrt(3.0) * (d + sides); }
 
-/// A stage that is asked for the contacts of a state. `S::kept(out)`: the contacts, as a set;
-/// `S::moved(out, to)`: the same under other numbers.
+/// A stage whose answer is the contacts of a state. `S::kept(out)` returns the contacts as a set; `S::moved(out, to)`
+/// returns the same set under other numbers.
 template <class S, auto contestant, auto authority>
 struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   using Base = MeshStage<S, contestant, authority>;
@@ -139,19 +140,19 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   using typename Base::Out;
   using typename Base::Truth;
   using Case = MeshCase;
-  /// r and r_q.
+  /// Parameters that a problem string may set.
   static constexpr std::array parameters{ranges::contact_radius, ranges::query_radius};
 
-  /// Radii, which must be legal together.
+  /// Sets radii, which must be legal together.
   static std::string set(Case& c, std::span<const Override> values) {
     for (const Override& value : values)
       (value.name == ranges::contact_radius.name ? c.contact_radius : c.query_radius) = value.value;
     return ranges::check_radii(c.contact_radius, c.query_radius);
   }
-  /// One table for both detections.
+  /// Both detections share one table.
   static std::span<const Generator> generators() { return detect_generators(); }
 
-  /// Arrays by vertex, coordinates and radii.
+  /// Checks the arrays by vertex, coordinates and radii.
   static void check(const Case& c, FirstProblem& problem) {
     const auto n = static_cast<std::size_t>(c.topology->vertex_count);
     problem.require(c.positions.size() == n && c.rigid_groups.size() == n,
@@ -160,32 +161,32 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
     problem.number("a contact radius", c.contact_radius, 0x1p-60f, most_length);  // its square is a normal number
     problem.number("a query radius", c.query_radius, c.contact_radius, vast);
   }
-  /// Positions; mesh and radii stay.
+  /// Moves positions; mesh and radii stay.
   static void mutate(Random& random, Case& c) { mutate_points(random, c.positions); }
   static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.positions}); }
-  /// A frame, whole.
+  /// Takes a whole frame of a run, or a scene at its start.
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
     return states.whole(states.frame(index), random);
   }
   static Case of_scene(const Scene& scene, const Contestant&) { return case_at_start(scene); }
 
-  /// The state, and back.
+  /// Writes the state, and reads it back.
   static Json write(const Case& c) { return mesh_case_to_json(c); }
   static Case read(const Json& data) { return to_mesh_case(data); }
 
-  /// The mesh.
+  /// Draws the mesh.
   static Shape shape(const Case& c) {
     Shape shape;
     shape.add(*c.topology, c.positions);
     return shape;
   }
-  /// Radii, mesh, positions and exclusions.
+  /// Lists radii, mesh, positions and exclusions.
   static std::vector<Quantity> inputs(const Case& c) {
     return joined({scalar("contact_radius", "m", c.contact_radius), scalar("query_radius", "m", c.query_radius)},
                   state_quantities(*c.topology, c.positions, c.rigid_groups, c.partners));
   }
 
-  /// A smaller case is a part of the mesh.
+  /// Makes a smaller case from a part of the mesh.
   static const Topology* mesh(const Case& c) { return c.topology.get(); }
   static Case part(const Case& c, const MeshPart& part) {
     return {part.topology,
@@ -195,24 +196,24 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
             c.query_radius,
             part.partners(c.partners)};
   }
-  /// Coordinates, and radii that stay above 0.
+  /// Lists the numbers that may be shortened: coordinates, and radii that stay above 0.
   static ShortenedNumbers numbers(Case& c) { return {coordinates(c), {&c.contact_radius, &c.query_radius}}; }
 
-  /// A view of the case, and the bits of an answer.
+  /// Returns a view of the case, and adds the bits of an answer.
   static In question(const Case& c) { return detect_question(c); }
   static void add(Bits& bits, const Out& out) { bits.add(out); }
-  /// How many decisions are grey.
+  /// Says how many decisions are grey.
   static std::string note(const Truth& truth) {
     return truth.grey.empty()
                ? ""
                : "grey: " + std::to_string(truth.grey.size()) + " decisions may go either way; the exact one is shown";
   }
-  /// The exact answer, as a contestant would give it.
+  /// Lists the exact answer as a contestant would give it.
   static std::vector<Quantity> outputs(const In& in, const Truth& truth) { return S::outputs(in, truth.exact); }
 
-  /// What is defined by numbers (owners, generating edges) is left out, and smallest distances, which are rounded in
-  /// the order of corners and edges. Cases with collapsed triangles or edges have ties that a contestant may break by
-  /// order: not for them.
+  /// Checks whether the contacts stay the same under other numbers. Left out is what numbers define (owners, generating
+  /// edges), and smallest distances, which are rounded in the order of corners and edges. The check holds for generic
+  /// cases only: where triangles or edges are collapsed, a contestant may break ties by order.
   static bool is_same_renumbered(const TestCase& test, Random& random, const Contestant& c) {
     const auto& before = case_of<Case>(test.data);
     const Renumbering to(random, *before.topology);
@@ -228,7 +229,7 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   }
 };
 
-/// The contacts of an answer by name.
+/// Lists the contacts of an answer by name.
 template <class Contact>
 Quantity contact_quantity(const std::vector<Contact>& all, const Topology& topology) {
   std::vector<std::string> names;
@@ -240,7 +241,7 @@ Quantity contact_quantity(const std::vector<Contact>& all, const Topology& topol
 template <class Truth>
 using Detection = std::function<Truth(const DetectIn&)> Authority::*;
 
-/// Changes of the question.
+/// Returns forms that change the question, and one that drops all contacts.
 template <class Truth>
 std::vector<WrongForm> question_forms(Detection<Truth> stage) {
   return {asked("groups_ignored", "pairs inside one rigid group are kept", stage,
@@ -257,11 +258,11 @@ std::vector<WrongForm> question_forms(Detection<Truth> stage) {
           })};
 }
 
-/// The list that keeps a contact: by vertex, by triangle, by edge; one for all.
+/// Returns the number of the list that keeps a contact: of its vertex, triangle or edge, or the same for all contacts.
 template <class Contact>
 using Owner = Index (*)(const Contact&);
 
-/// The length of each list that is not empty.
+/// Returns the length of each list that is not empty.
 template <class Contact>
 std::map<Index, std::size_t> lengths(const std::vector<Contact>& contacts, Owner<Contact> owner) {
   std::map<Index, std::size_t> count;
@@ -269,7 +270,7 @@ std::map<Index, std::size_t> lengths(const std::vector<Contact>& contacts, Owner
   return count;
 }
 
-/// The longest list of all answers.
+/// Returns the length of the longest list among all answers.
 template <class Out, class Contact>
 std::size_t cap_seen(std::span<const Evidence> evidence, std::function<Out(const DetectIn&)> Contestant::*answered,
                      Owner<Contact> owner) {
@@ -281,7 +282,8 @@ std::size_t cap_seen(std::span<const Evidence> evidence, std::function<Out(const
   return longest;
 }
 
-/// Lists of at most `cap` contacts: which are missing from a full one, the answer says.
+/// Makes the form that keeps at most `cap` contacts a list. The answer decides which contacts are missing from a full
+/// list.
 template <class Out, class Truth, class Contact>
 WrongForm capped(std::string name, const std::string& list, std::size_t cap, Detection<Truth> stage,
                  std::function<Out(const DetectIn&)> Contestant::*answered, Owner<Contact> owner) {

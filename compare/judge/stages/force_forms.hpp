@@ -1,4 +1,4 @@
-// Wrong forms that force stages share.
+// Holds the wrong forms that force stages share.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace ogc::compare {
 template <class In>
 using ForceMember = std::function<ForceTruth(const In&)> Authority::*;
 
-/// `change(case)` comes before the authority.
+/// Makes a form that asks the authority about cases changed by `change(case)`.
 template <class In, class Change>
 WrongForm case_asked(std::string name, std::string meaning, ForceMember<In> stage, Change change) {
   return asked(std::move(name), std::move(meaning), stage, [change](In& in) {
@@ -23,7 +23,7 @@ WrongForm case_asked(std::string name, std::string meaning, ForceMember<In> stag
   });
 }
 
-/// `change(case, answer)` spoils each accepted answer.
+/// Makes a form whose accepted answers are spoilt by `change(case, answer)`.
 template <class In, class Change>
 WrongForm case_told(std::string name, std::string meaning, ForceMember<In> stage, Change change) {
   return told(std::move(name), std::move(meaning), stage, [change](const In& in, ForceTruth& truth) {
@@ -32,28 +32,28 @@ WrongForm case_told(std::string name, std::string meaning, ForceMember<In> stage
   });
 }
 
-/// Force, or block, times a factor.
+/// Multiplies the force and its scale by a factor.
 inline void scale_force(ForceAnswer& answer, double factor) {
   answer.force = {factor * answer.force.x, factor * answer.force.y, factor * answer.force.z};
   answer.force_scale *= std::abs(factor);
 }
 
-/// The same of the block.
+/// Multiplies the block and its scale by a factor.
 inline void scale_block(ForceAnswer& answer, double factor) {
   for (double& b : answer.block) b *= factor;
   answer.block_scale *= std::abs(factor);
 }
 
-/// Of the block.
+/// Returns the trace of the block.
 inline double trace(const ForceAnswer& answer) { return answer.block[0] + answer.block[3] + answer.block[5]; }
 
-/// The block with `coefficient` times a matrix full of ones where it had as much of I.
+/// Turns a part `coefficient` · I of the block into `coefficient` times a matrix full of ones.
 inline void add_ones(ForceAnswer& answer, double coefficient) {
   for (const std::size_t k : {1, 2, 4}) answer.block[k] += coefficient;
   answer.block_scale = std::max(answer.block_scale, std::abs(coefficient));
 }
 
-/// What can go wrong with any force and block.
+/// Returns the mistakes that any force and block can have.
 template <class In>
 std::vector<WrongForm> common_forms(ForceMember<In> stage) {
   using Case = std::decay_t<decltype(In{}.cases[0])>;
@@ -82,7 +82,7 @@ std::vector<WrongForm> common_forms(ForceMember<In> stage) {
                     })};
 }
 
-/// No damping, a part of it, or damping of the other form.
+/// Adds forms without damping, with a wrong amount or a part of it, or with damping of the other form.
 template <class In>
 void add_damping(std::vector<WrongForm>& forms, ForceMember<In> stage) {
   using Case = std::decay_t<decltype(In{}.cases[0])>;

@@ -1,4 +1,4 @@
-// A stage that answers with the force and block of one vertex of a stencil.
+// Makes a stage that answers with the force and block of one vertex of a stencil.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace ogc::compare {
 
-/// Members of a force stage's case, one after another.
+/// Lists the members of a force stage's case, one after another.
 class StencilInputs {
  public:
   StencilInputs(std::vector<std::string> roles, std::vector<Quantity>& inputs)
@@ -49,14 +49,14 @@ class StencilInputs {
   std::vector<Quantity>& inputs_;
 };
 
-/// The symmetric block of an answer, entry by entry.
+/// Lists the symmetric block of an answer, entry by entry.
 template <class Block>
 Quantity block_quantity(const Block& block) {
   return labelled(numbers("block", "N/m", block), {"xx", "xy", "xz", "yy", "yz", "zz"});
 }
 
-/// `S::roles(case)`: what the vertices of the stencil are, those that it lacks left out; `S::checked(case)`: a case
-/// that was read, or InputError.
+/// A force stage. `S::roles(case)` names the vertices that the stencil has; `S::checked(case)` returns a case that was
+/// read, or throws InputError.
 template <class S, class StencilCase, auto contestant, auto authority>
 struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, ParametersOfCase<S> {
   using Base = BatchStage<S, contestant, authority>;
@@ -65,34 +65,33 @@ struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, Parameters
   using typename Base::Truth;
   using Case = StencilCase;
 
-  /// Any stencil that was read; and its members, written and read.
+  /// Accepts any stencil that was read; writes and reads its members.
   static Case checked(Case c) { return c; }
   static Json write(const Case& c) { return write_stencil(c); }
   static Case read(const Json& data) { return S::checked(read_stencil<Case>(data)); }
-  /// The members by name and unit.
+  /// Lists the members by name and unit.
   static std::vector<Quantity> inputs(const Case& c) {
     std::vector<Quantity> all;
     visit_members(c, StencilInputs(S::roles(c), all));
     return all;
   }
 
-  /// The cases as they are.
+  /// Asks about the cases as they are.
   static In question(Cases cases) { return case_question(cases, &In::cases); }
-  /// By judge_force.
   static void judge(Cases cases, const In&, const Truth& truth, const Out& out, Tally& tally) {
     judge_force(cases, truth, out, tally);
   }
-  /// Force and block.
+  /// Returns the arrays of an answer.
   static auto arrays(const Out& out) { return std::tie(out.force, out.block); }
 
-  /// How many answers are accepted, where it is not one.
+  /// Says how many answers are accepted, where there are several.
   static std::string note(const Truth& truth) {
     const std::size_t accepted = truth.accepted[0].size();
     return accepted == 1 ? ""
                          : "grey: " + std::to_string(accepted) +
                                " answers are accepted, on either side of a jump; the exact one is shown";
   }
-  /// Force and block, as given and exact.
+  /// Lists force and block, as given and exact.
   static std::vector<Quantity> outputs(const In&, const Out& out) {
     return {points("force", "N", std::array{out.force.at(0)}), block_quantity(out.block.at(0))};
   }

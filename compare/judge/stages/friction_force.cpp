@@ -1,4 +1,4 @@
-// Stage friction_force.
+// Makes the traits of stage friction_force.
 #include "compare/judge/stages/contact_stencil.hpp"
 
 namespace ogc::compare {

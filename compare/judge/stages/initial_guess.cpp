@@ -1,5 +1,5 @@
-// Stage initial_guess. Where a bound is to be just reached or just missed, a generator sets it from y in double, which
-// is within a few u of every answer's own y.
+// Makes the traits of stage initial_guess. To reach a bound or just miss it, a generator sets the bound from y in
+// double, which is within a few u of every answer's own y.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,21 +24,21 @@ using namespace placement;
 Vec3 wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
 double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
-/// ‖y − x_prev‖ [m].
+/// Returns ‖y − x_prev‖ [m].
 double move_of(const InitialGuessCase& c) {
   const double h = c.time_step;
   const Vec3 y = sum(wide(c.start), sum(scaled(wide(c.velocity), h), scaled(wide(c.acceleration), h * h)));
   return length(sum(y, scaled(wide(c.previous), -1)));
 }
 
-/// A vertex of a scene of everyday size: cloth at up to `speed` m/s.
+/// Returns a vertex of a scene of everyday size: cloth at up to `speed` m/s.
 InitialGuessCase falling(Random& random, double speed) {
   InitialGuessCase c;
   c.start = single(in_box(random, -1, 1));
   c.velocity = single(scaled(in_box(random, -1, 1), speed));
   c.acceleration = random.one_in(4) ? single(scaled(in_box(random, -1, 1), 20)) : Vec3f{0, -9.81f, 0};
   c.time_step = static_cast<float>(random.magnitude(-4, -1));
-  // Of a later round: the vertex has gone a part of its way.
+  // In a later round, the vertex has gone a part of its way.
   const double part = random.one_in(2) ? 0 : random.unit();
   c.previous = single(sum(wide(c.start), scaled(wide(c.velocity), part * c.time_step)));
   return c;
@@ -63,7 +63,7 @@ InitialGuessCase bits(Random& random) {
   return c;
 }
 
-/// Without a rounding: powers of two and small integers, moves of rational length.
+/// Makes moves without a rounding: powers of two and small integers, moves of rational length.
 InitialGuessCase lattice(Random& random) {
   constexpr std::array<Vec3, 5> steps{{{3, 4, 0}, {1, 2, 2}, {2, 3, 6}, {1, 4, 8}, {5, 0, 0}}};
   constexpr std::array<float, 5> lengths{5, 3, 7, 9, 5};
@@ -83,27 +83,27 @@ InitialGuessCase lattice(Random& random) {
   return c;
 }
 
-/// ‖y − x_prev‖ → b_v.
+/// Lets b_v approach ‖y − x_prev‖.
 InitialGuessCase bound(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(-2, 2));
   c.bound = times(move_of(c), 1 + random.rung());
   return c;
 }
 
-/// Likewise, on the lower rungs.
+/// Makes the same on the lower rungs.
 InitialGuessCase boundary(Random& random) {
   random.be_fine();
   return bound(random);
 }
 
-/// Fast movers with small bounds: 10² … 10⁶ bounds a step.
+/// Makes fast movers with small bounds: 10² … 10⁶ bounds a step.
 InitialGuessCase fast(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(0, 5));
   c.bound = times(move_of(c), random.magnitude(-6, -2));
   return c;
 }
 
-/// Far from the origin: the move tends to the spacing of the coordinates.
+/// Puts the vertex far from the origin: the move tends to the spacing of the coordinates.
 InitialGuessCase far(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(-3, 0));
   const Vec3 shift = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
@@ -113,7 +113,7 @@ InitialGuessCase far(Random& random) {
   return c;
 }
 
-/// At rest or almost: no velocity, no acceleration, no bound, or a rung of one.
+/// Makes vertices at rest or almost: velocity, acceleration and bound are zero or a rung.
 InitialGuessCase still(Random& random) {
   InitialGuessCase c = falling(random, 1);
   const auto little = [&] {
@@ -126,7 +126,7 @@ InitialGuessCase still(Random& random) {
   return c;
 }
 
-/// A generator of vertices as one of cases.
+/// Turns a generator of vertices into one of cases.
 template <InitialGuessCase (*make)(Random&)>
 CaseData alone(Random& random) {
   return GuessCase{make(random), {}};
@@ -134,17 +134,17 @@ CaseData alone(Random& random) {
 
 using rod_cases::Four;
 
-/// A direction of any length that a segment may have.
+/// Returns the direction with any length that a segment may have.
 Vec3f stretched(Random& random, const Vec3& direction) {
   return single(scaled(direction, random.one_in(6) ? std::ldexp(1.0, random.below(70) - 38) : random.magnitude(-4, 0)));
 }
 
-/// Turned from one direction to another.
+/// Returns a segment that turns from one direction to another.
 CaseData turned(Random& random, const Vec3& from, const Vec3& to, const Four& frame) {
   return GuessCase{uniform(random), TurnCase{stretched(random, from), stretched(random, to), rod_cases::single(frame)}};
 }
 
-/// By any angle, or as a step turns a segment.
+/// Turns a segment by any angle or as a step does.
 CaseData turn(Random& random) {
   const Vec3 from = rod_cases::some_direction(random);
   const Four by = rod_cases::rotation(rod_cases::some_direction(random), random.magnitude(-6, 0.4));
@@ -152,7 +152,7 @@ CaseData turn(Random& random) {
   return turned(random, from, rod_cases::turned(by, from), frame);
 }
 
-/// θ → 0 and π; one of the directions without length.
+/// Approaches θ = 0 and π; a direction may be without length.
 CaseData turn_at(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Vec3 from = random.one_in(2) ? rod_cases::some_direction(random)
@@ -379,7 +379,8 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
     return all;
   }
 
-  /// Where one case has a segment each gets one, of no length where it has none: entry i of each array is case i's.
+  /// Where one case has a segment, each gets one (of no length where the case has none), so that entry i of each array
+  /// belongs to case i.
   static In question(Cases cases) {
     In in;
     const bool any = std::ranges::any_of(cases,
@@ -391,7 +392,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
     }
     return in;
   }
-  /// Of a segment only where the case has one: whether others of its batch do is no matter of the case.
+  /// Returns a segment's bits only where the case has a segment: they must not depend on the other cases of the batch.
   static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
     const Out out = c.initial_guess(question(cases));
     std::vector<std::string> all = bits_by_case(cases.size(), out.target, out.position, out.cut);
@@ -405,7 +406,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
   static bool can_judge(const Contestant& c, const Authority& a) {
     return c.initial_guess && a.initial_guess && a.truncate;
   }
-  /// The authority truncates the y of the answer: position and cut follow it.
+  /// Judges position and cut by the authority's truncation of the answer's own y.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     const In in = question(cases);
     const Out out = asker.answer(in, c.initial_guess);

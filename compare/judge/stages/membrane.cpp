@@ -1,4 +1,4 @@
-// Stage membrane.
+// Makes the traits of stage membrane.
 #include <limits>
 
 #include "compare/judge/stages/force_forms.hpp"

@@ -1,5 +1,5 @@
-// Stage plane. Whose planes they are is free: the truth follows the answer and says what it holds apart, and what it
-// leaves to the vertices.
+// Makes the traits of stage plane. An answer is free to choose whose planes it stores: the truth follows the answer and
+// tells which pairs it holds apart, and which room it leaves to the vertices.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ std::string vertex(std::size_t v) { return "vertex " + std::to_string(v); }
 
 bool has(std::span<const Index> vertices, Index v) { return std::ranges::find(vertices, v) != vertices.end(); }
 
-/// Whether v is part of the pair, which has no vertex on both sides.
+/// Checks whether v is part of the pair, which has no vertex on both sides.
 bool is_part(const Topology& topology, const PrimitivePair& pair, Index v) {
   const auto is_one_of = [](Index i, auto count) { return i >= 0 && i < static_cast<Index>(count); };
   if (pair.kind == PrimitivePair::Kind::edge_edge) {
@@ -37,7 +37,7 @@ bool is_part(const Topology& topology, const PrimitivePair& pair, Index v) {
   return pair.kind == PrimitivePair::Kind::vertex_triangle && !has(t, pair.first) && (pair.first == v || has(t, v));
 }
 
-/// Rows of the right number, one after another.
+/// Checks whether there is a row for each vertex, one after another.
 bool are_rows(const VertexPlanes& planes, std::size_t count) {
   const std::vector<Index>& offsets = planes.offsets;
   if (offsets.empty()) return planes.items.empty();
@@ -45,7 +45,7 @@ bool are_rows(const VertexPlanes& planes, std::size_t count) {
          offsets.back() == static_cast<Index>(planes.items.size());
 }
 
-/// What is wrong with a row; nothing where it is one of the vertex.
+/// Says what is wrong with a row; empty where it is a row of the vertex.
 std::string problem_of_row(const PlaneIn& in, std::span<const VertexPlane> row, Index v) {
   const auto order = [](const VertexPlane& p) { return std::tuple(p.pair.kind, p.pair.first, p.pair.second); };
   if (!row.empty() && in.is_fixed[static_cast<std::size_t>(v)] != 0) return "is fixed, and bears a plane";
@@ -109,7 +109,7 @@ void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& trut
 
 namespace {
 
-/// `change(in)` changes the question.
+/// Makes a form that asks about a question changed by `change(in)`.
 template <class Change>
 WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
@@ -122,7 +122,8 @@ WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   });
 }
 
-/// `accept(out, freedom)`: what is no mistake where the answer has this form.
+/// Makes a form in which `accept(out, freedom)` removes from the freedom what is no mistake where the answer has this
+/// form.
 WrongForm plane_accepted(std::string name, std::string meaning, void (*accept)(const PlaneOut&, PlaneFreedom&)) {
   return {std::move(name), std::move(meaning), [accept](const Evidence& evidence, const Authority& authority) {
             Authority wrong = authority;
@@ -222,7 +223,7 @@ struct Plane : Numbered, InEveryRun {
             std::move(is_fixed)};
   }
 
-  /// As a state whose r is r_q.
+  /// Returns the case as a state whose r is r_q.
   static MeshCase as_state(const Case& c) {
     return {c.topology, c.rigid_groups, c.positions, c.query_radius, c.query_radius, c.partners};
   }
@@ -279,7 +280,7 @@ struct Plane : Numbered, InEveryRun {
   }
   static In question_of(const TestCase& test) { return question(case_of<Case>(test.data)); }
   static bool can_judge(const Contestant& c, const Authority& a) { return c.plane && a.plane; }
-  /// The truth follows the answer.
+  /// Asks the contestant first, as the truth follows the answer.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const In in = question_of(test);
@@ -304,7 +305,7 @@ struct Plane : Numbered, InEveryRun {
   }
   static std::int64_t in_vertices(const TestCase& test) { return case_of<Case>(test.data).topology->vertex_count; }
 
-  /// Of both sides the same numbers; what is wrong with them the verdict says.
+  /// Lists the same numbers of both sides; a note says what the verdict finds wrong.
   static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
     const In in = question_of(test);
     std::string note;

@@ -1,4 +1,4 @@
-// Stage rest_state.
+// Makes the traits of stage rest_state.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// The numbers of the metrics of rest_state, in the order of RestState::metrics.
+/// Numbers of the metrics, in the order of RestState::metrics.
 enum Metric : std::size_t {
   of_mass,
   of_area,
@@ -33,7 +33,7 @@ enum Metric : std::size_t {
   of_rod
 };
 
-/// Whether θ₀ cannot be told from its turn by 2π.
+/// Checks whether θ₀ cannot be told from θ₀ turned by 2π.
 bool is_folded(double angle, double scale) {
   return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi;
 }
@@ -182,7 +182,7 @@ void scale(std::vector<double>& values, double factor) {
   for (double& x : values) x *= factor;
 }
 
-/// The rounded answer from the values.
+/// Sets the rounded answer from the values.
 void round_exact(RestStateTruth& truth) {
   RestStateOut& exact = truth.exact;
   exact.mass.assign(truth.mass.begin(), truth.mass.end());
@@ -313,7 +313,7 @@ Json body_to_json(const Body& body) {
   return json;
 }
 
-/// The next body after those that the scene has.
+/// Reads the body that follows those which the scene has.
 Body to_body(const Json& json, const Scene& scene) {
   Body body;
   body.name = json.at("name").get<std::string>();
@@ -328,7 +328,7 @@ Body to_body(const Json& json, const Scene& scene) {
   body.fixed = json.at("fixed").get<bool>();
   body.material.membrane = static_cast<MembraneModel>(number_of(json.at("membrane"), choice_names<MembraneModel>));
   body.material.bending = static_cast<BendingModel>(number_of(json.at("bending"), choice_names<BendingModel>));
-  // A case that is older than a constant has its default.
+  // A saved case may be older than a constant of the table; that constant keeps its default.
   for (const MaterialInfo& info : material_table())
     if (json.contains(info.name)) body.material.*info.field = number(json.at(std::string(info.name)));
   if (!json.contains("rod")) return body;
@@ -385,7 +385,7 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
     return {std::make_shared<Scene>(scene), std::make_shared<Topology>(build_topology(scene))};
   }
 
-  /// What the stage reads of the scene, and the start positions, which it must not read.
+  /// Writes what the stage reads of the scene, and the start positions, which it must not read.
   static Json write(const Case& c) {
     const Scene& scene = *c.scene;
     Json bodies = Json::array(), held = Json::array();

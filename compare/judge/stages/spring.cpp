@@ -1,6 +1,6 @@
-// Stage spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a motion across the spring,
-// which damping does not see; seams, to those between a vertex and a point of an edge, with the point at its ends too,
-// and closed.
+// Makes the traits of stage spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a
+// motion across the spring, which damping does not see. Ladders of seams lead to springs between a vertex and a point
+// of an edge, with the point at the edge's ends too, and to closed ones.
 #include <array>
 #include <cmath>
 
@@ -23,7 +23,7 @@ CaseData with_material(Random& random, SpringCase question, double rest_length) 
   return question;
 }
 
-/// Along x, of that length, after it was `before` long.
+/// Returns a spring along x of this length, which was `before` long at the start.
 CaseData spring_case(Random& random, double length, double before, double rest_length, bool turned = true) {
   std::array<Vec3, 4> points{Vec3{}, Vec3{length, 0, 0}, Vec3{}, Vec3{before, 0, 0}};
   if (random.one_in(2)) points[3] = sum(points[3], scaled(in_box(random, -1, 1), 0.1 * before));
@@ -39,7 +39,7 @@ CaseData spring_case(Random& random, double length, double before, double rest_l
   return with_material(random, question, rest_length);
 }
 
-/// An edge along y whose point at `ratio` is the origin, and a vertex at `length` from there.
+/// Returns a seam: an edge along y whose point at `ratio` is the origin, and a vertex at `length` from there.
 CaseData seam_case(Random& random, double edge, double ratio, double length, double before, double rest_length,
                    bool turned) {
   std::array<Vec3, 6> points{Vec3{length, 0, 0}, Vec3{0, -ratio * edge, 0}, Vec3{0, (1 - ratio) * edge, 0}, {}, {}, {}};
@@ -60,19 +60,19 @@ CaseData seam_case(Random& random, double edge, double ratio, double length, dou
 
 double some_length(Random& random) { return random.magnitude(-3, 0); }
 
-/// Stretched or pressed.
+/// Stretches or compresses a spring.
 CaseData uniform(Random& random) {
   const double length = some_length(random);
   return spring_case(random, length, length * random.between(0.5, 2), length * random.magnitude(-0.7, 0.7));
 }
 
-/// Lengths without a rounding.
+/// Makes lengths without a rounding.
 CaseData lattice(Random& random) {
   const double size = std::ldexp(1.0, random.below(9) - 8);
   return spring_case(random, size * random.below(5), size * random.below(5), size * random.below(5), false);
 }
 
-/// Coordinates and material of any bits.
+/// Takes any bits for coordinates and material.
 CaseData bits(Random& random) {
   const std::array<Vec3, 4> points = points_of_bits(random);
   SpringCase question;
@@ -84,26 +84,26 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// l → l₀, where the force vanishes and the block's part across the spring sets in; lᵗ → l.
+/// Approaches l = l₀, where the force vanishes and the block's part across the spring sets in, and lᵗ = l.
 CaseData at_rest(Random& random) {
   const double length = some_length(random);
   return spring_case(random, length, length * (1 + random.rung()), length * (1 + random.rung()));
 }
 
-/// l → 0.
+/// Approaches l = 0.
 CaseData at_zero(Random& random) {
   const double size = some_length(random);
   return spring_case(random, size * random.rung(), random.one_in(2) ? size : size * random.rung(), size,
                      random.one_in(2));
 }
 
-/// Stitches: l₀ = 0.
+/// Makes stitches: l₀ = 0.
 CaseData stitch(Random& random) {
   const double size = some_length(random);
   return spring_case(random, size * random.rung(), size * random.rung(), 0);
 }
 
-/// Of any shape, open or nearly closed.
+/// Makes seams of any shape, open or nearly closed.
 CaseData seam(Random& random) {
   const double edge = some_length(random),
                length = edge * (random.one_in(2) ? random.magnitude(-1, 0.5) : std::abs(random.rung()));
@@ -111,22 +111,22 @@ CaseData seam(Random& random) {
                    random.one_in(2) ? 0 : length * random.magnitude(-0.5, 0.5), true);
 }
 
-/// The point at an end of the edge or in its middle, without a rounding, closed or not.
+/// Puts the point at an end of the edge or in its middle, without a rounding, closed or not.
 CaseData seam_lattice(Random& random) {
   const double edge = std::ldexp(1.0, random.below(9) - 8);
   const double ratio = 0.25 * random.below(5);
   return seam_case(random, edge, ratio, edge * random.below(3), edge * random.below(3), edge * random.below(2), false);
 }
 
-/// s → 0 and s → 1.
+/// Approaches s = 0 and s = 1.
 CaseData seam_end(Random& random) {
   const double edge = some_length(random), rung = std::abs(random.rung());
   return seam_case(random, edge, std::min(1.0, random.one_in(2) ? rung : 1 - rung), edge * random.magnitude(-2, 0),
                    edge, 0, random.one_in(2));
 }
 
-/// Stitches closed down to the roundings of their point and beyond, beside rest lengths of any size: l and l₀ → 0, each
-/// by itself.
+/// Makes stitches that are closed down to the roundings of their point and beyond, beside rest lengths of any size: l
+/// and l₀ tend to 0, each by itself.
 CaseData closed(Random& random) {
   const double edge = some_length(random), ratio = random.unit(), length = edge * std::abs(random.rung()),
                before = edge * std::abs(random.rung());
@@ -146,7 +146,7 @@ constexpr std::array<Generator, 11> table{{{"uniform", 40, true, uniform},
                                            {"ladder.seam", 15, false, seam_end},
                                            {"ladder.closed", 10, false, closed}}};
 
-/// l of the spring, from these positions.
+/// Returns l of the spring in these positions [m].
 double length_of(const SpringCase& c, const std::array<Vec3f, 3>& x) {
   const double s = c.ratio;
   const auto apart = [&](float Vec3f::*k) {
@@ -155,7 +155,7 @@ double length_of(const SpringCase& c, const std::array<Vec3f, 3>& x) {
   return std::hypot(apart(&Vec3f::x), apart(&Vec3f::y), apart(&Vec3f::z));
 }
 
-/// No damping of strain but while the spring shortens (`sign` −1) or lengthens (1).
+/// Removes the damping of strain unless the spring shortens (`sign` −1) or lengthens (1).
 void damped_alone(SpringCase& c, double sign) {
   const double change = length_of(c, c.vertex) - length_of(c, c.start);
   if (damps_strain(c.damping_form) && !(sign * change > 0)) c.damping = 0;
@@ -183,7 +183,7 @@ std::vector<WrongForm> spring_forms() {
              SpringIn undamped = in;
              for (SpringCase& c : undamped.cases) c.damping = 0;
              const ForceTruth elastic = right(undamped);
-             for (SpringCase& c : undamped.cases) c.rest_length = 0;  // its block is w² k_s I
+             for (SpringCase& c : undamped.cases) c.rest_length = 0;  // the block is then w² k_s I
              const ForceTruth full = right(undamped);
              for (std::size_t i = 0; i < in.cases.size(); ++i) {
                const SpringCase& c = in.cases[i];

@@ -1,5 +1,5 @@
-// From a class to the traits of a stage. The class says what is the stage's own; its bases here say how such a stage is
-// asked. Who forgets a member of the traits is told so by the compiler.
+// Makes the traits of a stage from a class. The class holds what is the stage's own; its bases here hold what stages of
+// one sort share. A class that lacks a member of the traits does not compile.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@
 
 namespace ogc::compare {
 
-/// S::of_scene, whose case becomes data; null where there is none.
+/// Returns S::of_scene, whose case becomes data; null where the stage has none.
 template <class S>
 constexpr auto scene_maker() -> CaseData (*)(const Scene&, const Contestant&) {
   if constexpr (std::is_null_pointer_v<decltype(S::of_scene)>)
@@ -36,8 +36,8 @@ constexpr auto scene_maker() -> CaseData (*)(const Scene&, const Contestant&) {
     return [](const Scene& scene, const Contestant& contestant) -> CaseData { return S::of_scene(scene, contestant); };
 }
 
-/// The traits of the stage that `S` describes: `S::Case` is the type of its cases, all other members are those of
-/// StageTraits under the same names, on cases of that type.
+/// Makes the traits of the stage that `S` describes: `S::Case` is the type of its cases; all other members have the
+/// names of StageTraits and take cases of that type.
 template <class S>
 constexpr StageTraits make_traits() {
   using Case = typename S::Case;
@@ -71,9 +71,9 @@ constexpr StageTraits make_traits() {
       .is_same_renumbered = S::is_same_renumbered};
 }
 
-/// A case that does not get smaller.
+/// A case that cannot be made smaller.
 struct TakenWhole {
-  /// Members of StageTraits that say so.
+  /// Members of StageTraits for a case that stays whole.
   template <class Case>
   static const Topology* mesh(const Case&) {
     return nullptr;
@@ -88,7 +88,7 @@ struct TakenWhole {
   }
 };
 
-/// Answers that depend on the numbers of vertices and triangles, or have none.
+/// Answers that depend on the numbers of vertices and triangles, or contain no such numbers.
 struct Numbered {
   /// Renumbering is not checked.
   static constexpr std::nullptr_t is_same_renumbered = nullptr;
@@ -100,9 +100,9 @@ struct OwnCases {
   static constexpr std::nullptr_t of_scene = nullptr;
 };
 
-/// Cases that have no numbers for a problem string to set.
+/// Cases without numbers that a problem string could set.
 struct NoParameters {
-  /// No parameter.
+  /// No parameters, and nothing to set.
   static constexpr std::span<const ParameterInfo> parameters{};
   template <class Case>
   static std::string set(Case&, std::span<const Override>) {
@@ -127,15 +127,15 @@ struct InEveryRun {
   static std::string missing_in(const States&) { return {}; }
 };
 
-/// Runs with a contact have cases.
+/// Only runs with a contact have cases.
 struct OfContacts {
-  /// Says so of a run whose frames have no contact.
+  /// Says where a run's frames have no contact.
   static std::string missing_in(const States& states) {
     return states.has_contact() ? "" : "none of its frames has a contact";
   }
 };
 
-/// In of a stage whose questions are its cases as they are.
+/// Returns the In of a stage whose questions are its cases as they are.
 template <class In, class Case>
 In case_question(Cases cases, std::vector<Case> In::*questions) {
   In in;
@@ -143,7 +143,7 @@ In case_question(Cases cases, std::vector<Case> In::*questions) {
   return in;
 }
 
-/// Question and answer of one side.
+/// The types of a side's question and answer.
 template <class Member>
 struct SideTypes;
 template <class Answered, class Asked, class Side>
@@ -152,7 +152,7 @@ struct SideTypes<std::function<Answered(const Asked&)> Side::*> {
   using Answer = Answered;
 };
 
-/// The contestant's answer, or nothing, and why in the note.
+/// Returns the contestant's answer; where it fails, returns nothing and writes the reason into the note.
 template <class Out, class In>
 std::optional<Out> answer_or_note(const std::function<Out(const In&)>& contestant, const In& in, std::string& note) {
   try {
@@ -163,17 +163,17 @@ std::optional<Out> answer_or_note(const std::function<Out(const In&)>& contestan
   }
 }
 
-/// A stage that both sides answer to the same question. `S::outputs(in, answer)` tells an Out and a Truth by name.
+/// A stage that puts the same question to both sides. `S::outputs(in, answer)` lists an Out or a Truth by name.
 template <class S, auto contestant, auto authority>
 struct SameQuestion {
   using In = typename SideTypes<decltype(contestant)>::In;
   using Out = typename SideTypes<decltype(contestant)>::Answer;
   using Truth = typename SideTypes<decltype(authority)>::Answer;
 
-  /// Whether both sides have the stage.
+  /// Checks whether both sides have the stage.
   static bool can_judge(const Contestant& c, const Authority& a) { return c.*contestant && a.*authority; }
 
-  /// What is to say beside an exact answer.
+  /// Returns a remark to print beside an exact answer.
   static std::string note(const Truth&) { return {}; }
 
   /// Asks both sides about the case.
@@ -186,45 +186,45 @@ struct SameQuestion {
   }
 };
 
-/// Single cases, many of which make one question. `S::question(cases)`, `S::judge(cases, in, truth, out, tally)`;
-/// `S::arrays(out)` ties the arrays of an answer, whose entry i belongs to case i.
+/// A stage whose cases are single, many of them to a question. It needs `S::question(cases)`, `S::judge(cases, in,
+/// truth, out, tally)`, and `S::arrays(out)`, which ties the arrays of an answer; entry i of each belongs to case i.
 template <class S, auto contestant, auto authority>
 struct BatchStage : SameQuestion<S, contestant, authority>, Numbered, OwnCases {
   using typename SameQuestion<S, contestant, authority>::In;
   using typename SameQuestion<S, contestant, authority>::Out;
 
-  /// One case alone.
+  /// Returns the question about one case alone.
   static In question_of(const TestCase& test) { return S::question({&test, 1}); }
 
-  /// One question to each side.
+  /// Puts one question to each side.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     const In in = S::question(cases);
     S::judge(cases, in, asker.truth(in, a.*authority), asker.answer(in, c.*contestant), tally);
   }
 
-  /// One question; entry i of each array belongs to case i.
+  /// Asks one question; entry i of each array belongs to case i.
   static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
     const Out out = (c.*contestant)(S::question(cases));
     return std::apply([&](const auto&... arrays) { return bits_by_case(cases.size(), arrays...); }, S::arrays(out));
   }
 
-  /// All cases at once.
+  /// Asks about all cases at once.
   static BenchmarkCall benchmark(Cases cases, const Contestant& c, const Authority&) {
     const auto in = std::make_shared<const In>(S::question(cases));
     return {[in, stage = c.*contestant] { stage(*in); }, static_cast<std::int64_t>(cases.size())};
   }
 };
 
-/// Meshes, each a question of its own, a view of the case. `S::question(case)`, `S::judge(test, truth, out, tally)`;
-/// `S::add(bits, out)` adds an answer's bits.
+/// A stage whose cases are meshes. Each is a question of its own, a view of the case. It needs `S::question(case)`,
+/// `S::judge(test, truth, out, tally)` and `S::add(bits, out)`, which adds an answer's bits.
 template <class S, auto contestant, auto authority>
 struct MeshStage : SameQuestion<S, contestant, authority> {
   using typename SameQuestion<S, contestant, authority>::In;
 
-  /// A view of the case.
+  /// Returns a view of the case.
   static In question_of(const TestCase& test) { return S::question(case_of<typename S::Case>(test.data)); }
 
-  /// One question a mesh to each side.
+  /// Asks both sides about one mesh after another.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const In in = question_of(test);
@@ -232,7 +232,7 @@ struct MeshStage : SameQuestion<S, contestant, authority> {
     }
   }
 
-  /// One question a mesh.
+  /// Asks about one mesh after another.
   static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
     std::vector<std::string> all;
     for (const TestCase& test : cases) {
@@ -243,13 +243,13 @@ struct MeshStage : SameQuestion<S, contestant, authority> {
     return all;
   }
 
-  /// What a benchmark counts: vertices.
+  /// Returns what a benchmark counts: vertices.
   template <class Case>
   static std::int64_t items(const Case& c) {
     return c.topology->vertex_count;
   }
 
-  /// Of the first case.
+  /// Asks about the first case.
   static BenchmarkCall benchmark(Cases cases, const Contestant& c, const Authority&) {
     const auto test = std::make_shared<const TestCase>(cases.front());
     return {[test, in = question_of(*test), stage = c.*contestant] { stage(in); },

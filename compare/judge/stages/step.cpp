@@ -1,4 +1,4 @@
-// Stage step: judged event by event (compare/judge/stages/step_verdict.cpp).
+// Makes the traits of stage step, which is judged event by event (compare/judge/stages/step_verdict.cpp).
 #include <array>
 
 #include "compare/judge/cases/mutate.hpp"
@@ -21,8 +21,8 @@ Quantity event_names(const std::vector<StepEventKind>& kinds) {
   return words("events", std::move(names));
 }
 
-/// `change(move, is_first)`: what the form says of a vertex that touches, in the first round of the guess loop or in a
-/// later one.
+/// Makes a form in which `change(move, is_first)` changes the move of each vertex that touches; `is_first` tells
+/// whether the round of the guess loop is the first.
 template <class Change>
 WrongForm with_moves(std::string name, std::string meaning, Change change) {
   return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
@@ -41,7 +41,7 @@ WrongForm with_moves(std::string name, std::string meaning, Change change) {
   });
 }
 
-/// `friction`: what the form takes every contact's μ for in the guess loop.
+/// Makes a form that takes `friction` for every contact's μ in the guess loop.
 WrongForm with_friction(std::string name, std::string meaning, float friction) {
   return form_of(std::move(name), std::move(meaning), [friction](const Authority& authority) {
     Authority wrong = authority;
@@ -121,7 +121,7 @@ struct Step : TakenWhole, Numbered {
     return c.step && a.step && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound &&
            a.initial_guess && a.truncate && a.sweep && a.volume_depth;
   }
-  /// The truth follows the answer, and each event of the answer is a question of its own.
+  /// Asks the contestant first: the truth follows the answer, and each event of the answer is a question of its own.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const StepIn in = question(test);
@@ -164,7 +164,8 @@ struct Step : TakenWhole, Numbered {
     return paired(outputs(out->query_radius, kinds, points("velocity", "m/s", out->velocity)),
                   outputs(truth.query_radius, truth.events, points("velocity", "m/s", truth.velocity)), note);
   }
-  /// Of the guess loop alone: all other events are judged as the stages that they are, and named.
+  /// Lists forms of the guess loop alone: all other events are judged as stages of their own, whose forms name the
+  /// mistake.
   static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) {
     return {with_moves("touching_vertices_stay",
                        "a vertex in contact stays where it is from the second round of the guess loop on",

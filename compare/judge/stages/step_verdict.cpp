@@ -1,5 +1,5 @@
-// Verdict of a step: what each event asks its own stage, from the answer's own state before it, so that the event which
-// is named is the one that is wrong. The first wrong event ends the case: what follows it may be garbage that no stage
+// Judges a step: puts each event to its own stage, from the answer's own state before it, so that the event which is
+// named is the one that is wrong. The first wrong event ends the case: what follows it may be garbage that no stage
 // should be asked about.
 #include <algorithm>
 #include <cmath>
@@ -85,7 +85,7 @@ class StepVerdict {
       tally_.mismatch(prefix + " (stage " + std::string(stage_name(stage)) + "): " + item.message);
   }
 
-  /// Any colouring in which no two free vertices of a stencil share a colour.
+  /// Accepts any colouring in which no two free vertices of a stencil share a colour.
   void judge_colours() {
     const auto& colour = out_.colour;
     for (std::size_t v = 0; v < colour.size(); ++v)
@@ -106,7 +106,7 @@ class StepVerdict {
     if (const std::string wrong = wrong_segment_colour(*in_.scene, out_); !wrong.empty()) tally_.mismatch(wrong);
   }
 
-  /// Frames of segments, as stage initial_guess turns them.
+  /// Judges frames of segments as stage initial_guess turns them.
   void judge_frames(const std::string& when, const TurnedFrames& frames, const std::string& wrong) {
     if (!wrong.empty()) tally_.mismatch(when + ": " + wrong);
     if (frames.in.turns.empty()) return;
@@ -182,7 +182,8 @@ class StepVerdict {
                       std::to_string(truth_.events.size()));
   }
 
-  /// X_prev is x, sets and smallest distances are those at X_prev, bounds those of the answer's own distances.
+  /// Checks that X_prev is x, that sets and smallest distances are those at X_prev, and that bounds follow from the
+  /// answer's own distances.
   void judge_detection(std::size_t i) {
     const StepEvent& event = out_.events[i];
     if (policy().divides) {
@@ -216,7 +217,7 @@ class StepVerdict {
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
   }
 
-  /// Of those who may be pushed, at X_prev.
+  /// Judges the volume contacts of vertices that may be pushed, at X_prev.
   void judge_volumes(std::size_t i) {
     const StepEvent& event = out_.events[i];
     if (!volumes_.has_any()) {
@@ -235,7 +236,7 @@ class StepVerdict {
 
   BoundsTraits policy() const { return traits_of(in_.scene->settings.bounds); }
 
-  /// With planes nobody is asked for smallest distances: those of the truth stand in.
+  /// Sets smallest distances to the truth's: with planes a contestant need not answer them.
   static DetectVertexFacetOut with_distances(DetectVertexFacetOut out, const DetectVertexFacetTruth& truth) {
     out.d_min_vertex = truth.exact.d_min_vertex;
     out.d_min_triangle = truth.exact.d_min_triangle;
@@ -265,13 +266,13 @@ class StepVerdict {
            std::to_string(pair.second);
   }
 
-  /// Vertices that a guess cut: those that are known to be, and those that may be.
+  /// Counts of vertices that a guess cut: those that surely were, and those that may have been.
   struct Cuts {
     Index certain = 0, doubtful = 0;
   };
 
-  /// y, or where contacts let a vertex go, truncated. A vertex without contacts that is not at y was cut: no cut leads
-  /// to y itself, which lies beyond the bound.
+  /// Judges a guess: each vertex is at y, or where contacts let it go, truncated. A vertex without contacts that is not
+  /// at y was cut: no cut leads to y itself, which lies beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
     const std::span<const HeldMove> moves = i < truth_.moves.size() ? std::span<const HeldMove>(truth_.moves[i])
@@ -287,7 +288,7 @@ class StepVerdict {
       }
       const bool is_cut = !(event.position[v] == out_.target[v]);
       cuts.certain += is_cut;
-      // in the guess loop inertia alone holds it
+      // in the guess loop inertia alone holds the vertex
       const auto planes = detection_->planes.of(static_cast<Index>(v));
       const TruncateIn question{{at_[v]},
                                 {out_.target[v]},
@@ -302,7 +303,7 @@ class StepVerdict {
                       std::to_string(cuts.certain) + " and " + std::to_string(cuts.doubtful) + " in doubt");
   }
 
-  /// A prescribed vertex that touches, from the second round on.
+  /// Judges a prescribed vertex that touches, from the second round on: it must stay.
   void judge_staying(std::size_t i, std::size_t v, const HeldMove& held) {
     ++decisions_;
     grey_ += held.grey;
@@ -310,7 +311,7 @@ class StepVerdict {
       tally_.mismatch(where(i) + vertex(v) + " is prescribed, touches, and did not stay");
   }
 
-  /// Whether the stored position lies in the region of the last detection, exactly.
+  /// Checks whether the stored position lies in the region of the last detection, exactly.
   bool is_in_region(std::size_t v, const Vec3f& x) const {
     if (!obeys_bound(x, at_[v], detection_->bound[v])) return false;
     return std::ranges::all_of(detection_->planes.of(static_cast<Index>(v)), [&](const VertexPlane& plane) {
@@ -318,7 +319,7 @@ class StepVerdict {
     });
   }
 
-  /// How far X_prev + m lies inside of the region [m]; negative: outside.
+  /// Returns how far X_prev + m lies inside of the region [m]; negative outside.
   double clearance(std::size_t v, const Vec3& move) const {
     double least = double{detection_->bound[v]} - std::hypot(move.x, move.y, move.z);
     for (const VertexPlane& plane : detection_->planes.of(static_cast<Index>(v))) {
@@ -328,7 +329,7 @@ class StepVerdict {
     return least;
   }
 
-  /// How far a position is from X_prev + s m, of all s in [first, last] the nearest.
+  /// Returns the distance from a position to the nearest X_prev + s m with s in [first, last] [m].
   double off_way(std::size_t v, const Vec3f& x, const Vec3& m, double first, double last) const {
     const Vec3f& p = at_[v];
     const Vec3 d{double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z};
@@ -337,8 +338,9 @@ class StepVerdict {
     return std::hypot(d.x - s * m.x, d.y - s * m.y, d.z - s * m.z);
   }
 
-  /// X_prev + m, truncated. The way into a ball is no expansion, so that what is known of m holds behind it; along
-  /// half-spaces a vertex may slide anywhere in its region, or stops on its way where nothing slides.
+  /// Judges a vertex at X_prev + m, truncated. The way into a ball expands no distance, so that the accuracy of m also
+  /// holds after it. Along half-spaces a vertex may slide anywhere in its region; where nothing slides, it stops on its
+  /// way.
   void judge_held(std::size_t i, std::size_t v, const HeldMove& held, Cuts& cuts) {
     const Vec3f &x = out_.events[i].position[v], &p = at_[v];
     ++decisions_;
@@ -411,10 +413,10 @@ class StepVerdict {
   VolumeQuestion volumes_;
   std::vector<Vec3f> start_;
   std::vector<Vec3f> at_;                 ///< x before the event
-  std::vector<Quaternion> q_;             ///< of the segments, likewise
+  std::vector<Quaternion> q_;             ///< of the segments, before the event
   bool is_swept_ = false;                 ///< the guess loop is over
-  const StepEvent* detection_ = nullptr;  ///< the last
-  std::vector<Vec3f> displacement_;       ///< what divides its gaps, with bounds=dat
+  const StepEvent* detection_ = nullptr;  ///< the last detection
+  std::vector<Vec3f> displacement_;       ///< with bounds=dat: what divides the detection's gaps
   std::uint64_t wrong_before_, decisions_ = 0, grey_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Stage sweep. The judge decides about bounds by exact arithmetic of its own, and holds all else to the authority's
-// truth about this answer.
+// Makes the traits of stage sweep. The judge decides about bounds by exact arithmetic of its own, and compares all else
+// with the authority's truth about this answer.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,9 +35,8 @@ bool judge_half_spaces(const SweepIn& in, const SweepOut& out, std::size_t v, Ta
   return true;
 }
 
-/// Whether each free or prescribed vertex lies in its region; fixed ones stay whatever theirs is, as do those of
-/// volumes. The first that does
-/// not is a mismatch.
+/// Checks whether each free or prescribed vertex lies in its region; reports the first that does not. Fixed vertices
+/// and those of volumes stay, whatever their region is.
 bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Index>& groups, Tally& tally) {
   const std::vector<bool> is_volume = volume_flags(*in.scene);
   for (std::size_t v = 0; v < in.old.size(); ++v) {
@@ -53,7 +52,8 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
   return true;
 }
 
-/// Every vertex decides whether it is cut, and for each of its stencils on which side of that stencil's jumps it lies.
+/// Returns the number of decisions: each vertex decides whether it is cut, and for each of its stencils on which side
+/// of that stencil's jumps it lies.
 std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
   std::uint64_t count = in.old.size() + 3 * in.rest->triangles.size() + 4 * in.rest->hinges.size() +
@@ -64,7 +64,8 @@ std::uint64_t decisions(const SweepIn& in) {
   return count + in.volumes.size() + in.segment_colour.size();
 }
 
-/// Held segments keep their quaternions, free ones lie within what is accepted of the truth about this answer.
+/// Checks that held segments keep their quaternions, and that free ones lie within what is accepted of the truth about
+/// this answer.
 void judge_orientations(const SweepIn& in, const SweepTruth& truth, const SweepOut& out, Tally& tally) {
   for (std::size_t e = 0; e < in.segment_colour.size(); ++e)
     if (in.segment_colour[e] < 0 && out.orientation[e] != in.orientation[e])
@@ -134,7 +135,7 @@ void judge_sweep(const TestCase& test, const SweepIn& in, const SweepTruth& trut
 
 namespace {
 
-/// What a sweep reads, as copies that a form may change.
+/// What a sweep reads, copied so that a form may change it.
 struct Read {
   SweepIn in;
   Scene scene;
@@ -238,7 +239,7 @@ std::vector<WrongForm> sweep_forms() {
   return forms;
 }
 
-/// No two vertices that an element or a spring holds together share a colour; exactly the free ones have one.
+/// Checks that no two vertices of an element or a spring share a colour, and that exactly the free vertices have one.
 bool is_coloured(const SweepCase& c) {
   const Topology topology = build_topology(*c.scene);
   const std::vector<Index> groups = rigid_groups(*c.scene);
@@ -336,7 +337,7 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
     return c.sweep && a.sweep && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound &&
            a.volume_depth;
   }
-  /// The truth follows the answer, so the contestant comes first.
+  /// Asks the contestant first, as the truth follows the answer.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const SweepQuestion question(case_of<Case>(test.data), a);

@@ -1,5 +1,6 @@
-// Stage tetrahedron. Ladders lead to the rest shape, where the force cancels, to a flat tetrahedron, through it to the
-// mirror image of the rest shape, to needles whose corners coincide, and to rest shapes without thickness.
+// Makes the traits of stage tetrahedron. Ladders lead to the rest shape, where the force cancels, to a flat
+// tetrahedron, through it to the mirror image of the rest shape, to needles whose corners coincide, and to rest shapes
+// without thickness.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +24,8 @@ Vec3 outer(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// About the unit tetrahedron, `size` times as large and `height` times as high; without jitter on a lattice.
+/// Returns about the unit tetrahedron, `size` times as large and `height` times as high; on a lattice its corners have
+/// no jitter.
 Corners rest_corners(Random& random, double size, double height, bool lattice) {
   Corners x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (Vec3& p : x) {
@@ -33,7 +35,7 @@ Corners rest_corners(Random& random, double size, double height, bool lattice) {
   return x;
 }
 
-/// What the stage reads of a rest shape with a positive volume.
+/// Sets what the stage reads of a rest shape with a positive volume.
 void set_rest(TetrahedronCase& question, const Corners& rest) {
   const Vec3 a = apart(rest[1], rest[0]), b = apart(rest[2], rest[0]), c = apart(rest[3], rest[0]);
   const std::array<Vec3, 3> inward{outer(b, c), outer(c, a), outer(a, b)};
@@ -55,8 +57,8 @@ void set_material(Random& random, TetrahedronCase& question) {
   if (random.one_in(4)) question.damping_form = another(random, DampingForm::strain);
 }
 
-/// `x` are the corners of a deformed rest shape; the start lies near them in half of the cases, at rest otherwise. The
-/// same placement for both.
+/// Places corners `x` of a deformed rest shape together with the start, which in half of the cases lies near them, else
+/// at rest.
 CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, const Corners& x, double size,
                 bool lattice) {
   std::array<Vec3, 8> points;
@@ -74,7 +76,7 @@ CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, c
   return question;
 }
 
-/// `deform(p)` moves each corner of a rest shape of edges 2^±20 to 1 m at most.
+/// Moves each corner of a rest shape by `deform(p)`; its edges are at most about 1 m long.
 template <class Deform>
 CaseData deformed(Random& random, Deform deform, bool lattice = false) {
   const double size = lattice ? std::ldexp(1.0, random.below(9) - 8) : random.magnitude(-3, 0);
@@ -87,11 +89,11 @@ CaseData deformed(Random& random, Deform deform, bool lattice = false) {
   return placed(random, question, rest, x, size, lattice);
 }
 
-/// A matrix with its rows.
+/// A matrix by rows.
 using Rows = std::array<Vec3, 3>;
 Vec3 times(const Rows& f, const Vec3& p) { return {inner(f[0], p), inner(f[1], p), inner(f[2], p)}; }
 
-/// Stretched and sheared, inverted or not.
+/// Stretches and shears, with or without inversion.
 CaseData uniform(Random& random) {
   const Rows f{in_box(random, -1.5, 1.5), in_box(random, -1.5, 1.5), in_box(random, -1.5, 1.5)};
   return deformed(random, [&](const Vec3& p) { return times(f, p); });
@@ -104,7 +106,7 @@ CaseData lattice(Random& random) {
       random, [&](const Vec3& p) { return times(f, p); }, true);
 }
 
-/// Coordinates and material of any bits.
+/// Takes any bits for coordinates and material.
 CaseData bits(Random& random) {
   TetrahedronCase question;
   const auto number = [&] { return static_cast<float>(random.sign()) * random.pattern(0x1p-20f, 1); };
@@ -117,7 +119,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// As large as scenes may be, and as small.
+/// Makes tetrahedra as large and as small as scenes may have them.
 CaseData scales(Random& random) {
   TetrahedronCase question;
   const double size = std::ldexp(random.between(1, 2), random.one_in(2) ? 19 : -20);
@@ -126,12 +128,12 @@ CaseData scales(Random& random) {
   set_material(random, question);
   Corners x = rest;
   for (Vec3& p : x) p = sum(p, scaled(in_box(random, -0.5, 0.5), size));
-  // Around the origin: 2⁻²⁰ m beside a coordinate of 1 m is one unit in the last place.
+  // The case lies around the origin: beside a coordinate of 1 m, 2⁻²⁰ m has few bits.
   for (std::size_t k = 0; k < 4; ++k) question.corner[k] = single(x[k]), question.start[k] = single(rest[k]);
   return question;
 }
 
-/// F → I: the two parts of the force cancel.
+/// Approaches F = I, where the two parts of the force cancel.
 CaseData at_rest(Random& random) {
   const Rows f{Vec3{1 + random.rung(), random.rung(), random.rung()},
                Vec3{random.rung(), 1 + random.rung(), random.rung()},
@@ -139,14 +141,14 @@ CaseData at_rest(Random& random) {
   return deformed(random, [&](const Vec3& p) { return times(f, p); });
 }
 
-/// A rung that keeps lengths legal on the grid, where corners may lie straight above each other: of 2⁻⁸ m at least,
-/// nothing is left or 2⁻³⁰ m.
+/// Returns a rung that keeps lengths legal on the grid, where corners may lie straight above each other: a grid of 2⁻⁸
+/// m at least leaves nothing or 2⁻³⁰ m.
 double rung_on(Random& random, bool on_grid) {
   const double rung = random.rung();
   return on_grid && std::abs(rung) < 0x1p-22 ? 0 : rung;
 }
 
-/// J → 0 and through it.
+/// Approaches J = 0, and passes through it.
 CaseData flat(Random& random) {
   const bool on_grid = random.one_in(2);
   const double height = rung_on(random, on_grid);
@@ -158,13 +160,13 @@ CaseData flat(Random& random) {
       on_grid);
 }
 
-/// F → diag(1, 1, −1), the rest shape's mirror image.
+/// Approaches F = diag(1, 1, −1), the rest shape's mirror image.
 CaseData mirrored(Random& random) {
   const double height = -1 + random.rung();
   return deformed(random, [&](const Vec3& p) { return Vec3{p.x, p.y, height * p.z}; });
 }
 
-/// Corners that move onto each other, down to one point.
+/// Moves corners onto each other, down to one point.
 CaseData needle(Random& random) {
   const bool on_grid = random.one_in(2);
   const double y = rung_on(random, on_grid), z = rung_on(random, on_grid),
@@ -177,7 +179,7 @@ CaseData needle(Random& random) {
       on_grid);
 }
 
-/// Rest shapes that are nearly flat: large weights, and J of small differences.
+/// Makes rest shapes that are nearly flat: weights are large, and J is a sum of small differences.
 CaseData sliver(Random& random) {
   const double size = random.magnitude(-3, 0), height = std::abs(random.rung()), kept = height == 0 ? 1e-4 : height;
   const Corners rest = rest_corners(random, size, std::max(kept, 1e-6), true);
@@ -186,7 +188,7 @@ CaseData sliver(Random& random) {
   set_material(random, question);
   Corners x = rest;
   for (Vec3& p : x) p = sum(p, scaled(in_box(random, -1, 1), size * random.magnitude(-7, -1)));
-  question.damping = 0;  // F of a needle at rest is beyond what strains are asked of
+  question.damping = 0;  // F of a needle at rest lies beyond the strains of the contract
   return placed(random, question, rest, x, size, false);
 }
 

@@ -1,6 +1,6 @@
-// Cases of stage truncate: vertices that moved, and what holds them: a ball, and regions with half-spaces. Ladders lead
-// to the bound, to a half-space and to where several meet, to proposals far outside, and to regions thinner than the
-// spacing of numbers.
+// Makes cases of stage truncate: vertices that moved, and balls or regions with half-spaces that hold them. Ladders
+// lead to the bound, to a half-space and to where several meet, to proposals far outside, and to regions thinner than
+// the spacing of numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace placement;
 
-/// A vertex at `previous` moved by `step`.
+/// Returns a vertex at `previous` moved by `step`.
 CaseData moved(const Vec3& previous, const Vec3& step, float bound) {
   const Vec3f from = single(previous);
   return TruncateCase{from, single(sum({from.x, from.y, from.z}, step)), bound};
@@ -33,7 +33,7 @@ CaseData truncate_bits(Random& random) {
   return TruncateCase{a, b, random.pattern()};
 }
 
-/// Steps of rational length, so that ‖x − x_prev‖ = b exactly or misses it by one bit.
+/// Makes steps of rational length, so that ‖x − x_prev‖ is b exactly or misses it by one bit.
 CaseData truncate_lattice(Random& random) {
   constexpr std::array<Vec3, 6> steps{{{3, 4, 0}, {1, 2, 2}, {2, 3, 6}, {1, 4, 8}, {4, 4, 7}, {5, 0, 0}}};
   constexpr std::array<double, 6> lengths{5, 3, 7, 9, 9, 5};
@@ -45,7 +45,7 @@ CaseData truncate_lattice(Random& random) {
                beside(random, static_cast<float>(lengths[k] * scale)));
 }
 
-/// ‖x − x_prev‖ → b.
+/// Lets b approach ‖x − x_prev‖.
 CaseData truncate_bound(Random& random) {
   const TruncateCase c = case_of<TruncateCase>(
       moved(in_box(random, -1, 1), scaled(in_box(random, -1, 1), random.magnitude(-6, 0)), 0));
@@ -54,21 +54,21 @@ CaseData truncate_bound(Random& random) {
   return TruncateCase{c.previous, c.position, beside(random, static_cast<float>(length(step)))};
 }
 
-/// A bound that tends to the spacing of the coordinates and below.
+/// Lets a bound tend to the spacing of the coordinates and below.
 CaseData truncate_far(Random& random) {
   const Vec3 step = scaled(in_box(random, -1, 1), random.magnitude(-3, 0));
   return moved(scaled(in_box(random, -1, 1), random.magnitude(0, 6)), step,
                static_cast<float>(length(step) * random.magnitude(-5, 0.5)));
 }
 
-/// Bound or step zero or almost.
+/// Makes bounds and steps that are zero or almost zero.
 CaseData truncate_zero(Random& random) {
   const Vec3 step = random.one_in(3) ? Vec3{} : scaled(in_box(random, -1, 1), std::abs(random.rung()));
   return moved(random.one_in(2) ? Vec3{} : in_box(random, -1, 1), step,
                static_cast<float>(random.one_in(3) ? 0 : std::abs(random.rung())));
 }
 
-/// 2⁻⁵⁰ (Σ|n_k x_k| + |o|) and a little more: what X_prev and the current position keep from a half-space.
+/// Returns 2⁻⁵⁰ (Σ|n_k x_k| + |o|) and a little more: what X_prev and the current position keep from a half-space.
 double spare(const Vec3f& n, const Vec3f& x, double offset) {
   const double size = std::abs(double{n.x} * x.x) + std::abs(double{n.y} * x.y) + std::abs(double{n.z} * x.z);
   return 0x1.8p-50 * (size + std::abs(offset));
@@ -76,7 +76,7 @@ double spare(const Vec3f& n, const Vec3f& x, double offset) {
 
 double height(const Vec3f& n, const Vec3f& x) { return double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z; }
 
-/// A region under construction: X_prev, a ball, half-spaces at a distance from X_prev.
+/// Builds a region: X_prev, a ball, and half-spaces at a distance from X_prev.
 struct RegionBuilder {
   Random& random;
   TruncateCase c;
@@ -88,14 +88,15 @@ struct RegionBuilder {
     c.is_prescribed = source.one_in(4) ? 1 : 0;
   }
 
-  /// `room`: from X_prev along the direction.
+  /// Adds a half-space; `room` is its distance from X_prev along the direction.
   void add(const Vec3& direction, double room) {
     const double norm = std::max(length(direction), 1e-30);
     const Vec3f n = single(scaled(direction, (random.one_in(8) ? random.magnitude(-0.3, 0.3) : 1) / norm));
     const double at = height(n, c.previous), offset = at + room;
     c.half_spaces.push_back({n, std::max(offset, at + spare(n, c.previous, offset))});
   }
-  /// n nᵀ/2 about the half-spaces' normals and a third of the unit matrix: contacts of this stiffness over inertia 1.
+  /// Sets the block: the unit matrix as inertia and contacts of this stiffness along two random directions, at a random
+  /// scale.
   void stiffness(double over_inertia) {
     std::array<double, 6> h{1, 0, 0, 1, 0, 1};
     for (int k = 0; k < 2; ++k) {
@@ -108,7 +109,7 @@ struct RegionBuilder {
     for (std::size_t i = 0; i < 6; ++i) c.block[i] = static_cast<float>(scale * h[i]);
   }
   Vec3 previous() const { return {c.previous.x, c.previous.y, c.previous.z}; }
-  /// Where the vertex is: a part of the ball from X_prev, as far as that lies in the region, else X_prev.
+  /// Moves the vertex into a part of the ball about X_prev; it stays at X_prev where that lies outside of the region.
   void set_current(double part) {
     const Vec3f x = single(sum(previous(), scaled(in_box(random, -1, 1), 0.5 * part * double{c.bound})));
     const Vec3 away{double{x.x} - c.previous.x, double{x.y} - c.previous.y, double{x.z} - c.previous.z};
@@ -117,7 +118,7 @@ struct RegionBuilder {
       inside = inside && height(h.normal, x) + spare(h.normal, x, h.offset) <= h.offset;
     if (inside) c.current = x;
   }
-  /// `step` from X_prev.
+  /// Returns the case, its proposal `step` from X_prev.
   CaseData finish(const Vec3& step) {
     c.position = single(sum(previous(), step));
     return c;
@@ -129,7 +130,7 @@ Vec3 direction(Random& random) {
   return scaled(a, 1 / std::max(length(a), 0.1));
 }
 
-/// One to six half-spaces at any distance within the ball, a proposal within three times it.
+/// Makes one to six half-spaces at any distance within the ball, and a proposal within three times the ball.
 CaseData regions(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -139,7 +140,7 @@ CaseData regions(Random& random) {
   return region.finish(scaled(direction(random), bound * random.between(0.1, 3)));
 }
 
-/// Small integers: heights and offsets are exact, steps end on half-spaces.
+/// Makes small integers: heights and offsets are exact, steps end on half-spaces.
 CaseData regions_lattice(Random& random) {
   RegionBuilder region(random, on_lattice(random, 3), 1 + random.below(6));
   for (int k = 1 + random.below(3); k > 0; --k) {
@@ -153,7 +154,7 @@ CaseData regions_lattice(Random& random) {
   return region.finish(on_lattice(random, 4));
 }
 
-/// X_prev, or where the vertex is, on a half-space or a rung before it; the proposal goes into it, along it, or away.
+/// Puts X_prev or the vertex on a half-space or a rung before it; the proposal goes into it, along it, or away.
 CaseData on_plane(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -161,13 +162,13 @@ CaseData on_plane(Random& random) {
   region.add(n, bound * std::abs(random.rung()));
   if (random.one_in(3)) region.add(direction(random), bound * random.unit());
   region.set_current(random.unit());
-  // along the half-space, so that the proposal lies next to it, too
+  // along the half-space, so that the proposal also lies next to it
   const Vec3 any = direction(random), across = scaled(n, n.x * any.x + n.y * any.y + n.z * any.z);
   const Vec3 along = scaled(sum(any, scaled(across, -1)), bound * random.between(0.1, 2));
   return region.finish(sum(random.one_in(2) ? along : Vec3{}, scaled(n, bound * random.rung())));
 }
 
-/// Three half-spaces through one point, a rung from X_prev: of a cube's corner, or of any.
+/// Makes three half-spaces through one point, a rung from X_prev: the corner of a cube, or any.
 CaseData corner(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -183,7 +184,7 @@ CaseData corner(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Two half-spaces that nearly agree, or nearly face each other: a thin wedge.
+/// Makes a thin wedge: two half-spaces that nearly agree or nearly face each other.
 CaseData wedge(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -194,7 +195,7 @@ CaseData wedge(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Proposals up to 10⁹ bounds away.
+/// Makes proposals up to 10⁹ bounds away.
 CaseData outside(Random& random) {
   const double bound = random.magnitude(-4, -1);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -203,7 +204,7 @@ CaseData outside(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(0, 9)));
 }
 
-/// Regions as thin as the spacing of the coordinates, and thinner.
+/// Makes regions as thin as the spacing of the coordinates, and thinner.
 CaseData sub_ulp(Random& random) {
   const double far = random.magnitude(0, 5), bound = far * 0x1p-24 * random.magnitude(-2, 2);
   RegionBuilder region(random, scaled(in_box(random, -1, 1), far), bound);
@@ -212,7 +213,7 @@ CaseData sub_ulp(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 3)));
 }
 
-/// Blocks whose stiffnesses lie up to 10⁶ apart: the way out of a half-space is nowhere near its normal.
+/// Makes blocks whose stiffnesses lie up to 10⁶ apart: the way out of a half-space is nowhere near its normal.
 CaseData stiff(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -224,7 +225,7 @@ CaseData stiff(Random& random) {
   return region.finish(scaled(direction(random), bound * random.between(0.1, 2)));
 }
 
-/// As many half-spaces as a vertex has at most, and more.
+/// Makes as many half-spaces as a vertex has at most, and more.
 CaseData crowded(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -234,8 +235,8 @@ CaseData crowded(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// What does not slide and starts at X_prev, as every vertex does with bounds=dat: half-spaces with hardly any room or
-/// none, proposals that graze them, lead along them, or lead away.
+/// Makes vertices that do not slide and start at X_prev, as every vertex does with bounds=dat: half-spaces have hardly
+/// any room or none, proposals graze them, lead along them, or lead away.
 CaseData from_previous(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);

@@ -1,6 +1,6 @@
-// Stage orientation. Ladders lead to t·q = 0, where a sign flips; to neighbours that ask for a reversed director, and
-// there to the balance of β₋ = 2σ; to pulls that cancel; to a stretch or neighbours that do not count beside the other;
-// to an old q whose director points the other way; and to a segment without a length.
+// Makes the traits of stage orientation. Ladders lead to t·q = 0, where a sign flips; to neighbours that ask for a
+// reversed director, and there to the balance of β₋ = 2σ; to pulls that cancel; to a stretch or neighbours that do not
+// count beside the other; to an old q whose director points the other way; and to a segment without a length.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,15 +29,14 @@ using namespace rod_cases;
 using placement::single;
 using rod_cases::single;
 
-// Cases.
 
-/// A segment that is about to be asked: its frame `aim` says where D and the neighbours' wishes lie.
+/// A segment under construction: D and the neighbours' targets are given relative to its frame `aim`.
 struct Draft {
   double length = 1;              ///< l [m]
-  Four aim{0, 0, 0, 1};           ///< whose director D has
+  Four aim{0, 0, 0, 1};           ///< its director is the direction of D
   Four old{0, 0, 0, 1};           ///< the old q
   Four start{0, 0, 0, 1};         ///< qᵗ
-  Vec3 strain{}, strain_start{};  ///< of D against aim, of Dᵗ against qᵗ
+  Vec3 strain{}, strain_start{};  ///< strain of D against aim, of Dᵗ against qᵗ
 };
 
 void set_material(Random& random, OrientationCase& question) {
@@ -45,7 +44,7 @@ void set_material(Random& random, OrientationCase& question) {
   question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
 }
 
-/// Asks for t across one end, at rest turned by p; either sign of its quaternion.
+/// Returns a neighbour that asks for t across one end; p is its turn at rest, its quaternion has either sign.
 RodNeighbour asks(Random& random, bool is_ahead, const Four& t, const Four& p, double weight) {
   RodNeighbour f;
   Four now = product(t, is_ahead ? p : conjugate(p));
@@ -75,10 +74,10 @@ OrientationCase placed(Random& random, const Draft& draft) {
   return question;
 }
 
-/// σ of a segment that is not damped and as long as at rest [N m].
+/// Returns σ of a segment that is not damped and as long as at rest [N m].
 double stiffness_of(const OrientationCase& question) { return 2.0 * question.stretch * question.rest_length; }
 
-/// A weight that counts beside it.
+/// Returns a weight that counts beside the segment's σ.
 double some_weight(Random& random, const OrientationCase& question) {
   return std::clamp(stiffness_of(question) * random.magnitude(-1.5, 1.5), 0x1p-39, 0x1p40);
 }
@@ -87,7 +86,7 @@ Four some_rest(Random& random) {
   return random.one_in(2) ? rotation(some_direction(random), random.between(0, 1)) : some_orientation(random);
 }
 
-/// Frames of a rod that is bent, each near its neighbours.
+/// Makes frames of a bent rod, each near its neighbours.
 Draft near_rest(Random& random) {
   Draft draft;
   draft.length = some_length(random);
@@ -99,12 +98,12 @@ Draft near_rest(Random& random) {
   return draft;
 }
 
-/// Wishes near the aim.
+/// Returns a frame near the aim, for a neighbour to ask for.
 Four near_aim(Random& random, const Draft& draft) {
   return product(draft.aim, rotation(some_direction(random), random.between(-0.7, 0.7)));
 }
 
-/// As in a rod under load.
+/// Makes segments as in a rod under load.
 CaseData bent(Random& random) {
   const Draft draft = near_rest(random);
   OrientationCase question = placed(random, draft);
@@ -114,7 +113,7 @@ CaseData bent(Random& random) {
   return question;
 }
 
-/// Anything.
+/// Makes any frames and neighbours.
 CaseData uniform(Random& random) {
   Draft draft = near_rest(random);
   draft.old = some_orientation(random);
@@ -127,7 +126,7 @@ CaseData uniform(Random& random) {
   return question;
 }
 
-/// One neighbour, or none.
+/// Makes segments with one neighbour or none.
 CaseData ends(Random& random) {
   const Draft draft = near_rest(random);
   OrientationCase question = placed(random, draft);
@@ -140,7 +139,7 @@ CaseData ends(Random& random) {
   return question;
 }
 
-/// One side of a ring of three segments, whose ends are each other's neighbours; frames turned by up to a radian.
+/// Makes one side of a ring of three segments, whose ends are each other's neighbours; frames turn by up to a radian.
 CaseData ring(Random& random) {
   std::array<Vec3, 3> corner;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -172,7 +171,7 @@ CaseData ring(Random& random) {
   return question;
 }
 
-/// Without a rounding: orientations of the cube, ends on a grid.
+/// Makes cases without a rounding: orientations of the cube, ends on a grid.
 CaseData lattice(Random& random) {
   OrientationCase question;
   const double size = std::ldexp(1.0, random.below(9) - 8);
@@ -193,7 +192,7 @@ CaseData lattice(Random& random) {
   return question;
 }
 
-/// Coordinates and constants of any bits, as far as the contract lets a segment grow.
+/// Takes any bits for coordinates and constants, as far as the contract lets a segment grow.
 CaseData bits(Random& random) {
   auto question = case_of<OrientationCase>(uniform(random));
   const std::array<Vec3, 4> points = points_of_bits(random);
@@ -206,7 +205,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// As long as scenes may have them, and as short.
+/// Makes segments as long as scenes may have them, and as short.
 CaseData scales(Random& random) {
   Draft draft = near_rest(random);
   draft.length = std::ldexp(random.between(1, 2), random.one_in(2) ? 19 : -20);
@@ -217,7 +216,7 @@ CaseData scales(Random& random) {
   return question;
 }
 
-/// t·q → 0: a neighbour asks for a half turn from the old q.
+/// Approaches t·q = 0: a neighbour asks for a half turn from the old q.
 CaseData sign(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = near_rest(random);
@@ -234,7 +233,7 @@ CaseData sign(Random& random) {
   return question;
 }
 
-/// What asks for the director −D: the aim after a half turn about an axis across it, but for a rung.
+/// Returns what asks for the director −D: the aim after a half turn about an axis across it, but for a rung.
 Four against(Random& random, const Draft& draft) {
   const double angle = random.between(0, 2 * std::numbers::pi);
   const Four half{std::cos(angle), std::sin(angle), 0, 0};
@@ -247,7 +246,7 @@ Draft straight(Random& random) {
   return draft;
 }
 
-/// β₊ → 0: all neighbours ask for the reversed director.
+/// Approaches β₊ = 0: all neighbours ask for the reversed director.
 CaseData reversed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = straight(random);
@@ -264,7 +263,7 @@ CaseData reversed(Random& random) {
   return question;
 }
 
-/// There β₋ → 2σ, where the pull of the neighbours and the stretch are in balance.
+/// Approaches β₋ = 2σ at a reversed director, where the neighbours' pull balances the stretch.
 CaseData balance(Random& random) {
   const Draft draft = straight(random);
   OrientationCase question = placed(random, draft);
@@ -274,7 +273,7 @@ CaseData balance(Random& random) {
   return question;
 }
 
-/// b → 0: both neighbours ask for nearly opposite rotations, the same way from the old q.
+/// Approaches b = 0: both neighbours ask for nearly opposite rotations, the same way from the old q.
 CaseData opposed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = near_rest(random);
@@ -289,7 +288,7 @@ CaseData opposed(Random& random) {
   return question;
 }
 
-/// ‖b‖ ≪ σ and ≫ σ, by up to twelve powers of ten.
+/// Makes ‖b‖ ≪ σ and ‖b‖ ≫ σ, by up to twelve powers of ten.
 CaseData stiff(Random& random) {
   const Draft draft = near_rest(random);
   OrientationCase question = placed(random, draft);
@@ -300,7 +299,7 @@ CaseData stiff(Random& random) {
   return question;
 }
 
-/// The old director → −D, without neighbours or with some.
+/// Lets the old director tend to −D, with or without neighbours.
 CaseData antiparallel(Random& random) {
   Draft draft = straight(random);
   draft.old = against(random, draft);
@@ -311,10 +310,10 @@ CaseData antiparallel(Random& random) {
   return question;
 }
 
-/// σ → 0: D → 0, or what the frame would have, c, vanishes against the damping.
+/// Lets σ tend to 0: D tends to 0, or the stretch's vector c cancels against the damping.
 CaseData soft(Random& random) {
   Draft draft = near_rest(random);
-  draft.length = random.magnitude(-2, 0);  // of which a rung is still a length
+  draft.length = random.magnitude(-2, 0);  // a rung of this is still a length
   const bool is_damped = random.one_in(3);
   const double rung = random.rung();
   if (is_damped) {
@@ -345,7 +344,6 @@ constexpr std::array<Generator, 15> table{{{"uniform", 15, true, uniform},
                                            {"ladder.antiparallel", 15, false, antiparallel},
                                            {"ladder.soft", 10, false, soft}}};
 
-// The verdict.
 
 double inner(const std::array<double, 4>& a, const std::array<double, 4>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
@@ -376,9 +374,8 @@ void judge_case(const TestCase& test, const std::vector<OrientationAnswer>& acce
   tally.error(3, length_error(q), both);
 }
 
-// Known ways to get it wrong.
 
-/// `change(case)` comes before the authority.
+/// Makes a form that asks the authority about cases changed by `change(case)`.
 template <class Change>
 WrongForm changed(const char* name, const char* meaning, Change change) {
   return asked(name, meaning, &Authority::orientation, [change](OrientationIn& in) {
@@ -386,7 +383,7 @@ WrongForm changed(const char* name, const char* meaning, Change change) {
   });
 }
 
-/// Each answer's q replaced, by what it minimises; residual and energy then say nothing.
+/// Makes a form that replaces each answer's q by what the form minimises; residual and energy are not compared then.
 template <class Change>
 WrongForm replaced(const char* name, const char* meaning, Change change) {
   return told(name, meaning, &Authority::orientation, [change](const OrientationIn& in, OrientationTruth& truth) {
@@ -504,7 +501,7 @@ struct OrientationStage : BatchStage<OrientationStage, &Contestant::orientation,
   static std::string missing_in(const States& states) {
     return states.topology().edges.empty() ? "its mesh has no edge" : "";
   }
-  /// An edge between the frames of the one that is near it and of one that nearly goes on.
+  /// Makes a segment with two neighbours: the nearest other edge, and a nearly straight continuation.
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
     const ClosestPointsCase pair = states.edge_edge(states.frame(index), random);
     const EdgeOfState own(random, pair.first), other(random, pair.second);

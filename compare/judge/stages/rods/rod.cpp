@@ -1,6 +1,6 @@
-// Stage rod. Ladders lead to the rest shape, where the force cancels, to a start that the segment has not left, where
-// damping vanishes, to segments without a length, to directors that point the other way, and to a q that is just within
-// unit length.
+// Makes the traits of stage rod. Ladders lead to the rest shape, where the force cancels, to a start that the segment
+// has not left, where damping vanishes, to segments without a length, to directors that point the other way, and to a q
+// that is just within unit length.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -25,7 +25,7 @@ void set_material(Random& random, RodCase& question) {
   question.own = random.below(2);
 }
 
-/// A segment from somewhere along D, after it stood along Dᵗ.
+/// Returns a segment that starts anywhere and runs along D, after it ran along Dᵗ.
 CaseData placed(Random& random, double rest_length, const Vec3& apart, const Vec3& before, const Four& q,
                 const Four& start, bool around = true) {
   RodCase question;
@@ -41,12 +41,12 @@ CaseData placed(Random& random, double rest_length, const Vec3& apart, const Vec
   return question;
 }
 
-/// R(q) (strain + e₃) l: with that strain against q.
+/// Returns R(q) (strain + e₃) l, a D with this strain against q.
 Vec3 strained(const Four& q, double length, const Vec3& strain) {
   return scaled(rod_cases::turned(q, {strain.x, strain.y, strain.z + 1}), length);
 }
 
-/// Stretched, sheared and turned.
+/// Stretches, shears and turns a segment.
 CaseData uniform(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::some_orientation(random);
   const double length = rod_cases::some_length(random);
@@ -54,14 +54,14 @@ CaseData uniform(Random& random) {
                 strained(start, length, in_box(random, -1, 2)), q, start);
 }
 
-/// Exact: on the lattice, orientations of the cube.
+/// Makes exact cases: on the lattice, with orientations of the cube.
 CaseData lattice(Random& random) {
   const double size = std::ldexp(1.0, random.below(9) - 8);
   return placed(random, size, scaled(on_lattice(random, 3), size), scaled(on_lattice(random, 3), size),
                 rod_cases::on_lattice(random), rod_cases::on_lattice(random), false);
 }
 
-/// Coordinates and material of any bits.
+/// Takes any bits for coordinates and material.
 CaseData bits(Random& random) {
   RodCase question;
   const std::array<Vec3, 4> points = points_of_bits(random);
@@ -70,12 +70,12 @@ CaseData bits(Random& random) {
   question.orientation = rod_cases::single(rod_cases::some_orientation(random));
   question.orientation_start = rod_cases::single(rod_cases::some_orientation(random));
   set_material(random, question);
-  question.rest_length = random.pattern(0x1p-7f, 0x1p20f);  // no shorter: the contract ends at 2³⁰ times its length
+  question.rest_length = random.pattern(0x1p-7f, 0x1p20f);  // not shorter: the contract ends at 2³⁰ times its length
   question.stretch = random.pattern();
   return question;
 }
 
-/// As long as scenes may have them, and as short.
+/// Makes segments as long as scenes may have them, and as short.
 CaseData scales(Random& random) {
   const double length = std::ldexp(random.between(1, 2), random.one_in(2) ? 19 : -20);
   const Four q = rod_cases::some_orientation(random), start = rod_cases::beside(random, q);
@@ -83,7 +83,7 @@ CaseData scales(Random& random) {
                 strained(start, length, in_box(random, -0.5, 0.5)), q, start, random.one_in(2));
 }
 
-/// D/l → R(q) e₃.
+/// Approaches D/l = R(q) e₃.
 CaseData at_rest(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::beside(random, q);
   const double length = rod_cases::some_length(random);
@@ -92,7 +92,7 @@ CaseData at_rest(Random& random) {
                 start);
 }
 
-/// Turned since the start as a rigid body, but for a rung: damping vanishes.
+/// Turns a segment as a rigid body since the start, but for a rung: damping vanishes.
 CaseData turned_rigidly(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::some_orientation(random);
   const double length = rod_cases::some_length(random);
@@ -100,17 +100,17 @@ CaseData turned_rigidly(Random& random) {
   return placed(random, length, strained(q, length, sum(strain, more)), strained(start, length, strain), q, start);
 }
 
-/// D → 0, Dᵗ → 0.
+/// Approaches D = 0 and Dᵗ = 0.
 CaseData short_one(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::some_orientation(random);
-  const double length = random.magnitude(-2, 0);  // of which a rung is still a length
+  const double length = random.magnitude(-2, 0);  // a rung of this is still a length
   const Vec3 before = random.one_in(2) ? strained(start, length, {})
                                        : scaled(rod_cases::some_direction(random), length * random.rung());
   return placed(random, length, scaled(rod_cases::some_direction(random), length * random.rung()), before, q, start,
                 false);
 }
 
-/// R(q) e₃ → −D/‖D‖, and half turns about the axes, where w is 0.
+/// Approaches R(q) e₃ = −D/‖D‖, and half turns about the axes, where w is 0.
 CaseData reversed(Random& random) {
   const Vec3 axis = rod_cases::some_direction(random);
   Four q = rod_cases::product(rod_cases::rotation({1, 0, 0}, std::numbers::pi),
@@ -134,7 +134,8 @@ constexpr std::array<Generator, 9> table{{{"uniform", 30, true, uniform},
 std::vector<WrongForm> rod_forms() {
   constexpr auto stage = &Authority::rod;
   std::vector<WrongForm> forms = common_forms(stage);
-  std::erase_if(forms, [](const WrongForm& form) { return form.name == "hessian_diagonal_alone"; });  // it is k I
+  // the block is k I
+  std::erase_if(forms, [](const WrongForm& form) { return form.name == "hessian_diagonal_alone"; });
   add_damping(forms, stage);
   const auto add = [&](const char* name, const char* meaning, auto change) {
     forms.push_back(case_asked(name, meaning, stage, change));

@@ -1,4 +1,5 @@
-// What the stages rod and orientation ask of their cases, and what may be set of them.
+// Serves the stages rod and orientation: checks what their contracts require of a segment, and lists the parameters
+// that may be set.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 
 namespace ogc::compare::rod_cases {
 
-/// What the contract asks of a segment's ends, now and at the start.
+/// Checks what the contract requires of a segment's ends; both stages call it for the present and the start.
 inline void check_ends(FirstProblem& problem, std::span<const Vec3f> ends, float rest_length) {
   problem.vectors("a coordinate", ends);
   check_lengths(problem, ends, 0x1p-50f, 0x0p0f);
@@ -22,7 +23,7 @@ inline void check_ends(FirstProblem& problem, std::span<const Vec3f> ends, float
   problem.require(length <= 0x1p30 * rest_length, "it has grown beyond the contract");
 }
 
-/// And of all that both stages know of a segment.
+/// Checks all that both stages have of a segment.
 template <class Case>
 void check_segment(FirstProblem& problem, const Case& c) {
   problem.number("a rest length", c.rest_length, least_length, most_length);
@@ -34,7 +35,7 @@ void check_segment(FirstProblem& problem, const Case& c) {
   problem.number("a damping", c.damping, 0, most_length);
 }
 
-/// What may be set of it.
+/// Parameters of a segment that may be set.
 inline constexpr std::array segment_parameters{ParameterInfo{"k_s", "stiffness of stretch [N]", 0x1p-30f, ranges::vast},
                                                ParameterInfo{"l", "rest length [m]", ranges::least, ranges::most},
                                                ranges::damping};

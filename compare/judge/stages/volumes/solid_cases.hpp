@@ -1,4 +1,4 @@
-// Cases of volume_depth about tetrahedra: where they come from, and which are legal.
+// Declares cases of volume_depth about tetrahedra: where they come from, and which are legal.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace ogc::compare {
 
-/// Rows of the stage's table.
+/// Returns their rows of the stage's table.
 std::span<const Generator> solid_depth_generators();
 
-/// What makes the tetrahedra none that a volume may have: a triangle of three of them or of two on one side, a part
-/// whose triangles are not their boundary; and the vertices that ask none that may, or not where their points are.
-/// Empty where nothing does.
+/// Says why a volume may not have these tetrahedra: a corner that is not a vertex, a triangle with three of them or
+/// with two on one side, a part whose triangles are not their boundary. Says also why `own` is illegal: a vertex that
+/// is not on the surface or does not lie where its point does. Empty where nothing is wrong.
 std::string solid_problem(const VolumeDepthCase& c);
 
 }  // namespace ogc::compare
