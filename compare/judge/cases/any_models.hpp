@@ -1,4 +1,4 @@
-// A scene of a generator with models that are not the default ones, for the stages that use all of them at once.
+// Gives a generator's scene models that are not the default ones, for the stages that use all of them at once.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace ogc::compare {
 
-/// Any model but `none`.
+/// Returns any model but `none`.
 template <class Model>
 Model any_model(Random& random) {
   static_assert(Model::none == Model{});
@@ -18,7 +18,7 @@ Model any_model(Random& random) {
   return static_cast<Model>(last - random.below(last));
 }
 
-/// Any other than the usual one, and no `none`.
+/// Returns any choice but the usual one and `none`.
 template <class Choice>
 Choice another(Random& random, Choice usual) {
   std::array<Choice, choice_count<Choice>> others{};
@@ -28,12 +28,12 @@ Choice another(Random& random, Choice usual) {
   return count == 1 ? others[0] : random.pick(std::span<const Choice>(others.data(), count));
 }
 
-/// Any activation and form of damping, any models of the bodies that have one, and up to three springs between
-/// vertices, or a vertex and a point between two, of which at least one is free, with the pairs beside them left out or
-/// not. The scene is rounded again.
+/// Sets any activation and form of damping, and any models of the bodies that have one. Adds up to three springs
+/// between vertices, or between a vertex and a point between two; at least one of the first two vertices is free. The
+/// pairs beside the springs are left out or not. The scene is rounded again.
 void choose_models(Random& random, Scene& scene);
 
-/// Such springs alone, with the pairs beside them left out or not; the scene is not rounded.
+/// Adds the springs of choose_models alone, with the pairs beside them left out or not; the scene is not rounded.
 void add_springs(Random& random, Scene& scene);
 
 /// Gives each body with a bending energy another model than hinges.

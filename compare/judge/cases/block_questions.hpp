@@ -1,4 +1,4 @@
-// Questions for stage block about a mesh: mostly of neighbours, where blocks end.
+// Makes questions about a mesh for stage block, mostly of neighbours, where blocks end.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// Up to `count` legal questions (compare/stages/block.hpp); fewer where the mesh is too small to ask.
+/// Returns up to `count` legal questions (compare/stages/block.hpp); fewer where the mesh is too small.
 std::vector<BlockQuestion> block_questions(Random& random, const Topology& topology,
                                            const std::vector<Vec3f>& positions, int count);
 

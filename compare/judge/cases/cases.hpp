@@ -1,4 +1,4 @@
-// One case of each stage, as data: what a generator makes, a contestant answers, a file keeps.
+// Holds one case of each stage as data: a generator makes it, a contestant answers it, a file keeps it.
 #pragma once
 
 #include <any>
@@ -27,28 +27,28 @@
 
 namespace ogc::compare {
 
-/// A parameter set after the case is made (compare/judge/cases/parameters.hpp).
+/// A parameter that is set after the case is made (compare/judge/cases/parameters.hpp).
 struct Override {
-  std::string name;  ///< of the stage's table
-  float value = 0;   ///< as it was given
+  std::string name;  ///< name in the stage's table
+  float value = 0;   ///< the value that was given
   friend bool operator==(const Override&, const Override&) = default;
 };
 
-/// Names a generated case. Printed: `stage=detect_edge_edge gen=few seed=7 index=1234`, then parameters that are not
-/// the generator's own (` r=0.002`), and for real states ` states=RUN`.
+/// The name of a generated case. It is printed as `stage=detect_edge_edge gen=few seed=7 index=1234`, followed by
+/// parameters that differ from the generator's (` r=0.002`) and, for real states, by ` states=RUN`.
 struct CaseName {
-  Stage stage = Stage::closest_face;  ///< who is asked
+  Stage stage = Stage::closest_face;  ///< the stage under test
   std::string generator;              ///< a row of the stage's table, `states` or `mutated`
   std::uint64_t seed = 0, index = 0;  ///< of the random numbers
   std::string states;                 ///< run folder; empty unless the generator takes real states
-  std::vector<Override> overrides{};  ///< in the stage's order
+  std::vector<Override> overrides{};  ///< in the order of the stage's table
   friend bool operator==(const CaseName&, const CaseName&) = default;
 };
 
-/// The canonical line.
+/// Returns the canonical line.
 std::string print_problem(const CaseName& name);
-/// Reads the line back; keys in any order, `states` last. Throws InputError that names the key or value that is wrong,
-/// or the parameter that the stage lacks.
+/// Reads the line back; keys stand in any order, `states` last. Throws InputError that names the wrong key or value, or
+/// the parameter that the stage lacks.
 CaseName parse_problem(const std::string& line);
 
 /// A vertex that is guessed, and perhaps a segment whose frame is turned.
@@ -68,7 +68,7 @@ struct ClosestPointsCase {
   std::array<Vec3f, 2> first, second;  ///< by end
 };
 
-/// A whole state for detection.
+/// A whole state for the detections.
 struct MeshCase {
   std::shared_ptr<const Topology> topology;    ///< of the mesh
   std::vector<Index> rigid_groups;             ///< by vertex, as in Exclusions
@@ -84,38 +84,38 @@ struct BoundCase {
   float bound_relaxation = 0.45f;                               ///< γ_p, Eq. 21
 };
 
-/// A state that is asked for planes.
+/// A state for stage plane.
 struct PlaneCase {
   std::shared_ptr<const Topology> topology;  ///< of the mesh
-  /// By vertex, as in Exclusions; those of group 0 never move. Pairs inside one group are left out.
+  /// By vertex, as in Exclusions; vertices of group 0 never move. Pairs inside one group are left out.
   std::vector<Index> rigid_groups;
   std::vector<Vec3f> positions;        ///< by vertex [m]
   float query_radius = 0;              ///< r_q [m]
   float bound_relaxation = 0.45f;      ///< γ_p
   CompressedRows partners{};           ///< as in Exclusions
-  std::vector<std::uint8_t> is_fixed;  ///< by vertex: of group 0
+  std::vector<std::uint8_t> is_fixed;  ///< by vertex: whether its group is 0
   std::vector<Vec3f> displacement{};   ///< by vertex [m], as in PlaneIn; or empty
 };
 
-/// A volume and who asks it.
+/// A volume and the points that ask about it.
 struct VolumeDepthCase {
   std::shared_ptr<const Topology> topology;  ///< of the volume
   std::vector<Vec3f> positions;              ///< by vertex [m]
   float contact_radius = 0;                  ///< r [m]
   std::vector<Vec3f> points;                 ///< each counts as a case [m]
-  std::vector<Tetrahedron> tetrahedra{};     ///< of parts that have any
-  std::vector<Index> own{};                  ///< by point: the vertex that it is, or −1; empty: none is any
+  std::vector<Tetrahedron> tetrahedra{};     ///< of the parts that have tetrahedra
+  std::vector<Index> own{};  ///< by point: the vertex that it is, or −1; empty where no point is a vertex
   std::vector<Edge> cavities{};              ///< as in VolumeDepthIn
 };
 
-/// A mesh and what is asked about it.
+/// A mesh and questions about it.
 struct BlockCase {
   std::shared_ptr<const Topology> topology;  ///< of the mesh
   std::vector<Vec3f> positions;              ///< by vertex [m]
   std::vector<BlockQuestion> questions;      ///< each counts as a case
 };
 
-/// A scene whose rest data are asked for.
+/// A scene for its rest data.
 struct RestStateCase {
   std::shared_ptr<const Scene> scene;        ///< rounded
   std::shared_ptr<const Topology> topology;  ///< of its mesh
@@ -127,19 +127,20 @@ struct StepCase {
   std::shared_ptr<const Topology> topology;  ///< of its mesh
 };
 
-/// Where a sweep finds a scene; contacts and bounds follow from X_prev (compare/judge/engine/sweep_question.hpp).
+/// The state in which a sweep finds a scene; contacts and bounds follow from X_prev
+/// (compare/judge/engine/sweep_question.hpp).
 struct SweepCase {
   std::shared_ptr<const Scene> scene;               ///< rounded
   std::vector<Index> colour;                        ///< as in SweepIn
   std::vector<Vec3f> old, start, target, previous;  ///< x (the question brings it within the bound), xᵗ, y, X_prev [m]
-  /// [m]; b_v is the smaller one of it and the bound of the detection
+  /// [m]; b_v is the smaller one of this and the detection's bound
   std::vector<float> largest_bound;
   float query_radius = 0;                                      ///< r_q [m]
   std::vector<Index> segment_colour{};                         ///< as in SweepIn
   std::vector<Quaternion> orientation{}, orientation_start{};  ///< q, qᵗ of the segments
 };
 
-/// A distance, and what acts there.
+/// A distance, and the activation there.
 struct ActivationCase {
   float distance = 0, contact_radius = 0, stiffness = 0;  ///< d [m], r [m], k_c [N/m]
   ContactActivation activation = ContactActivation::ogc;  ///< which function of the distance
@@ -149,16 +150,17 @@ struct ActivationCase {
 struct TruncateCase {
   Vec3f previous, position;              ///< X_prev, x [m]
   float bound = 0;                       ///< b_v [m]
-  std::vector<HalfSpace> half_spaces{};  ///< none: a ball alone, and what follows is not read
+  /// if empty, the ball holds the vertex alone, and the members below are not read
+  std::vector<HalfSpace> half_spaces{};
   Vec3f current{};                       ///< in the region [m]
   std::array<float, 6> block{};          ///< H [N/m]
-  std::uint8_t is_prescribed = 0;        ///< 1: it does not slide
+  std::uint8_t is_prescribed = 0;        ///< 1: the vertex does not slide
 };
 
 /// The data of a case; its type is that of the stage (compare/judge/stages).
 using CaseData = std::any;
 
-/// Throws std::bad_any_cast where the case is another stage's.
+/// Returns the case; throws std::bad_any_cast where it is another stage's.
 template <class Case>
 const Case& case_of(const CaseData& data) {
   if (const auto* found = std::any_cast<Case>(&data)) return *found;
@@ -170,9 +172,9 @@ Case& case_of(CaseData& data) {
   throw std::bad_any_cast();
 }
 
-/// A case and its name, which makes it again.
+/// A case and its name, from which it can be made again.
 struct TestCase {
-  CaseName name;  ///< of a case that was made smaller: what it came from
+  CaseName name;  ///< of a case that was made smaller: the name of the original
   CaseData data;  ///< of the stage's own type
 };
 

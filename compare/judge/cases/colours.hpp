@@ -1,4 +1,4 @@
-// Colours for questions about a sweep: the judge's own, so that no contestant chooses its question.
+// Colours the questions about a sweep. The judge does it itself, so that no contestant chooses its question.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,12 @@
 
 namespace ogc::compare {
 
-/// Of the free vertices, -1 of all others; no two vertices of a triangle or hinge share one. Greedy in a random order:
-/// few colours, so that contacts meet inside one; in one of eight a colour for each vertex: pure Gauss–Seidel.
+/// Returns colours of free vertices, −1 for all others; no two vertices of an element or a spring share one. Colours
+/// are greedy in a random order: few, so that contacts meet inside one. In one of eight cases each vertex has its own
+/// colour: pure Gauss–Seidel.
 std::vector<Index> random_colours(Random& random, const Scene& scene, const Topology& topology);
 
-/// Of the segments of rods that nothing holds, −1 of all others; no two neighbours share one.
+/// Returns colours of the segments of rods that nothing holds, −1 for all others; no two neighbours share one.
 std::vector<Index> random_segment_colours(Random& random, const Scene& scene);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Small coordinates: what rotations leave of a zero, and runs of a vertex near a plane of symmetry (method.md §2.4:
-// legal everywhere).
+// Makes small coordinates, as rotations leave them of a zero and runs leave them of a vertex near a plane of symmetry
+// (method.md §2.4: they are legal everywhere).
 #pragma once
 
 #include <initializer_list>
@@ -12,11 +12,11 @@
 namespace ogc::compare {
 
 /// Makes some coordinates of the case small, down to 2⁻⁶⁰ (10⁻¹⁸), each by itself, as long as the case stays legal.
-/// Products of two that are smaller still are lost beside 1 in double-double, and so are decisions. Connectivity,
-/// radii, materials and rest data stay. Scenes stay as they are, but for the positions of a sweep.
+/// With still smaller ones, products of two would be lost beside 1 in double-double, and decisions with them.
+/// Connectivity, radii, materials and rest data stay. Scenes stay as they are, except for the positions of a sweep.
 void add_dust(Random& random, TestCase& test);
 
-/// The coordinates of points, one array after another.
+/// Returns pointers to the coordinates of points, one array after another.
 inline std::vector<float*> coordinates_of(std::initializer_list<std::span<Vec3f>> arrays) {
   std::vector<float*> all;
   for (const std::span<Vec3f> points : arrays)

@@ -1,4 +1,4 @@
-// What a legal question is (compare/stages), in one place: generators, states of runs and shrunk cases obey it.
+// Defines a legal question (compare/stages) in one place: generators, states of runs and shrunk cases obey it.
 #pragma once
 
 #include <cmath>
@@ -9,17 +9,17 @@
 
 namespace ogc::compare {
 
-/// Of coordinates [m], velocities [m/s] and accelerations [m/s²]: the largest modulus. Scenes end at 2²⁰; generators go
-/// beyond, so that no stage relies on it. There is no smallest one (method.md §2.4).
+/// The largest modulus of coordinates [m], velocities [m/s] and accelerations [m/s²]. Scenes end at 2²⁰; generators go
+/// beyond, so that no stage relies on that. There is no smallest modulus (method.md §2.4).
 inline constexpr float most_coordinate = 0x1p30f;
 
-/// Limits of radii, distances and steps; `vast` of stiffnesses and bounds.
+/// `least_length` and `most_length` limit radii, distances and steps; `vast` limits stiffnesses and bounds.
 inline constexpr float least_length = 0x1p-20f, most_length = 0x1p20f, vast = 0x1p40f;
 
-/// What makes the question illegal, with the number at fault; empty where nothing does.
+/// Says what makes the question illegal, with the wrong number; empty where nothing does.
 std::string problem_of(const TestCase& test);
 
-/// Keeps the first problem that it is told of.
+/// Keeps the first problem that is noted.
 class FirstProblem {
  public:
   /// Notes a number that lies outside of [least, most] or is NaN.
@@ -32,7 +32,7 @@ class FirstProblem {
     for (const float x : {v.x, v.y, v.z})
       if (!(std::abs(x) <= most_coordinate)) say(what, x);
   }
-  /// The same for each vector.
+  /// Notes a coordinate beyond most_coordinate of any of the vectors.
   void vectors(const char* what, std::span<const Vec3f> all) {
     for (const Vec3f& v : all) vector(what, v);
   }
@@ -40,7 +40,7 @@ class FirstProblem {
   void require(bool holds, const char* otherwise) {
     if (!holds && text_.empty()) text_ = otherwise;
   }
-  /// Empty where there is none.
+  /// Returns the problem; empty where there is none.
   const std::string& text() const { return text_; }
 
  private:
@@ -53,8 +53,8 @@ class FirstProblem {
 /// `least_longest` (compare/stages/force.hpp).
 void check_lengths(FirstProblem& problem, std::span<const Vec3f> points, float least, float least_longest = 0x1p-30f);
 
-/// Rest shape, materials and settings are those of a valid scene. Where it stands may be anything: a run collapses
-/// triangles that no scene may begin with.
+/// Checks that rest shape, materials and settings are those of a valid scene. Positions may be anything: a run
+/// collapses triangles that no scene may begin with.
 void check_scene(FirstProblem& problem, const Scene& scene);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Mutation of captured states: what a run never quite reaches, from where runs are.
+// Mutates captured states, to reach what a run never quite reaches from the states where runs are.
 #pragma once
 
 #include <span>
@@ -9,18 +9,19 @@
 
 namespace ogc::compare {
 
-/// Moves a few points, in one or more of these ways: next to another point, or halfway between two others, up to a rung
-/// of their distance; onto another point; by a rung; one coordinate taken over from another point; all points to few
-/// binary digits. Of a step its velocities, of a sweep xᵗ and the targets, of the rest shape as long as it stays legal.
-/// Distances go to, or a rung beside, another distance, the radius or its half.
+/// Moves a few points in one or more of these ways: next to another point or halfway between two others, up to a rung
+/// of their distance; onto another point; by a rung; by taking over one coordinate of another point; by rounding all
+/// points to few binary digits. In a step it moves velocities, in a sweep xᵗ and the targets, in rest_state the rest
+/// shape as long as that stays legal. Distances become another distance, the radius or its half, or lie a rung beside
+/// it.
 void mutate(Random& random, TestCase& test);
 
-/// The same for points alone.
+/// Moves points alone in the same ways.
 void mutate_points(Random& random, std::span<Vec3f> points);
-/// The same, of vectors that stay numbers of single precision.
+/// Moves vectors in the same ways; they stay numbers of single precision.
 std::vector<Vec3> mutated(Random& random, const std::vector<Vec3>& vectors);
 
-/// The points of several arrays of a case, moved together.
+/// Moves the points of several arrays of a case together.
 template <class... Points>
 void mutate_together(Random& random, Points&&... arrays) {
   std::vector<Vec3f> points;

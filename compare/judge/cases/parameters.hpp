@@ -1,5 +1,5 @@
-// Parameters of a case that a problem string may set to another value after the case is made: `… index=1234 r=2e-3`.
-// Each stage has its own few.
+// Handles parameters of a case that a problem string may set after the case is made: `… index=1234 r=2e-3`. Each stage
+// has a few of its own.
 #pragma once
 
 #include <span>
@@ -12,17 +12,17 @@ namespace ogc::compare {
 /// One parameter of a stage.
 struct ParameterInfo {
   std::string_view name, meaning;  ///< "r"; "contact radius [m]"
-  float minimum, maximum;          ///< inclusive; what the stage's contract allows
+  float minimum, maximum;          ///< inclusive limits of the stage's contract
 };
 
-/// Of a stage, in canonical order; none where a case has nothing but coordinates.
+/// Returns the parameters of a stage in canonical order; none where a case has nothing but coordinates.
 std::span<const ParameterInfo> parameters(Stage stage);
 
-/// Puts values into canonical order. Throws InputError for a name that the stage does not have (listing those it has),
-/// a value out of range, or one name given twice.
+/// Puts values into canonical order. Throws InputError for a name that the stage does not have (and lists those it
+/// has), a value out of range, or a name given twice.
 void make_canonical(Stage stage, std::vector<Override>& overrides);
 
-/// Puts the values of `test.name.overrides` into the case. Throws InputError where they leave no legal question (a
+/// Puts the values of `test.name.overrides` into the case. Throws InputError where the question becomes illegal (a
 /// query radius below the contact radius).
 void apply_overrides(TestCase& test);
 

@@ -1,7 +1,7 @@
-// Random numbers by counter: the n-th number of a case is a hash of (stage, generator, seed, index, n), so a case is
-// the same whatever was generated before it, on however many threads, and a problem string alone brings it back. All
-// but `magnitude` (a library's power) and `between` (contraction) is the same to the bit in device code, too
-// (tests/fast/cuda/random.cu).
+// Draws random numbers by counter: the n-th number of a case is a hash of (stage, generator, seed, index, n), so a case
+// does not depend on what was generated before it or on the number of threads, and a problem string alone brings it
+// back. All numbers but `magnitude` (a library's power) and `between` (contraction) are the same to the bit in device
+// code, too (tests/fast/cuda/random.cu).
 #pragma once
 
 #include <bit>
@@ -12,50 +12,50 @@
 
 namespace ogc::compare {
 
-/// The stream of one case. Names, not numbers, key the stage and the generator: adding one leaves the others' cases as
+/// The stream of one case. Names, not numbers, key the stage and the generator: a new one leaves the others' cases as
 /// they were.
 class Random {
  public:
   constexpr Random(std::string_view stage, std::string_view generator, std::uint64_t seed, std::uint64_t index)
       : key_(mix(mix(mix(mix(seed) + hash(stage)) + hash(generator)) + index)) {}
 
-  /// 64 uniform bits.
+  /// Returns 64 uniform bits.
   constexpr std::uint64_t bits() { return mix(key_ + 0x9e3779b97f4a7c15u * ++counter_); }
-  /// A multiple of 2⁻⁵³ in [0, 1).
+  /// Returns a multiple of 2⁻⁵³ in [0, 1).
   constexpr double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   constexpr double between(double low, double high) { return low + (high - low) * unit(); }
-  /// An integer in [0, n), n ≥ 1; the bias of n/2⁶⁴ does not matter here.
+  /// Returns an integer in [0, n), n ≥ 1; the bias of n/2⁶⁴ does not matter here.
   constexpr int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
-  /// True in one of n.
+  /// Returns true in one of n draws.
   constexpr bool one_in(int n) { return below(n) == 0; }
   constexpr double sign() { return one_in(2) ? 1 : -1; }
   template <class T>
   constexpr T pick(std::span<const T> items) {
     return items[bits() % items.size()];
   }
-  /// 10^x for x uniform in [low, high).
+  /// Returns 10^x for x uniform in [low, high).
   double magnitude(double low, double high) { return std::pow(10.0, between(low, high)); }
-  /// A positive single-precision number whose bit pattern is uniform over 2⁻²⁰ … 2²⁰.
+  /// Returns a positive single-precision number whose bit pattern is uniform over 2⁻²⁰ … 2²⁰.
   constexpr float pattern() { return pattern(0x1p-20f, 0x1p20f); }
-  /// Likewise over low … high, both positive.
+  /// Returns a number whose bit pattern is uniform over low … high, both positive.
   constexpr float pattern(float low, float high) {
     const std::uint32_t first = std::bit_cast<std::uint32_t>(low), last = std::bit_cast<std::uint32_t>(high);
     return std::bit_cast<float>(first + static_cast<std::uint32_t>(bits() % (last - first + 1)));
   }
-  /// x, its last `count` bits replaced.
+  /// Returns x with its last `count` bits replaced.
   constexpr float last_bits(float x, int count) {
     const std::uint32_t kept = ~0u << count;
     return std::bit_cast<float>((std::bit_cast<std::uint32_t>(x) & kept) |
                                 (static_cast<std::uint32_t>(bits()) & ~kept));
   }
-  /// A rung of a ladder towards a degeneracy: 0 in one of four, otherwise ±10⁻ᵏ with k = 1 … 12.
+  /// Returns a rung of a ladder towards a degeneracy: 0 in one of four draws, otherwise ±10⁻ᵏ with k = 1 … 12.
   constexpr double rung() {
     constexpr double powers[]{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
     if (one_in(4)) return 0;
     const double direction = sign();
     return direction * powers[fine_ ? 4 + below(8) : below(12)];
   }
-  /// From now on only the lower rungs, 10⁻⁵ and below: for cases that lie next to a decision boundary.
+  /// Restricts all further rungs to the lower ones, 10⁻⁵ and below: for cases next to a decision boundary.
   constexpr void be_fine() { fine_ = true; }
   constexpr bool is_fine() const { return fine_; }
 

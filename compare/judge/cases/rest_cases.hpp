@@ -1,4 +1,4 @@
-// What is a legal question of stage rest_state.
+// Defines a legal question of stage rest_state.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace ogc::compare {
 
-/// What makes the case illegal (compare/stages/rest_state.hpp), as one message; empty where nothing does.
+/// Says what makes the case illegal (compare/stages/rest_state.hpp), as one message; empty where nothing does.
 std::string problems_of(const RestStateCase& c);
 
 }  // namespace ogc::compare

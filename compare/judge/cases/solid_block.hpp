@@ -1,4 +1,5 @@
-// A small solid for cases about whole scenes, and what a symmetry that mirrors does to bodies with an inner side.
+// Makes a small solid for cases about whole scenes, and corrects bodies with an inner side after a symmetry that
+// mirrors.
 #pragma once
 
 #include "compare/judge/cases/random.hpp"
@@ -6,19 +7,18 @@
 
 namespace ogc::compare {
 
-/// Up to 2 × 2 × 2 cells of side `size` [m], `height` times as high, each of six tetrahedra about the same diagonal; of
-/// 2 × 2 × 2, and of those alone, one vertex lies inside. Vertices are moved by up to a tenth of a cell.
+/// Returns up to 2 × 2 × 2 cells of side `size` [m], `height` times as high, each of six tetrahedra about the same
+/// diagonal. Only a block of 2 × 2 × 2 cells has a vertex inside. Vertices are moved by up to a tenth of a cell.
 Mesh jittered_block(Random& random, double size, double height);
-/// The boundary of such a block: triangles alone, outward, and no vertex inside.
+/// Returns the boundary of a block: triangles alone, outward, and no vertex inside.
 Mesh jittered_surface(Random& random, double size, double height);
-/// The same, three times as large, with a void in its middle: a box of 0.3 to 0.5 of its size, normals into it, whose
-/// vertices are the last eight.
+/// Returns a boundary three times as large, with a void in its middle: a box of 0.3 to 0.5 of its size, normals into
+/// it, whose vertices are the last eight.
 Mesh jittered_hollow(Random& random, double size, double height);
-/// The block of 2 × 2 × 2 cells.
+/// Returns the block of 2 × 2 × 2 cells.
 Mesh jittered_cube(Random& random, double size, double height);
 
-/// A symmetry of the cube that mirrors leaves volumes inside out, and solids at rest: their corners are then named the
-/// other way round.
+/// Renames the corners of volumes, and of solids at rest, that a mirroring symmetry of the cube has turned inside out.
 void turn_mirrored(Scene& scene);
 
 }  // namespace ogc::compare

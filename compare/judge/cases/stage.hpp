@@ -1,5 +1,5 @@
-// The stages that the judge can compare; their names are the stems of compare/stages. A stage is an enumerator here, a
-// line in the list below and a file in compare/judge/stages that defines what the list points to.
+// Lists the stages that the judge can compare; their names are the stems of compare/stages. A stage is an enumerator
+// here, a line in the list below, and a file in compare/judge/stages that defines what the list points to.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// In the order of a step.
+/// All stages, in the order of a step.
 enum class Stage : std::uint8_t {
   rest_state,
   closest_face,
@@ -42,14 +42,14 @@ struct StageTraits;
 
 /// What the judge knows of each stage (compare/judge/cases/stage_traits.hpp).
 namespace stages {
-/// Each defined in compare/judge/stages, in the file of its name.
+/// The traits of each stage; the file of its name in compare/judge/stages defines them.
 extern const StageTraits rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound,
     plane, volume_depth, initial_guess, activation, barrier, contact_force, friction_force, volume_force, membrane,
     bending, spring, tetrahedron, rod, orientation, sweep, ccd, truncate, step;
 }  // namespace stages
 
-/// The list of all stages, the only one that the judge has: an enumerator that is missing here does not compile
-/// (-Wswitch; tests/choices.py). Null for a number that is no enumerator.
+/// Returns the traits of a stage; null for a number that is no enumerator. This is the only list of all stages that the
+/// judge has: an enumerator that is missing here does not compile (-Wswitch; tests/choices.py).
 constexpr const StageTraits* find_traits(Stage stage) {
   switch (stage) {
     case Stage::rest_state: return &stages::rest_state;
@@ -81,28 +81,28 @@ constexpr const StageTraits* find_traits(Stage stage) {
   return nullptr;
 }
 
-/// Enumerators count from 0 without gaps.
+/// The number of stages; enumerators count from 0 without gaps.
 inline constexpr std::size_t stage_count = [] {
   std::size_t count = 0;
   while (find_traits(static_cast<Stage>(count)) != nullptr) ++count;
   return count;
 }();
 
-/// All of them, in the order of a step.
+/// All stages, in the order of a step.
 inline constexpr std::array<Stage, stage_count> all_stages = [] {
   std::array<Stage, stage_count> all{};
   for (std::size_t i = 0; i < stage_count; ++i) all[i] = static_cast<Stage>(i);
   return all;
 }();
 
-/// "closest_face" …
+/// Returns the stage's name: "closest_face" …
 std::string_view stage_name(Stage stage);
 
-/// The stage of that name; empty where there is none.
+/// Returns the stage of this name; empty where there is none.
 std::optional<Stage> find_stage(std::string_view name);
 
-/// Whether a case of the stage is a whole mesh, whose vertices (or edges, or questions) count one by one, of a
-/// step at each event.
+/// Checks whether a case of the stage is a whole mesh, whose vertices (or edges, or questions; in a step, vertices at
+/// each event) count one by one.
 bool is_mesh_stage(Stage stage);
 
 }  // namespace ogc::compare

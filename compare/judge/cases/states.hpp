@@ -1,6 +1,6 @@
-// Cases from real states: the frames of a run folder, whole for detection, or stencils drawn from their lists for the
-// other stages: of the elements of the rest state, of the contacts of the frame. What a run folder does not hold,
-// because it follows by computation (rest data, distances, contacts), an authority says.
+// Takes cases from real states, the frames of a run folder: whole frames for detection, and for the other stages
+// stencils drawn from their lists (elements of the rest state, contacts of the frame). An authority computes what a run
+// folder does not hold because it follows by computation: rest data, distances, contacts.
 #pragma once
 
 #include <array>
@@ -26,53 +26,53 @@ class States {
  public:
   /// Asks the authority for rest data. Throws InputError where the folder is no run or holds no frame.
   States(const std::filesystem::path& folder, const Authority& authority);
-  /// Why the run has no cases for the stage; empty where it has.
+  /// Says why the run has no cases for the stage; empty where it has some.
   std::string missing(Stage stage) const;
-  /// The case `index` of a stage. Detection: frame index mod frames, whole, with r_q = r × 1 … cap. Throws InputError
-  /// that says what is missing. Of what comes of contacts (activation, contact_force, friction_force) frames without
-  /// any do not count.
+  /// Returns the case `index` of a stage. For detection that is frame index mod frames, whole, with r_q = r × 1 … cap.
+  /// Throws InputError that says what is missing. For cases made from contacts (activation, contact_force,
+  /// friction_force), frames without a contact do not count.
   CaseData make(Stage stage, std::uint64_t index, Random& random) const;
   const std::string& folder() const { return folder_; }
 
   const Topology& topology() const { return *topology_; }  ///< of the scene's mesh
   const Scene& scene() const { return *scene_; }           ///< rounded
-  /// Rest data as the authority computes them.
+  /// Returns rest data as the authority computes them.
   const RestStateOut& rest() const { return rest_; }
   bool has_contact() const { return frame_with_contact(0).has_value(); }
 
-  /// The frame that a case of this index is about; likewise, but the next one that has a contact.
+  /// Return the frame for a case of this index; the second one skips to the next frame that has a contact.
   std::size_t frame(std::uint64_t index) const { return index % states_.size(); }
   std::size_t contact_frame(std::uint64_t index) const { return *frame_with_contact(frame(index)); }
 
-  /// A frame, whole: for detection with r_q = r × 1 … cap, and asked about blocks.
+  /// Return a whole frame: for detection with r_q = r × 1 … cap, and with questions about blocks.
   MeshCase whole(std::size_t frame, Random& random) const;
   PlaneCase plane(std::size_t frame, Random& random) const;
   BlockCase block(std::size_t frame, Random& random) const;
   RestStateCase rest_state() const { return {scene_, topology_}; }
-  /// The smallest distances of the frame, asked of the authority once.
+  /// Returns the smallest distances of the frame; asks the authority for them once.
   BoundCase bound(std::size_t frame) const;
-  /// The first sweep of the step that follows the frame.
+  /// Returns the first sweep of the step that follows the frame.
   SweepCase sweep(std::size_t frame, Random& random) const;
-  /// The step that follows the frame; motions go on from where they are.
+  /// Returns the step that follows the frame; motions go on from where they are.
   StepCase step(std::size_t frame) const;
-  /// A vertex and a triangle, and two edges: of a contact, or near each other.
+  /// Return a vertex and a triangle, and two edges: those of a contact, or near each other.
   ClosestFaceCase vertex_triangle(std::size_t frame, Random& random) const;
   ClosestPointsCase edge_edge(std::size_t frame, Random& random) const;
-  /// A contact of the frame's lists, at the frame or within a step from it at the frame's velocities.
+  /// Returns a contact of the frame's lists, at the frame or within a step from it at the frame's velocities.
   FrictionForceCase contact(std::size_t frame, Random& random) const;
-  /// The distance of a contact of the frame, but at least 2⁻²³ r (compare/stages/contact_force.hpp).
+  /// Returns the distance of a contact of the frame, but at least 2⁻²³ r (compare/stages/contact_force.hpp).
   ActivationCase contact_distance(std::size_t frame, Random& random) const;
-  /// A vertex from this frame to the next one, and at the start of the step that follows.
+  /// Return a vertex from this frame to the next one, and a vertex at the start of the step that follows.
   TruncateCase moved_vertex(std::size_t frame, Random& random) const;
   InitialGuessCase guessed_vertex(std::size_t frame, Random& random) const;
-  /// Stencils of the rest data, after a step at the frame's velocities.
+  /// Return stencils of the rest data after a step at the frame's velocities.
   MembraneCase triangle(std::size_t frame, Random& random) const;
   BendingCase hinge(std::size_t frame, Random& random) const;
   SpringCase spring(std::size_t frame, Random& random) const;
   TetrahedronCase tetrahedron(std::size_t frame, Random& random) const;
 
  private:
-  /// Vertices sorted by cell of a grid of about one edge length, to find neighbours.
+  /// A frame, with its vertices sorted by cell of a grid of about one edge length, to find neighbours.
   struct State {
     std::vector<Vec3f> positions;
     std::vector<float> bounds;
@@ -87,20 +87,20 @@ class States {
     std::vector<EdgeEdgeContact> edge_edge;
     std::size_t size() const { return vertex_facet.size() + edge_edge.size(); }
   };
-  /// Those of the frame; of one that holds none, unturned.
+  /// Returns the orientations of the frame; where it holds none, identities.
   std::vector<Quaternion> orientations_of(const State& state) const;
-  /// Asked of the authority once a frame.
+  /// Returns the frame's contacts; asks the authority for them once a frame.
   const Contacts& contacts(std::size_t frame) const;
-  /// The first frame from this one on, and around, that has a contact; none where the run has none.
+  /// Returns the first frame with a contact, from this one on and around; none where the run has none.
   std::optional<std::size_t> frame_with_contact(std::size_t frame) const;
   std::uint64_t cell(const Vec3f& position) const;
-  /// A vertex in the same cell or one of its neighbours; v itself where there is no other.
+  /// Returns a vertex in the same cell or one of its neighbours; v itself where there is no other.
   Index neighbour(const State& state, Index v, Random& random) const;
-  /// A vertex and the corners of a triangle, the ends of two edges, the lower-numbered first: in half of the draws
-  /// those of a contact, if the frame has any, else near each other.
+  /// Return a vertex and the corners of a triangle, and the ends of two edges, the lower-numbered edge first: in half
+  /// of the draws those of a contact, if the frame has any, else near each other.
   std::array<Index, 4> vertex_and_triangle(std::size_t frame, Random& random) const;
   std::array<Index, 4> pair_of_edges(std::size_t frame, Random& random) const;
-  /// x after this share of a step at the frame's velocity.
+  /// Returns x after this share of a step at the frame's velocity.
   Vec3f moved(const State& state, Index v, double part = 1) const;
   MeetingMaterial meeting(Index v, Index w) const;
 
@@ -114,7 +114,7 @@ class States {
   float contact_radius_ = 0, query_radius_cap_ = 1, bound_relaxation_ = 0.45f;
   double cell_size_ = 1;
   std::vector<State> states_;
-  /// By frame; filled when asked for, by any thread.
+  /// By frame; any thread fills them at the first request.
   mutable std::vector<std::optional<BoundCase>> smallest_distances_;
   mutable std::vector<std::optional<Contacts>> contacts_;
   mutable std::mutex filling_;

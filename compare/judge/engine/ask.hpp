@@ -1,4 +1,4 @@
-// From cases to both sides' answers, with a clock at each side.
+// Puts cases to both sides and takes the time of each side.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace ogc::compare {
 
-/// Cases of one batch, by position; all of one stage.
+/// Cases of one batch, all of one stage.
 using Cases = std::span<const TestCase>;
 
 /// Asks both sides the same question and adds the seconds of each to a tally.
@@ -20,7 +20,7 @@ class Asker {
  public:
   Asker(std::mutex& contestant_turn, Tally& tally) : turn_(contestant_turn), tally_(tally) {}
 
-  /// What the authority says.
+  /// Returns the authority's answer.
   template <class Question, class Truth, class In>
   Truth truth(const Question& question, const std::function<Truth(const In&)>& authority) {
     const auto start = std::chrono::steady_clock::now();
@@ -29,7 +29,7 @@ class Asker {
     return truth;
   }
 
-  /// What the contestant says; one thread at a time asks.
+  /// Returns the contestant's answer; one thread at a time asks.
   template <class Question, class Out, class In>
   Out answer(const Question& question, const std::function<Out(const In&)>& contestant) {
     const std::lock_guard lock(turn_);
@@ -48,8 +48,8 @@ class Asker {
   Tally& tally_;
 };
 
-/// Puts cases of one stage to both sides and judges the answers. `contestant_turn` is held while the contestant is
-/// asked, as a contestant need not stand two threads at once.
+/// Puts cases of one stage to both sides and judges the answers. Holds `contestant_turn` while it asks the contestant,
+/// which need not be safe for two threads at once.
 void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority,
          std::mutex& contestant_turn, Tally& tally);
 

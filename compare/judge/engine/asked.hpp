@@ -1,4 +1,4 @@
-// Which generators' cases a contestant is asked about.
+// Decides which generators' cases a contestant is asked about.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -6,7 +6,7 @@
 
 namespace ogc::compare {
 
-/// Whether the contestant has all stages that the generator's cases need beside the judged one.
+/// Checks whether the contestant has all that the generator's cases need beside the judged stage.
 bool is_asked(const Contestant& contestant, Stage stage, const Generator& generator);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// A question to ask again and again.
+// Holds a question that can be asked again and again.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +6,10 @@
 
 namespace ogc::compare {
 
-/// Made once, then asked as often as a clock wants.
+/// A call for a clock: the question is made once and asked as often as needed.
 struct BenchmarkCall {
-  std::function<void()> ask;  ///< throws the answer away; owns what the question looks at
-  std::int64_t items = 0;     ///< cases, or vertices of a mesh
+  std::function<void()> ask;  ///< discards the answer; owns what the question points to
+  std::int64_t items = 0;     ///< number of cases, or of vertices of a mesh
 };
 
 }  // namespace ogc::compare

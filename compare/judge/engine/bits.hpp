@@ -1,4 +1,4 @@
-// Answers as bits, for comparisons that forgive nothing: signs of zeros and payloads included.
+// Turns answers into bits, for comparisons that forgive nothing: signs of zeros and payloads count.
 #pragma once
 
 #include <string>
@@ -10,28 +10,28 @@
 
 namespace ogc::compare {
 
-/// The bits of numbers one after another.
+/// Collects the bits of numbers one after another.
 class Bits {
  public:
-  /// A number, or a structure of numbers without padding.
+  /// Adds a number, or a structure of numbers without padding.
   template <class T>
   void add(const T& value) {
     text_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
 
-  /// An array: its length, then its entries.
+  /// Adds an array: its length, then its entries.
   template <class T>
   void add(const std::vector<T>& values) {
     add(values.size());
     for (const T& value : values) add(value);
   }
 
-  /// Faces have padding between their members.
+  /// Adds a face by its members, as there is padding between them.
   void add(const Face& face) {
     add(face.kind);
     add(face.index);
   }
-  /// Answers, member by member.
+  /// Add answers member by member.
   void add(const VertexFacetContact& c) {
     add(c.vertex);
     add(c.face);
@@ -110,14 +110,14 @@ class Bits {
     add(out.orientation);
   }
 
-  /// All bits so far; none stay.
+  /// Returns all bits so far and removes them.
   std::string take() { return std::move(text_); }
 
  private:
   std::string text_;
 };
 
-/// Entry i of each array belongs to case i.
+/// Returns the bits by case; entry i of each array belongs to case i.
 template <class... Arrays>
 std::vector<std::string> bits_by_case(std::size_t count, const Arrays&... arrays) {
   std::vector<Bits> bits(count);

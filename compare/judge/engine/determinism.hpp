@@ -1,5 +1,5 @@
-// Whether the same questions get the same bits: again, with other numbers of threads, alone and in company of other
-// cases, in another order. Needs no truth.
+// Checks whether the same questions get the same bits: when asked again, with other numbers of threads, alone and
+// together with other cases, and in another order. The check needs no truth.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace ogc::compare {
 
-/// The bits of the contestant's answers, one string a case; equal if and only if all numbers are, signs of zeros and
-/// payloads included. The authority answers where a question needs it (the contacts of a sweep). All cases of one
-/// stage.
+/// Returns the bits of the contestant's answers, one string a case; they are equal if and only if all numbers are,
+/// signs of zeros and payloads included. The authority answers where a question needs it (the contacts of a sweep). All
+/// cases must be of one stage.
 std::vector<std::string> answer_bits(Stage stage, std::span<const TestCase> cases, const Contestant& contestant,
                                      const Authority& authority);
 
-/// A way to ask that must not change a bit: runs what it is given, on other threads or under another limit.
+/// A way to ask that must not change a bit: it runs its argument on other threads or under another limit.
 struct Surrounding {
   std::string name;                                       ///< for the report: "2 threads"
   std::function<void(const std::function<void()>&)> run;  ///< calls its argument once
@@ -27,22 +27,23 @@ struct Surrounding {
 
 /// What a stage's answers depend on, though they must not.
 struct DeterminismReport {
-  Stage stage = Stage::rest_state;  ///< whose answers
-  std::uint64_t cases = 0;          ///< how many, meshes whole
-  /// FNV-1a of all answers in order: the same on two machines or builds that give the same bits
+  Stage stage = Stage::rest_state;  ///< the stage under test
+  std::uint64_t cases = 0;          ///< number of cases; a mesh counts once
+  /// FNV-1a of all answers in order; equal on two machines or builds that give the same bits
   std::uint64_t digest = 0;
-  /// one line for each way of asking that changed bits: the way, how many cases, the first of them
+  /// one line for each way to ask that changed bits: the way, the number of cases, the first of them
   std::vector<std::string> changed;
   bool skipped = false;  ///< the contestant does not have the stage
 };
 
-/// Asks `cases` cases (whole meshes count one) of all generators again, shuffled, one by one and in batches of 2, 3, 5,
-/// 10 and 50, and in each surrounding; the generic cases of stages whose answers do not depend on numbers
-/// (StageTraits::is_same_renumbered) also under other numbers of vertices and triangles.
+/// Asks about `cases` cases of all generators (a mesh counts once) again, shuffled, one by one, in batches of 2, 3, 5,
+/// 10 and 50, and in each surrounding. Generic cases of stages whose answers do not depend on numbers
+/// (StageTraits::is_same_renumbered) are also asked under other numbers of vertices and triangles.
 DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint64_t seed, const Contestant& contestant,
                                     const Authority& authority, std::span<const Surrounding> surroundings);
 
-/// One row a stage: stage, level that is stated (compare/judge/cases/stage_traits.hpp), cases, digest, what changed.
+/// Returns a table with one row a stage: stage, stated level (compare/judge/cases/stage_traits.hpp), cases, digest,
+/// what changed.
 std::string determinism_table(std::span<const DeterminismReport> reports);
 
 }  // namespace ogc::compare

@@ -1,6 +1,6 @@
-// The sign of a sum of doubles, with no rounding: Shewchuk's growing expansion (1997). The judge asks the one exact
-// question of its own with it, whether a stored position obeys its bound, so that no contestant's arithmetic is trusted
-// for it.
+// Finds the sign of a sum of doubles without rounding, by Shewchuk's growing expansion (1997). The judge uses it for
+// the only exact question that it answers itself: whether a stored position obeys its bound. No contestant's arithmetic
+// is trusted for that.
 #pragma once
 
 #include <array>
@@ -12,10 +12,11 @@
 
 namespace ogc::compare {
 
-/// Terms and products must neither overflow nor fall below 2⁻¹⁰⁷⁴; single-precision inputs squared do neither.
+/// A sum without rounding. Terms and products must neither overflow nor fall below 2⁻¹⁰⁷⁴; squares of single-precision
+/// inputs do neither.
 class ExactSum {
  public:
-  /// One more term.
+  /// Adds a term.
   void add(double term) {
     std::size_t kept = 0;
     for (const double part : parts_) {
@@ -33,14 +34,15 @@ class ExactSum {
     add(product);
     add(std::fma(a, b, -product));
   }
-  /// −1, 0 or 1. The parts do not overlap and grow, so the last one decides.
+  /// Returns −1, 0 or 1. The parts do not overlap and they grow, so the last one decides.
   int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
 
  private:
   std::vector<double> parts_;
 };
 
-/// ‖x − p‖ ≤ b, exactly: x² − 2xp + p² by coordinate, products of two floats being exact in double. All must be finite.
+/// Checks whether ‖x − p‖ ≤ b, exactly: sums x² − 2xp + p² by coordinate, as products of two floats are exact in
+/// double. All numbers must be finite.
 inline bool obeys_bound(const Vec3f& x, const Vec3f& p, float b) {
   ExactSum margin;
   for (const auto [a, c] : {std::array{x.x, p.x}, std::array{x.y, p.y}, std::array{x.z, p.z}}) {
@@ -52,7 +54,7 @@ inline bool obeys_bound(const Vec3f& x, const Vec3f& p, float b) {
   return margin.sign() <= 0;
 }
 
-/// n·x ≤ o, exactly. All must be finite.
+/// Checks whether n·x ≤ o, exactly. All numbers must be finite.
 inline bool obeys_half_space(const Vec3f& x, const HalfSpace& half_space) {
   const Vec3f& n = half_space.normal;
   ExactSum margin;

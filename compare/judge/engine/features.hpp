@@ -1,4 +1,4 @@
-// Features by name, as messages and explanations say them: never a bare number.
+// Names features for messages and explanations, which never contain a bare number.
 #pragma once
 
 #include <string>
@@ -13,21 +13,21 @@
 
 namespace ogc::compare {
 
-// What an answer says need not exist: such a name says so.
+// A feature in an answer need not exist; its name says so then.
 
-/// "vertex 2 of the triangle", "edge (0,1) of the triangle", "the interior of the triangle".
+/// Returns "vertex 2 of the triangle", "edge (0,1) of the triangle", "the interior of the triangle".
 std::string feature_name(TriangleFeature feature);
-/// "end 0 of the first edge", "the interior of the second edge"; `which`: "first", "second".
+/// Returns "end 0 of the first edge", "the interior of the second edge"; `which` is "first" or "second".
 std::string feature_name(EdgeFeature feature, const std::string& which);
-/// "vertex 2", "edge 5 (vertices 1, 4)", "triangle 3 (vertices 0, 1, 4)".
+/// Returns "vertex 2", "edge 5 (vertices 1, 4)", "triangle 3 (vertices 0, 1, 4)".
 std::string face_name(const Face& face, const Topology& topology);
-/// "vertex 7 and edge 5 (vertices 1, 4), owner triangle 3".
+/// Returns "vertex 7 and edge 5 (vertices 1, 4), owner triangle 3".
 std::string contact_name(const VertexFacetContact& contact, const Topology& topology);
-/// "vertex 2 and edge 5 (vertices 1, 4), of edges 0 and 5".
+/// Returns "vertex 2 and edge 5 (vertices 1, 4), of edges 0 and 5".
 std::string contact_name(const EdgeEdgeContact& contact, const Topology& topology);
-/// "vertex 7 and triangle 3 (vertices 0, 1, 4)", "edge 2 (vertices 0, 3) and edge 5 (vertices 1, 4)".
+/// Returns "vertex 7 and triangle 3 (vertices 0, 1, 4)", "edge 2 (vertices 0, 3) and edge 5 (vertices 1, 4)".
 std::string pair_name(const PrimitivePair& pair, const Topology& topology);
-/// "vertex 7 in the block of triangle 3 (vertices 0, 1, 4)".
+/// Returns "vertex 7 in the block of triangle 3 (vertices 0, 1, 4)".
 std::string question_name(const BlockQuestion& question, const Topology& topology);
 
 }  // namespace ogc::compare

@@ -1,4 +1,5 @@
-// The members of the cases of force stages by name and unit, named once: for files, in both ways, and for people.
+// Lists the members of the cases of force stages by name and unit, in one place: for writing and reading files, and for
+// people.
 #pragma once
 
 #include <array>
@@ -13,9 +14,10 @@
 
 namespace ogc::compare {
 
-// visit(name, unit, member): lengths in m, pure numbers "1", choices and numbers of vertices "".
+// Calls visit(name, unit, member) for each member. Lengths have the unit m, pure numbers "1", choices and numbers of
+// vertices "".
 
-/// The members of a triangle with a membrane.
+/// Visits the members of a triangle with a membrane.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, MembraneCase>
 void visit_members(Case& c, Visit visit) {
@@ -31,7 +33,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// The members of a hinge.
+/// Visits the members of a hinge.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, BendingCase>
 void visit_members(Case& c, Visit visit) {
@@ -46,7 +48,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// The members of a spring.
+/// Visits the members of a spring.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, SpringCase>
 void visit_members(Case& c, Visit visit) {
@@ -60,7 +62,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// The members of a tetrahedron.
+/// Visits the members of a tetrahedron.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, TetrahedronCase>
 void visit_members(Case& c, Visit visit) {
@@ -78,7 +80,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// The members of a segment of a rod.
+/// Visits the members of a segment of a rod.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, RodCase>
 void visit_members(Case& c, Visit visit) {
@@ -93,7 +95,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// The members of a segment between its neighbours.
+/// Visits the members of a segment between its neighbours.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, OrientationCase>
 void visit_members(Case& c, Visit visit) {
@@ -114,7 +116,7 @@ void visit_members(Case& c, Visit visit) {
   visit("ahead_rest", "1", c.ahead.rest);
 }
 
-/// The members of a contact.
+/// Visits the members of a contact.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, ContactForceCase>
 void visit_members(Case& c, Visit visit) {
@@ -129,7 +131,7 @@ void visit_members(Case& c, Visit visit) {
   visit("together", "", c.together);
 }
 
-/// The members of a contact with friction.
+/// Visits the members of a contact with friction.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, FrictionForceCase>
 void visit_members(Case& c, Visit visit) {
@@ -139,7 +141,7 @@ void visit_members(Case& c, Visit visit) {
   visit("slip_limit", "m", c.slip_limit);
 }
 
-/// The members of a contact with a volume.
+/// Visits the members of a contact with a volume.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, VolumeForceCase>
 void visit_members(Case& c, Visit visit) {
@@ -154,17 +156,17 @@ void visit_members(Case& c, Visit visit) {
   visit("slip_limit", "m", c.slip_limit);
 }
 
-/// By ContactSides.
+/// Names in the order of ContactSides.
 inline constexpr std::array<std::string_view, 4> side_names{"point_point", "point_edge", "edge_edge", "point_triangle"};
 
-/// The names of an enumeration's values, in their order.
+/// Returns the names of an enumeration's values, in their order.
 inline std::span<const std::string_view> names_of(ContactSides) { return side_names; }
 inline std::span<const std::string_view> names_of(MembraneModel) { return choice_names<MembraneModel>; }
 inline std::span<const std::string_view> names_of(BendingModel) { return choice_names<BendingModel>; }
 inline std::span<const std::string_view> names_of(ContactActivation) { return choice_names<ContactActivation>; }
 inline std::span<const std::string_view> names_of(DampingForm) { return choice_names<DampingForm>; }
 
-/// What names_of takes.
+/// The types that names_of takes.
 template <class T>
 concept Named = std::is_enum_v<T>;
 

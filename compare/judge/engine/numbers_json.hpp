@@ -1,4 +1,4 @@
-// Numbers and points of saved cases, as hexadecimal text, so that every bit comes back, and choices by name.
+// Writes numbers and points of saved cases as hexadecimal text, so that every bit comes back, and choices by name.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace ogc::compare {
 
 using Json = nlohmann::ordered_json;
 
-/// "0x1.8p-3": every bit.
+/// Returns the number with every bit: "0x1.8p-3".
 inline std::string hexadecimal_of(double x) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%a", x);
@@ -25,7 +25,8 @@ inline std::string hexadecimal_of(double x) {
 }
 inline std::string hexadecimal(float x) { return hexadecimal_of(static_cast<double>(x)); }
 
-/// The number that `parse`, of C's library, makes of the text; throws InputError where that is not all of it.
+/// Returns the number that `parse`, of C's library, makes of the text; throws InputError where that is not all of the
+/// text.
 template <class Number>
 Number parsed_number(const Json& json, Number (*parse)(const char*, char**)) {
   const std::string text = json.get<std::string>();
@@ -36,15 +37,15 @@ Number parsed_number(const Json& json, Number (*parse)(const char*, char**)) {
   return x;
 }
 
-/// Reads a number back, or a decimal one; throws InputError for other text.
+/// Reads a hexadecimal or decimal number; throws InputError for other text.
 inline float number(const Json& json) { return parsed_number(json, &std::strtof); }
 inline double number_of_double(const Json& json) { return parsed_number(json, &std::strtod); }
 
-/// [x, y, z], and back.
+/// Writes [x, y, z], and reads it back.
 inline Json to_json(const Vec3f& p) { return {hexadecimal(p.x), hexadecimal(p.y), hexadecimal(p.z)}; }
 inline Vec3f to_point(const Json& json) { return {number(json.at(0)), number(json.at(1)), number(json.at(2))}; }
 
-/// An array of points, and back where their number is fixed.
+/// Writes an array of points.
 template <class Points>
 Json points_to_json(const Points& points) {
   Json json = Json::array();
@@ -52,7 +53,7 @@ Json points_to_json(const Points& points) {
   return json;
 }
 
-/// The first n points of an array.
+/// Reads the first n points of an array.
 template <std::size_t n>
 std::array<Vec3f, n> to_points(const Json& json) {
   std::array<Vec3f, n> points;
@@ -60,21 +61,21 @@ std::array<Vec3f, n> to_points(const Json& json) {
   return points;
 }
 
-/// An array of numbers.
+/// Writes an array of numbers.
 inline Json numbers_to_json(const std::vector<float>& numbers) {
   Json json = Json::array();
   for (const float x : numbers) json.push_back(hexadecimal(x));
   return json;
 }
 
-/// And back.
+/// Reads an array of numbers back.
 inline std::vector<float> to_numbers(const Json& json) {
   std::vector<float> numbers;
   for (const Json& x : json) numbers.push_back(number(x));
   return numbers;
 }
 
-/// The index of a name in a list of all names. Throws InputError where it is none of them.
+/// Returns the index of a name in a list of all names. Throws InputError where the list lacks it.
 template <class Names>
 int number_of(const Json& name, const Names& names) {
   const auto found = std::find(names.begin(), names.end(), name.get<std::string>());

@@ -1,5 +1,5 @@
-// Numbers of vertices and triangles mean nothing to contact sets and bounds: the same mesh under other numbers, and its
-// answer under the old ones.
+// Gives a mesh other numbers, and takes its answer back to the old ones: numbers of vertices and triangles mean nothing
+// to contact sets and bounds.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace ogc::compare {
 
-/// Vertices, triangles and each triangle's corners in another order.
+/// Another order of vertices, triangles and each triangle's corners.
 class Renumbering {
  public:
   Renumbering(Random& random, const Topology& from);
 
-  /// The same mesh under the new numbers.
+  /// Returns the same mesh under the new numbers.
   const std::shared_ptr<const Topology>& topology() const { return topology_; }
-  /// One entry for each vertex, edge or triangle, in the new order.
+  /// Return the entries for vertices, edges or triangles in the new order.
   template <class T>
   std::vector<T> by_vertex(const std::vector<T>& old) const {
     return renumbered(old, vertex_);
@@ -31,7 +31,7 @@ class Renumbering {
   std::vector<T> by_triangle(const std::vector<T>& old) const {
     return renumbered(old, triangle_);
   }
-  /// The new number, or the face under it.
+  /// Return the new number of a vertex, and a face under its new number.
   Index vertex(Index v) const { return vertex_[static_cast<std::size_t>(v)]; }
   Face face(const Face& f) const {
     const std::vector<Index>& to = f.kind == FaceKind::vertex ? vertex_ : f.kind == FaceKind::edge ? edge_ : triangle_;

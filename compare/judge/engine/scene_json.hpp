@@ -1,5 +1,5 @@
-// Saved cases that hold a scene: all of it in the case's own file, so that every bit comes back without a folder of
-// meshes.
+// Writes and reads saved cases that hold a scene. The case's own file holds all of the scene, so that every bit comes
+// back without a folder of meshes.
 #pragma once
 
 #include "compare/judge/cases/cases.hpp"
@@ -7,14 +7,15 @@
 
 namespace ogc::compare {
 
-/// Of a rounded scene (`round_to_single`).
+/// Writes a rounded scene (`round_to_single`).
 Json scene_to_json(const Scene& scene);
 /// Throws what the JSON library throws for a missing key or a wrong type, InputError for a setting or model that there
 /// is none of.
 Scene to_scene(const Json& json);
 
-Json sweep_case_to_json(const SweepCase& c);  ///< with its scene whole
-/// Likewise, and InputError where an array has not one entry for each vertex.
+Json sweep_case_to_json(const SweepCase& c);  ///< writes the whole scene, too
+/// Reads a sweep case. Throws what to_scene throws, and InputError where an array does not have one entry for each
+/// vertex.
 SweepCase to_sweep_case(const Json& json);
 
 }  // namespace ogc::compare

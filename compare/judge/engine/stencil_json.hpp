@@ -1,4 +1,4 @@
-// Writer and reader of the members that compare/judge/engine/force_members.hpp names.
+// Writes and reads the members that compare/judge/engine/force_members.hpp names.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct StencilWriter {
   }
 };
 
-/// Finds members in an object; throws InputError where one has no value that a case can have.
+/// Reads members from an object; throws InputError where one has a value that no case can have.
 struct StencilReader {
   const Json& json;  ///< the object
   void operator()(const char* name, float& x) const { x = number(json.at(name)); }
@@ -35,7 +35,7 @@ struct StencilReader {
     if (x < 0 || x > 3)
       throw InputError(std::string(name) + ": " + std::to_string(x) + " is not a vertex of the stencil; use 0 to 3");
   }
-  /// Bits of vertices; none in files that are older than they.
+  /// Reads bits of vertices; older files have none.
   void operator()(const char* name, std::uint8_t& bits) const {
     const auto given = json.value(name, std::int32_t{0});
     if (given < 0 || given > 15)
@@ -61,7 +61,7 @@ struct StencilReader {
   }
 };
 
-/// A stencil as an object.
+/// Returns a stencil as an object.
 template <class Case>
 Json write_stencil(const Case& c) {
   StencilWriter writer;
@@ -69,7 +69,7 @@ Json write_stencil(const Case& c) {
   return writer.json;
 }
 
-/// And back.
+/// Reads a stencil back.
 template <class Case>
 Case read_stencil(const Json& data) {
   Case c;

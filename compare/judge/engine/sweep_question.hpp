@@ -1,5 +1,5 @@
-// A sweep case made a question: the authority finds contacts and bounds at X_prev, so that every question is one
-// that a step could ask, and a case holds no more than positions.
+// Makes a question of a sweep case. The authority finds contacts and bounds at X_prev, so that every question is one
+// that a step could ask, and a case holds nothing but positions.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -8,10 +8,10 @@
 
 namespace ogc::compare {
 
-/// Owns what a SweepIn looks at; must stay where it is.
+/// Owns what a SweepIn points to; must not move.
 class SweepQuestion {
  public:
-  /// Asks the authority for rest state, contact sets, those with volumes, and bounds.
+  /// Asks the authority for rest state, contact sets, contacts with volumes, and bounds.
   SweepQuestion(const SweepCase& test, const Authority& authority);
   SweepQuestion(const SweepQuestion&) = delete;
   SweepQuestion& operator=(const SweepQuestion&) = delete;
@@ -29,8 +29,9 @@ class SweepQuestion {
   std::vector<VolumeContact> volumes_;
 };
 
-/// `wish` where it obeys the bound; otherwise the point of the segment to it at the bound, its rounded coordinates
-/// stepped towards `previous` until the stored point obeys. The step is finite in single precision.
+/// Returns `wish` where it obeys the bound; otherwise the point at the bound of the segment that leads there, its
+/// rounded coordinates stepped towards `previous` until the stored point obeys. The step must be finite in single
+/// precision.
 Vec3f within_bound(const Vec3f& wish, const Vec3f& previous, float bound);
 
 }  // namespace ogc::compare

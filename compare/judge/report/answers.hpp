@@ -1,5 +1,5 @@
-// Both answers to a case, whole: each output of the stage by name and unit, as the contestant gave it and as the
-// authority does.
+// Holds both answers to a case whole: each output of the stage by name and unit, from the contestant and from the
+// authority.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -7,7 +7,7 @@
 
 namespace ogc::compare {
 
-/// One output. Of a sweep or a step the exact values are those that follow from the contestant's own answer
+/// One output. In a sweep or a step the exact values follow from the contestant's own answer
 /// (compare/stages/sweep.hpp).
 struct AnswerPair {
   Quantity given, exact;  ///< `given` is empty where there is no answer
@@ -19,10 +19,10 @@ struct Answers {
   std::string note;                 ///< why there is no answer, or that more than one is right; otherwise empty
 };
 
-/// Given and exact outputs side by side; of a shorter list of given ones the rest is empty.
+/// Puts given and exact outputs side by side; where the given list is shorter, the rest is empty.
 Answers paired(const std::vector<Quantity>& given, const std::vector<Quantity>& exact, std::string note);
 
-/// Asks both.
+/// Asks both sides.
 Answers answers_to(const TestCase& test, const Contestant& contestant, const Authority& authority);
 
 }  // namespace ogc::compare

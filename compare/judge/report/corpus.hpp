@@ -1,4 +1,5 @@
-// Cases as files: every bit comes back whatever becomes of the generators; a mesh and a picture to look at.
+// Keeps cases as files: every bit comes back whatever becomes of the generators, and there is a mesh and a picture to
+// look at.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +12,10 @@
 
 namespace ogc::compare {
 
-/// Of saved cases. Another one is refused by name.
+/// Version of saved cases; a file of another version is refused, with its version named.
 inline constexpr int case_format_version = 3;
 
-/// The case with its problem string and message, numbers of single precision as hexadecimal text.
+/// Writes the case with its problem string and message, numbers of single precision as hexadecimal text.
 nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& message);
 
 /// Writes folder/STAGE.GENERATOR.SEED.INDEX.h5 (compare/judge/report/case_hdf5.hpp) and, where the case has

@@ -1,4 +1,4 @@
-// One case told whole: its inputs by name and unit, both answers, what is wrong, and the file that keeps it.
+// Explains one case whole: its inputs by name and unit, both answers, what is wrong, and the file that keeps it.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace ogc::compare {
 
-/// What `ogc compare --problem` prints.
+/// The content that `ogc compare --problem` prints.
 struct Explanation {
   std::string problem;                ///< the problem string
   std::vector<std::string> messages;  ///< what is wrong; none where the answer is right
   std::vector<Quantity> inputs;       ///< in the contract's order
-  Answers answers;                    ///< of both sides
-  std::string file{}, mesh{};         ///< as saved, to replay and to audit; empty where it is not
+  Answers answers;                    ///< answers of both sides
+  std::string file{}, mesh{};         ///< saved files, to replay and to audit; empty where not saved
 };
 
-/// Asks both sides. `test` may be a smaller form of the case that its name makes.
+/// Asks both sides. `test` may be a smaller form of the case of its name.
 Explanation explain(const TestCase& test, const Contestant& contestant, const Authority& authority);
 
-/// For people: of long lists the first entries, and of long answers those that differ most.
+/// Prints for people: the first entries of long lists, and the entries of long answers that differ most.
 std::string explanation_text(const Explanation& explanation);
-/// Whole.
+/// Prints everything.
 nlohmann::ordered_json explanation_json(const Explanation& explanation);
 
 }  // namespace ogc::compare

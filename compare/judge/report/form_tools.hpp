@@ -1,4 +1,4 @@
-// How to write forms: as a change of the question to the authority, or of its answer.
+// Makes wrong forms: as a change of the question to the authority, or of its answer.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace ogc::compare {
 template <class Truth, class In>
 using Ask = std::function<Truth(const In&)>;
 
-/// A form that makes its truth from that of the stage: `change(right, in)` returns what the form says of the question.
+/// Makes a form from the truth of the stage: `change(right, in)` returns what the form gives for the question.
 template <class Truth, class In, class Change>
 WrongForm form(std::string name, std::string meaning, Ask<Truth, In> Authority::*stage, Change change) {
   return form_of(std::move(name), std::move(meaning), [stage, change](const Authority& authority) {
@@ -22,7 +22,7 @@ WrongForm form(std::string name, std::string meaning, Ask<Truth, In> Authority::
   });
 }
 
-/// `change(In&)` changes the question.
+/// Makes a form that changes the question by `change(In&)`.
 template <class Truth, class In, class Change>
 WrongForm asked(std::string name, std::string meaning, Ask<Truth, In> Authority::*stage, Change change) {
   return form(std::move(name), std::move(meaning), stage, [change](const Ask<Truth, In>& right, const In& in) {
@@ -32,7 +32,7 @@ WrongForm asked(std::string name, std::string meaning, Ask<Truth, In> Authority:
   });
 }
 
-/// `change(const In&, Truth&)` changes the truth.
+/// Makes a form that changes the truth by `change(const In&, Truth&)`.
 template <class Truth, class In, class Change>
 WrongForm told(std::string name, std::string meaning, Ask<Truth, In> Authority::*stage, Change change) {
   return form(std::move(name), std::move(meaning), stage, [change](const Ask<Truth, In>& right, const In& in) {
@@ -48,7 +48,7 @@ struct NamedActivation {
   const char *name, *meaning;  ///< of the form
 };
 
-/// What may stand in place of `ogc`.
+/// Activations that may stand in place of `ogc`.
 inline constexpr std::array<NamedActivation, 4> other_activations{
     {{ContactActivation::ogc_as_printed, "ogc_as_printed", "Eq. 19 as printed: k' = τ k_c (τ − r)², numbers in metres"},
      {ContactActivation::quadratic, "quadratic", "k_c/2 (r − d)² at every distance"},

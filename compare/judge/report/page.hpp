@@ -1,4 +1,4 @@
-// A report as one static page of HTML that loads nothing.
+// Prints a report as one static page of HTML that loads nothing.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace ogc::compare {
 
-/// The table of report_table, a histogram of each metric, each generator's counts, the listed mismatches and the worst
-/// cases. `heading` says who was judged.
+/// Returns the page: the table of report_table, a histogram of each metric, each generator's counts, the listed
+/// mismatches and the worst cases. `heading` names the judged contestant.
 std::string report_page(std::span<const StageReport> reports, const std::string& heading);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Quantities from the values of a case or an answer.
+// Makes quantities from the values of a case or an answer.
 #pragma once
 
 #include <array>
@@ -10,33 +10,33 @@
 
 namespace ogc::compare {
 
-/// One number.
+/// Returns one number.
 inline Quantity scalar(std::string name, std::string unit, double x) {
   return {.name = std::move(name), .unit = std::move(unit), .numbers = {x}};
 }
-/// A number of things.
+/// Returns a number of things.
 inline Quantity count(std::string name, std::size_t n) { return scalar(std::move(name), "", static_cast<double>(n)); }
-/// One name.
+/// Returns one name.
 inline Quantity word(std::string name, std::string text) {
   return {.name = std::move(name), .words = {std::move(text)}};
 }
-/// A list of names.
+/// Returns a list of names.
 inline Quantity words(std::string name, std::vector<std::string> texts) {
   return {.name = std::move(name), .words = std::move(texts), .is_list = true};
 }
 
-/// "yes", "no", or what it is instead.
+/// Returns "yes", "no", or the number if it is neither 0 nor 1.
 inline Quantity flag(std::string name, unsigned value) {
   return word(std::move(name), value == 0 ? "no" : value == 1 ? "yes" : std::to_string(value));
 }
 
-/// A list of numbers.
+/// Returns a list of numbers.
 template <class Numbers>
 Quantity numbers(std::string name, std::string unit, const Numbers& values) {
   return {.name = std::move(name), .unit = std::move(unit), .numbers = {values.begin(), values.end()}, .is_list = true};
 }
 
-/// One point is no list.
+/// Returns points; one point alone is no list.
 template <class Points>
 Quantity points(std::string name, std::string unit, const Points& all) {
   Quantity quantity{.name = std::move(name), .unit = std::move(unit), .width = 3, .is_list = all.size() != 1};
@@ -45,7 +45,7 @@ Quantity points(std::string name, std::string unit, const Points& all) {
   return quantity;
 }
 
-/// Rows of so many numbers each: gradients, blocks, triangles.
+/// Returns rows of the same number of numbers each: gradients, blocks, triangles.
 template <class Row>
 Quantity rows(std::string name, std::string unit, const std::vector<Row>& all) {
   Quantity quantity{.name = std::move(name), .unit = std::move(unit), .width = std::tuple_size_v<Row>, .is_list = true};
@@ -53,7 +53,7 @@ Quantity rows(std::string name, std::string unit, const std::vector<Row>& all) {
   return quantity;
 }
 
-/// A list of what `pick` takes of each item.
+/// Returns the list of what `pick` takes of each item.
 template <class Item, class Pick>
 Quantity each(std::string name, std::string unit, const std::vector<Item>& items, Pick pick) {
   std::vector<double> values;
@@ -61,28 +61,28 @@ Quantity each(std::string name, std::string unit, const std::vector<Item>& items
   return numbers(std::move(name), std::move(unit), values);
 }
 
-/// Numbers of vertices, one or more an entry.
+/// Returns numbers of vertices, n an entry.
 template <std::size_t n>
 Quantity indices(std::string name, const std::vector<std::array<Index, n>>& all) {
   return rows(std::move(name), "", all);
 }
-/// The same, one an entry.
+/// Returns numbers of vertices, one an entry.
 inline Quantity indices(std::string name, const std::vector<Index>& all) { return numbers(std::move(name), "", all); }
 
-/// Its entries by name.
+/// Returns the quantity with names for its entries.
 inline Quantity labelled(Quantity quantity, std::vector<std::string> labels) {
   quantity.labels = std::move(labels);
   return quantity;
 }
 
-/// What a mesh is made of, and a scene: settings that a stage reads, gravity, bodies with their materials.
+/// Return what a mesh consists of, and a scene: settings that a stage reads, gravity, bodies with their materials.
 std::vector<Quantity> mesh_quantities(const Topology& topology);
 std::vector<Quantity> scene_quantities(const Scene& scene);
-/// A mesh with positions [m] and rigid groups by vertex, and pairs that are left out, where there are any.
+/// Returns a mesh with positions [m] and rigid groups by vertex, and excluded pairs where there are any.
 std::vector<Quantity> state_quantities(const Topology& topology, const std::vector<Vec3f>& positions,
                                        const std::vector<Index>& rigid_groups, const CompressedRows& partners);
 
-/// One list after another.
+/// Joins lists one after another.
 template <class... Lists>
 std::vector<Quantity> joined(std::vector<Quantity> all, Lists... more) {
   (all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end())), ...);

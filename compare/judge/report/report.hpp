@@ -1,4 +1,4 @@
-// Reports: one JSON object a stage, and a table for people (as a page: compare/judge/report/page.hpp).
+// Prints reports: one JSON object a stage, and a table for people (as a page: compare/judge/report/page.hpp).
 #pragma once
 
 #include <array>
@@ -12,28 +12,29 @@
 
 namespace ogc::compare {
 
-/// One stage: counts, grey zone, cases near a boundary, errors by metric (median, 99.9th percentile, maximum, room
-/// below the tolerance, whether that is loose, worst problem string), speed, the listed mismatches, each generator's
-/// counts.
+/// Returns one stage: counts, grey zone, cases near a boundary, errors by metric (median, 99.9th percentile, maximum,
+/// room below the tolerance, whether that is loose, worst problem string), speed, the listed mismatches, each
+/// generator's counts.
 nlohmann::ordered_json report_json(const StageReport& report);
 
-/// The columns of report_table, and one row a metric: stage, cases, mismatches, grey share, grey decisions answered
+/// One row of report_table, of which each metric has one: stage, cases, mismatches, grey share, grey decisions answered
 /// otherwise than exactly, share near a boundary, error and its unit, median, 99.9 %, maximum and tolerance in that
 /// unit, their ratio, cases per second. What belongs to a stage stands in its first row.
 using ReportRow = std::array<std::string, 13>;
-ReportRow report_columns();                                     ///< their headings
-std::vector<ReportRow> report_rows(const StageReport& report);  ///< one a metric, at least one
+ReportRow report_columns();                                     ///< headings of the columns
+std::vector<ReportRow> report_rows(const StageReport& report);  ///< one row a metric, at least one
 
-/// "passed", "skipped", or what went wrong.
+/// Returns "passed", "skipped", or what went wrong.
 std::string verdict(const StageReport& report);
 
-/// One line over all stages: cases, mismatches, the share of all cases near a boundary.
+/// Returns one line over all stages: cases, mismatches, the share of all cases near a boundary.
 std::string report_total(std::span<const StageReport> reports);
 
-/// All rows, that line, then verdict, loose tolerances and worst cases of each stage.
+/// Returns all rows, the line of report_total, then verdict, loose tolerances and worst cases of each stage.
 std::string report_table(std::span<const StageReport> reports);
 
-/// The listed mismatches, problem string and message, at most `limit` a generator, then the count of all others.
+/// Returns the listed mismatches, problem string and message, at most `limit` a generator, then the count of all
+/// others.
 std::string report_mismatches(const StageReport& report, std::size_t limit);
 
 }  // namespace ogc::compare

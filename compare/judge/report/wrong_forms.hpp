@@ -1,4 +1,5 @@
-// Known ways to get a stage wrong, each with a name: what an answer may equal where it does not equal the truth.
+// Holds known ways to get a stage wrong, each with a name: an answer that does not equal the truth may equal one of
+// these forms.
 //
 // A form is the truth to a question that is changed first (another activation, no damping), or a truth that is changed
 // afterwards (a sign, a factor). Both come from the authority, so a form is as exact as the truth itself, and an answer
@@ -15,10 +16,10 @@
 
 namespace ogc::compare {
 
-/// A case, and a contestant that answers as the one judged did (`remembered`).
+/// A case, and a contestant that answers as the judged one did (`remembered`).
 struct Evidence {
   TestCase test;        ///< the question
-  Contestant answered;  ///< answers as it did then
+  Contestant answered;  ///< repeats the answers of the judged contestant
   bool fails = false;   ///< whether the judge finds a mismatch
 };
 
@@ -26,26 +27,26 @@ struct Evidence {
 struct WrongForm {
   std::string name;     ///< "ogc_as_printed"
   std::string meaning;  ///< one line: what is computed in place of what
-  /// Whether the answer is what the form gives, within what the stage accepts.
+  /// checks whether the answer is what the form gives, within what the stage accepts
   std::function<bool(const Evidence&, const Authority&)> fits;
-  /// The authority that takes the form for the truth; empty where what the form says depends on the answer.
+  /// the authority that takes the form for the truth; empty where the form depends on the answer
   std::function<Authority(const Authority&)> wrong{};
-  /// It says what the answers look like, not what was computed: tried where no other form is named.
+  /// describes what the answers look like, not what was computed: tried where no other form is named
   bool is_vague = false;
 };
 
-/// The form of such an authority.
+/// Makes the form of an authority that takes it for the truth.
 WrongForm form_of(std::string name, std::string meaning, std::function<Authority(const Authority&)> wrong);
 
-/// The forms of a stage. Some have a parameter that is read off the answers (how many contacts a list keeps). A stage
-/// of single cases has `not_a_number` besides.
+/// Returns the forms of a stage. Some have a parameter that is read off the answers (how many contacts a list keeps). A
+/// stage of single cases also has `not_a_number`.
 std::vector<WrongForm> wrong_forms(Stage stage, std::span<const Evidence> evidence);
 
-/// The contestant, asked once a stage: what it answers first is what it answers to everything later. A failure is not
+/// Returns the contestant with a memory: it is asked once a stage, and repeats its first answer later. A failure is not
 /// remembered.
 Contestant remembered(const Contestant& contestant);
 
-/// Whether the judge finds nothing wrong with the answer, given this authority.
+/// Checks whether the judge finds nothing wrong with the answer, given this authority.
 bool agrees(const Evidence& evidence, const Authority& authority);
 
 }  // namespace ogc::compare

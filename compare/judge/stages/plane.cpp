@@ -305,7 +305,8 @@ struct Plane : Numbered, InEveryRun {
   }
   static std::int64_t in_vertices(const TestCase& test) { return case_of<Case>(test.data).topology->vertex_count; }
 
-  /// Lists the same numbers of both sides; a note says what the verdict finds wrong.
+  /// Pairs the answer's bounds and planes with themselves; beside each wanted 0, the exact column counts what the
+  /// answer leaves out.
   static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
     const In in = question_of(test);
     std::string note;

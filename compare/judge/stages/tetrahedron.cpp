@@ -76,7 +76,7 @@ CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, c
   return question;
 }
 
-/// Moves each corner of a rest shape by `deform(p)`; its edges are at most about 1 m long.
+/// Moves each corner of a rest shape by `deform(p)`; the shape is 10⁻³ m … 1 m large, on a lattice 2⁻⁸ m … 1 m.
 template <class Deform>
 CaseData deformed(Random& random, Deform deform, bool lattice = false) {
   const double size = lattice ? std::ldexp(1.0, random.below(9) - 8) : random.magnitude(-3, 0);
@@ -141,8 +141,8 @@ CaseData at_rest(Random& random) {
   return deformed(random, [&](const Vec3& p) { return times(f, p); });
 }
 
-/// Returns a rung that keeps lengths legal on the grid, where corners may lie straight above each other: a grid of 2⁻⁸
-/// m at least leaves nothing or 2⁻³⁰ m.
+/// Returns a rung that keeps lengths legal on the grid, where corners may lie straight above each other: a length of
+/// 2⁻⁸ m at least becomes 0 or at least 2⁻³⁰ m.
 double rung_on(Random& random, bool on_grid) {
   const double rung = random.rung();
   return on_grid && std::abs(rung) < 0x1p-22 ? 0 : rung;

@@ -1,4 +1,4 @@
-// Quaternions and segments from which cases about rods are made, in double.
+// Holds quaternions and segments, in double, from which cases about rods are made.
 #pragma once
 
 #include <algorithm>
@@ -10,43 +10,43 @@
 
 namespace ogc::compare::rod_cases {
 
-/// What stands before i, j, k, then the real part.
+/// The factors of i, j, k, then the real part.
 using Four = std::array<double, 4>;
 
-/// a b, the product of quaternions.
+/// Returns a b, the product of quaternions.
 inline Four product(const Four& a, const Four& b) {
   return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] + a[1] * b[3] + a[2] * b[0] - a[0] * b[2],
           a[3] * b[2] + a[2] * b[3] + a[0] * b[1] - a[1] * b[0], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 inline Four conjugate(const Four& a) { return {-a[0], -a[1], -a[2], a[3]}; }
 
-/// q/‖q‖.
+/// Returns q/‖q‖.
 inline Four unit(Four q) {
   const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
   for (double& x : q) x /= length;
   return q;
 }
 
-/// Of unit length, rounded to single precision.
+/// Scales to unit length and rounds to single precision.
 inline Quaternion single(const Four& q) {
   const Four u = unit(q);
   return {static_cast<float>(u[0]), static_cast<float>(u[1]), static_cast<float>(u[2]), static_cast<float>(u[3])};
 }
 inline Four wide(const Quaternion& q) { return {q[0], q[1], q[2], q[3]}; }
 
-/// R(q) v of a unit quaternion.
+/// Returns R(q) v for a unit quaternion.
 inline Vec3 turned(const Four& q, const Vec3& v) {
   const Four p = product(product(q, {v.x, v.y, v.z, 0}), conjugate(q));
   return {p[0], p[1], p[2]};
 }
 
-/// About an axis by an angle; axis of unit length.
+/// Returns the rotation by an angle about an axis of unit length.
 inline Four rotation(const Vec3& axis, double angle) {
   const double s = std::sin(angle / 2);
   return {s * axis.x, s * axis.y, s * axis.z, std::cos(angle / 2)};
 }
 
-/// Any direction; any orientation.
+/// Return any direction, and any orientation.
 inline Vec3 some_direction(Random& random) {
   for (;;) {
     const Vec3 v = placement::in_box(random, -1, 1);
@@ -63,12 +63,12 @@ inline Four some_orientation(Random& random) {
   }
 }
 
-/// q turned by a rung: near it, or it.
+/// Returns q turned by a rung: near q, or q itself.
 inline Four beside(Random& random, const Four& q) {
   return product(q, rotation(some_direction(random), random.rung()));
 }
 
-/// A frame whose director is that of d, with any twist; any where d is 0.
+/// Returns a frame whose director is the direction of d, with any twist; any frame where d is 0.
 inline Four frame_along(Random& random, const Vec3& d) {
   const double length = std::hypot(d.x, d.y, d.z);
   const Four twist = rotation({0, 0, 1}, random.between(-3, 3));
@@ -77,7 +77,7 @@ inline Four frame_along(Random& random, const Vec3& d) {
   return product(unit({half.x, half.y, half.z, 0}), twist);  // half a turn about the middle of e₃ and d
 }
 
-/// An edge of a frame of a run as a segment: about as long as at rest, after it was a little elsewhere.
+/// An edge of a frame of a run as a segment: about as long as at rest, and at the start of the step a little elsewhere.
 struct EdgeOfState {
   std::array<Vec3f, 2> vertex, start;
   double length = 0;  ///< l [m]
@@ -96,7 +96,8 @@ struct EdgeOfState {
   }
 };
 
-/// One of the 24 quaternions of the cube's rotations that single precision holds: ±1, ±i, ±j, ±k, (±1 ± i ± j ± k)/2.
+/// Returns one of the 24 quaternions of the cube's rotations that single precision holds: ±1, ±i, ±j, ±k, (±1 ± i ± j ±
+/// k)/2.
 inline Four on_lattice(Random& random) {
   Four q{};
   if (random.one_in(2)) {
@@ -107,12 +108,12 @@ inline Four on_lattice(Random& random) {
   return q;
 }
 
-/// A length as scenes have them: of yarn in most cases, 2⁻²⁰ … 2²⁰ m in some.
+/// Returns a length as scenes have them: that of yarn in most cases, 2⁻²⁰ … 2²⁰ m in some.
 inline double some_length(Random& random) {
   return random.one_in(4) ? std::ldexp(random.between(1, 2), random.below(40) - 20) : random.magnitude(-4, 0);
 }
 
-/// What the contract asks of a quaternion.
+/// Checks that a quaternion has unit length, as the contract requires.
 inline void check_unit(FirstProblem& problem, const Quaternion& q) {
   double squared = 0;
   for (const float x : q) squared += double{x} * x;

@@ -1,4 +1,4 @@
-// How far a quaternion is from what the stage orientation accepts: for that stage, and for sweeps that set many.
+// Measures how far a quaternion is from what the stage orientation accepts, for that stage and for sweeps.
 #pragma once
 
 #include <vector>
@@ -10,20 +10,20 @@ namespace ogc::compare {
 /// Errors of one answer against one minimiser, each in its unit (compare/stages/orientation.hpp).
 struct OrientationErrors {
   double orientation = 0, residual = 0, energy = 0;
-  /// The largest of them over its tolerance, to each of which `more` units are added; 1: just accepted.
+  /// Returns the largest ratio of an error to its tolerance, to which `more` units are added; 1 is just accepted.
   double share(double more = 0) const;
 };
 
-/// Of a stored quaternion.
+/// Returns the errors of a stored quaternion.
 OrientationErrors orientation_errors(const Quaternion& stored, const OrientationAnswer& exact);
 
-/// The answer that the quaternion is nearest to.
+/// Returns the answer that the quaternion is nearest to.
 const OrientationAnswer& nearest_answer(const Quaternion& stored, const std::vector<OrientationAnswer>& accepted);
 
-/// | ‖q‖ − 1 | in units of u.
+/// Returns | ‖q‖ − 1 | in units of u.
 double length_error(const Quaternion& q);
 
-/// Whether every number of it is finite.
+/// Checks whether all numbers of the quaternion are finite.
 bool is_finite(const Quaternion& q);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// What stage rest_state is asked about rods: the verdict on segments, and scenes that have some.
+// Judges the segments of rods for stage rest_state.
 #pragma once
 
 #include <functional>
@@ -9,13 +9,13 @@
 
 namespace ogc::compare {
 
-/// Compares numbers of segments: `error(what, segment, off, scale, value, exact)` for each, `wrong(what, segment)` for
-/// a name of a vertex, a body or a neighbour that is another one.
+/// Compares segments. Calls `error(what, segment, off, scale, value, exact)` for each number, and `wrong(what,
+/// segment)` where a vertex, a body or a neighbour is not the right one.
 struct SegmentVerdict {
   std::function<void(const char*, std::size_t, double, double, double, double)> error;
   std::function<void(const char*, std::size_t)> wrong;
 
-  /// Both have the same number of segments.
+  /// Compares both sides, which must have the same number of segments.
   void judge(const RestStateTruth& truth, const RestStateOut& out) const;
 };
 

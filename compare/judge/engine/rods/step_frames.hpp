@@ -1,4 +1,4 @@
-// What a step is asked about the frames of segments: at its start, after the guess loop, at its end.
+// Judges the frames of segments in a step: at its start, after the guess loop, at its end.
 #pragma once
 
 #include <string>
@@ -9,24 +9,24 @@
 
 namespace ogc::compare {
 
-/// Frames as stage initial_guess judges them: what is asked, and the answer's.
+/// Frames as stage initial_guess judges them: the question, and the answer's frames.
 struct TurnedFrames {
   InitialGuessIn in;    ///< turns alone
   InitialGuessOut out;  ///< orientations alone
 };
 
-/// What is wrong with the colours of segments; empty where nothing is.
+/// Says what is wrong with the colours of segments; empty where nothing is.
 std::string wrong_segment_colour(const Scene& scene, const StepOut& out);
 
-/// Whether each list of orientations has one entry a segment, those of sweeps included; what is wrong, or nothing.
+/// Checks whether each list of orientations has one entry a segment, also in sweeps; says what is wrong, or nothing.
 std::string wrong_orientation_count(const Scene& scene, const StepOut& out);
 
-/// The frames that the step starts with: the scene's, or those of the answer's rest state, turned to where segments
-/// start. What is wrong of those that are given goes into `wrong`.
+/// Returns the frames with which the step starts: the scene's, or those of the answer's rest state, turned to where
+/// segments start. Writes into `wrong` what is wrong with frames that are given.
 TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wrong);
 
-/// The frames after the guess loop, which ended at x, of free segments and of those that a motion carries which does
-/// not say how it turns. What is wrong of others goes into `wrong`.
+/// Returns the frames after the guess loop, which ended at x: those of free segments, and of segments that a motion
+/// carries without saying how it turns. Writes into `wrong` what is wrong with others.
 TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vector<Vec3f>& x, std::string& wrong);
 
 }  // namespace ogc::compare

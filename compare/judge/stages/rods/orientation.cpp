@@ -29,7 +29,6 @@ using namespace rod_cases;
 using placement::single;
 using rod_cases::single;
 
-
 /// A segment under construction: D and the neighbours' targets are given relative to its frame `aim`.
 struct Draft {
   double length = 1;              ///< l [m]
@@ -310,7 +309,7 @@ CaseData antiparallel(Random& random) {
   return question;
 }
 
-/// Lets σ tend to 0: D tends to 0, or the stretch's vector c cancels against the damping.
+/// Lets σ tend to 0: D tends to 0, or c does, as its damping part cancels e₃.
 CaseData soft(Random& random) {
   Draft draft = near_rest(random);
   draft.length = random.magnitude(-2, 0);  // a rung of this is still a length
@@ -344,7 +343,6 @@ constexpr std::array<Generator, 15> table{{{"uniform", 15, true, uniform},
                                            {"ladder.antiparallel", 15, false, antiparallel},
                                            {"ladder.soft", 10, false, soft}}};
 
-
 double inner(const std::array<double, 4>& a, const std::array<double, 4>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
@@ -373,7 +371,6 @@ void judge_case(const TestCase& test, const std::vector<OrientationAnswer>& acce
   tally.error(2, errors.energy, both);
   tally.error(3, length_error(q), both);
 }
-
 
 /// Makes a form that asks the authority about cases changed by `change(case)`.
 template <class Change>
