@@ -26,7 +26,7 @@ float parse_value(const std::string& key, const std::string& value) {
   return number;
 }
 
-/// The shortest text that reads back as the same number.
+/// Returns the shortest text that reads back as the same number.
 std::string print_value(float value) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};

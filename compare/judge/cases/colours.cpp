@@ -8,7 +8,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Vertices that share a stencil with each, as the topology, the tetrahedra and the springs tell.
+/// Returns, for each vertex, those that share a stencil with it by the topology, the tetrahedra and the springs.
 std::vector<std::set<Index>> conflicts(const Scene& scene, const Topology& topology) {
   std::vector<std::set<Index>> near(static_cast<std::size_t>(topology.vertex_count));
   const auto join = [&](Index a, Index b) {

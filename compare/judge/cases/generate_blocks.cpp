@@ -1,5 +1,5 @@
-// Cases of block: the meshes of the detections, each with questions about faces that lie near each other. In the
-// regular families nearly every answer is decided by a point on, or a rung beside, the end of a block.
+// Makes cases of block: the meshes of the detections, each with questions about faces that lie near each other. In the
+// regular families nearly every answer is decided by a point on the end of a block, or a rung beside it.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -21,8 +21,7 @@ double squared_distance(const Vec3f& a, const Vec3f& b) {
   return x * x + y * y + z * z;
 }
 
-/// Whether the rule for nearly parallel edges might hold; a thousandth more than that is left out, so that rounding
-/// does not matter.
+/// Checks whether the rule for nearly parallel edges might hold; a margin of a thousandth keeps rounding out of it.
 bool might_be_parallel(const std::vector<Vec3f>& x, const Edge& e, const Edge& f) {
   const auto along = [&](const Edge& edge) {
     const Vec3f &a = x[at(edge[0])], &b = x[at(edge[1])];
@@ -40,7 +39,7 @@ class Asker {
   Asker(Random& random, const Topology& topology, const std::vector<Vec3f>& positions)
       : random_(random), topology_(topology), positions_(positions) {}
 
-  /// Appends a question, or none where what was drawn makes none.
+  /// Appends a question, or none where the drawn faces make none.
   void ask(std::vector<BlockQuestion>& questions) {
     const Index corner = random_.below(topology_.vertex_count), v = near(corner);
     const Face a = face_at(corner);
@@ -57,7 +56,7 @@ class Asker {
     return {topology_.triangles[at(a.index)].begin(), topology_.triangles[at(a.index)].end()};
   }
 
-  /// One of the nearest vertices, of fine cases the nearest; in one of eight other cases any.
+  /// Returns one of the nearest vertices, in fine cases the nearest; in one of eight other cases any.
   Index near(Index v) {
     if (!random_.is_fine() && random_.one_in(8)) return random_.below(topology_.vertex_count);
     if (random_.is_fine()) return nearest(v);
@@ -70,7 +69,7 @@ class Asker {
     return others[at(random_.below(static_cast<int>(kept)))].second;
   }
 
-  /// The lowest-numbered one of the nearest other vertices; v where there is none.
+  /// Returns the lowest-numbered one of the nearest other vertices; v where there is none.
   Index nearest(Index v) const {
     Index best = v;
     double least = std::numeric_limits<double>::infinity();
@@ -86,7 +85,7 @@ class Asker {
     return around.empty() ? -1 : random_.pick(around);
   }
 
-  /// The vertex, an edge at it or a triangle at it.
+  /// Returns the vertex, an edge at it or a triangle at it.
   Face face_at(Index v) {
     const int kind = random_.below(3);
     const auto around = topology_.vertex_triangles[at(v)];
@@ -109,7 +108,7 @@ class Asker {
   const std::vector<Vec3f>& positions_;
 };
 
-/// The mesh that the detections' generator of this name makes of these random numbers.
+/// Takes the mesh that the detections' generator `family` makes of these random numbers.
 template <const auto& family, int count = questions_a_mesh>
 CaseData about(Random& random) {
   MeshCase mesh = case_of<MeshCase>(find_generator(Stage::detect_vertex_facet, family).make(random));

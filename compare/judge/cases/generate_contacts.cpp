@@ -1,7 +1,8 @@
-// Cases of contact_force and friction_force. Canonical frame: the contact point of the second side near the origin, the
-// normal about z, so that distance and slip along the normal are single coordinates. Ladders lead to the boundaries of
-// the closest features, to collapse as far as the question is legal, to parallel edges and the rule for them, to r and
-// far beyond it, to τ and 0, and of friction to a slip of 0 and of ε_v h, and to a motion along the normal.
+// Makes cases of contact_force and friction_force. The canonical frame has the contact point of the second side near
+// the origin and the normal about z, so that distance and slip along the normal are single coordinates. Ladders lead to
+// the boundaries of the closest features, to collapse as far as the question is legal, to parallel edges and the rule
+// for them, to r and far beyond it, to τ and 0; for friction also to a slip of 0 and of ε_v h, and to a motion along
+// the normal.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +28,7 @@ struct Shape {
   bool turned = true;  ///< may be rotated
 };
 
-/// r between a fifth of an edge and three edges; d a share of it.
+/// Returns a shape with r between a fifth of an edge and three edges, and with d = `share` r.
 Shape sized(Random& random, ContactSides sides, double share) {
   Shape shape;
   shape.sides = sides;
@@ -39,18 +40,18 @@ Shape sized(Random& random, ContactSides sides, double share) {
 
 ContactSides any_sides(Random& random) { return random.pick(std::span<const ContactSides>(all_sides)); }
 
-/// A point above the point of the x axis at parameter t of an edge that is `length` long.
+/// Puts a point above an edge of this length, at its parameter t; the edge lies on the x axis.
 void put_edge(Shape& shape, double t, double length) {
   shape.x = {Vec3{0, 0, shape.distance}, Vec3{-t * length, 0, 0}, Vec3{(1 - t) * length, 0, 0}, Vec3{}};
 }
 
-/// A point above the point of a triangle with weights b and c at its second and third corner.
+/// Puts a point above the point of a triangle with weights b and c at its second and third corner.
 void put_triangle(Shape& shape, const Vec3& second, const Vec3& third, double b, double c) {
   const Vec3 foot = sum(scaled(second, b), scaled(third, c));
   shape.x = {Vec3{0, 0, shape.distance}, scaled(foot, -1), sum(second, scaled(foot, -1)), sum(third, scaled(foot, -1))};
 }
 
-/// Edges of the lengths `shape.size` and `length` that cross, seen from above, at the parameters s and t.
+/// Returns edges of the lengths `shape.size` and `length` that cross, seen from above, at the parameters s and t.
 std::array<Vec3, 4> crossing(const Shape& shape, double length, double sine, double s, double t) {
   const double x = length * std::sqrt(std::max(0.0, 1 - sine * sine)), y = length * sine, a = shape.size;
   return {Vec3{-s * a, 0, shape.distance}, Vec3{(1 - s) * a, 0, shape.distance}, Vec3{-t * x, -t * y, 0},
@@ -63,13 +64,13 @@ struct Base {
   Vec3 second, third;
 };
 
-/// Second and third corner of a triangle of some shape, the first at the origin.
+/// Returns the second and third corner of a triangle of some shape, whose first corner is the origin.
 Base any_base(Random& random, double size) {
   const double x = random.between(-0.5, 1.5), y = random.between(0.3, 1.5);
   return {{size * random.between(0.5, 1.5), 0, 0}, {size * x, size * y, 0}};
 }
 
-/// A contact of the sides with its points at the given parameters.
+/// Puts a contact of the shape's sides at the given parameters.
 void put(Random& random, Shape& shape, double s, double t) {
   switch (shape.sides) {
     case ContactSides::point_edge: return put_edge(shape, s, other_length(random, shape));
@@ -84,7 +85,7 @@ void put(Random& random, Shape& shape, double s, double t) {
   }
 }
 
-/// A contact in the interiors of both sides.
+/// Returns a contact in the interiors of both sides.
 Shape inside(Random& random, ContactSides sides, double share) {
   Shape shape = sized(random, sides, share);
   const bool triangle = sides == ContactSides::point_triangle;
@@ -93,7 +94,7 @@ Shape inside(Random& random, ContactSides sides, double share) {
   return shape;
 }
 
-/// A parameter near an end, or beyond it.
+/// Returns a parameter near an end, or beyond it.
 double near_end(Random& random) {
   const double off = !random.is_fine() && random.one_in(3) ? random.between(-0.5, 0) : random.rung();
   return random.one_in(2) ? off : 1 - off;
@@ -111,7 +112,7 @@ Shape near_feature(Random& random) {
   return shape;
 }
 
-/// Triangles and edges that are thin or short.
+/// Returns triangles and edges that are thin or short.
 Shape thin_by(Random& random, double thinness) {
   Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle,
                       random.between(0.05, 1));
@@ -131,11 +132,11 @@ Shape thin_by(Random& random, double thinness) {
   return shape;
 }
 
-/// Down to where needles begin (compare/stages/contact_force.hpp), or collapsed exactly.
+/// Goes down to where needles begin (compare/stages/contact_force.hpp), or collapses exactly.
 Shape thin(Random& random) { return thin_by(random, random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5)); }
 Shape needle(Random& random) { return thin_by(random, random.magnitude(-9, -2.4)); }
 
-/// Angles around the rule for nearly parallel edges and towards 0, with an overlap that may end, inside or beyond.
+/// Takes angles around the rule for nearly parallel edges and towards 0; the overlap may end, inside or beyond.
 Shape nearly_parallel(Random& random) {
   Shape shape = sized(random, ContactSides::edge_edge, random.between(0.05, 1));
   const double sine = random.one_in(2) ? 1e-3 * (1 + random.rung()) : std::min(1.0, std::abs(random.rung()));
@@ -144,7 +145,7 @@ Shape nearly_parallel(Random& random) {
     shape.x = crossing(shape, length, sine, random.between(0.05, 0.95), random.between(0.05, 0.95));
     return shape;
   }
-  // One behind the other: a share of the first overlaps, or none, or the ends meet.
+  // The second edge lies behind the first: a share of the first overlaps, or none, or the ends meet.
   const double overlap = random.one_in(2) ? random.between(-0.5, 0.5) : random.rung(),
                aside = random.one_in(2) ? 0.0 : random.between(-1, 1) * shape.contact_radius;
   shape.x = crossing(shape, length, sine, 1 - overlap, 0);
@@ -155,7 +156,7 @@ Shape nearly_parallel(Random& random) {
   return shape;
 }
 
-/// Small numbers of few bits, on which decisions are often ties.
+/// Returns small numbers of few bits, for which decisions are often ties.
 Shape on_grid(Random& random) {
   Shape shape = sized(random, any_sides(random), 0);
   shape.size = std::ldexp(1.0, random.below(9) - 8);
@@ -165,7 +166,7 @@ Shape on_grid(Random& random) {
   return shape;
 }
 
-/// The edges at the last detection: as now, moved a little, or at an angle of their own.
+/// Sets the points at the last detection: as now, or moved a little.
 void detect(Random& random, Shape& shape) {
   shape.previous = shape.x;
   const double step = random.one_in(2) ? 0.0 : shape.size * random.magnitude(-4, -1);
@@ -177,8 +178,8 @@ float squared_length(const Vec3f& a, const Vec3f& b) {
   return static_cast<float>(x * x + y * y + z * z);
 }
 
-/// The case of a shape and `moved`, the motion of each vertex since the start of the step; one rigid motion takes both
-/// out of the canonical frame.
+/// Returns the case of a shape and `moved`, the motion of each vertex since the start of the step; one rigid motion
+/// takes both out of the canonical frame.
 FrictionForceCase placed(Random& random, const Shape& shape, const std::array<Vec3, 4>& moved) {
   std::array<Vec3, 12> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -216,17 +217,17 @@ CaseData contact_case(Random& random, Shape shape) {
 
 double any_share(Random& random) { return random.between(0.02, 1.15); }
 
-/// d → r.
+/// Approaches d = r.
 Shape near_radius(Random& random) { return inside(random, any_sides(random), 1 + random.rung()); }
-/// d → τ = r/2.
+/// Approaches d = τ = r/2.
 Shape near_switch(Random& random) { return inside(random, any_sides(random), 0.5 * (1 + random.rung())); }
-/// d → 0, through 2⁻²³ r.
+/// Approaches d = 0, through 2⁻²³ r.
 Shape near_touching(Random& random) {
   return inside(random, any_sides(random), random.one_in(8) ? 0 : random.magnitude(-9, -1));
 }
 
-/// Points, edges and radii of any bits; a pair that the contract leaves out by its shape, of two edges or with a
-/// triangle, is not among them.
+/// Takes any bits for points, edges and radii. Left out are two edges and a triangle with a point, whose shape might be
+/// illegal.
 Shape of_bits(Random& random) {
   Shape shape;
   shape.sides = random.one_in(2) ? ContactSides::point_point : ContactSides::point_edge;
@@ -249,12 +250,12 @@ CaseData contact_thin(Random& random) { return contact_case(random, thin(random)
 CaseData contact_needle(Random& random) { return contact_case(random, needle(random)); }
 CaseData contact_parallel(Random& random) {
   auto question = case_of<ContactForceCase>(contact_case(random, nearly_parallel(random)));
-  if (random.one_in(2)) question.rest_squared = {};  // whose energy is that of their overlap
+  if (random.one_in(2)) question.rest_squared = {};  // edges without triangles: their energy is that of the overlap
   return question;
 }
 CaseData contact_radius(Random& random) { return contact_case(random, near_radius(random)); }
-/// d = r (1 ± k u) for small k, where single precision decides between both sides, and up to 10⁴ r, as after a long way
-/// since the last detection.
+/// Takes d = r (1 ± k u) for small k, where single precision decides between both sides, and d up to 10⁴ r, as after a
+/// long way since the last detection.
 CaseData contact_beyond(Random& random) {
   const double share = random.one_in(2) ? 1 + random.sign() * random.below(9) * 0x1p-24 : random.magnitude(0, 4);
   return contact_case(random, inside(random, any_sides(random), share));
@@ -262,7 +263,7 @@ CaseData contact_beyond(Random& random) {
 CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
 CaseData contact_touching(Random& random) { return contact_case(random, near_touching(random)); }
 
-/// Any activation, where features and stages change and in between.
+/// Takes any activation, where features and stages change and in between.
 Shape any_shape(Random& random) {
   switch (random.below(5)) {
     case 0: return near_feature(random);
@@ -276,7 +277,7 @@ ContactActivation any_activation(Random& random) {
   return random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
 }
 
-/// Next to a boundary: of a feature, of the radius, between the stages.
+/// Goes next to a boundary: of a feature, of the radius, between the stages.
 Shape near_boundary(Random& random) {
   random.be_fine();
   switch (random.below(4)) {
@@ -293,14 +294,14 @@ CaseData contact_variants(Random& random) {
   return question;
 }
 
-/// Any of the vertices are updated together with the one asked about.
+/// Lets any of the vertices be updated together with the one of the question.
 CaseData contact_together(Random& random) {
   auto question = case_of<ContactForceCase>(contact_case(random, any_shape(random)));
   question.together = static_cast<std::uint8_t>(1 + random.below(15));
   return question;
 }
 
-/// c → ε and c → 0 at the last detection.
+/// Approaches c = ε and c = 0 at the last detection.
 CaseData contact_mollifier(Random& random) {
   Shape shape = inside(random, ContactSides::edge_edge, any_share(random));
   const double sine = random.one_in(2) ? std::sqrt(1e-3) * (1 + random.rung()) : std::abs(random.rung());
@@ -308,8 +309,8 @@ CaseData contact_mollifier(Random& random) {
   return placed(random, shape, {}).contact;
 }
 
-/// The first side moves by `along` in the tangent plane and `lift` along the normal against the second; all by a common
-/// motion. ε_v h is the unit.
+/// Moves the first side against the second, by `along` in the tangent plane and `lift` along the normal, in units of
+/// ε_v h; both share a common motion.
 CaseData friction_case(Random& random, Shape shape, double along, double lift) {
   detect(random, shape);
   const double limit = shape.size * random.magnitude(-5, -1), angle = random.between(0, 6.283185307179586);
@@ -346,7 +347,7 @@ CaseData friction_distance(Random& random) {
                                                 : near_radius(random));
 }
 
-/// No slip, or one of a grid step.
+/// Takes no slip, or a slip of a grid step.
 CaseData friction_lattice(Random& random) {
   Shape shape = on_grid(random);
   shape.previous = shape.x;
@@ -358,7 +359,7 @@ CaseData friction_lattice(Random& random) {
   return question;
 }
 
-/// The motion has any bits, too.
+/// Takes any bits also for the motion.
 CaseData friction_bits(Random& random) {
   FrictionForceCase question = placed(random, of_bits(random), points_of_bits(random));
   question.friction = static_cast<float>(random.between(0.01, 1.5));
@@ -366,19 +367,19 @@ CaseData friction_bits(Random& random) {
   return question;
 }
 
-/// ‖u‖ → 0.
+/// Approaches ‖u‖ = 0.
 CaseData friction_still(Random& random) {
   return friction_case(random, inside(random, any_sides(random), any_share(random)), random.rung(),
                        random.one_in(2) ? 0 : random.between(-1, 1));
 }
 
-/// ‖u‖ → ε_v h.
+/// Approaches ‖u‖ = ε_v h.
 CaseData friction_limit(Random& random) {
   return friction_case(random, inside(random, any_sides(random), any_share(random)), 1 + random.rung(),
                        random.between(-1, 1));
 }
 
-/// A motion along the normal, up to many times the slip and ε_v h.
+/// Moves along the normal, up to many times the slip and ε_v h.
 CaseData friction_lift(Random& random) {
   return friction_case(random, inside(random, any_sides(random), any_share(random)),
                        random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));

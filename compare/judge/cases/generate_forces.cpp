@@ -1,5 +1,6 @@
-// Cases of membrane and bending: a rest shape, a deformation of it, a material. Ladders lead to the rest shape (where
-// strains cancel), to collapse, to the sign of the stress along the corner's gradient, and to the fold by ±π.
+// Makes cases of membrane and bending: a rest shape, a deformation of it, a material. Ladders lead to the rest shape
+// (where strains cancel), to collapse, to a change of the stress's sign along the corner's gradient, and to the fold by
+// ±π.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 
 using namespace placement;
 
-/// A triangle in the rest plane and what the stage reads of it.
+/// A triangle in the rest plane.
 struct RestCorners {
   std::array<Vec3, 3> corner;
   double size;  ///< about the length of an edge
@@ -31,7 +32,7 @@ RestCorners rest_corners(Random& random, bool lattice) {
 
 float single(double x) { return static_cast<float>(x); }
 
-/// ∇N₁, ∇N₂ and the area of corners (0, 0), (b, 0), (c, h).
+/// Sets ∇N₁, ∇N₂ and the area for corners (0, 0), (b, 0), (c, h).
 void set_rest(MembraneCase& question, const RestCorners& rest) {
   const double b = rest.corner[1].x, c = rest.corner[2].x, h = rest.corner[2].y;
   question.gradient = {{{single(1 / b), single(-c / (b * h))}, {0, single(1 / h)}}};
@@ -44,7 +45,7 @@ void set_material(Random& random, MembraneCase& question) {
   question.damping = random.one_in(2) ? 0 : single(random.magnitude(-3, 1));
 }
 
-/// `deform` moves the corners of the rest shape; the start lies near the result in half of the cases, at rest
+/// Moves the corners of the rest shape by `deform`; the start lies near the result in half of the cases, at rest
 /// otherwise. One rigid motion takes both out of the canonical frame.
 template <class Deform>
 CaseData membrane_case(Random& random, Deform deform, bool lattice = false) {
@@ -80,7 +81,7 @@ CaseData membrane_lattice(Random& random) {
       random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, true);
 }
 
-/// Points of any bits, and as many others or the same for the start.
+/// Takes any bits for points, and for the start other ones or the same.
 template <std::size_t N>
 void place_bits(Random& random, std::array<Vec3f, N>& points, std::array<Vec3f, N>& start) {
   const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
@@ -91,7 +92,7 @@ void place_bits(Random& random, std::array<Vec3f, N>& points, std::array<Vec3f, 
   }
 }
 
-/// Corners of any bits: stretched up to 10⁹ times, and needles.
+/// Takes any bits for corners: stretched up to 10⁹ times, and needles.
 CaseData membrane_bits(Random& random) {
   MembraneCase question;
   set_rest(question, rest_corners(random, false));
@@ -100,13 +101,13 @@ CaseData membrane_bits(Random& random) {
   return question;
 }
 
-/// F → I: every term of the strain cancels.
+/// Approaches F = I, where every term of the strain cancels.
 CaseData membrane_rest(Random& random) {
   const double xx = 1 + random.rung(), xy = random.rung(), yy = 1 + random.rung();
   return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); });
 }
 
-/// A deformed triangle without area, down to a point.
+/// Approaches a deformed triangle without area, down to a point.
 CaseData membrane_collapse(Random& random) {
   const double xx = random.one_in(2) ? random.between(0.3, 2) : random.rung(),
                xy = random.one_in(4) ? 0.0 : random.between(-1, 1), yy = random.rung();
@@ -115,14 +116,16 @@ CaseData membrane_collapse(Random& random) {
       random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, lattice);
 }
 
-/// The stress along the corner's gradient goes through 0: a stretch one way against a compression the other way.
+/// Lets the stress along the corner's gradient go through 0, with a stretch one way against a compression the other
+/// way.
 CaseData membrane_sign(Random& random) {
   const double xx = random.between(0.5, 1), along = 1 + random.rung();
   const double yy = std::sqrt(std::max(0.0, 2 - xx * xx)) * along;
   return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, 0, yy); });
 }
 
-/// As a sweep asks: the vertex is corner 1 or 2 of the rest triangle, so that no component of a gradient is always 0.
+/// Takes corner 1 or 2 of the rest triangle as the vertex, as a sweep does, so that no component of a gradient is
+/// always 0.
 CaseData membrane_corner(Random& random) {
   MembraneCase question = case_of<MembraneCase>(membrane_uniform(random));
   for (int shifts = 1 + random.below(2); shifts > 0; --shifts) {
@@ -134,7 +137,8 @@ CaseData membrane_corner(Random& random) {
   return question;
 }
 
-/// Another model than the usual one. Rows are named after the only one that there was: a name is a part of each case.
+/// Takes another model than the usual one. Rows may be named after a single model: a row's name is a part of each case
+/// and stays.
 template <CaseData (*make)(Random&)>
 CaseData other_membrane(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));
@@ -142,7 +146,7 @@ CaseData other_membrane(Random& random) {
   return question;
 }
 
-/// Another damping, of any model.
+/// Takes another form of damping, and any model.
 template <CaseData (*make)(Random&)>
 CaseData membrane_damped_otherwise(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));
@@ -168,8 +172,8 @@ constexpr std::array<Generator, 15> membrane_table{
      {"per_vertex", 15, true, membrane_damped_otherwise<membrane_corner>},
      {"ladder.per_vertex", 15, false, membrane_damped_otherwise<membrane_collapse>}}};
 
-/// x0, x1, o0, o1 with the edge along x: o0 in the upper half of the xy plane, o1 in the lower one turned by `angle`
-/// about the edge.
+/// A hinge x0, x1, o0, o1 with its edge along x: o0 lies in the upper half of the xy plane, o1 in the lower half turned
+/// by `angle` about the edge.
 struct HingeShape {
   double size = 1, foot_a = 0.5, foot_b = 0.5, height_a = 1, height_b = 1, angle = 0;
   std::array<Vec3, 4> points() const {
@@ -188,7 +192,7 @@ HingeShape hinge_shape(Random& random) {
   return shape;
 }
 
-/// The two shapes of a hinge, now and at the start, under the same rigid motion.
+/// Places the two shapes of a hinge, now and at the start, by the same rigid motion.
 CaseData bending_case(Random& random, const HingeShape& now, const HingeShape& start, bool turned = true) {
   BendingCase question;
   question.stiffness = single(random.magnitude(-8, -2));
@@ -221,14 +225,14 @@ CaseData bending_uniform(Random& random) {
                       with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
 }
 
-/// Vertices of any bits: needles of up to 10¹² to 1, and hinges of every angle.
+/// Takes any bits for vertices: needles of up to 10¹² to 1, and hinges of every angle.
 CaseData bending_bits(Random& random) {
   BendingCase question = case_of<BendingCase>(bending_uniform(random));
   place_bits(random, question.vertex, question.start);
   return question;
 }
 
-/// Right angles and flat hinges without a rounding.
+/// Makes right angles and flat hinges without a rounding.
 CaseData bending_lattice(Random& random) {
   HingeShape shape;
   shape.size = std::ldexp(1.0, random.below(9) - 8);
@@ -247,20 +251,20 @@ CaseData bending_lattice(Random& random) {
   return question;
 }
 
-/// θ → 0.
+/// Approaches θ = 0.
 CaseData bending_flat(Random& random) {
   const HingeShape shape = hinge_shape(random);
   return bending_case(random, with_angle(shape, random.rung()), with_angle(shape, random.rung()), random.one_in(2));
 }
 
-/// θ → ±π, where the angle jumps.
+/// Approaches θ = ±π, where the angle jumps.
 CaseData bending_fold(Random& random) {
   const HingeShape shape = hinge_shape(random);
   const double angle = std::numbers::pi + random.rung(), before = random.one_in(2) ? angle : random.between(-3, 3);
   return bending_case(random, with_angle(shape, angle), with_angle(shape, before), random.one_in(2));
 }
 
-/// A triangle, or both, tends to a line, or is one exactly: hence no rotation in half of the cases.
+/// Lets one triangle or both tend to a line, or makes them a line exactly: hence no rotation in half of the cases.
 CaseData bending_needle(Random& random) {
   const auto height = [&] { return random.one_in(4) ? 0.0 : random.rung(); };
   HingeShape shape = hinge_shape(random);
@@ -270,7 +274,7 @@ CaseData bending_needle(Random& random) {
   return bending_case(random, with_angle(shape, angle), with_angle(shape, angle), random.one_in(2));
 }
 
-/// The isometric model of a rest shape that is `now` unfolded, or another one.
+/// Takes the isometric model; its rest shape is `now` unfolded, or another one.
 CaseData isometric_case(Random& random, const HingeShape& now, const HingeShape& start) {
   BendingCase question = case_of<BendingCase>(bending_case(random, now, start, random.one_in(2)));
   HingeShape rest = random.one_in(2) && now.height_a > 0.1 && now.height_b > 0.1 ? now : hinge_shape(random);
@@ -288,13 +292,13 @@ CaseData bending_isometric(Random& random) {
                         with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
 }
 
-/// ℓ → 0.
+/// Approaches ℓ = 0.
 CaseData isometric_flat(Random& random) {
   const HingeShape shape = hinge_shape(random);
   return isometric_case(random, with_angle(shape, random.rung()), with_angle(shape, random.rung()));
 }
 
-/// Angles that jump and triangles without one, which damping meets.
+/// Makes damping meet angles that jump and triangles without an angle.
 CaseData isometric_damping(Random& random) {
   HingeShape shape = hinge_shape(random);
   if (random.one_in(2)) shape.height_a = random.one_in(4) ? 0.0 : random.rung();
@@ -305,7 +309,7 @@ CaseData isometric_damping(Random& random) {
   return question;
 }
 
-/// Another damping, of any model.
+/// Takes another form of damping.
 template <CaseData (*make)(Random&)>
 CaseData bending_damped_otherwise(Random& random) {
   BendingCase question = case_of<BendingCase>(make(random));

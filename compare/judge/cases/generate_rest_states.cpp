@@ -1,6 +1,6 @@
-// Cases of rest_state: one to three bodies of random materials, each a mesh of the detections' families without what
-// `validate` refuses, or a few hinges. The start is the rest shape at twice the size: what is computed of the wrong one
-// shows.
+// Makes cases of rest_state: one to three bodies of random materials, each a mesh of the detections' families without
+// what `validate` refuses, or a few hinges. The start is the rest shape at twice the size, which reveals what is
+// computed of the wrong one.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,9 +25,9 @@ using namespace placement;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The legal part of a mesh, of a tiny one 2¹⁰ times as large, of a vast one (edges up to 2²⁰ m at twice the size) an
-/// eighth of it: coordinates that are too small become 0; faces that are too short, flat or repeated go, and vertices
-/// without a face with them.
+/// Takes the legal part of a mesh; enlarges a tiny mesh 2¹⁰ times, and reduces a vast one (edges up to 2²⁰ m at twice
+/// the size) to an eighth. Coordinates that are too small become 0; faces that are too short, flat or repeated are left
+/// out, and vertices without a face with them.
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {
@@ -137,7 +137,7 @@ constexpr std::string_view soup = "soup", cloth = "cloth", any_bits = "bits", la
                            sheets = "ladder.sheets", fold = "ladder.fold", fan = "ladder.fan", book = "ladder.book",
                            strands = "ladder.strands";
 
-/// Bodies of what the detections' generator of this name makes.
+/// Makes bodies of meshes of the detections' generator `family`.
 template <const auto& family>
 CaseData of(Random& random) {
   Scene scene;
@@ -147,7 +147,7 @@ CaseData of(Random& random) {
   return finished(std::move(scene));
 }
 
-/// The same of triangles whose coordinates are of any bits that a mesh may have, with such materials.
+/// Takes any bits that a mesh may have for coordinates of triangles, and any for materials.
 CaseData bits(Random& random) {
   RestStateCase test = case_of<RestStateCase>(of<any_bits>(random));
   Scene scene = *test.scene;
@@ -165,7 +165,7 @@ struct HingeShape {
   double height_a, height_b, angle;
 };
 
-/// Six hinges at the same position, each with vertices of its own; half of the cases with a rotation.
+/// Puts six hinges at the same position, each with vertices of its own; half of the cases have a rotation.
 template <class Shape>
 CaseData hinges(Random& random, Shape shape_of) {
   MeshBuilder builder;
@@ -186,19 +186,19 @@ CaseData hinges(Random& random, Shape shape_of) {
   return finished(std::move(scene));
 }
 
-/// Angles that tend to 0.
+/// Lets angles tend to 0.
 CaseData flat(Random& random) {
   return hinges(random, [&] { return HingeShape{random.between(0.1, 1.5), random.between(0.1, 1.5), random.rung()}; });
 }
 
-/// Angles that tend to ±π, where the sign jumps.
+/// Lets angles tend to ±π, where the sign jumps.
 CaseData crease(Random& random) {
   return hinges(random, [&] {
     return HingeShape{random.between(0.1, 1.5), random.between(0.1, 1.5), std::numbers::pi + random.rung()};
   });
 }
 
-/// Triangles that tend to a line, as far as single precision and the shortest legal coordinate let them.
+/// Lets triangles tend to a line, as far as single precision and the shortest legal coordinate allow.
 CaseData needle(Random& random) {
   const auto height = [&] {
     return random.one_in(3) ? random.between(0.1, 1.5) : std::pow(10.0, -1 - random.below(10));
@@ -208,7 +208,7 @@ CaseData needle(Random& random) {
   });
 }
 
-/// A block of tetrahedra whose vertices are moved a little, `height` times as high, beside a sheet.
+/// Makes a block of tetrahedra, `height` times as high and with vertices moved a little, beside a sheet.
 CaseData block_beside_sheet(Random& random, double height) {
   Scene scene;
   Body body;
@@ -222,10 +222,10 @@ CaseData block_beside_sheet(Random& random, double height) {
 
 CaseData solid(Random& random) { return block_beside_sheet(random, random.between(0.3, 3)); }
 
-/// Tetrahedra without thickness, nearly.
+/// Makes tetrahedra with nearly no thickness.
 CaseData sliver(Random& random) { return block_beside_sheet(random, std::pow(10.0, -random.below(6))); }
 
-/// A rod of this plan as another body, turned by a symmetry of the cube or by anything.
+/// Adds a rod of this plan as another body, turned by a symmetry of the cube or by anything.
 void add_rod(Random& random, Scene& scene, const RodPlan& plan, double scale) {
   Mesh mesh = rod_mesh(random, plan);
   permute(random, mesh.positions);
@@ -239,7 +239,7 @@ void add_rod(Random& random, Scene& scene, const RodPlan& plan, double scale) {
   append_body(scene, body, mesh);
 }
 
-/// Chains, rings and branches, alone or beside a sheet; edges that run against each other.
+/// Makes chains, rings and branches, alone or beside a sheet, with edges that run against each other.
 CaseData rods(Random& random) {
   Scene scene;
   if (random.one_in(3))
@@ -249,9 +249,10 @@ CaseData rods(Random& random) {
   return finished(std::move(scene));
 }
 
-/// Directions that tend to −e₃ or to the one before turned round, as far as single precision lets them.
+/// Lets directions tend to −e₃, or to the reverse of the one before, as far as single precision allows.
 CaseData turned_rods(Random& random) {
-  // From exact reversal, which is refused. Ends are off by 2⁻²⁴ of a few lengths, so that this is never rounded to it.
+  // The least angle to exact reversal, which is refused. Ends are off by 2⁻²⁴ of a few lengths, so this is never
+  // rounded to it.
   constexpr double least_turn = 0x1p-18;
   Scene scene;
   RodPlan plan{.segments = 2 + random.below(4), .jitter = 0};
@@ -261,7 +262,7 @@ CaseData turned_rods(Random& random) {
   return finished(std::move(scene));
 }
 
-/// Equal, extreme and zero stiffnesses and frictions of five small bodies.
+/// Makes equal, extreme and zero stiffnesses and frictions of five small bodies.
 CaseData meetings(Random& random) {
   constexpr std::array<double, 6> stiffnesses{0, 0, 100, 100, 0x1p-30, 0x1p40},
       frictions{0, 0, 0.2f, 0.2f, 0x1p10, 0x1p-20};

@@ -1,6 +1,6 @@
-// Scenes of one step, small enough for the exact detections of every event. Sheets lie in planes z = const before one
-// symmetry of the cube turns all of it. Ladders lead to what decides the order of events: the count of cut vertices at
-// its threshold, the cap of r_q, contacts at the radius.
+// Makes scenes of one step, small enough for the exact detections of every event. Sheets lie in planes z = const before
+// one symmetry of the cube turns everything. Ladders lead to what decides the order of events: the count of cut
+// vertices at its threshold, the cap of r_q, contacts at the radius.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace placement;
 
-/// A scene under construction, in metres; `spacing` is about the length of an edge.
+/// Builds a scene in metres; `spacing` is about the length of an edge.
 struct StepBuilder {
   Random& random;
   double spacing;
@@ -42,8 +42,8 @@ struct StepBuilder {
     scene.gravity = {0, 0, random.one_in(3) ? 0 : -9.81};
   }
 
-  /// Stiffer than inertia by up to a thousand times: beyond, a single-precision solve says little, and stage sweep asks
-  /// about it.
+  /// Returns a material stiffer than inertia by up to a thousand times; beyond that a single-precision solve says
+  /// little, and stage sweep covers it.
   Material material() {
     Material m;
     m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has all
@@ -59,7 +59,7 @@ struct StepBuilder {
     return m;
   }
 
-  /// As much stiffer than its inertia as a sheet is.
+  /// Returns a material as stiff against a solid's inertia as a sheet's is against its own.
   Material solid_material() {
     Material m = material();
     m.solid_density = 1000 * random.magnitude(-0.5, 0.5);
@@ -71,8 +71,8 @@ struct StepBuilder {
     return m;
   }
 
-  /// nx × ny vertices at `origin` (in spacings, and two more: no jitter brings a coordinate next to 0), diagonals
-  /// alternating, with one velocity [m/s].
+  /// Adds nx × ny vertices at `origin` (in spacings, and two more, so that no jitter brings a coordinate next to 0),
+  /// diagonals alternating, with one velocity [m/s].
   void sheet(int nx, int ny, const Vec3& origin, const Vec3& velocity, bool fixed = false) {
     Mesh mesh;
     for (int j = 0; j < ny; ++j)
@@ -88,8 +88,9 @@ struct StepBuilder {
     add(mesh, velocity, fixed);
   }
 
-  /// A block of tetrahedra that stands on the plane of a sheet at `origin`, with a vertex inside, or hangs from it. Now
-  /// and then it starts turned inside out, upside down in its own place; not as a volume, which nobody could be inside.
+  /// Adds a block of tetrahedra that stands on the plane of a sheet at `origin`, with a vertex inside, or hangs from
+  /// it. In some cases it starts turned inside out, upside down in its own place; not as a volume, as nothing could be
+  /// inside of it.
   void block(const Vec3& origin, const Vec3& velocity, bool hangs, BodyContact contact = BodyContact::surface) {
     const double height = random.between(0.5, 1.5);
     Mesh mesh = hangs ? jittered_block(random, spacing, height) : jittered_cube(random, spacing, height);
@@ -108,7 +109,7 @@ struct StepBuilder {
     }
   }
 
-  /// The boundary of such a block as a volume, fixed or moved as a whole; now and then each vertex goes its own way.
+  /// Adds the boundary of a block as a volume, fixed or moved as a whole.
   void volume(const Vec3& origin) { volume(jittered_surface(random, spacing, random.between(0.5, 1.5)), origin); }
   void volume(Mesh mesh, const Vec3& origin) {
     for (Vec3& x : mesh.positions) x = sum(x, scaled(sum(origin, {2, 2, 2}), spacing));
@@ -127,8 +128,8 @@ struct StepBuilder {
     scene.motions.push_back(motion);
   }
 
-  /// A curve of loose edges about `origin`, whose weight is that of a sheet's vertices; now and then some of its
-  /// vertices are held by a motion that turns.
+  /// Adds a curve of loose edges about `origin`, with the weight of a sheet's vertices; in some cases a motion that
+  /// turns holds some of its vertices.
   void rod(const Vec3& origin, const Vec3& velocity) {
     RodPlan plan = some_rod(random);
     plan.segments = std::min(plan.segments, 5);
@@ -163,7 +164,7 @@ struct StepBuilder {
     for (Vec3& x : scene.mesh.positions) x = sum(x, scaled(in_box(random, -by, by), spacing));
   }
 
-  /// A speed that moves a vertex by that many spacings in one step.
+  /// Returns the speed that moves a vertex by this number of spacings in one step.
   double speed(double spacings) const { return spacings * spacing / scene.settings.time_step; }
 
   CaseData finish() {
@@ -202,7 +203,7 @@ Vec3 direction(Random& random) {
   return scaled(v, 1 / std::max(0.1, std::hypot(v.x, v.y, v.z)));
 }
 
-/// A sheet alone in free flight, slower or faster than its bounds allow.
+/// Lets a single sheet fly freely, slower or faster than its bounds allow.
 CaseData fall(Random& random) {
   StepBuilder builder(random);
   builder.sheet(side(random), side(random), {}, scaled(direction(random), builder.speed(random.magnitude(-2, 1))));
@@ -210,7 +211,7 @@ CaseData fall(Random& random) {
   return builder.finish();
 }
 
-/// A sheet that comes down on a fixed one, askew.
+/// Lets a sheet come down on a fixed one, askew.
 CaseData onto(Random& random) {
   StepBuilder builder(random);
   const double gap = random.between(0.2, 1.5), slip = random.between(-1, 1);
@@ -221,7 +222,7 @@ CaseData onto(Random& random) {
   return builder.finish();
 }
 
-/// Two sheets thrown at each other.
+/// Throws two sheets at each other.
 CaseData collide(Random& random) {
   StepBuilder builder(random);
   const double speed = builder.speed(random.magnitude(-2, 0.7));
@@ -233,8 +234,8 @@ CaseData collide(Random& random) {
   return builder.finish();
 }
 
-/// One row of a sheet is carried off, turned, or both; now and then it starts or ends within the step.
-/// The same vertices, each on a way of its own; the step ends between two keyframes, at one, or behind the last.
+/// Returns a motion of the same vertices, each on a way of its own; the step ends between two keyframes, at one, or
+/// behind the last.
 PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const PrescribedMotion& like) {
   const double h = builder.scene.settings.time_step;
   PrescribedMotion motion;
@@ -250,6 +251,7 @@ PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const Pre
   return motion;
 }
 
+/// Carries off one row of a sheet, turns it, or both; in some cases the motion starts or ends within the step.
 CaseData handle(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random);
@@ -270,8 +272,8 @@ CaseData handle(Random& random) {
   return builder.finish();
 }
 
-/// A sheet at rest of which as many vertices are flung out of their bounds as the threshold of a re-detection says, one
-/// more or one less; γ_e K a rung beside a whole number.
+/// Flings vertices of a sheet at rest out of their bounds: as many as the threshold of a re-detection, one more or one
+/// less; γ_e K lies a rung beside a whole number.
 CaseData count_at_threshold(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random), count = nx * ny;
@@ -289,7 +291,7 @@ CaseData count_at_threshold(Random& random) {
   return builder.finish();
 }
 
-/// r + ‖y − xᵗ‖ a rung beside the cap of r_q.
+/// Puts r + ‖y − xᵗ‖ a rung beside the cap of r_q.
 CaseData radius_at_cap(Random& random) {
   StepBuilder builder(random);
   builder.sheet(side(random), side(random), {0, 0, random.between(0.3, 1)}, {});
@@ -303,7 +305,7 @@ CaseData radius_at_cap(Random& random) {
   return builder.finish();
 }
 
-/// A sheet at rest on another, in register or shifted by half a cell, a rung beside the contact radius.
+/// Puts a sheet at rest on another one, in register or shifted by half a cell, a rung beside the contact radius.
 CaseData at_rest(Random& random) {
   StepBuilder builder(random);
   const double shift = random.one_in(2) ? 0 : 0.5;
@@ -316,7 +318,7 @@ CaseData at_rest(Random& random) {
   return builder.finish();
 }
 
-/// The least scenes: one triangle, two, nothing that is free; coordinates and velocities on a lattice.
+/// Makes the smallest scenes: one triangle, two, no free vertex; coordinates and velocities lie on a lattice.
 CaseData lattice(Random& random) {
   StepBuilder builder(random);
   builder.spacing = std::ldexp(1.0, random.below(5) - 9);
@@ -339,7 +341,7 @@ CaseData lattice(Random& random) {
   return builder.finish();
 }
 
-/// Strips of one to three triangles, alone or one thrown at the other.
+/// Makes strips of one to three triangles, alone or thrown at each other.
 CaseData few(Random& random) {
   StepBuilder builder(random);
   const double speed = builder.speed(random.magnitude(-2, 0.7)), gap = random.between(0.2, 1.5);
@@ -353,8 +355,8 @@ CaseData few(Random& random) {
   return builder.finish();
 }
 
-/// Strips whose numbers are of any bits, as far as a step can be held to an answer: velocities and materials over eight
-/// and more powers of two (of the latter within what inertia allows), coordinates in their last bits.
+/// Takes any bits for numbers of strips, as far as an answer can be compared: velocities and materials over eight and
+/// more powers of two (materials within what inertia allows), and the last bits of coordinates.
 CaseData bits(Random& random) {
   StepBuilder builder(random);
   const auto single = [](double x) { return static_cast<float>(x); };
@@ -384,7 +386,7 @@ CaseData bits(Random& random) {
   return builder.finish();
 }
 
-/// A block of tetrahedra that is thrown onto a sheet, or onto another block.
+/// Throws a block of tetrahedra onto a sheet, or onto another block.
 CaseData solid(Random& random) {
   StepBuilder builder(random);
   const double speed = builder.speed(random.magnitude(-2, 0.7)), gap = random.between(0.2, 1.5);
@@ -399,7 +401,7 @@ CaseData solid(Random& random) {
   return builder.finish();
 }
 
-/// A free volume over, in or half in another one or a sheet, some vertices of which are prescribed now and then.
+/// Puts a free volume over, in or half in another one or a sheet; in some cases some of its vertices are prescribed.
 CaseData free_volume(Random& random) {
   StepBuilder builder(random);
   const double speed = builder.speed(random.magnitude(-2, 0.3)), gap = random.between(-0.6, 0.4);
@@ -423,7 +425,7 @@ CaseData free_volume(Random& random) {
   return builder.finish();
 }
 
-/// Sheets before one or two volumes, over them, in them, or half of each; perhaps one above the other.
+/// Puts one or two sheets before one or two volumes: over them, in them, or half in them.
 CaseData sheets_before_volumes(Random& random) {
   StepBuilder builder(random);
   const double speed = builder.speed(random.magnitude(-2, 0.3)), height = random.between(-0.5, 1.8);
@@ -439,7 +441,7 @@ CaseData sheets_before_volumes(Random& random) {
   return builder.finish();
 }
 
-/// A sheet in the void of a volume, or half in its wall.
+/// Puts a sheet in the void of a volume, or half in its wall.
 CaseData in_cavity(Random& random) {
   StepBuilder builder(random);
   builder.volume(jittered_hollow(random, builder.spacing, random.between(0.5, 1.5)), {});
@@ -451,7 +453,7 @@ CaseData in_cavity(Random& random) {
   return builder.finish();
 }
 
-/// A sheet at rest with a vertex straight above a volume's highest one, a rung beside the contact radius.
+/// Puts a vertex of a sheet at rest straight above a volume's highest one, a rung beside the contact radius.
 CaseData volume_at_radius(Random& random) {
   StepBuilder builder(random);
   builder.volume({});
@@ -468,7 +470,7 @@ CaseData volume_at_radius(Random& random) {
   return builder.finish();
 }
 
-/// The case after `change` of its scene.
+/// Returns the case with its scene changed by `change`.
 template <class Change>
 CaseData changed(const CaseData& data, const Change& change) {
   StepCase test = case_of<StepCase>(data);
@@ -478,7 +480,7 @@ CaseData changed(const CaseData& data, const Change& change) {
   return test;
 }
 
-/// Other models than the default ones.
+/// Takes other models than the default ones.
 CaseData models(Random& random) {
   const CaseData data = random.one_in(2) ? onto(random) : handle(random);
   return changed(data, [&](Scene& scene) { choose_models(random, scene); });
@@ -489,14 +491,15 @@ CaseData with_bounds(const CaseData& data, Bounds bounds) {
 }
 CaseData with_planes(const CaseData& data) { return with_bounds(data, Bounds::planes); }
 
-/// Half-spaces in place of balls.
+/// Takes half-spaces in place of balls.
 CaseData planes(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> scenes{onto, collide, handle};
   return with_planes(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
 }
 CaseData planes_at_rest(Random& random) { return with_planes(at_rest(random)); }
 
-/// Half-spaces that approach divides, on whose way vertices stop: often with a detection after each iteration.
+/// Takes half-spaces that approach divides and on which vertices stop; in half of the cases a detection follows each
+/// iteration.
 CaseData dat(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> scenes{onto, collide, handle, at_rest};
   const CaseData data = random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random);
@@ -507,7 +510,7 @@ CaseData dat(Random& random) {
   });
 }
 
-/// Rods that fall, alone, on each other, or on a sheet; the start turned against the rest shape now and then.
+/// Lets rods fall alone, on each other, or on a sheet; some starts are turned against the rest shape.
 CaseData rods(Random& random) {
   StepBuilder builder(random);
   if (random.one_in(2)) builder.sheet(side(random), side(random), {}, {}, random.one_in(2));

@@ -12,8 +12,9 @@ namespace ogc::compare {
 
 namespace {
 
-// In a regular sheet every vertex lies on the planes of its neighbours, and parallel edges meet on the borders of
-// blocks: grey decisions about frames say nothing of the kernel, so that no limit holds for them.
+// No limit of grey decisions holds for real states: in a regular sheet every vertex lies on the planes of its
+// neighbours, and parallel edges meet on the borders of blocks, so grey decisions about frames say nothing of the
+// kernel.
 constexpr Generator real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
 
 }  // namespace

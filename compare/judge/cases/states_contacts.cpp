@@ -1,5 +1,5 @@
-// Pairs and contacts of real states. Contacts come from the sets that the authority finds at the frame, with the
-// radius of the run.
+// Takes pairs and contacts from real states. The authority finds the contact sets of a frame, with the radius of the
+// run.
 #include <algorithm>
 #include <array>
 
@@ -11,7 +11,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// The vertices of a face, −1 for those that it lacks.
+/// Returns the vertices of a face, −1 for those that it lacks.
 std::array<Index, 3> vertices_of(const Topology& topology, const Face& face) {
   const auto i = static_cast<std::size_t>(face.index);
   switch (face.kind) {
@@ -22,8 +22,8 @@ std::array<Index, 3> vertices_of(const Topology& topology, const Face& face) {
   return {};
 }
 
-/// What meets: the sides and their vertices as ContactForceCase has them, and the numbers of two edges whose interiors
-/// meet.
+/// Two sides in contact: the sides and their vertices as ContactForceCase has them, and the numbers of two edges whose
+/// interiors meet.
 struct Stencil {
   ContactSides sides = ContactSides::point_point;
   std::array<Index, 4> vertex{-1, -1, -1, -1};
@@ -38,7 +38,8 @@ Stencil stencil_of(const Topology& topology, const VertexFacetContact& contact) 
   return {sides, {contact.vertex, a, b, c}, {-1, -1}};
 }
 
-/// Vertices are lower faces than edges, so the first is an edge only where both are.
+/// Returns the stencil of a contact. Vertices are lower faces than edges, so the first face is an edge only where both
+/// are.
 Stencil stencil_of(const Topology& topology, const EdgeEdgeContact& contact) {
   const std::array<Index, 3> p = vertices_of(topology, contact.first), q = vertices_of(topology, contact.second);
   if (contact.first.kind == FaceKind::edge)

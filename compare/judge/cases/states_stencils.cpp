@@ -1,5 +1,5 @@
-// Stencils and distances of real states. A frame keeps x at the end of a step; for x beside xᵗ every vertex goes on for
-// one more step at its velocity.
+// Takes stencils and distances from real states. A frame keeps x at the end of a step; to get x beside xᵗ, every vertex
+// goes on for one more step at its velocity.
 #include <algorithm>
 #include <array>
 

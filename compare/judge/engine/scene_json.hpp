@@ -9,8 +9,8 @@ namespace ogc::compare {
 
 /// Writes a rounded scene (`round_to_single`).
 Json scene_to_json(const Scene& scene);
-/// Throws what the JSON library throws for a missing key or a wrong type, InputError for a setting or model that there
-/// is none of.
+/// Reads a scene. Throws what the JSON library throws for a missing key or a wrong type, and InputError for an unknown
+/// setting or model.
 Scene to_scene(const Json& json);
 
 Json sweep_case_to_json(const SweepCase& c);  ///< writes the whole scene, too

@@ -72,10 +72,11 @@ class Tally {
   explicit Tally(Stage stage);
   /// Assigns all that follows to this case, until the next call.
   void begin(const CaseName& name);
-  /// `near`: cases within 2¹⁰ ulp of a decision boundary (near_factor), where the stage has one.
+  /// Adds counts. `near` is the number of cases within 2¹⁰ ulp of a decision boundary (near_factor), where the stage
+  /// has one.
   void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey, std::uint64_t near = 0);
-  /// One error in units of the metric; beyond the tolerance it is a mismatch, described by `where` (called only then)
-  /// and the numbers.
+  /// Adds an error in units of the metric. Beyond the tolerance it is a mismatch, described by the numbers and `where`,
+  /// which is called only then.
   template <class Where>
   void error(std::size_t metric, double value, const Where& where) {
     if (const auto excess = note_error(metric, value)) mismatch(*excess + where());

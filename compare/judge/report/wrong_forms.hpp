@@ -42,8 +42,8 @@ WrongForm form_of(std::string name, std::string meaning, std::function<Authority
 /// stage of single cases also has `not_a_number`.
 std::vector<WrongForm> wrong_forms(Stage stage, std::span<const Evidence> evidence);
 
-/// Returns the contestant with a memory: it is asked once a stage, and repeats its first answer later. A failure is not
-/// remembered.
+/// Returns the contestant with a memory: it is asked once a stage, and repeats its first answer to every later
+/// question. A failure is not remembered.
 Contestant remembered(const Contestant& contestant);
 
 /// Checks whether the judge finds nothing wrong with the answer, given this authority.
