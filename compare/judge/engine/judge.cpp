@@ -1,8 +1,8 @@
-// Threads take batches by number and merge them by number, so they can change neither a case nor a sum. A mesh stage
-// does not know beforehand how many batches it needs: it stops merging where the wanted number of cases is reached and
-// throws away what was begun beyond. So that this is little, no batch is begun far ahead of the merged ones: a
-// contestant that answers one thread at a time would otherwise be kept busy with what nobody wants, while the batch
-// that all wait for stands in the queue.
+// Judges stages with several threads. Threads take batches by number and merge them by number, so they can change
+// neither a case nor a sum. A mesh stage does not know beforehand how many batches it needs: it stops merging where the
+// wanted number of cases is reached, and discards the batches begun beyond. To discard little, no batch is begun far
+// ahead of the merged ones: a contestant that answers one thread at a time would otherwise be busy with batches that
+// are not needed, while the one that all threads wait for stands in the queue.
 #include "compare/judge/engine/judge.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ static_assert([] {
 // Meshes of a batch; one where a mesh has thousands of vertices.
 constexpr std::uint64_t mesh_batch = 4;
 
-/// The run of one generator: batches of consecutive indices, until it has counted `cases`.
+/// Runs one generator: batches of consecutive indices, until it has counted `cases`.
 class GeneratorRun {
  public:
   GeneratorRun(Stage stage, const Generator& generator, std::uint64_t cases, const Contestant& contestant,
@@ -101,8 +101,8 @@ class GeneratorRun {
 
   bool is_over() const { return stopped_ || next_ == batches_; }
 
-  /// How many batches may be begun beyond the merged ones: where their number is known a few a thread; of a mesh stage
-  /// one a thread, and no more than are missing by the cases of a batch so far.
+  /// Returns how many batches may be begun beyond the merged ones: a few a thread where their number is known; in a
+  /// mesh stage at most one a thread, and no more than are missing by the cases of a batch so far.
   std::uint64_t ahead() const {
     if (!is_mesh_stage(stage_)) return 4 * options_.threads;
     if (merged_count_ == 0) return options_.threads;
@@ -129,7 +129,7 @@ class GeneratorRun {
   Stage stage_;
   const Generator& generator_;
   std::uint64_t wanted_;
-  std::uint64_t batches_ = std::numeric_limits<std::uint64_t>::max();  ///< of a mesh stage not known beforehand
+  std::uint64_t batches_ = std::numeric_limits<std::uint64_t>::max();  ///< not known beforehand for a mesh stage
   const Contestant& contestant_;
   const Authority& authority_;
   const JudgeOptions& options_;
@@ -149,7 +149,7 @@ bool has_stage(const Contestant& contestant, Stage stage) {
   return has;
 }
 
-/// The generators to run, with their shares.
+/// Returns the generators to run, with their shares.
 std::vector<Generator> chosen(Stage stage, const Contestant& contestant, const JudgeOptions& options) {
   if (!options.generator.empty()) return {find_generator(stage, options.generator)};
   std::vector<Generator> rows(generators(stage).begin(), generators(stage).end());

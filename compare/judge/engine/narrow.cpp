@@ -26,11 +26,12 @@ class Narrowing {
     return std::nullopt;
   }
 
-  /// Of cases that fail together: judges those before the first that fails, reports it, and returns those behind it.
+  /// Takes cases that fail together: judges those before the first that fails, reports that one, and returns those
+  /// behind it.
   Cases report_first(Cases cases, std::string message) {
     std::size_t failing = cases.size();
     for (bool is_first = true; failing > 1; is_first = false) {
-      // One case first: it finds out at once a contestant that fails everywhere.
+      // One case comes first: it reveals at once a contestant that fails everywhere.
       const Cases half = cases.first(is_first ? 1 : failing / 2);
       if (auto of_half = judge(half)) {
         failing = half.size();
@@ -43,7 +44,7 @@ class Narrowing {
         message = *of_rest;
         continue;
       }
-      // Both halves are answered one by one: what fails is their company, and it has now been judged.
+      // Both halves are answered one by one: the cases fail only together, and have now been judged.
       mismatch(cases[0], message + " (in a batch with others, not alone)");
       return cases.subspan(failing);
     }

@@ -1,4 +1,4 @@
-// Doubles become JSON numbers, whose shortest text comes back to the same bits; settings stand as typed, which
+// Writes doubles as JSON numbers, whose shortest text comes back to the same bits. Settings stand as typed, which
 // rounding to single precision makes exact.
 #include "compare/judge/engine/scene_json.hpp"
 
@@ -32,7 +32,7 @@ std::vector<Vec3> to_vectors(const Json& json) {
   return vectors;
 }
 
-/// The model of that name.
+/// Returns the model of this name.
 template <class Model>
 Model to_model(const Json& json, std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), json.get<std::string>());
@@ -70,7 +70,7 @@ Body to_body(const Json& json) {
     body.first_tetrahedron = json.at("tetrahedra").at(0).get<Index>();
     body.tetrahedron_count = json.at("tetrahedra").at(1).get<Index>();
   }
-  // A case that is older than a constant has its default.
+  // A saved case may be older than a constant of the table; that constant keeps its default.
   for (const MaterialInfo& info : material_table())
     body.material.*info.field = material.value(std::string(info.name), body.material.*info.field);
   if (!material.contains("rod")) return body;

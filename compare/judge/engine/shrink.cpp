@@ -14,7 +14,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// x with so many binary digits, rounded to nearest.
+/// Returns x rounded to this number of binary digits, to nearest.
 float with_digits(float x, int digits) {
   int exponent = 0;
   const double fraction = std::frexp(double{x}, &exponent);
@@ -44,7 +44,7 @@ class Shrinker {
            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > options_.seconds;
   }
 
-  /// Keeps the candidate where it fails, too.
+  /// Keeps the candidate if it fails, too.
   bool attempt(const CaseData& data) {
     if (out_of_budget()) return false;
     ++tries_;
@@ -54,7 +54,7 @@ class Shrinker {
     return true;
   }
 
-  /// Once through the list, from halves to single ones; whether anything went.
+  /// Goes through the list once, from halves to single primitives; returns whether any was dropped.
   bool drop_primitives() {
     const Topology* mesh = traits_.mesh(best_.data);
     if (mesh == nullptr) return false;
@@ -81,7 +81,7 @@ class Shrinker {
     }
   }
 
-  /// First point to the origin; differences are rounded, so this may end the failure.
+  /// Moves the first point to the origin; differences are rounded, so this may end the failure.
   void move_to_origin() {
     CaseData data = best_.data;
     const ShortenedNumbers numbers = traits_.numbers(data);
@@ -111,13 +111,13 @@ class Shrinker {
   TestCase best_;
   const std::function<bool(const TestCase&)>& fails_;
   const ShrinkOptions& options_;
-  bool was_legal_;  ///< a saved case may be of another version's contract: then all is tried
+  bool was_legal_;  ///< a saved case may be of another version's contract: then illegal candidates are tried, too
   std::size_t tries_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What goes wrong, without the numbers that change with the case: what stands before the colon, and whether something
-/// is missing or too much.
+/// Returns what is wrong, without the numbers that change with the case: the text before the colon, and whether
+/// something is missing or too much.
 std::string kind_of(const std::string& message) {
   std::string kind;
   for (const char c : message.substr(0, message.find(':')))

@@ -16,7 +16,7 @@ enum class Leaf { none, single, real, integer };
 
 constexpr std::array<std::string_view, 4> leaf_names{"", "float", "double", "integer"};
 
-/// Hexadecimal text is a number of single precision (compare/judge/engine/numbers_json.hpp).
+/// Checks whether text is a number of single precision (compare/judge/engine/numbers_json.hpp).
 bool is_hexadecimal(const std::string& text) { return text.starts_with("0x") || text.starts_with("-0x"); }
 
 Leaf leaf_of(const Json& json) {
@@ -25,7 +25,7 @@ Leaf leaf_of(const Json& json) {
   return json.is_string() && is_hexadecimal(json.get_ref<const std::string&>()) ? Leaf::single : Leaf::none;
 }
 
-/// A table is an array of numbers, or of arrays of one length. `leaf`: the type of all its entries, `none` where they
+/// A table: an array of numbers, or of arrays of one length. `leaf` is the type of all its entries, `none` where they
 /// differ.
 struct Table {
   Leaf leaf = Leaf::none;
@@ -89,7 +89,7 @@ Json read_table(const Hdf5File& file, const std::string& name) {
   return json;
 }
 
-/// Moves the tables of the JSON into datasets.
+/// Moves the tables of the JSON into datasets, and returns the rest.
 Json put_away(Hdf5File& file, const std::string& name, const Json& json) {
   if (const Table table = table_of(json); table.leaf != Leaf::none) {
     if (table.leaf == Leaf::single)

@@ -15,17 +15,18 @@ namespace ogc::compare {
 
 namespace {
 
-// Cases that are looked at: enough to tell accident from rule, few enough for a second or two of the authority's time.
+// Largest numbers of cases that are looked at: enough to tell accident from rule, few enough for a second or two of the
+// authority's time.
 constexpr std::size_t most_failing = 120, most_failing_meshes = 24;
 constexpr std::size_t sampled = 600, sampled_of_mesh_stage = 2;
-// What all failing cases have in common says something where so many right ones lack it.
+// A property of all failing cases is reported where at least this many right cases lack it.
 constexpr std::uint64_t least_elsewhere = 10;
 // A form that fits a tenth of the cases fits one of these with a chance of 92 %.
 constexpr std::size_t most_tried = 24;
-// Mistakes that are named beside the first.
+// Largest number of mistakes that are named beside the first.
 constexpr std::size_t most_seconds = 3;
 
-/// How many cases of each generator the sample of a stage has.
+/// Returns the number of cases that the sample of a stage takes from each generator.
 std::size_t cases_of_a_generator(CaseKind kind, std::size_t generators) {
   switch (kind) {
     case CaseKind::single: return (sampled + generators - 1) / generators;
@@ -35,7 +36,7 @@ std::size_t cases_of_a_generator(CaseKind kind, std::size_t generators) {
   return 1;
 }
 
-/// The first cases of every generator that the contestant is asked about.
+/// Returns the first cases of every generator that the contestant is asked about.
 std::vector<TestCase> sample(Stage stage, const Contestant& contestant, std::uint64_t seed) {
   const auto rows = generators(stage);
   const std::size_t each = cases_of_a_generator(stage_info(stage).kind, rows.size());
@@ -46,7 +47,7 @@ std::vector<TestCase> sample(Stage stage, const Contestant& contestant, std::uin
   return cases;
 }
 
-/// At most `most` of the cases, evenly spread.
+/// Returns at most `most` of the cases, evenly spread.
 std::vector<TestCase> thinned(std::span<const TestCase> cases, std::size_t most) {
   std::vector<TestCase> kept;
   const std::size_t count = std::min(cases.size(), most);
@@ -68,7 +69,7 @@ class Diagnosing {
       try {
         one.fails = !agrees(one, authority_);
       } catch (const ContestantFailure&) {
-        return;  // it crashes or hangs: each such case would cost a restart
+        return;  // the contestant crashes or hangs: every further case like this would cost a restart
       }
       evidence_.push_back(std::move(one));
     }
@@ -98,11 +99,11 @@ class Diagnosing {
     try {
       return form.fits(one, authority);
     } catch (const std::exception&) {
-      return false;  // the changed question is none that the authority takes
+      return false;  // the authority does not take the changed question
     }
   }
 
-  /// Keeps the form that fewest cases speak against, failing or right, of those that fit enough failing ones.
+  /// Keeps the form that the fewest cases contradict, failing or right, among those that fit enough failing ones.
   void consider(const WrongForm& form, Diagnosis& best) const {
     const auto wanted = std::max<std::uint64_t>(
         least_fits, static_cast<std::uint64_t>(std::ceil(least_share * static_cast<double>(best.failing))));
@@ -126,7 +127,7 @@ class Diagnosing {
     best.otherwise = otherwise;
   }
 
-  /// Of these cases those that the form fits, for authorities whom another form may have spoiled before.
+  /// Returns those of the cases that the form fits, for authorities that another form may have spoiled before.
   static std::vector<const Evidence*> fitting(const WrongForm& form, const Authority& authority,
                                               const std::vector<const Evidence*>& rest) {
     std::vector<const Evidence*> found;
@@ -135,14 +136,15 @@ class Diagnosing {
     return found;
   }
 
-  /// A form of the parts, alone or together with the first, and the cases that it fits.
+  /// A form for a part of the failing cases, alone or together with the first form, and the cases that it fits.
   struct Part {
     const WrongForm* form = nullptr;
     bool together = false;
     std::vector<const Evidence*> cases{};
   };
 
-  /// Whether few right cases speak against the form: one that is wrong nearly everywhere fits some cases by accident.
+  /// Checks whether few right cases contradict the form: one that is wrong nearly everywhere fits some cases by
+  /// accident.
   static bool is_spoken_for(const WrongForm& form, const Authority& authority,
                             const std::vector<const Evidence*>& right) {
     double left = (1 - least_share_of_right) * static_cast<double>(right.size());
@@ -150,7 +152,7 @@ class Diagnosing {
                                [&](const Evidence* one) { return fits(form, *one, authority) || (left -= 1) >= 0; });
   }
 
-  /// Whether it fits one of a few of the cases: most forms fit none, and are asked about no more.
+  /// Checks whether the form fits one of a few of the cases: most forms fit none, and are not tried on the others.
   static bool may_fit(const WrongForm& form, const Authority& authority, const std::vector<const Evidence*>& rest) {
     const std::size_t count = std::min(most_tried, rest.size());
     for (std::size_t i = 0; i < count; ++i)
@@ -177,7 +179,7 @@ class Diagnosing {
     return best;
   }
 
-  /// Names several forms, each for a part of the failing cases; behind one that is named, those that fit its rest.
+  /// Names several forms, each for a part of the failing cases; after a form that is named, those that fit the rest.
   void find_parts(const std::vector<WrongForm>& forms, Diagnosis& result) const {
     std::vector<const Evidence*> rest, right;
     for (const Evidence& one : evidence_) (one.fails ? rest : right).push_back(&one);
@@ -213,7 +215,7 @@ class Diagnosing {
       result.seconds.push_back({parts[i].form->name, parts[i].form->meaning, parts[i].cases.size(), parts[i].together});
   }
 
-  /// The words of a case's inputs: names, and of numbers whether they are 0.
+  /// Returns the words of a case's inputs: names, and for numbers whether they are 0.
   static std::map<std::string, std::string> words_of(const TestCase& test) {
     std::map<std::string, std::string> words;
     for (const Quantity& quantity : inputs_of(test)) {
@@ -226,7 +228,8 @@ class Diagnosing {
     return words;
   }
 
-  /// The input whose words in failing cases are missing from most right ones; of several that with the fewest words.
+  /// Finds the input whose words in failing cases are missing from most right ones; of several inputs, the one with the
+  /// fewest words.
   void find_where(Diagnosis& result) const {
     if (is_mesh_stage(stage_) || result.failing < least_fits) return;
     std::map<std::string, std::set<std::string>> of_failing;

@@ -47,7 +47,7 @@ std::string main_table(std::span<const StageReport> reports) {
   return html + "</table>\n";
 }
 
-/// Bars by octave, heights by the logarithm of the count; a line where the tolerance lies.
+/// Draws bars by octave, with heights by the logarithm of the count, and a line at the tolerance.
 std::string histogram(const Histogram& errors, double tolerance, const std::string& name) {
   const auto octaves = errors.octaves(lowest_octave);
   const int first = octaves.front().exponent, last = std::max(octaves.back().exponent, std::ilogb(tolerance));

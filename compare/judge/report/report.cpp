@@ -26,7 +26,7 @@ double speed(const StageReport& report) {
   return report.seconds > 0 ? static_cast<double>(report.tally.total().cases) / report.seconds : 0;
 }
 
-/// Width in characters of UTF-8 text: all bytes but continuations.
+/// Returns the width in characters of UTF-8 text: counts all bytes but continuations.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
@@ -48,7 +48,7 @@ std::string print_rows(const std::vector<ReportRow>& rows) {
   return text;
 }
 
-/// Where all mismatches come from, if that is few groups of cases; empty otherwise.
+/// Names the generators that all mismatches come from, if they are few; empty otherwise.
 std::string confinement(const Tally& tally) {
   const std::vector<std::string> names = tally.confined_to();
   std::string text;
@@ -62,7 +62,7 @@ std::string confinement(const Tally& tally) {
                             " groups of cases pass\n";
 }
 
-/// The metrics whose tolerances are loose.
+/// Lists the metrics whose tolerances are loose.
 std::string loose_metrics(const StageReport& report) {
   std::string names;
   const auto infos = metrics(report.tally.stage);

@@ -6,7 +6,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// A hundredth of a pixel is enough.
+/// Prints a length in pixels; a hundredth of one is precise enough.
 std::string pixels(double x) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%.2f", x);

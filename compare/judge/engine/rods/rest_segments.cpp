@@ -7,7 +7,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// ‖a − b‖ of the nearer sign of a; 1 where the stored one is no unit quaternion.
+/// Returns ‖a − b‖ for the nearer sign of a; 1 where the stored one is no unit quaternion.
 double apart(const Quaternion& stored, const std::array<double, 4>& exact) {
   double same = 0, other = 0, squared = 0;
   for (std::size_t k = 0; k < 4; ++k) {
