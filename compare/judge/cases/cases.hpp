@@ -104,8 +104,8 @@ struct VolumeDepthCase {
   float contact_radius = 0;                  ///< r [m]
   std::vector<Vec3f> points;                 ///< each counts as a case [m]
   std::vector<Tetrahedron> tetrahedra{};     ///< of the parts that have tetrahedra
-  std::vector<Index> own{};  ///< by point: the vertex that it is, or −1; empty where no point is a vertex
-  std::vector<Edge> cavities{};              ///< as in VolumeDepthIn
+  std::vector<Index> own{};      ///< by point: the vertex that it is, or −1; empty where no point is a vertex
+  std::vector<Edge> cavities{};  ///< as in VolumeDepthIn
 };
 
 /// A mesh and questions about it.
@@ -148,13 +148,13 @@ struct ActivationCase {
 
 /// A vertex that moved.
 struct TruncateCase {
-  Vec3f previous, position;              ///< X_prev, x [m]
-  float bound = 0;                       ///< b_v [m]
+  Vec3f previous, position;  ///< X_prev, x [m]
+  float bound = 0;           ///< b_v [m]
   /// if empty, the ball holds the vertex alone, and the members below are not read
   std::vector<HalfSpace> half_spaces{};
-  Vec3f current{};                       ///< in the region [m]
-  std::array<float, 6> block{};          ///< H [N/m]
-  std::uint8_t is_prescribed = 0;        ///< 1: the vertex does not slide
+  Vec3f current{};                 ///< in the region [m]
+  std::array<float, 6> block{};    ///< H [N/m]
+  std::uint8_t is_prescribed = 0;  ///< 1: the vertex does not slide
 };
 
 /// The data of a case; its type is that of the stage (compare/judge/stages).

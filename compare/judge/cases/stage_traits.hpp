@@ -49,7 +49,7 @@ enum class Determinism : std::uint8_t {
 enum class CaseKind : std::uint8_t {
   single,   ///< a pair, a stencil, a vertex: many are asked at once
   mesh,     ///< a mesh, one question
-  followed  ///< a mesh whose truth follows the contestant's answer, update by update: dear to judge
+  followed  ///< a mesh whose truth follows the contestant's answer, update by update: costly to judge
 };
 
 /// A stage in words: a row of the table in compare/README.md, which `ogc compare --list --markdown` prints.

@@ -20,8 +20,8 @@
 
 namespace ogc::compare {
 
-/// Up to 100 frames, of large meshes fewer (16 from 262,144 vertices on), evenly spread over the run (first and last
-/// included), with the scene's topology, groups, r and cap of r_q.
+/// Holds up to 100 frames, of large meshes fewer (16 from 262,144 vertices on), evenly spread over the run (first and
+/// last included), with the scene's topology, groups, r and cap of r_q.
 class States {
  public:
   /// Asks the authority for rest data. Throws InputError where the folder is no run or holds no frame.

@@ -90,7 +90,7 @@ TetrahedronCase States::tetrahedron(std::size_t frame, Random& random) const {
   const RestTetrahedron& rest = any(random, rest_.tetrahedra);
   const Material& material = scene_->bodies[static_cast<std::size_t>(rest.body)].material;
   TetrahedronCase c;
-  for (std::size_t k = 0; k < 4; ++k) {  // as corner 0 sees them
+  for (std::size_t k = 0; k < 4; ++k) {  // seen from corner 0
     c.corner[k] = moved(state, rest.corner[k]);
     c.start[k] = state.positions[static_cast<std::size_t>(rest.corner[k])];
   }

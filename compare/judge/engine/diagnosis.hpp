@@ -23,7 +23,7 @@ struct Diagnosis {
   std::uint64_t fits = 0, failing = 0;  ///< failing cases that the form fits; all failing cases that were looked at
   /// right cases that differ from the form; all right cases that were looked at
   std::uint64_t otherwise = 0, right = 0;
-  std::uint64_t forms = 0;                 ///< number of forms that were tried
+  std::uint64_t forms = 0;  ///< number of forms that were tried
   /// what all failing cases have in common and right ones lack, for example "activation is ogc"; or empty
   std::string where{};
   std::uint64_t elsewhere = 0;           ///< number of right cases without it

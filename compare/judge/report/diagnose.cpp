@@ -160,7 +160,7 @@ class Diagnosing {
     return false;
   }
 
-  /// The form that fits most of the rest, vague ones only where no other fits `wanted` of them.
+  /// Returns the form that fits most of the rest; a vague one only where no other fits `wanted` of them.
   Part best_part(const std::vector<WrongForm>& forms, const WrongForm* first, const std::vector<const Evidence*>& rest,
                  const std::vector<const Evidence*>& right, std::size_t wanted) const {
     Part best;

@@ -27,8 +27,7 @@ std::size_t slot(Index i) { return static_cast<std::size_t>(i); }
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Makes a shape a mesh that validate accepts, and keeps which vertex each point of the shape becomes; −1 where it
-/// becomes none.
+/// Makes a shape a mesh that validate accepts, and keeps which point of the shape each vertex of the mesh is; −1: none.
 class LegalMesh {
  public:
   explicit LegalMesh(const Shape& shape) : positions_(to_double(shape.points)) {

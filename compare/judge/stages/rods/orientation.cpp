@@ -32,7 +32,7 @@ using rod_cases::single;
 /// A segment under construction: D and the neighbours' targets are given relative to its frame `aim`.
 struct Draft {
   double length = 1;              ///< l [m]
-  Four aim{0, 0, 0, 1};           ///< its director is the direction of D
+  Four aim{0, 0, 0, 1};           ///< D has its director, apart from the strain
   Four old{0, 0, 0, 1};           ///< the old q
   Four start{0, 0, 0, 1};         ///< qᵗ
   Vec3 strain{}, strain_start{};  ///< strain of D against aim, of Dᵗ against qᵗ

@@ -14,7 +14,7 @@
 
 namespace ogc::compare::rod_cases {
 
-/// Checks what the contract requires of a segment's ends; both stages call it for the present and the start.
+/// Checks what the contract requires of a segment's ends, at present or at the start of the step.
 inline void check_ends(FirstProblem& problem, std::span<const Vec3f> ends, float rest_length) {
   problem.vectors("a coordinate", ends);
   check_lengths(problem, ends, 0x1p-50f, 0x0p0f);
