@@ -1,4 +1,4 @@
-// Catch2 2 (Debian 12) and 3 (Ubuntu 24.04) behind one name.
+// Gives Catch2 2 (Debian 12) and 3 (Ubuntu 24.04) the same names.
 #pragma once
 
 #if __has_include(<catch2/catch_all.hpp>)
@@ -7,6 +7,6 @@ using Catch::Approx;
 using Catch::Matchers::ContainsSubstring;
 #else
 #include <catch2/catch.hpp>
-/// Matches texts that hold `part`.
+/// Matches texts that contain `part`.
 inline auto ContainsSubstring(const std::string& part) { return Catch::Contains(part); }
 #endif

@@ -1,6 +1,6 @@
-// All planted faults in one program, chosen at run time by number: `planted_faults` judges them all and prints how many
-// cases each needed, as a table; `planted_faults NUMBER` judges one and prints what the judge says of it. Exit status 1
-// where the judge finds nothing in 10⁵ cases.
+// Judges all planted faults in one program. `planted_faults` judges each and prints a table of how many cases each
+// needed; `planted_faults NUMBER` judges one on 1,000 cases and prints the judge's report. The exit status is 1 if the
+// judge misses a fault: in 10⁵ cases of all, in 1,000 of one.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -27,8 +27,8 @@ StageReport judged(const tests::Fault& fault, const Authority& authority, std::u
   return judge_stage(fault.stage, wrong, authority, options);
 }
 
-/// Of the runs of 10, 20, 50, 100, … cases the first in which the judge finds the fault: how many cases it counted. 0:
-/// none.
+/// Judges runs of 10, 20, 50, 100, … cases until one finds the fault. Returns how many cases that run counted, 0 if
+/// none finds it.
 std::uint64_t cases_needed(const tests::Fault& fault, const Authority& authority) {
   for (std::uint64_t decade = 10; decade <= most_cases; decade *= 10)
     for (const std::uint64_t step : {1u, 2u, 5u}) {

@@ -1,5 +1,5 @@
-// Seeds of random tests: one that never changes, so that a failure comes back, and one that is new each day, so that
-// what is tried grows.
+// Holds the seeds of random tests. One never changes, so that a failure can be repeated; one is new each day, so that
+// more cases are tried over time.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace ogc::tests {
 
-/// The day as yyyymmdd, in UTC, printed beside what takes it.
+/// Returns the day as yyyymmdd, in UTC, and prints it beside the name of the test that takes it.
 inline std::uint64_t daily_seed(const char* what) {
   const auto now = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
   const std::chrono::year_month_day day(now);

@@ -1,4 +1,4 @@
-// Work in processes of its own: what it says, how much of the processor it takes, and how it ends where it does not.
+// Runs work in separate processes and reports what each one writes, its processor time, and how it ends if it fails.
 #pragma once
 
 #include <fcntl.h>
@@ -20,19 +20,19 @@
 
 namespace ogc::tests {
 
-/// How a process ended. `late`: it took more of the processor than it may; `still`: it hardly asked for the processor.
+/// How a process ended. `late`: it took more processor time than its limit; `still`: it hardly used the processor.
 enum class Ending { says, crashes, late, still };
 
 struct Ended {
   Ending ending = Ending::says;
-  std::string said;    ///< by the work, or how it crashed
-  double seconds = 0;  ///< of the processor
+  std::string said;    ///< what the work wrote, or how it crashed
+  double seconds = 0;  ///< processor time
 };
 
-inline constexpr rlim_t most_memory = rlim_t{6} << 30;  ///< of one process [bytes]: an allocation beyond fails
+inline constexpr rlim_t most_memory = rlim_t{6} << 30;  ///< limit of one process [bytes]; an allocation beyond it fails
 
-/// Seconds by the clock after which a process that may have so many of the processor is `still`, on a machine that has
-/// other work as well.
+/// Returns the wall-clock seconds after which a process with this limit of processor time counts as `still`, on a
+/// machine that has other work as well.
 inline unsigned clock_limit(double seconds) { return static_cast<unsigned>(std::ceil(10 + 5 * seconds)); }
 
 inline void write_all(int file, const std::string& text) {
@@ -54,7 +54,7 @@ inline void limit_this_process(double seconds) {
   alarm(clock_limit(seconds));
 }
 
-/// What `work` says, in a process of its own that may take so many seconds of the processor, more than 0.
+/// Runs `work` in its own process, limited to `seconds` > 0 of processor time, and returns its text and how it ended.
 template <class Work>
 Ended apart(double seconds, Work work) {
   int ends[2];
@@ -94,8 +94,8 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// work(i) of 0 … count - 1 in so many processes, each of which takes the next number when it is through with one,
-/// until `may_go_on` says no.
+/// Runs work(0) … work(count - 1) in `processes` processes. Each takes the next number when it has finished one, until
+/// `may_go_on` returns false.
 template <class Work, class MayGoOn>
 void hand_out(std::size_t processes, std::size_t count, Work work, MayGoOn may_go_on) {
   using Number = std::atomic<std::size_t>;
@@ -113,7 +113,8 @@ void hand_out(std::size_t processes, std::size_t count, Work work, MayGoOn may_g
   munmap(shared, sizeof(Number));
 }
 
-/// What work(i), text without a line's end, is for each i, in so many processes; empty where one of them broke.
+/// Returns the text of work(i), one line without its end, for each i, computed in `processes` processes. It is empty
+/// where a process broke.
 template <class Work>
 std::vector<std::string> in_parallel(std::size_t processes, std::size_t count, Work work) {
   std::FILE* file = std::tmpfile();

@@ -1,4 +1,4 @@
-// The CPU's probes over what tests/mutants.py has rewritten.
+// Builds the CPU's probes from the code that tests/mutants.py has rewritten.
 #include <memory>
 
 #include "fast/cpu/backend.hpp"

@@ -1,4 +1,4 @@
-// The contestant whose mutants tests/mutants/judge.cpp judges.
+// Declares the contestant whose mutants tests/mutants/judge.cpp judges.
 #pragma once
 
 #include "compare/contestant.hpp"

@@ -1,21 +1,21 @@
-// Judges mutants (tests/mutants.py). The truth about every case is found once, without any of them, and kept;
-// each mutant whose number comes in on standard input is then switched on and judged on the same cases, a part (the
-// corpus' cases of a stage, a stage's generated ones) in a process of its own, which it may crash or hang, in those
-// parts that reach it: it changes nothing in the others. What the judge lets through meets the unit tests that reach
-// it, one by one likewise. Parts and tests come in the order of the time that they take without a mutant, and may take
-// ten times that.
+// Judges mutants (tests/mutants.py). The truth about every case is found once, without any mutant, and kept. Then each
+// mutant whose number comes in on standard input is switched on and judged on the same cases. They are divided into
+// parts (the corpus' cases of a stage, or a stage's generated ones); each runs in its own process, which the mutant may
+// crash or hang. Only parts that reach the mutant run, because the others give the same result. A mutant that passes
+// the judge then runs the unit tests that reach it, one by one in the same way. Parts come first, then tests, both by
+// the time that they take without a mutant, and each may take ten times that.
 //
 // Usage: mutant_judge CASES SEED SECONDS CORPUS JOBS STAGE …
-// SECONDS: by the clock, after which no further mutant is begun. Times go to standard error.
-// First line out: "right", or what is wrong without any mutant. Then a line for each mutant, as they are judged, JOBS
-// at a time: its number, a tab, and
-//   nothing                          where it survives,
-//   "test NAME" …                    where only a test finds it,
-//   "ten times slower: …"            where all that comes to an end is right, and what is named does not in ten times
-//                                    the time that it takes without a mutant,
-//   "not decided: …"                 where what is named neither came to an end nor took the processor's time,
-//   "not reached"                    where nothing looks at it,
-// otherwise what the judge said.
+// After SECONDS of wall-clock time no further mutant is begun. Times go to standard error. The first line of output is
+// "right", or what is wrong without any mutant. Then comes a line for each mutant, as they are judged, JOBS at a time:
+// its number, a tab, and
+//   (no text)                        if it survives,
+//   "test NAME" …                    if only a test finds it,
+//   "ten times slower: …"            if all that ends is right and what is named does not end in ten times the
+//                                    time that it takes without a mutant,
+//   "not decided: …"                 if what is named neither ended nor took the processor's time,
+//   "not reached"                    if no part and no test reaches it,
+// otherwise the judge's message.
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -44,18 +44,18 @@ using namespace ogc::compare;
 using namespace ogc::tests;
 
 constexpr double slow_factor = 10;
-constexpr double least_time = 0.1;  ///< taken for the time of what takes less [s of the processor]
-constexpr double longest = 300;     ///< of a part or a test without any mutant [s of the processor]
-constexpr int most_slow = 3;        ///< parts and tests that are waited for before a mutant counts as slow
+constexpr double least_time = 0.1;  ///< what takes less counts as this [s of the processor]
+constexpr double longest = 300;     ///< limit of a part or a test without any mutant [s of the processor]
+constexpr int most_slow = 3;        ///< parts and tests that may time out before a mutant counts as slow
 
-/// What is judged on a thread just now. `round`: 0 while truth is found.
+/// What a thread is judging now. `round` is 0 while the truth is found.
 struct Moment {
   std::size_t round = 0, part = 0;
 };
 thread_local Moment now;
 
-/// Answers from memory, in the order in which the part's questions came first: the judge on one thread asks the same
-/// ones again.
+/// Answers from memory, in the order in which the questions of the part first came: on one thread the judge asks the
+/// same questions again.
 template <class Truth, class In>
 std::function<Truth(const In&)> remembered(std::function<Truth(const In&)> authority, std::size_t parts) {
   if (!authority) return authority;
@@ -97,12 +97,12 @@ Authority remembering(const Authority& a, std::size_t parts) {
   r.block = remembered(a.block, parts);
   r.initial_guess = remembered(a.initial_guess, parts);
   r.rest_state = remembered(a.rest_state, parts);
-  r.sweep = a.sweep;  // their truth follows the answer
+  r.sweep = a.sweep;  // their truth depends on the answer
   r.step = a.step;
   return r;
 }
 
-/// Cases of one stage: those of the corpus, or, where there is none, generated ones.
+/// Holds cases of one stage: those of the corpus or, if there are none, generated ones.
 struct Part {
   Stage stage{};
   std::vector<TestCase> corpus;
@@ -110,7 +110,7 @@ struct Part {
 
 struct WrongAnswer {};
 
-/// "" where nothing is wrong in the part, else the stage and what.
+/// Returns the first mistake in the part, or "" if there is none.
 std::string verdict(const Part& part, const Contestant& contestant, const Authority& authority, JudgeOptions options) {
   const auto first = [&](const StageReport& report) {
     const auto& listed = report.tally.mismatches;
@@ -129,7 +129,7 @@ std::string verdict(const Part& part, const Contestant& contestant, const Author
   }
 }
 
-/// The numbers of the mutants that `work` reaches, as text.
+/// Returns the numbers of the mutants that `work` reaches, as text.
 template <class Work>
 std::string reached_by(Work work) {
   ogc_mutant::recording = true;
@@ -141,15 +141,15 @@ std::string reached_by(Work work) {
   return numbers;
 }
 
-/// What a mutant meets: a part of the judge's plan, or from their number on a test; what it costs and which mutants it
-/// reaches.
+/// A part or a test that a mutant must pass, its cost and the mutants that it reaches. Numbers up to the count of parts
+/// are parts, higher ones tests.
 struct Hurdle {
   std::size_t number = 0;
   double seconds = 0;
   std::set<int> reached{};
 };
 
-/// The judge with its memory, the tests, and which of them reach which mutant.
+/// Holds the judge with its memory, the tests, and which mutants each of them reaches.
 class MutantJudge {
  public:
   MutantJudge(std::vector<Part> parts, const JudgeOptions& options, std::size_t jobs)
@@ -159,7 +159,7 @@ class MutantJudge {
         authority_(remembering(ogc::reference::authority(), parts_.size())),
         tests_(unit_test_names()) {}
 
-  /// Judges what no mutant has changed: "right" or what is wrong.
+  /// Judges the unchanged program: returns "right" or what is wrong.
   std::string judge_original() {
     const auto start = std::chrono::steady_clock::now();
     if (const std::string wrong = find_truth(); !wrong.empty()) return wrong;
@@ -168,7 +168,7 @@ class MutantJudge {
     return wrong.empty() ? "right" : wrong;
   }
 
-  /// What is found of one mutant, in one line.
+  /// Returns the result of one mutant in one line.
   std::string judge_mutant(int id) const {
     bool reached = false;
     int slow = 0;
@@ -197,7 +197,7 @@ class MutantJudge {
     return verdict(parts_[part], mutant_contestant(), authority_, options_);
   }
 
-  /// What is found of the mutant that is switched on.
+  /// Runs a part or a test on the mutant that is switched on and returns what it finds.
   std::string meet(std::size_t number) const {
     if (number >= parts_.size()) return unit_test_fails(tests_[number - parts_.size()]) ? "fails" : "";
     now = {1, number};
@@ -215,7 +215,7 @@ class MutantJudge {
     return name_of(number) + ": " + what;
   }
 
-  /// Fills the memory, `jobs` parts at a time: threads, which are gone before the first process is forked.
+  /// Fills the memory, `jobs` parts at a time. It uses threads, which have ended before the first process is forked.
   std::string find_truth() {
     std::vector<std::string> wrong(parts_.size());
     std::atomic<std::size_t> next = 0;
@@ -233,7 +233,8 @@ class MutantJudge {
     return "";
   }
 
-  /// Parts and tests with truth at hand, as many at a time as later with mutants: the time and the mutants of each.
+  /// Measures the time of each part and test with the truth at hand and notes the mutants that it reaches. As many run
+  /// at once as later with mutants.
   std::string measure() {
     const auto noted = [&](std::size_t number) {
       const Ended ended = apart(longest, [&] {
@@ -273,7 +274,7 @@ class MutantJudge {
   std::size_t jobs_;
   Authority authority_;
   std::vector<std::string> tests_;
-  std::vector<Hurdle> hurdles_;  ///< parts, then tests, each by time
+  std::vector<Hurdle> hurdles_;  ///< parts, then tests, each sorted by time
 };
 
 std::vector<Part> parts_of(const std::vector<TestCase>& corpus, const std::vector<Stage>& stages) {
@@ -293,7 +294,7 @@ std::vector<Part> parts_of(const std::vector<TestCase>& corpus, const std::vecto
 int main(int count, char** words) {
   if (count < 7) return 2;
   const auto start = std::chrono::steady_clock::now();
-  // Children are forked, and a pool of threads would be gone in them.
+  // Children are forked, and a pool's threads would not exist in them.
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
   JudgeOptions options;
   options.cases = std::stoull(words[1]);

@@ -1,4 +1,4 @@
-// Whether work apart ends as tests/mutants/judge.cpp counts on (tests/mutants.py --self-test). Says what is wrong.
+// Checks that processes end as tests/mutants/judge.cpp expects (tests/mutants.py --self-test) and prints what is wrong.
 #include "tests/mutants/apart.hpp"
 
 #include <chrono>

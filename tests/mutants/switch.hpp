@@ -1,14 +1,14 @@
-// Mutants behind a switch: tests/mutants.py rewrites `a < b` to `a < Less{17} < b`, which is the same until mutant 17
-// is switched on. So one build holds all mutants, and what is rewritten keeps its precedence. Each struct stands for
-// the ids from its own on, one for each of its alternatives.
+// Switches mutants on. tests/mutants.py rewrites `a < b` to `a < Less{17} < b`, which has the same value until mutant
+// 17 is switched on. So one build holds all mutants, and rewritten code keeps its precedence. Each struct takes the ids
+// from its own on, one for each alternative.
 #pragma once
 
 #include <type_traits>
 
 namespace ogc_mutant {
 
-inline int active = 0;          ///< 0: none
-inline bool recording = false;  ///< note which mutants are reached
+inline int active = 0;          ///< no mutant at 0
+inline bool recording = false;  ///< whether `reached` notes the mutants that are reached
 inline bool reached[1 << 15] = {};
 
 inline bool hit(int id) {
@@ -23,7 +23,7 @@ struct Left {
   int id;
 };
 
-// What a comparison gives: a bool, or a mask of a pack; operators that packs lack are left out.
+// Defines a mutated comparison, which returns a bool or the mask of a pack. Operators that packs lack are left out.
 #define OGC_MUTANT_COMPARISON(Name, op, one, other)                                   \
   struct Name {                                                                       \
     int id;                                                                           \
@@ -64,7 +64,8 @@ OGC_MUTANT_EQUALITY(Equal, ==, !=)
 OGC_MUTANT_EQUALITY(Unequal, !=, ==)
 #undef OGC_MUTANT_EQUALITY
 
-// The other operator where it gives the same type, and the left operand alone.
+// Defines a mutated arithmetic operator. Its mutants are the other operator, where that gives the same type, and the
+// left operand alone.
 #define OGC_MUTANT_ARITHMETIC(Name, op, one)                                               \
   struct Name {                                                                            \
     int id;                                                                                \
@@ -90,7 +91,7 @@ OGC_MUTANT_ARITHMETIC(Times, *, /)
 OGC_MUTANT_ARITHMETIC(Over, /, *)
 #undef OGC_MUTANT_ARITHMETIC
 
-/// In front of a minus sign: takes it away.
+/// Stands in front of a minus sign; its mutant removes the sign.
 struct Sign {
   int id;
 };
@@ -100,13 +101,13 @@ constexpr A operator*(Sign m, A a) {
   return a;
 }
 
-/// A condition, negated.
+/// Returns a condition; its mutant negates it.
 template <class A>
 constexpr bool negated(int id, const A& a) {
   return on(id) ? !static_cast<bool>(a) : static_cast<bool>(a);
 }
 
-/// A number doubled or halved; of whole numbers and 0: one more or one less.
+/// Returns a number; its mutants double and halve it. Integers and 0 become one more and one less instead.
 template <class A>
 constexpr A literal(int id, A a) {
   if constexpr (std::is_integral_v<A>)
@@ -115,7 +116,7 @@ constexpr A literal(int id, A a) {
     return on(id) ? (a == 0 ? 1 : 2 * a) : on(id + 1) ? (a == 0 ? -1 : a / 2) : a;
 }
 
-/// An index 0 … 2, another one below it where there is one.
+/// Returns an index 0 … 2; its mutant is the next smaller index, and 1 for 0.
 constexpr int index(int id, int i) { return on(id) ? (i == 0 ? 1 : i - 1) : i; }
 
 template <class A>

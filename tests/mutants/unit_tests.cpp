@@ -19,7 +19,8 @@ bool unit_test_fails(const std::string& name) {
     if (std::string("\\,[]\"").find(c) != std::string::npos) escaped += '\\';
     escaped += c;
   }
-  // A name that no test has, which only a fault above can lead to, is a failure; Catch2 3 needs not be told.
+  // A name that no test has can only come from a fault above and counts as a failure; Catch2 3 does so without the
+  // option.
   const char* words[] = {"tests", escaped.c_str(), "--abort", "--out", "/dev/null", "--warn", "NoTests"};
   const auto count = static_cast<int>(std::size(words)) - (CATCH_VERSION_MAJOR > 2 ? 2 : 0);
   Catch::Session session;

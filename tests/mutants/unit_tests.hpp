@@ -1,4 +1,4 @@
-// The unit tests of what is rewritten (tests/mutants.py says which), compiled over it.
+// Runs the unit tests of rewritten code (tests/mutants.py names them), compiled with that code.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace ogc::tests {
 
 std::vector<std::string> unit_test_names();
 
-/// Whether this one fails; it stops where it does. Once a process.
+/// Returns whether this test fails; it stops at its first failure. May be called once a process.
 bool unit_test_fails(const std::string& name);
 
 }  // namespace ogc::tests

@@ -1,5 +1,5 @@
-// Files that are damaged at random, a reader that is asked about each, and what it must not do: take more than 100 MB
-// over what the program has, die, hang, or refuse without the file's name. Cases run in processes of their own, under a
+// Damages files at random and gives each to a reader. The reader must not take more than 100 MB beyond what the program
+// has and twice the file's size, die, hang, or refuse a file without its name. Cases run in separate processes under a
 // limit on memory.
 #pragma once
 
@@ -24,13 +24,13 @@
 namespace ogc::tests {
 
 #if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool limits_memory = false;  // its shadow is reserved address space
+inline constexpr bool limits_memory = false;  // its shadow memory is reserved address space
 #else
 inline constexpr bool limits_memory = true;
 #endif
-inline constexpr std::size_t most_memory = 100'000'000;  ///< [bytes] over what the program has
+inline constexpr std::size_t most_memory = 100'000'000;  ///< [bytes] beyond what the program has
 
-/// A file as it should be.
+/// A whole file.
 struct Sample {
   std::string name, bytes;
 };
@@ -39,7 +39,7 @@ class Mutator {
  public:
   Mutator(std::string whole, std::mt19937_64& random) : bytes_(std::move(whole)), random_(random) {}
 
-  /// One to four changes, one upon the other.
+  /// Returns the file after one to four changes, each applied to the result of the one before.
   std::string mutated() {
     for (std::size_t k = 1 + below(4); k-- > 0 && !bytes_.empty();) change();
     return bytes_;
@@ -63,7 +63,7 @@ class Mutator {
     }
   }
 
-  /// Four or eight bytes, as of a count that is out of all bounds.
+  /// Writes four or eight bytes of an extreme count.
   void binary_number() {
     constexpr std::array<std::uint64_t, 7> numbers{0,          1,           0x7fffffff,        0x80000000,
                                                    0xffffffff, 0x100000000, 0xffffffffffffffff};
@@ -73,7 +73,7 @@ class Mutator {
     bytes_.replace(place(), width, raw.substr(below(9 - width), width));
   }
 
-  /// A number or a name in the text.
+  /// Replaces a number or a name in the text.
   void word() {
     constexpr std::array<const char*, 16> words{"4294967295", "-1",     "1e999", "nan",     "99999999999999999999", "0",
                                                 "2147483648", "1.#INF", "1e300", "1e-320",  "400000000000",         "3",
@@ -88,7 +88,7 @@ class Mutator {
   std::mt19937_64& random_;
 };
 
-/// What a reader did with a damaged file; empty, or what it must not have done.
+/// Returns "" or what a reader did with a damaged file and must not do.
 using Judge = std::string (*)(const std::string& bytes, const std::string& name);
 
 inline std::size_t address_space() {
@@ -98,12 +98,14 @@ inline std::size_t address_space() {
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// In a process of its own; says on `out` which case it is at, and of the first that fails why. Never returns.
+/// Runs the cases in a separate process. Writes to `out` the number of each case, and the reason of the first that
+/// fails. Never returns.
 [[noreturn]] inline void run_cases(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases, int out) {
   const auto say = [&](const std::string& text) {
     if (write(out, text.data(), text.size()) < 0) _exit(3);
   };
-  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGALRM}) std::signal(signal, SIG_DFL);  // not Catch's
+  // Catch's handlers are for the parent
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGALRM}) std::signal(signal, SIG_DFL);
   if (limits_memory) {
     const std::size_t most = address_space() + most_memory + 2 * sample.bytes.size();
     const rlimit limit{most, most};
@@ -122,7 +124,7 @@ inline std::size_t address_space() {
   _exit(0);
 }
 
-/// Empty where every case ends as it should.
+/// Returns "" if every case ends well, else the case that failed and why.
 inline std::string failure(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);
@@ -145,7 +147,7 @@ inline std::string failure(const Sample& sample, Judge judge, std::uint64_t seed
   return sample.name + ", seed " + std::to_string(seed) + ", case " + last + how;
 }
 
-/// What `read` does with a file; see Judge.
+/// Runs `read` and returns "" or what it did wrong (see Judge).
 template <class Read>
 std::string fault_of_reading(const std::string& name, Read read) {
   try {
@@ -160,7 +162,7 @@ std::string fault_of_reading(const std::string& name, Read read) {
   return "";
 }
 
-/// So many cases of each, or OGC_FUZZ_CASES; every sample itself must be read.
+/// Checks `cases` damaged files of each sample, or OGC_FUZZ_CASES of them; the sample itself must be readable.
 inline void fuzz(const std::vector<Sample>& samples, Judge judge, std::uint64_t seed, std::size_t cases) {
   if (const char* given = std::getenv("OGC_FUZZ_CASES")) cases = std::strtoull(given, nullptr, 10);
   for (const Sample& sample : samples) {

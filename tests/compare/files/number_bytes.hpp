@@ -1,4 +1,4 @@
-// Numbers as files hold them.
+// Writes numbers in the byte orders of files.
 #pragma once
 
 #include <algorithm>

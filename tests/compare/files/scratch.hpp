@@ -1,4 +1,4 @@
-// A folder of its own for each test, gone when the test ends.
+// Gives each test its own folder and deletes it when the test ends.
 #pragma once
 
 #include <unistd.h>

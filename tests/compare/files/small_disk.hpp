@@ -1,4 +1,4 @@
-// A full disk, as far as a process can have one of its own.
+// Imitates a full disk within one process, by its limit on the length of files.
 #pragma once
 
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 
 namespace ogc::tests {
 
-/// A disk that takes no file longer than `bytes`, as long as the object lives.
+/// Lets this process write no file longer than `bytes` as long as the object lives.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -1,7 +1,7 @@
-// Wrong contestants that the judge must catch: the exact answer, spoiled in one way. Most follow from wrong forms of
-// a stage (compare/judge/report/wrong_forms.hpp). Planted by hand is what no form can be: a last bit, a share of 0.1 %,
-// one item of a list, the order of events, a whole step. The exact contestant itself must pass: that checks the judge,
-// its tolerances and its grey zone against themselves.
+// Declares wrong contestants that the judge must catch: each spoils the exact answer in one way. Most follow from the
+// wrong forms of a stage (compare/judge/report/wrong_forms.hpp). Others are planted by hand because no form can express
+// them: a last bit, a share of 0.1 %, one item of a list, the order of events, a whole step. The exact contestant must
+// pass, which checks the judge, its tolerances and its grey zone against themselves.
 #pragma once
 
 #include <functional>
@@ -14,14 +14,14 @@
 
 namespace ogc::tests {
 
-/// Answers with the authority's exact answers, rounded to single precision where the contract allows.
+/// Returns the contestant with the authority's exact answers, rounded to single precision where the contract allows.
 compare::Contestant exact_contestant(const compare::Authority& authority);
 
-/// The contestant that answers as the form says. The form has an authority, and is none of Stage::step, whose forms
-/// change what a right guess is taken for.
+/// Returns the contestant that answers as the form does. The form must have an authority and must not be one of
+/// Stage::step, whose forms change what counts as a right guess.
 compare::Contestant contestant_of(const compare::WrongForm& form, const compare::Authority& authority);
 
-/// The forms that say an answer, each for a contestant of its own.
+/// Returns the forms that give an answer, from each of which a contestant can be made.
 std::vector<compare::WrongForm> answering_forms(compare::Stage stage);
 
 struct Fault {
@@ -29,13 +29,13 @@ struct Fault {
   compare::Stage stage;
   /// Spoils the stage of a right contestant.
   std::function<void(compare::Contestant&, const compare::Authority&)> plant;
-  std::string generator{};  ///< whose cases alone can show it; empty: those of all
+  std::string generator{};  ///< the only one whose cases can show the fault; empty: any
 };
 
-/// All that are planted by hand.
+/// Returns all faults that are planted by hand.
 std::vector<Fault> faults();
 
-/// By file: faults_pairs.cpp, faults_sets.cpp, …
+/// The faults of each file: faults_pairs.cpp, faults_sets.cpp, …
 std::vector<Fault> pair_faults();
 std::vector<Fault> set_faults();
 std::vector<Fault> plane_faults();
@@ -49,14 +49,14 @@ std::vector<Fault> volume_faults();
 std::vector<Fault> rod_faults();
 std::vector<Fault> ipc_faults();
 
-/// The stage that a fault's name begins with.
+/// Returns the stage that a fault's name begins with.
 compare::Stage stage_of(const std::string& fault);
 
-/// A stage of a contestant.
+/// A member of Contestant that answers a stage.
 template <class Out, class In>
 using Answering = std::function<Out(const In&)> compare::Contestant::*;
 
-/// The right answer to a question that is changed first: `change(in)`.
+/// Returns a fault that answers another question correctly: `change(in)` alters the question.
 template <class Out, class In, class Change>
 Fault asked_wrongly(const std::string& name, Answering<Out, In> stage, Change change) {
   return {name, stage_of(name), [stage, change](compare::Contestant& contestant, const compare::Authority&) {
@@ -68,7 +68,7 @@ Fault asked_wrongly(const std::string& name, Answering<Out, In> stage, Change ch
           }};
 }
 
-/// The right answer, spoiled: `spoil(in, out)`.
+/// Returns a fault that spoils the right answer by `spoil(in, out)`.
 template <class Out, class In, class Spoil>
 Fault spoiled(const std::string& name, Answering<Out, In> stage, Spoil spoil) {
   return {name, stage_of(name), [stage, spoil](compare::Contestant& contestant, const compare::Authority&) {
@@ -80,7 +80,7 @@ Fault spoiled(const std::string& name, Answering<Out, In> stage, Spoil spoil) {
           }};
 }
 
-/// Every case of the question changed first: `change(case)`.
+/// Returns a fault that changes every case of the question by `change(case)` and answers that correctly.
 template <class Out, class In, class Change>
 Fault cases_asked_wrongly(const std::string& name, Answering<Out, In> stage, Change change) {
   return asked_wrongly(name, stage, [change](In& in) {
@@ -88,7 +88,7 @@ Fault cases_asked_wrongly(const std::string& name, Answering<Out, In> stage, Cha
   });
 }
 
-/// Force and block of every case spoiled: `spoil(case, force, block)`.
+/// Returns a fault that spoils force and block of every case by `spoil(case, force, block)`.
 template <class In, class Spoil>
 Fault forces_spoiled(const std::string& name, Answering<compare::ForceOut, In> stage, Spoil spoil) {
   return spoiled(name, stage, [spoil](const In& in, compare::ForceOut& out) {
@@ -96,7 +96,7 @@ Fault forces_spoiled(const std::string& name, Answering<compare::ForceOut, In> s
   });
 }
 
-/// Forces `share` too small.
+/// Returns a fault whose forces are too small by `share`.
 template <class In>
 Fault forces_short_of(float share, const std::string& name, Answering<compare::ForceOut, In> stage) {
   return forces_spoiled(name, stage, [share](const auto&, compare::Vec3f& force, std::array<float, 6>&) {

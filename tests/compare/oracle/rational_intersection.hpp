@@ -1,7 +1,7 @@
-// Brute force for the oracle, with another idea and another number type: points of segment and triangle are convex
-// combinations, so they meet exactly where the linear system Σλ = 1, Σμ = 1, Σλᵢ sᵢ = Σμⱼ tⱼ has a solution λ, μ ≥ 0,
-// and then one of its basic solutions is non-negative. All 31 sets of columns are tried in rational arithmetic; no
-// orientation, no case distinction, nothing that a degenerate configuration could upset.
+// Decides intersections by brute force, to check the oracle by another idea in another number type. Points of segment
+// and triangle are convex combinations, so the two meet exactly if the linear system Σλ = 1, Σμ = 1, Σλᵢ sᵢ = Σμⱼ tⱼ
+// has a solution λ, μ ≥ 0, and then one of its basic solutions is non-negative. All 31 sets of columns are tried in
+// rational arithmetic. There are no orientations and no case distinctions that a degenerate configuration could upset.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -16,8 +16,8 @@ namespace ogc::tests {
 using Rational = boost::multiprecision::cpp_rational;
 using Row = std::vector<Rational>;
 
-/// The system of five equations in as many unknowns as there are columns has one solution, and it is non-negative. Last
-/// entry of a row: right side.
+/// Returns whether the system of five equations has exactly one solution and that is non-negative. It has one unknown
+/// for each column; the last entry of a row is its right side.
 inline bool solved_by_non_negative(std::vector<Row> rows, std::size_t unknowns) {
   for (std::size_t pivot = 0; pivot < unknowns; ++pivot) {
     std::size_t row = pivot;
@@ -37,7 +37,7 @@ inline bool solved_by_non_negative(std::vector<Row> rows, std::size_t unknowns) 
   return true;
 }
 
-/// Whether the hulls of `segment` and `triangle` share a point.
+/// Returns whether the hulls of `segment` and `triangle` share a point.
 inline bool hulls_meet(const std::array<compare::Vec3, 2>& segment, const std::array<compare::Vec3, 3>& triangle) {
   std::array<Row, 5> columns;
   for (std::size_t i = 0; i < 5; ++i) {

@@ -1,4 +1,4 @@
-// Closed curves, and how they are linked.
+// Makes closed curves and counts how they are linked.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ using compare::Vec3;
 
 inline std::size_t ring_place(Index i) { return static_cast<std::size_t>(i); }
 
-/// A closed polygon of n loose edges about `centre`, spanned by u and v.
+/// Adds a closed polygon of n loose edges about `centre`, spanned by u and v.
 inline void add_ring(std::vector<Vec3>& positions, std::vector<Edge>& loose, Index n, Vec3 centre, Vec3 u, Vec3 v) {
   const auto first = static_cast<Index>(positions.size());
   for (Index k = 0; k < n; ++k) {
@@ -26,8 +26,8 @@ inline void add_ring(std::vector<Vec3>& positions, std::vector<Edge>& loose, Ind
   }
 }
 
-/// Signed crossings of the first ring's edges over the second's, seen along z: the linking number of two rings whose
-/// projections are in general position.
+/// Returns the linking number of two rings whose projections along z are in general position: the sum of the signed
+/// crossings of the first ring's edges over the second's.
 inline int linking_number(const std::vector<Vec3>& x, Index n) {
   const auto side = [&](Index a, Index b, Index c) {
     const Vec3 &p = x[ring_place(a)], &q = x[ring_place(b)], &r = x[ring_place(c)];
@@ -38,7 +38,7 @@ inline int linking_number(const std::vector<Vec3>& x, Index n) {
     for (Index j = 0; j < n; ++j) {
       const Index a = i, b = (i + 1) % n, c = n + j, d = n + (j + 1) % n;
       if (side(a, b, c) == side(a, b, d) || side(c, d, a) == side(c, d, b)) continue;
-      const auto height = [&](Index p, Index q, Index r, Index s) {  // of edge pq where it crosses rs
+      const auto height = [&](Index p, Index q, Index r, Index s) {  // height of edge pq where it crosses rs
         const Vec3 &o = x[ring_place(p)], &e = x[ring_place(q)], &g = x[ring_place(r)], &h = x[ring_place(s)];
         const double dx = h.x - g.x, dy = h.y - g.y;
         const double before = (o.x - g.x) * dy - (o.y - g.y) * dx, after = (e.x - g.x) * dy - (e.y - g.y) * dx;
@@ -50,7 +50,8 @@ inline int linking_number(const std::vector<Vec3>& x, Index n) {
   return sum;
 }
 
-/// Three times the edges' way through each other: which side of ab the edge cd passes to.
+/// Returns 1 or -1: the side of ab on which cd lies, by the sign of the determinant of ab, cd and the vector from a to
+/// c.
 inline int sense(const std::vector<Vec3>& x, const Edge& ab, const Edge& cd) {
   const auto minus = [&](Index i, Index j) {
     return Vec3{x[ring_place(i)].x - x[ring_place(j)].x, x[ring_place(i)].y - x[ring_place(j)].y,

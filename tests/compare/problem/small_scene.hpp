@@ -1,12 +1,12 @@
-// A valid scene with everything in it, small enough to write its answers down.
+// Makes a valid scene with a free body, a fixed one and two motions, small enough to write its answers down.
 #pragma once
 
 #include "compare/problem/scene.hpp"
 
 namespace ogc::tests {
 
-/// Body "sheet": a square of two triangles with vertex 0 in motion "left" and vertex 2 in motion "right"; body "floor":
-/// one fixed triangle below.
+/// Returns two bodies. "sheet" is a square of two triangles with vertex 0 in motion "left" and vertex 2 in motion
+/// "right"; "floor" is one fixed triangle below it.
 inline compare::Scene small_scene() {
   compare::Scene scene;
   scene.name = "small";

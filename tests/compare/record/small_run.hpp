@@ -1,4 +1,5 @@
-// A run of few vertices that has everything a run can have: three bodies, one fixed and one a yarn, and a motion.
+// Makes a run of few vertices with all parts of a run: three bodies, of which one is fixed and one a yarn, and a
+// motion.
 #pragma once
 
 #include <cmath>

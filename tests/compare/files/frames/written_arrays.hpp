@@ -1,4 +1,4 @@
-// NumPy's files, written by hand, so that tests need no Python and can damage each byte.
+// Writes NumPy's files by hand, so that tests need no Python and can damage each byte.
 #pragma once
 
 #include <zlib.h>
@@ -19,7 +19,7 @@ std::string raw(const std::vector<Number>& numbers) {
   return bytes;
 }
 
-/// A .npy file of version 1; `type`: "<f8".
+/// Returns a .npy file of version 1; `type` is for example "<f8".
 inline std::string npy(const std::string& type, const std::string& shape, bool fortran, const std::string& numbers) {
   std::string header = "{'descr': '" + type + "', 'fortran_order': " + (fortran ? "True" : "False") + ", 'shape': (" +
                        shape + "), }";
@@ -30,19 +30,19 @@ inline std::string npy(const std::string& type, const std::string& shape, bool f
          header + numbers;
 }
 
-/// Little-endian.
+/// Returns `value` in little-endian order.
 inline std::string word(std::uint64_t value, int bytes) {
   std::string text;
   for (int k = 0; k < bytes; ++k) text += static_cast<char>(value >> (8 * k) & 255);
   return text;
 }
 
-/// One member of an archive, stored.
+/// One member of an archive, stored without compression.
 struct Member {
   std::string name, bytes;
 };
 
-/// A .zip archive of stored members.
+/// Returns a .zip archive whose members are stored without compression.
 inline std::string zip(const std::vector<Member>& members) {
   std::string all, list;
   for (const auto& [name, bytes] : members) {

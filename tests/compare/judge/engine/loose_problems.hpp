@@ -1,4 +1,4 @@
-// What MetricInfo::loose_because is held to.
+// Checks MetricInfo::loose_because against the errors of reports.
 #pragma once
 
 #include <algorithm>
@@ -45,10 +45,11 @@ inline std::string numbers(const Seen& seen) {
 
 }  // namespace loose
 
-/// What is loose in these reports and not listed, and what is listed and not loose; one message each. Reports of one
-/// stage count together. What is seen grows with the cases, as the first ones of a generator are the same in a longer
-/// run: what is not loose here is not in any longer run of the seed. What is loose here may be so by lack of cases; the
-/// judge of nearer cases, found by longer runs, then belongs among the reports (tests/experiments/nearest.txt).
+/// Returns one message for each tolerance that is loose in these reports and not listed, or listed and not loose.
+/// Reports of one stage count together. A generator's first cases are the same in a longer run, so errors only grow
+/// with the cases: a tolerance that is not loose here is not loose in any longer run of the seed. One that is loose
+/// here may only lack cases; then the report of the nearest cases, which longer runs found, must be among the reports
+/// (tests/experiments/nearest.txt).
 inline std::vector<std::string> loose_problems(std::span<const StageReport> reports) {
   std::vector<std::string> problems;
   for (const auto& [name, seen] : loose::seen_in(reports)) {
