@@ -12,7 +12,7 @@ using law_measures::elastic;
 
 namespace {
 
-// Two right triangles on either side of an edge of length 1 along z, each 1 wide.
+// Returns two right triangles on either side of an edge of length 1 along z, each 1 wide.
 Scene flap() {
   Scene scene;
   Material material;
@@ -46,8 +46,9 @@ TEST_CASE("laws' elastic energy: a stretched triangle, a bent hinge, both by han
   CHECK(elastic(scene, x, turning).change == Approx(0.75 * angle));
 }
 
-// U changes over lengths of a cell, 0.03 m: along a d of 1 m its third derivative is some 10³ of the first, 1/0.03². So
-// a central difference with t = 10⁻⁵ is off by t²/6 · 10³ = 2 · 10⁻⁸, by rounding less; 10⁻⁶ has fifty times the room.
+// U varies over the length of a cell, 0.03 m. Along a d of 1 m its third derivative is about 10³ = 1/0.03² times the
+// first. So a central difference with t = 10⁻⁵ has an error of t²/6 · 10³ = 2 · 10⁻⁸, and less from rounding; 10⁻⁶
+// leaves a factor of fifty.
 TEST_CASE("laws' elastic energy: its change is that of the energy, on the pinned sheet", "[unit]") {
   const Scene scene = find_law("pinned_sheet").scenes(LawSize::least).at(0);
   std::vector<Vec3> x = scene.rest_positions, along(x.size());

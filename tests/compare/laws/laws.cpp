@@ -1,5 +1,5 @@
-// Laws must be able to fail. A converged solve, Newton's, obeys each of them; the same scene with another constant,
-// told as if it were the right one, breaks it.
+// Tests that laws can fail. A converged solve, by Newton's method, obeys each law; a solve of the same scene with
+// another constant, given to the law as if it were right, breaks it.
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -57,7 +57,7 @@ Change times(double Material::*constant, double factor) {
   };
 }
 
-/// What each law must notice.
+/// The change that each law must notice.
 const std::map<std::string_view, Change> changes{
     {"free_fall", gravity_times(1.001)},
     {"free_fall_order", gravity_times(1.01)},
@@ -89,11 +89,11 @@ const std::map<std::string_view, Change> changes{
     {"pendulum", gravity_times(1.05)},
     {"pinned_sheet",
      [](Scene& scene) {
-       scene.motions[0].velocity = {1, 0, 0};  // who carries the corner along gives it energy
+       scene.motions[0].velocity = {1, 0, 0};  // whatever carries the corner along does work on the sheet
      }},
 };
 
-/// A run whose states are all the start, at rest.
+/// Returns a run whose states all equal the start, at rest.
 Trajectory still(const Scene& scene) {
   const std::size_t steps = static_cast<std::size_t>(scene.settings.steps);
   return {.scene = scene,
@@ -126,8 +126,9 @@ TEST_CASE("laws of rods hold of their closed answers, and of nothing a tenth off
   }
 }
 
-// The last step pulls an outer corner out by s. All else is at rest, so that the step leaves f = M Δ/h² + ∇U − M a at
-// that corner alone. Equation (5) of beams.cpp makes a limit of f, which few sweeps may come to and many may not.
+// The last step pulls an outer corner out by s. All else is at rest, so the step leaves f = M Δ/h² + ∇U − M a at that
+// corner alone. Equation (5) of beams.cpp derives a limit from f, which a solver of few sweeps may reach and one of
+// many may not.
 TEST_CASE("laws: energy is gained by what few sweeps leave, and by nothing else", "[unit]") {
   const Law& pinned = find_law("pinned_sheet");
   const std::vector<Scene> scenes = pinned.scenes(LawSize::least);

@@ -1,6 +1,6 @@
-// Primitives with common vertices intersect where they meet beyond the face that these span. What the audit says of two
-// triangles that share an edge or a vertex, of a triangle and a loose edge, and of two loose edges, beside brute force
-// in rational numbers, in all orders.
+// Checks the audit of primitives with common vertices. They intersect where they meet beyond the face that the common
+// vertices span. Two triangles that share an edge or a vertex, a triangle and a loose edge, and two loose edges are
+// compared with brute force in rational numbers, in all orders.
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
@@ -19,8 +19,8 @@ namespace {
 
 using Simplex = std::vector<Index>;
 
-/// The solution of the columns in `set`, where it is the only one and non-negative; else empty. Last entry of a row:
-/// right side.
+/// Returns the solution of the columns in `set` if it is unique and non-negative, else an empty list. The last entry of
+/// a row is its right side.
 std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t columns, unsigned set) {
   std::vector<Row> chosen(rows.size());
   std::vector<std::size_t> place;
@@ -54,8 +54,8 @@ std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t c
   return solution;
 }
 
-/// Whether two proper simplices share a point beyond the hull of their common vertices. At such a point a vertex of the
-/// first that is not common has a positive weight. If any solution has one, a basic solution has one.
+/// Returns whether two proper simplices share a point beyond the hull of their common vertices. At that point a vertex
+/// of the first that is not common has a positive weight. If any solution has one, a basic solution has one.
 bool meet_beyond(const Simplex& first, const Simplex& second, const std::vector<Vec3>& x) {
   std::vector<Row> rows(5);
   const std::size_t columns = first.size() + second.size();
@@ -93,7 +93,7 @@ std::size_t audited(const Simplex& first, const Simplex& second, const std::vect
   return audit(build_topology(static_cast<Index>(x.size()), triangles, edges), x).count;
 }
 
-/// Both in every order of their corners, one after the other and the other way round.
+/// Checks both in every order of their corners, and each of the two first.
 void check_in_all_orders(Simplex first, Simplex second, const std::vector<Vec3>& x, bool expected) {
   std::ranges::sort(first);
   do {
@@ -116,24 +116,25 @@ TEST_CASE("two triangles on an edge, a vertex, and beside a loose edge, as they 
   };
   const Vec3 o{0, 0, 0};
   const std::vector<Known> cases{
-      // cross in their plane, without a corner of one in the other
+      // They cross in their plane, with no corner of one in the other.
       {{{0, 0.2, 0}, {2, 0.2, 0}, {0.5, 0.2, 2}, {1.5, 0.2, 2}}, {0, 1, 2}, {0, 1, 3}, true},
-      // folded flat, a corner in the other; onto the same place; nearly flat
+      // They are folded flat, with a corner in the other; onto the same place; nearly flat.
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, 1}}, {0, 1, 2}, {0, 1, 3}, true},
       {{o, {2, 0, 0}, {1, 0, 2}, {1, 0, 2}}, {0, 1, 2}, {0, 1, 3}, true},
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 1e-7, 1}}, {0, 1, 2}, {0, 1, 3}, false},
-      // flat and open
+      // They are flat and open.
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, -1}}, {0, 1, 2}, {0, 1, 3}, false},
-      // a common vertex: one cuts the other; they overlap in their plane; an edge lies on the other; nothing else
+      // They share a vertex: one cuts the other; they overlap in their plane; an edge lies on the other; no more is
+      // common.
       {{o, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {3, 0, 1.5}}, {0, 1, 2}, {0, 3, 4}, true},
       {{o, {2, 0, 0}, {0, 0, 2}, {2, 0, 0.5}, {0.5, 0, 2}}, {0, 1, 2}, {0, 3, 4}, true},
       {{o, {2, 0, 0}, {0, 0, 2}, {1, 0, 0}, {0, 0, -2}}, {0, 1, 2}, {0, 3, 4}, true},
       {{o, {2, -1, 0}, {2, 1, 0}, {-1, 0, -1}, {-1, 0, 1}}, {0, 1, 2}, {0, 3, 4}, false},
-      // a loose edge crosses the opposite side in the triangle's plane; ends on it; ends before it
+      // A loose edge crosses the opposite side in the triangle's plane; ends on it; ends before it.
       {{o, {2, -1, 0}, {2, 1, 0}, {3, 0, 0}}, {0, 1, 2}, {0, 3}, true},
       {{o, {2, -1, 0}, {2, 1, 0}, {2, 0, 0}}, {0, 1, 2}, {0, 3}, true},
       {{o, {2, -1, 0}, {2, 1, 0}, {3, 0, 0x1p-60}}, {0, 1, 2}, {0, 3}, false},
-      // loose edges: folded onto each other; one goes on where the other ends
+      // Loose edges are folded onto each other; one continues the other.
       {{o, {2, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 2}, true},
       {{o, {2, 0, 0}, {-1, 0, 0}}, {0, 1}, {0, 2}, false}};
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -164,7 +165,7 @@ TEST_CASE("adjacent primitives meet where rational numbers say so, on lattices w
     for (int round = 0; round < 600; ++round)
       for (const auto& [first, second] : kinds) {
         std::vector<Vec3> x;
-        const std::uint64_t flat = draw() % 3;  // in a plane where 0: there degenerate cases are most of all
+        const std::uint64_t flat = draw() % 3;  // 0: in a plane, where most cases are degenerate
         while (x.size() < 5) x.push_back({double(draw() % 4), double(draw() % 4), flat == 0 ? 0. : double(draw() % 3)});
         if (!is_proper(first, x) || !is_proper(second, x)) continue;
         const bool expected = meet_beyond(first, second, x);

@@ -19,7 +19,7 @@ namespace {
 
 using Kind = IntersectionKind;
 
-/// A horizontal triangle 0 1 2 and a triangle 3 4 5 whose first corner is `tip` and which hangs above it.
+/// A horizontal triangle 0 1 2, and a triangle 3 4 5 that hangs above it with `tip` as its first corner.
 struct TwoTriangles {
   std::vector<Vec3> positions;
   Topology topology = build_topology(6, std::array{Triangle{0, 1, 2}, Triangle{3, 4, 5}});
@@ -33,7 +33,7 @@ Intersection edge_meets(const Topology& topology, Index a, Index b, Index triang
   return {Kind::edge_triangle, find_edge(topology, a, b), triangle};
 }
 
-/// Every pair, by rational brute force; isolated vertices are no part of a surface.
+/// Returns the intersections of all pairs by rational brute force; isolated vertices belong to no surface.
 std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<Vec3>& positions) {
   std::vector<Intersection> found;
   const auto at = [&](Index v) { return positions[static_cast<std::size_t>(v)]; };
@@ -49,7 +49,7 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
     test(Kind::edge_triangle, static_cast<Index>(e), topology.edges[e]);
   for (Index v = 0; v < topology.vertex_count; ++v)
     if (topology.vertex_edges[static_cast<std::size_t>(v)].size() > 0) test(Kind::vertex_triangle, v, {v, v});
-  // Edges with the side that a triangle has opposite to their one common vertex.
+  // Pairs of an edge and the side of a triangle opposite to their only common vertex.
   std::vector<Intersection> sides;
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
     for (const Triangle& t : topology.triangles) {
@@ -66,7 +66,7 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
   return found;
 }
 
-/// An n × n grid on the unit square, rolled up as a spiral whose layers do not touch; `shear` turns it out of the
+/// An n × n grid on the unit square, rolled up to a spiral whose layers do not touch; `shear` turns it out of the
 /// coordinate planes.
 struct RolledSheet {
   std::vector<Vec3> positions;
@@ -135,7 +135,7 @@ TEST_CASE("two components that meet in a corner each lie on the other", "[unit]"
 }
 
 TEST_CASE("coplanar triangles that overlap are found even where no vertex lies on the other", "[unit]") {
-  // A star of two triangles: every edge crosses two edges of the other, no corner lies inside.
+  // The triangles form a star: every edge crosses two edges of the other, and no corner lies inside.
   const std::vector<Vec3> positions{{0, 3, 1}, {3, -2, 1}, {-3, -2, 1}, {0, -3, 1}, {3, 2, 1}, {-3, 2, 1}};
   const Topology topology = build_topology(6, std::array{Triangle{0, 1, 2}, Triangle{3, 4, 5}});
   const AuditResult result = audit(topology, positions);
@@ -148,7 +148,7 @@ TEST_CASE("triangles that are folded onto each other along an edge are listed by
   const std::vector<Vec3> folded{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
   const Topology topology = build_topology(4, std::array{Triangle{0, 1, 2}, Triangle{1, 0, 3}});
   const auto edge = [&](Index a, Index b) { return find_edge(topology, a, b); };
-  // Vertex 2 lies on triangle 1, which does not contain it, and the other way round; sides meet in that corner.
+  // Vertex 2 lies on triangle 1, which does not contain it, and vertex 3 on triangle 0; sides meet in that corner.
   CHECK(audit(topology, folded).intersections == std::vector{Intersection{Kind::vertex_triangle, 2, 1},
                                                              Intersection{Kind::vertex_triangle, 3, 0},
                                                              Intersection{Kind::edge_edge, edge(0, 2), edge(1, 3)},
@@ -156,7 +156,8 @@ TEST_CASE("triangles that are folded onto each other along an edge are listed by
 }
 
 TEST_CASE("curves that touch or cross in a point are listed, by the edges of no triangle alone", "[unit]") {
-  // A triangle 0 1 2, a chain 3 4 5 that crosses an edge 6 7, and an edge 8 9 whose end lies on it.
+  // The scene is a triangle 0 1 2, a chain 3 4 5 that crosses an edge 6 7, and an edge 8 9 whose end lies on the
+  // latter.
   const std::vector<Vec3> positions{{5, 5, 5}, {6, 5, 5},  {5, 6, 5}, {-1, 0, 0},  {1, 0, 0},
                                     {2, 1, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0.5, 0}, {0, 0.5, 3}};
   const Topology topology = build_topology(10, std::vector<Triangle>{{0, 1, 2}},
@@ -171,7 +172,7 @@ TEST_CASE("curves that touch or cross in a point are listed, by the edges of no 
   apart[6].z = apart[7].z = 0x1p-60;
   apart[8].y = 2;
   CHECK(audit(topology, apart).count == 0);
-  // Two edges of triangles in one plane are found by their triangles, once each.
+  // Two crossing edges of triangles in one plane are found through their triangles, once each.
   const std::vector<Vec3> flat{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, -1, 0}, {1, 5, 0}, {9, 9, 0}};
   const AuditResult plane = audit(build_topology(6, std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}), flat);
   CHECK(std::none_of(plane.intersections.begin(), plane.intersections.end(),
@@ -185,7 +186,8 @@ TEST_CASE("a pair inside one rigid group is left out, a pair of two groups is no
   CHECK(mesh.audit(std::vector<Index>(6, -1)).count == 2);
   CHECK(mesh.audit(std::vector<Index>{0, 0, 0, 1, 1, 1}).count == 2);
   CHECK(mesh.audit(std::vector<Index>{0, 0, -1, 0, 0, 0}).count == 2);
-  CHECK(mesh.audit(std::vector<Index>{0, 0, 0, 0, 1, 0}).count == 1);  // edge 3–5 is inside, edge 3–4 is not
+  // edge 3–5 lies within the group, edge 3–4 does not
+  CHECK(mesh.audit(std::vector<Index>{0, 0, 0, 0, 1, 0}).count == 1);
 }
 
 TEST_CASE("a pair beside an excluded pair of vertices is left out, either way round, others are not", "[unit]") {
@@ -197,15 +199,15 @@ TEST_CASE("a pair beside an excluded pair of vertices is left out, either way ro
   CHECK(count({{5, 0}}) == 1);  // edge 3–5
   CHECK(count({{0, 5}}) == 1);
   CHECK(count({{4, 1}, {2, 5}}) == 0);
-  CHECK(count({{2, 3}}) == 0);          // of both edges
-  CHECK(count({{4, 5}, {0, 1}}) == 2);  // within a side
+  CHECK(count({{2, 3}}) == 0);          // both edges at 3 are beside vertex 2
+  CHECK(count({{4, 5}, {0, 1}}) == 2);  // each pair lies in one triangle
 }
 
 TEST_CASE("collapsed triangles and loose edges are audited like the rest", "[unit]") {
   const std::vector<Vec3> positions{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, -1}, {1, 1, 1}, {5, 5, 5}};
   const Topology topology = build_topology(6, std::vector<Triangle>{{0, 1, 2}}, std::array{Edge{3, 4}, Edge{4, 5}});
   CHECK(audit(topology, positions).intersections == std::vector{edge_meets(topology, 3, 4, 0)});
-  // everything in one point: two edges and three vertices on the triangle, and the end of an edge on the next one
+  // All lies in one point: two edges and three vertices on the triangle, and the end of an edge on the next one.
   CHECK(audit(topology, std::vector<Vec3>(6, Vec3{1, 1, 1})).count == 6);
   CHECK(audit(build_topology(0, {}), {}).count == 0);
 }

@@ -48,7 +48,7 @@ TEST_CASE("vertices that rest, with bound zero, without a number", "[unit]") {
   CHECK(rest.kept());
   CHECK(rest.worst_vertex == -1);
   CHECK(of_one({1, 0, 0}, {0, 0, 0}, 0).worst_ratio == infinity);
-  CHECK_FALSE(of_one({0x1p-149f, 0, 0}, {0, 0, 0}, 0).kept());  // the smallest motion there is
+  CHECK_FALSE(of_one({0x1p-149f, 0, 0}, {0, 0, 0}, 0).kept());  // the smallest possible motion
   CHECK_FALSE(of_one({nan, 0, 0}, {0, 0, 0}, 1).kept());
   CHECK_FALSE(of_one({infinity, 0, 0}, {infinity, 0, 0}, 1).kept());
   CHECK_FALSE(of_one({0, 0, 0}, {0, 0, 0}, nan).kept());

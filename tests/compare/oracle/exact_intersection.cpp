@@ -14,7 +14,7 @@ namespace {
 using Segment = std::array<Vec3, 2>;
 using Corners = std::array<Vec3, 3>;
 
-/// The answer, which every order of the points and every order of the axes must give, and brute force too.
+/// Returns the answer and checks that every order of points and of axes, and brute force, give the same.
 bool answer(const Segment& s, const Corners& t) {
   const bool expected = hulls_meet(s, t);
   constexpr std::array<std::array<std::size_t, 3>, 6> orders{
@@ -88,8 +88,8 @@ TEST_CASE("a segment of length zero is a point", "[unit]") {
 }
 
 TEST_CASE("one unit in the last place decides, where a computation in double does not see it", "[unit]") {
-  // In the plane x = y; a point (1/2 + i 2⁻⁵³, 1/2 + j 2⁻⁵³, 0) lies on it only where i = j, but subtracting a corner
-  // rounds i and j away.
+  // A point (1/2 + i 2⁻⁵³, 1/2 + j 2⁻⁵³, 0) lies in the plane x = y only if i = j, but subtracting a corner rounds i
+  // and j away.
   const Corners plane{Vec3{-24, -24, -8}, Vec3{24, 24, -8}, Vec3{1, 1, 40}};
   int wrong_in_double = 0;
   for (int i = 0; i < 8; ++i) {
@@ -98,7 +98,7 @@ TEST_CASE("one unit in the last place decides, where a computation in double doe
       const double dx = p.x - plane[0].x, dy = p.y - plane[0].y;
       wrong_in_double += (dx == dy) != (i == j);
       CHECK(segment_meets_triangle({p, p}, plane) == (i == j));
-      const double away = i < j ? -1 : 1;  // the other end on the point's own side
+      const double away = i < j ? -1 : 1;  // puts the other end on the point's side
       CHECK(segment_meets_triangle({p, Vec3{0.5 + away, 0.5 - away, 0}}, plane) == (i == j));
       CHECK(segment_meets_triangle({p, Vec3{0.5 - away, 0.5 + away, 0}}, plane));
     }
@@ -120,7 +120,7 @@ TEST_CASE(
   std::mt19937 random(7);
   std::array<int, 2> seen{};
   for (const int size : {1, 2, 3, 1 << 20}) {
-    const double scale = size > 3 ? 0.1 : 1;  // 0.1 is no binary fraction: full mantissas
+    const double scale = size > 3 ? 0.1 : 1;  // 0.1 is no binary fraction and fills all bits of the mantissa
     std::uniform_int_distribution<int> coordinate(0, size);
     const auto point = [&] {
       return Vec3{scale * coordinate(random), scale * coordinate(random), scale * coordinate(random)};

@@ -19,7 +19,7 @@ namespace {
 constexpr MeetingKind vertex = MeetingKind::vertex_triangle, edges = MeetingKind::edge_edge;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The pair, if its ends are doubles.
+/// Returns the pair if its ends are doubles.
 std::optional<MovingPair> pair_of(const PairMotion& m) {
   MovingPair pair{.kind = m.edges ? edges : vertex};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -85,7 +85,7 @@ TEST_CASE(
     ++met;
     REQUIRE(time->low <= time->high);
     REQUIRE(time->high <= std::nextafter(time->low, infinity));
-    if (time->low < 0x1p-40) continue;  // integers have no finer times
+    if (time->low < 0x1p-40) continue;  // integers resolve no finer times
     REQUIRE(exactly_meet(m.edges, m.x, m.delta, time->high));
     REQUIRE_FALSE(exactly_meet(m.edges, m.x, m.delta, std::nextafter(time->low, 0)));
   }
@@ -95,8 +95,9 @@ TEST_CASE(
   CHECK(culled > (asked - met) / 2);
 }
 
-/// Coordinates of a few small whole numbers: collapsed triangles, points for edges, motions in one plane or along one
-/// line, touching at begin and end. At dyadic times positions are doubles, and rationals tell what meets.
+/// Coordinates are a few small integers: collapsed triangles, edges that are points, motions in one plane or along one
+/// line, touching at begin and end. At dyadic times positions are doubles, and rational arithmetic decides whether they
+/// meet.
 TEST_CASE(
     "first meeting: degenerate motions on a grid agree with rational arithmetic at 17 times, and with themselves "
     "backwards and in any order of vertices",
@@ -104,7 +105,7 @@ TEST_CASE(
   std::mt19937 engine(5);
   int met = 0, planar = 0;
   for (int i = 0; i < 600; ++i) {
-    const int flat = i % 4;  // coordinates that vary: 3, 2, 1, 3
+    const int flat = i % 4;  // 3, 2, 1 or 3 coordinates vary
     const auto coordinate = [&](int axis) {
       return flat > 0 && flat < 3 && axis >= 3 - flat ? 1.0 : std::uniform_int_distribution<int>(0, 2)(engine);
     };
@@ -137,7 +138,7 @@ TEST_CASE(
 }
 
 TEST_CASE("first meeting: an irrational time lies between two neighbouring doubles", "[unit]") {
-  // The vertex falls by t while the triangle's plane turns: heights 1 − 3t + t² and the like.
+  // The vertex falls by t while the triangle's plane turns; heights are polynomials like 1 − 3t + t².
   const MovingPair pair = with_delta(vertex, {{{0.25, 0.25, 1}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}},
                                      {{{0, 0, -2}, {0, 0, 0}, {0, 0, 3}, {0.5, 0, 1}}});
   const auto time = first_meeting(pair);
@@ -159,7 +160,7 @@ TEST_CASE(
     CHECK(first_meeting(closing(1))->low == 1);
     CHECK(first_meeting(closing(4))->low == 0.25);
     CHECK_FALSE(first_meeting(closing(1 - 0x1p-40)));
-    // along one line
+    // The edges move along one line.
     const auto on_line = [&](double way) {
       return with_delta(edges, {at(0, 0), at(1, 0), at(2, 0), at(3, 0)},
                         {Vec3{}, Vec3{}, Vec3{-way, 0, -slope * way}, Vec3{-way, 0, -slope * way}});
@@ -185,7 +186,7 @@ TEST_CASE("first meeting: faces that pass through a point in passing, and number
       for (Vec3& v : x) v = scaled(v);
       return x;
     };
-    // The triangle collapses to a segment at t = 1/2, just when the vertex is on it.
+    // The triangle collapses to a segment at t = 1/2, when the vertex is on it.
     const MovingPair pair{.kind = vertex,
                           .from = all({{{0.5, -1, 0}, {0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}}}),
                           .to = all({{{0.5, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0.5, -1, 0}}})};

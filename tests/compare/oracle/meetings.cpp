@@ -27,10 +27,10 @@ constexpr MeetingKind vertex = MeetingKind::vertex_triangle, edges = MeetingKind
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Coordinates that integers hold exactly.
+/// Rounds to a coordinate that the integers of the brute force hold exactly.
 double coarse(double x) { return std::ldexp(std::nearbyint(std::ldexp(x, 20)), -20); }
 
-/// A heap of triangles and loose edges in the unit cube; every vertex moves by up to `reach`.
+/// Random triangles and loose edges in the unit cube; every vertex moves by up to `reach`.
 struct Heap {
   std::vector<Vec3> from, to;
   Topology topology;
@@ -106,7 +106,7 @@ TEST_CASE("meetings: a state without intersections and a motion without meetings
   int clean = 0, passed = 0;
   for (unsigned seed = 100; seed < 400; ++seed) {
     Heap heap(seed, 0.3);
-    for (std::size_t v = 0; v < heap.from.size(); ++v) {  // apart: each face in a slice of its own, but for neighbours
+    for (std::size_t v = 0; v < heap.from.size(); ++v) {  // each face lies in its own slice, apart from neighbours
       heap.from[v].z = coarse(heap.from[v].z * 0.02 + 0.1 * double(v / 4));
       heap.to[v].z = coarse(heap.from[v].z + (heap.to[v].x - heap.from[v].x) * (seed % 2 == 0 ? 0.1 : 1));
     }
@@ -157,13 +157,13 @@ TEST_CASE(
   CHECK(result.count % 2 == 1);
   int change = 0;
   for (const Meeting& m : result.meetings) {
-    // The edges meet once, for the motion is a translation: before and after, the one passes the other's side.
+    // The motion is a translation, so the edges meet once: one lies on different sides of the other before and after.
     std::vector<Vec3> before = from, after = from;
     const auto place = [&](std::vector<Vec3>& x, double t) {
       for (std::size_t v = at(n); v < x.size(); ++v) x[v].x = from[v].x + 3 * t;
     };
     place(before, m.time - 1e-6), place(after, m.time + 1e-6);
-    // as the rings run, not as edges are sorted
+    // Edges point along the ring, not as they are sorted.
     const auto along = [&](Index e) {
       const Edge& edge = topology.edges[at(e)];
       return edge[1] - edge[0] == 1 ? edge : Edge{edge[1], edge[0]};
@@ -171,7 +171,7 @@ TEST_CASE(
     change += (sense(after, along(m.first), along(m.second)) - sense(before, along(m.first), along(m.second))) / 2;
   }
   CHECK(std::abs(change) == std::abs(linking_number(to, n) - linking_number(from, n)));
-  // A common motion, and one that leaves the rings hooked, have none.
+  // A common motion, and one that leaves the rings hooked, have no meetings.
   for (std::size_t v = 0; v < to.size(); ++v) to[v] = {from[v].x + 3, from[v].y - 2, from[v].z + 7};
   CHECK(meetings(topology, from, to).count == 0);
   to = from;
@@ -199,7 +199,7 @@ TEST_CASE("meetings: what the audit leaves out is left out", "[unit]") {
   const Exclusions excluded{.groups = {}, .partners = partner_rows(4, std::vector<std::array<Index, 2>>{{1, 2}})};
   CHECK(meetings(apart, above, below, excluded).count == 0);
   const Topology joined = build_topology(4, {}, std::vector<Edge>{{0, 1}, {1, 2}, {2, 3}});
-  CHECK(meetings(joined, above, below).count == 1);  // first and last edge; the middle one shares a vertex with each
+  CHECK(meetings(joined, above, below).count == 1);  // first and last edge; the middle one shares a vertex with both
 }
 
 TEST_CASE("meetings: lists at most what it is asked for, on any number of threads the same", "[property]") {
@@ -228,7 +228,7 @@ TEST_CASE("meetings: what a way will cost is told by all of a small mesh and by 
   CHECK(small.pairs == static_cast<double>(meetings(heap.topology, heap.from, heap.to).pairs_tested));
   CHECK(small.seconds > 0);
   CHECK(small.bytes > 2 * heap.from.size() * sizeof(Vec3));
-  // 6,000 rods in a row that all meet the box of the next one and of no other, each asked for its own pair.
+  // Each of 6,000 rods in a row meets the box of the next rod and of no other.
   std::vector<Vec3> from, to;
   std::vector<Edge> rods;
   for (Index k = 0; k < 6000; ++k) {
@@ -246,8 +246,8 @@ TEST_CASE("meetings: what a way will cost is told by all of a small mesh and by 
 }
 
 TEST_CASE("meetings: a braid of 65,000 edges a step on is proved in seconds", "[property]") {
-  // Pairs of strands, wound about each other at 0.7 contact radii and slanted, so that boxes of near edges meet; each
-  // vertex moves by 0.05 of a radius.
+  // Pairs of strands are wound about each other at 0.7 contact radii and slanted, so that boxes of near edges meet.
+  // Each vertex moves by 0.05 of a radius.
   const Index strands = 65, segments = 1000;
   const double radius = 1e-3;
   std::vector<Vec3> from, to;

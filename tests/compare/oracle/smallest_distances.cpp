@@ -20,8 +20,8 @@ using Point = std::array<Rational, 3>;
 Rational dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Squared distance of the point of span(directions) + offset nearest to the origin, where its coefficients are ≥ 0 and
-/// those of each of the two groups of directions add up to no more than 1; none where they do not, or where the
+/// Returns the squared distance from the origin to the nearest point of span(directions) + offset. Returns nothing if
+/// its coefficients are not all ≥ 0, if those of one of the two groups of directions add up to more than 1, or if the
 /// directions are dependent.
 std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std::size_t first_group,
                                        const Point& offset) {
@@ -32,7 +32,7 @@ std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std
     rows[i][n] = -dot(directions[i], offset);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (rows[i][i] == 0) return std::nullopt;  // a Gram matrix: a zero pivot means dependent directions
+    if (rows[i][i] == 0) return std::nullopt;  // in a Gram matrix a zero pivot means dependent directions
     for (std::size_t j = 0; j < n; ++j) {
       if (j == i) continue;
       const Rational factor = rows[j][i] / rows[i][i];
@@ -51,7 +51,7 @@ std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std
   return dot(nearest, nearest);
 }
 
-/// Squared distance of two convex hulls: the least over all pairs of faces, without a case distinction.
+/// Returns the squared distance of two convex hulls: the least over all pairs of faces, without case distinctions.
 Rational hull_distance(const std::vector<Point>& first, const std::vector<Point>& second) {
   std::optional<Rational> least;
   for (unsigned a = 1; a < 1u << first.size(); ++a) {
@@ -100,7 +100,7 @@ Nearest all_pairs(const std::vector<Vec3>& positions, const std::vector<First>& 
   return nearest;
 }
 
-/// `distance` is the largest double that is not above the root of `square`.
+/// Returns whether `distance` is the largest double that does not exceed the root of `square`.
 bool is_root_rounded_down(double distance, const Rational& square) {
   const double next = std::nextafter(distance, 1e300);
   return Rational(distance) * Rational(distance) <= square &&
@@ -166,7 +166,7 @@ TEST_CASE("the nearest pairs and their distances are those of brute force in rat
 TEST_CASE("nearly parallel edges have the distance of rational arithmetic, down to an angle of 1e-12", "[property]") {
   const Topology topology = build_topology(4, {}, std::vector<Edge>{{0, 1}, {2, 3}});
   for (double angle = 0.1; angle > 5e-13; angle /= 10) {
-    // crossing above the origin
+    // The edges cross above the origin.
     const std::vector<Vec3> positions{{-1, 0, 0}, {1, 0, 0}, {-1, -angle, 0.25}, {1, angle, 0.25}};
     CHECK(smallest_distances(topology, positions).edge_edge == 0.25);
   }

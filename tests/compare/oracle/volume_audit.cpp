@@ -1,4 +1,4 @@
-// What the oracle says of volumes, against cases decided by hand.
+// Tests the oracle of volumes on cases decided by hand.
 #include "compare/oracle/volume_audit.hpp"
 
 #include "compare/problem/error.hpp"
@@ -9,7 +9,7 @@ using namespace ogc::compare;
 
 namespace {
 
-/// The surface of a cube of 1 m from `corner` on, outward; vertex (i, j, k) is number 4i + 2j + k.
+/// Returns the surface of a cube of 1 m from `corner` on, facing outward; vertex (i, j, k) has number 4i + 2j + k.
 Mesh cube(const Vec3& corner) {
   Mesh mesh;
   for (int v = 0; v < 8; ++v) mesh.positions.push_back({corner.x + v / 4, corner.y + v / 2 % 2, corner.z + v % 2});
@@ -19,14 +19,14 @@ Mesh cube(const Vec3& corner) {
   return mesh;
 }
 
-/// Without its last two triangles, those at z = 1.
+/// Returns the cube without its last two triangles, those at z = 1.
 Mesh open_box(const Vec3& corner) {
   Mesh mesh = cube(corner);
   mesh.triangles.resize(mesh.triangles.size() - 2);
   return mesh;
 }
 
-/// A cloth of one triangle before volumes of these surfaces.
+/// Returns a scene of a cloth of one triangle followed by volumes with these surfaces.
 Scene scene_of(const std::array<Vec3, 3>& cloth, const std::vector<Mesh>& volumes) {
   Scene scene;
   scene.name = "volumes";
@@ -46,7 +46,7 @@ TEST_CASE("vertices inside a volume are counted, and the deepest is named", "[un
   CHECK(found.vertices_inside == 2);
   CHECK(found.deepest_vertex == 0);
   CHECK(found.deepest == 0.25);
-  CHECK(found.edges_meeting == 3);  // those to the vertex outside, and the diagonal of the cube's face at z = 1
+  CHECK(found.edges_meeting == 3);  // the two edges to the vertex outside, and the diagonal of the cube's face at z = 1
 }
 
 TEST_CASE("a vertex on the surface is outside, whichever face, edge or corner it is on", "[unit]") {
@@ -57,7 +57,7 @@ TEST_CASE("a vertex on the surface is outside, whichever face, edge or corner it
 }
 
 TEST_CASE("a ray through edges and corners counts as one beside them", "[unit]") {
-  // towards +x it meets the far face's diagonal, or passes over corners of a second cube
+  // Towards +x the ray meets the far face's diagonal, or passes over corners of a second cube.
   for (const Vec3& x : {Vec3{0.5, 0.5, 0.5}, {0.25, 0.25, 0.75}, {0.5, 0.75, 0.25}}) {
     CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({})})).vertices_inside == 1);
     CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({3, 0.5, 0.5}), cube({})})).vertices_inside == 1);
@@ -68,10 +68,10 @@ TEST_CASE("a ray through edges and corners counts as one beside them", "[unit]")
 TEST_CASE("each part answers by itself, and a rim is closed by a fan", "[unit]") {
   const Scene overlapping = scene_of({{{0.75, 0.5, 0.5}, {5, 5, 5}, {5, 5, 6}}}, {cube({}), cube({0.5, 0, 0})});
   CHECK(audited(overlapping).vertices_inside == 1);
-  CHECK(audited(overlapping).deepest == 0.25);  // of the part that it is deeper in: 0.25 from x = 1 and from x = 0.5
+  CHECK(audited(overlapping).deepest == 0.25);  // in the part where it is deeper; 0.25 from x = 1 and from x = 0.5
   const Scene open = scene_of({{{0.5, 0.5, 0.75}, {0.5, 0.5, 1.25}, {5, 5, 6}}}, {open_box({})});
   CHECK(audited(open).vertices_inside == 1);
-  CHECK(audited(open).deepest == 0.5);  // to the walls: the lid is none of its triangles
+  CHECK(audited(open).deepest == 0.5);  // to the walls, since no triangle is a lid
 }
 
 TEST_CASE("a vertex in the void of a part is outside, and one in its wall as deep as its nearer side says", "[unit]") {
@@ -95,7 +95,7 @@ TEST_CASE("edges of a volume that pass a cloth between its vertices are counted"
   const Scene scene = scene_of({{{-9, -9, 0.5}, {9, -9, 0.5}, {0, 18, 0.5}}}, {cube({})});
   const VolumePenetration found = audited(scene);
   CHECK(found.vertices_inside == 0);
-  // of the cube's edges along z four, and four diagonals of its upright faces
+  // Four edges of the cube along z and four diagonals of its upright faces meet the cloth.
   CHECK(found.edges_meeting == 8);
 }
 
@@ -109,8 +109,8 @@ TEST_CASE("a scene without volumes lets nothing in, and positions must be the sc
 
 namespace {
 
-/// Two cubes of 1 m, six tetrahedra each, as one free volume or, `apart`, as two; the second reaches `back` into the
-/// first.
+/// Returns two cubes of 1 m, six tetrahedra each, as one free volume or, if `apart`, as two. The second reaches `back`
+/// into the first.
 Scene free_cubes(double back, bool apart) {
   Mesh mesh = ogc::tests::block_mesh(2, 1);
   const Mesh other = ogc::tests::block_mesh(2, 1, {1 - back, 0.25, 0.25});
@@ -133,14 +133,15 @@ Scene free_cubes(double back, bool apart) {
 TEST_CASE("vertices of free volumes inside each other, and inside their own body, are counted", "[unit]") {
   for (const bool apart : {true, false}) {
     const VolumePenetration found = audited(free_cubes(0.125, apart));
-    // of the second cube (0.875, 0.25, 0.25), of the first (1, 1, 1): 0.125 from x = 1 and from x = 0.875
+    // Inside are (0.875, 0.25, 0.25) of the second cube and (1, 1, 1) of the first: 0.125 from x = 1 and from x =
+    // 0.875.
     CHECK(found.vertices_inside == 2);
     CHECK(found.deepest == 0.125);
     CHECK(found.edges_meeting > 0);
   }
   CHECK(audited(free_cubes(-0.125, false)).vertices_inside == 0);
   CHECK(audited(free_cubes(-0.125, false)).edges_meeting == 0);
-  // one that touches is outside of another body; of its own it lies on a tetrahedron
+  // A touching vertex is outside another body, but lies on a tetrahedron of its own body.
   CHECK(audited(free_cubes(0, true)).vertices_inside == 0);
   CHECK(audited(free_cubes(0, false)).vertices_inside == 2);
 }

@@ -1,5 +1,5 @@
-// Settings that a contestant declares are in the table with the problem's own, for whatever reads it: the other tests
-// of this program see these rows, too.
+// Tests that settings which a contestant declares join the problem's own in the table, for all code that reads it. The
+// other tests of this program see these rows too.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -32,7 +32,7 @@ std::size_t index_of(std::string_view name) {
 }  // namespace
 
 TEST_CASE("declared settings follow the problem's, by the names of their contestants", "[unit]") {
-  // Contestants that are linked declare theirs between "another" and "tests", as their names stand.
+  // Linked contestants declare theirs between "another" and "tests", in the order of their names.
   const std::size_t own = index_of("tests_share");
   CHECK(index_of("another_share") == index_of("start_frames") + 1);
   CHECK(index_of("another_share") < own);

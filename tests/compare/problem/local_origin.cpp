@@ -1,4 +1,5 @@
-// Differences from a local origin are exact, single precision keeps them, and what is printed is what the file had.
+// Tests that differences from a local origin are exact, that single precision keeps them, and that printed coordinates
+// equal those of the file.
 #include "compare/problem/local_origin.hpp"
 
 #include <cmath>
@@ -12,7 +13,7 @@ using namespace ogc::compare;
 TEST_CASE("a mesh near 0 for its size has no local origin, one far away an exact one in the far coordinates",
           "[unit]") {
   CHECK(local_origin({}) == Vec3{});
-  CHECK(local_origin({{5e5, 0, 0}}) == Vec3{});  // no size
+  CHECK(local_origin({{5e5, 0, 0}}) == Vec3{});  // a point has no size
   CHECK(local_origin({{14, 0, 0}, {15, 1, 0}}) == Vec3{});
   CHECK(local_origin({{16, 0, 0}, {17, 1, 0}}) == Vec3{17, 0, 0});
   CHECK(local_origin({{512345.678, 3, 5403210.5}, {512445.678, 4, 5403300.25}}) == Vec3{512384, 0, 5403264});
@@ -26,7 +27,7 @@ TEST_CASE("coordinates with millimetres come back to their digits through single
           "[property]") {
   std::mt19937_64 random(13);
   std::vector<Vec3> positions;
-  const auto draw = [&](double centre) {  // with three digits, within 50 m
+  const auto draw = [&](double centre) {  // rounds to three digits, within 50 m
     return std::round(1000 * centre + std::uniform_int_distribution<int>(-50000, 50000)(random)) / 1000;
   };
   for (int i = 0; i < 2000; ++i) positions.push_back({draw(512345), draw(150), draw(-5403210)});
@@ -41,7 +42,8 @@ TEST_CASE("coordinates with millimetres come back to their digits through single
   }
   CHECK(in_file(origin, to_single(local)) == positions);
   CHECK(in_file({}, to_single(local)) == to_double(to_single(local)));
-  // An edge of 5 cm keeps its length to 2⁻²³ of a box of 100 m, not of 5,000 km: 1.2e-5 m for 0.5 m.
+  // An edge of 5 cm keeps its length to 2⁻²³ of a box of 100 m, 1.2e-5 m. Single precision at 512 km, where an ulp is
+  // 0.03 m, does not keep it.
   const std::vector<Vec3f> edge = to_single(relative_to(origin, {{512345.1, 0, 0}, {512345.15, 0, 0}}));
   CHECK(std::abs(double{edge[1].x} - double{edge[0].x} - 0.05) < 100 * 0x1p-23);
   CHECK(std::abs(static_cast<double>(512345.15f) - static_cast<double>(512345.1f) - 0.05) > 0.01);

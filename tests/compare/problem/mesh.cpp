@@ -1,5 +1,4 @@
-// Edge numbers are names that both contestants share, so the whole topology is checked against definitions, by brute
-// force.
+// Tests the whole topology against definitions, by brute force, because both contestants use edge numbers as names.
 #include "compare/problem/mesh.hpp"
 
 #include <algorithm>
@@ -25,7 +24,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Edge ordered(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-// Distinct triangles on few vertices: many edges with three and more triangles, isolated vertices, several components.
+// Returns distinct triangles on few vertices: many edges with three and more triangles, isolated vertices, several
+// components.
 Complex random_complex(unsigned seed, Index vertex_count, int triangle_count, int edge_count) {
   std::mt19937 random(seed);
   std::uniform_int_distribution<Index> vertex(0, vertex_count - 1);
@@ -82,7 +82,7 @@ std::vector<Edge> brute_force_edges(const Complex& complex) {
   return {edges.begin(), edges.end()};
 }
 
-// Row i: all j for which `belongs(i, j)`.
+// Returns in row i all j for which `belongs(i, j)`.
 template <class Belongs>
 std::vector<std::vector<Index>> brute_force_rows(std::size_t row_count, std::size_t item_count,
                                                  const Belongs& belongs) {

@@ -1,4 +1,4 @@
-// Segments of rods, and each kind of problem that a rod can have.
+// Tests segments of rods, and each kind of problem that a rod can have.
 #include "compare/problem/rods.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Vertices 1 m apart on a zigzag, edges between neighbours.
+/// Returns vertices 1 m apart along x on a zigzag, with edges between neighbours.
 Mesh chain(int count, double height = 0.5) {
   Mesh mesh;
   for (int v = 0; v < count; ++v) mesh.positions.push_back({double(v), v % 2 * height, 0});
@@ -20,7 +20,7 @@ Mesh chain(int count, double height = 0.5) {
   return mesh;
 }
 
-/// A sheet of one triangle, then a rod.
+/// Returns a scene of a sheet of one triangle, then a rod.
 Scene scene_of(const Mesh& mesh, bool is_rod = true) {
   Scene scene;
   scene.name = "rods";
@@ -69,7 +69,7 @@ TEST_CASE("what no rod can be is named with what to do", "[unit]") {
   SECTION("loose edges without it") {
     const std::string text = said(scene_of(chain(3), false));
     CHECK_THAT(text, Contains("vertex 0 of body 'yarn'") && Contains("it has no mass") && Contains("give the body's"));
-    CHECK(std::ranges::count(text, '\n') == 2);  // each vertex once
+    CHECK(std::ranges::count(text, '\n') == 2);  // each vertex is named once
   }
   SECTION("but those that are fixed, prescribed or carried by a triangle need none") {
     Scene fixed = scene_of(chain(3), false);
@@ -108,12 +108,12 @@ TEST_CASE("what no rod can be is named with what to do", "[unit]") {
                                            Contains("loose edge 1 of body 'yarn'"));
     folded.positions[3].y = 0x1p-149;
     CHECK(said(scene_of(folded)).empty());
-    // At a branch there is no frame to turn.
+    // A branch has no frame that turns.
     folded.positions[3].y = 0;
     folded.positions.push_back({2, 1, 0});
     folded.loose_edges.push_back({2, 4});
     CHECK(said(scene_of(folded)).empty());
-    // The start may fold, the rest shape may not.
+    // The start may be folded, the rest shape may not.
     Scene scene = scene_of(chain(4, 0));
     scene.mesh.positions[6] = {1.5, 0, 0};
     CHECK(said(scene).empty());

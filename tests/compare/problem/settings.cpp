@@ -1,4 +1,4 @@
-// The table is the only place that knows ranges; whatever reads it inherits these checks.
+// Tests the table of settings. Only the table knows ranges, so all code that reads it inherits these checks.
 #include "compare/problem/settings.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Faces, boundary and orientation of tetrahedra, and each kind of problem that a solid can have.
+// Tests faces, boundary and orientation of tetrahedra, and each kind of problem that a solid can have.
 #include "compare/problem/tetrahedra.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using ogc::tests::solid_scene;
 
 namespace {
 
-/// Two tetrahedra of unit edges on the face 1, 2, 3.
+/// Returns two tetrahedra with edges of 1 and √2 on the common face 1, 2, 3.
 Mesh pair_of_tetrahedra() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, {}, {}, {{0, 1, 2, 3}, {4, 1, 3, 2}}};
 }
@@ -57,7 +57,7 @@ TEST_CASE("orientation is exact: it tells one unit in the last place from none",
   const Vec3 a{1, 0, 0}, b{0, 1, 0}, c{0, 0, 1};
   CHECK(orientation({}, a, b, c) == 1);
   CHECK(orientation({}, b, a, c) == -1);
-  // in the plane x + y + z = 3·2²⁰ − 3 whose terms do not cancel in rounded arithmetic
+  // The points lie in the plane x + y + z = 3·2²⁰, whose terms do not cancel in rounded arithmetic.
   const double big = 0x1p20, small = 0x1p-3;
   const Vec3 p{big, big, big}, q{big + 1, big - small, big + small - 1}, r{big - small, big + 2, big + small - 2};
   Vec3 s{big + 3, big - 7, big + 4};

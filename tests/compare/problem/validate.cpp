@@ -1,4 +1,4 @@
-// One small change to a valid mesh or scene for each kind of problem: it is found, named, and nothing else is.
+// Tests each kind of problem by one small change to a valid mesh or scene: it is found and named, and nothing else is.
 #include "compare/problem/validate.hpp"
 
 #include <limits>

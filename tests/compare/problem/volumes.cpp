@@ -1,4 +1,4 @@
-// Parts of volumes, and each kind of problem that a volume can have.
+// Tests the parts of volumes, and each kind of problem that a volume can have.
 #include "compare/problem/volumes.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using ogc::tests::block_mesh;
 
 namespace {
 
-/// The surface of a cube of 1 m from `corner` on, outward; vertex (i, j, k) is number 4i + 2j + k.
+/// Returns the surface of a cube of 1 m from `corner` on, facing outward; vertex (i, j, k) has number 4i + 2j + k.
 Mesh cube(const Vec3& corner = {}) {
   Mesh mesh;
   for (int v = 0; v < 8; ++v) mesh.positions.push_back({corner.x + v / 4, corner.y + v / 2 % 2, corner.z + v % 2});
@@ -25,7 +25,7 @@ Mesh cube(const Vec3& corner = {}) {
   return mesh;
 }
 
-/// Both in one mesh.
+/// Returns both in one mesh.
 Mesh joined(Mesh mesh, const Mesh& more) {
   const auto first = static_cast<Index>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
@@ -38,14 +38,14 @@ Mesh reversed(Mesh mesh) {
   return mesh;
 }
 
-/// A cube without its last two triangles: a box without a lid.
+/// Returns a box without a lid: the cube without its last two triangles.
 Mesh open_box(const Vec3& corner = {}) {
   Mesh mesh = cube(corner);
   mesh.triangles.resize(mesh.triangles.size() - 2);
   return mesh;
 }
 
-/// A fixed volume, unless `fixed` says otherwise, behind a surface of one triangle.
+/// Returns a scene of a surface of one triangle, then a volume, fixed if `fixed`.
 Scene scene_of(const Mesh& mesh, bool fixed = true) {
   Scene scene;
   scene.name = "volumes";
@@ -69,7 +69,7 @@ TEST_CASE("a volume's parts are its connected surfaces, with the edges that have
   CHECK(parts[0].triangles.size() == 12);
   CHECK(parts[0].rims.empty());
   CHECK(parts[1].triangles.size() == 10);
-  // the lid 1, 5, 7, 3 of the second cube, whose vertices begin at 3 + 8, from the side of the box
+  // The rim is the lid 1, 5, 7, 3 of the second cube, whose vertices begin at 3 + 8, in the sense of the box.
   std::vector<Edge> rims = parts[1].rims;
   std::ranges::sort(rims);
   CHECK(rims == std::vector<Edge>{{12, 14}, {14, 18}, {16, 12}, {18, 16}});
@@ -92,7 +92,7 @@ TEST_CASE("closed surfaces, rims, overlapping parts and solids are volumes, wher
 
 namespace {
 
-/// A cube about the origin, its edges this long.
+/// Returns a cube about the origin with edges of length `size`.
 Mesh cube_of(double size) {
   Mesh mesh = cube();
   for (Vec3& x : mesh.positions) x = {size * (x.x - 0.5), size * (x.y - 0.5), size * (x.z - 0.5)};
@@ -115,13 +115,13 @@ TEST_CASE("a closed sheet that faces inward within a part is a cavity of it, and
   REQUIRE(volume_parts(hollow).size() == 1);
   CHECK(volume_parts(hollow)[0].triangles.size() == 24);
   CHECK(std::ranges::is_sorted(volume_parts(hollow)[0].triangles));
-  // vertices of the scene: the sheet before the body has three, the outer cube eight
+  // In the scene the sheet before the body has three vertices, the outer cube eight.
   const std::vector<Edge> cavities = volume_cavities(hollow);
   REQUIRE(cavities.size() == 1);
   CHECK((cavities[0][0] >= 11 && cavities[0][0] < 19));
   CHECK((cavities[0][1] >= 3 && cavities[0][1] < 11));
   CHECK(volume_surface(hollow).cavities == cavities);
-  // the order of both does not matter, nor where they lie
+  // Neither the order of the two nor their place matters.
   CHECK(said(scene_of(joined(void_of(2), cube_of(4)))) == "");
   CHECK(said(scene_of(shifted(joined(cube_of(4), void_of(2)), 1000))) == "");
   CHECK(volume_parts(scene_of(joined(joined(cube_of(4), shifted(void_of(1), -1)), shifted(void_of(1), 1)))).size() ==
@@ -136,7 +136,7 @@ TEST_CASE("an island in a void is a part of its own, and a cavity belongs to the
   CHECK(parts[0].triangles.front() == 1);
   CHECK(parts[0].triangles.back() == 24);
   CHECK(parts[1].triangles.front() == 25);
-  // one that overlaps takes no cavity that it does not hold
+  // A part that overlaps a cavity but does not hold it leaves it to the other part.
   CHECK(volume_parts(scene_of(joined(joined(cube_of(4), void_of(2)), shifted(cube_of(1), 1)))).size() == 2);
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("a sheet that faces inward in nothing, across a part, in a void or in 
   Mesh open = cube_of(4);
   open.triangles.resize(open.triangles.size() - 2);
   CHECK_THAT(said(scene_of(joined(open, void_of(2)))), Contains(inside_out));
-  // of another body
+  // The cavity belongs to another body.
   Scene two = scene_of(cube_of(4));
   append_body(two, {.name = "void", .fixed = true, .material = {}, .contact = BodyContact::volume}, void_of(2));
   CHECK_THAT(said(two), Contains("triangle 0 of body 'void'") && Contains(inside_out));

@@ -1,4 +1,4 @@
-// What a run folder holds after its writer ended as it should not: by kill -9 at any moment, by a full disk.
+// Tests what a run folder holds after its writer was ended by kill -9 at any moment, or by a full disk.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// A strip of so many vertices, enough to be packed.
+/// Returns a strip of `vertices` vertices.
 Scene strip_scene(Index vertices) {
   Scene scene;
   scene.name = "strip";
@@ -42,12 +42,12 @@ Frame strip_frame(std::int64_t step, Index vertices) {
   return recorded_frame(step, static_cast<std::size_t>(vertices));
 }
 
-/// What a writer said before it was killed.
+/// What a writer reported before it was killed.
 struct Report {
   std::int64_t frames = 0, last_step = -1, rows = 0;
 };
 
-/// Writes frames and rows for ever and reports after each what is written.
+/// Writes frames and rows for ever, and after each reports what is written.
 [[noreturn]] void write_for_ever(const std::filesystem::path& folder, Index vertices, int pipe) {
   RunWriter run(folder, strip_scene(vertices), recorded_provenance(), {});
   for (std::int64_t step = 0;; ++step) {
@@ -60,7 +60,7 @@ struct Report {
   }
 }
 
-/// The last report that came within so many milliseconds, after which the writer is killed.
+/// Returns the last report that came within so many milliseconds; then it kills the writer.
 Report killed_after(int milliseconds, const std::filesystem::path& folder, Index vertices) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);
@@ -87,7 +87,7 @@ std::vector<float> points_of_step(const Hdf5File& file, std::size_t step, std::s
   return {first, first + static_cast<std::ptrdiff_t>(3 * vertices)};
 }
 
-/// Every frame of the folder stands in the trajectory, in order and bit by bit.
+/// Checks that every frame of the folder stands in the trajectory, in order and bit for bit.
 void check_trajectory(const std::filesystem::path& folder) {
   const RunReader run(folder);
   const Hdf5File file = Hdf5File::open(folder / "trajectory.vtkhdf");
@@ -112,7 +112,7 @@ TEST_CASE("kill -9 at any moment leaves every frame and row that was reported as
   for (int attempt = 0; attempt < 5; ++attempt) {
     const Scratch folder;
     const Report report = killed_after(100 + static_cast<int>(random() % 500), folder / "run", vertices);
-    if (report.rows == 0) continue;  // too early
+    if (report.rows == 0) continue;  // killed too early
     reported += report.frames;
     {
       const RunReader run(folder / "run");
@@ -153,7 +153,7 @@ TEST_CASE("frames are reported as written once they have their names, within sec
 TEST_CASE(
     "the trajectory grows with the frames, and is that which is assembled from them, whatever the size of a frame",
     "[property]") {
-  // Below and above what is packed, and one that is cut into two chunks of which the second is not full.
+  // The sizes are below and above the least that is packed, and one that fills one chunk and part of a second.
   const Index vertices = GENERATE(10, 1500, 70001);
   const Scratch folder;
   RunWriter run(folder / "run", strip_scene(vertices), recorded_provenance(), {});
@@ -165,7 +165,7 @@ TEST_CASE(
     CHECK(std::filesystem::file_size(growing) > before);
     before = std::filesystem::file_size(growing);
   }
-  assemble_trajectory(folder / "run");  // by another program, say: does not disturb
+  assemble_trajectory(folder / "run");  // Assembling it from another program does not disturb the writer.
   check_trajectory(folder / "run");
   run.finish("finished");
   CHECK_FALSE(std::filesystem::exists(growing));
@@ -179,7 +179,7 @@ TEST_CASE(
   const Scratch folder;
   {
     RunWriter run(folder / "run", strip_scene(vertices), recorded_provenance(), {});
-    const SmallDisk disk(2500000);  // no file may be larger: the trajectory's, after some frames
+    const SmallDisk disk(2500000);  // limit of a file, which the trajectory exceeds after some frames
     const auto write_many = [&] {
       for (std::int64_t step = 0; step < 100; ++step) run.add_frame(strip_frame(step, vertices));
       run.flush();

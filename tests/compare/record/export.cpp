@@ -28,7 +28,7 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The appended array with this name, found by the offset that the XML gives.
+/// Returns the appended array with this name, found by the offset in the XML.
 template <class T>
 std::vector<T> appended_array(const std::string& vtp, const std::string& name) {
   const std::size_t tag = vtp.find("Name=\"" + name + "\""), key = vtp.find("offset=\"", tag) + 8;

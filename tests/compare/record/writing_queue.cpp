@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// A disk that stands still until it is told to go on.
+/// A disk that blocks until it is opened.
 class Gate {
  public:
   void open() { opened_.set_value(); }
@@ -27,7 +27,7 @@ class Gate {
 
 QueueLimits limits(std::size_t jobs, std::size_t bytes) { return {.jobs = jobs, .bytes = bytes, .threads = 3}; }
 
-/// Whether something becomes true soon enough for a busy machine.
+/// Returns whether the condition becomes true soon enough for a busy machine, within 10 s.
 template <class Condition>
 bool soon(Condition condition) {
   for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(10ms);
@@ -95,11 +95,11 @@ TEST_CASE("what is written is synced within the time of a group, also what was w
   queue.touch();
   CHECK(soon([&] { return syncs == 2; }));
   std::this_thread::sleep_for(150ms);
-  CHECK(syncs == 2);  // nothing new, nothing to sync
+  CHECK(syncs == 2);  // nothing new has to be synced
   const Clock::time_point begin = Clock::now();
   while (Clock::now() - begin < 500ms) queue.add(1, {}, [] { std::this_thread::sleep_for(1ms); });
-  CHECK(syncs >= 4);   // while there is always a next job
-  CHECK(syncs <= 13);  // and not one sync a job
+  CHECK(syncs >= 4);   // syncs go on while there is always a next job
+  CHECK(syncs <= 13);  // but there are fewer than one a job
 }
 
 TEST_CASE(

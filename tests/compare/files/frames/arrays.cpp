@@ -1,5 +1,5 @@
-// Frames in NumPy's arrays: either order of the numbers, the names that people give them, one array a frame, and
-// damage. What NumPy itself writes is tested in tests/experiments/program/commands/audit_frames.py.
+// Tests frames in NumPy's arrays: both orders of the numbers, the names that people give the arrays, one array a frame,
+// and damage. What NumPy itself writes is tested in tests/experiments/program/commands/audit_frames.py.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace {
 
 constexpr int frames = 5, vertices = 4;
 
-/// Coordinate k of vertex v in frame f.
+/// Returns coordinate k of vertex v in frame f, different for each.
 double coordinate(int f, int v, int k) { return 100 * f + 10 * v + k; }
 
-/// All of them, frames from `first` on, in either order.
+/// Returns the array of `count` frames from `first` on, in either order.
 std::string positions(bool fortran, int first = 0, int count = frames) {
   std::vector<double> numbers(static_cast<std::size_t>(count * vertices * 3));
   for (int f = 0; f < count; ++f)
@@ -38,13 +38,13 @@ std::string positions(bool fortran, int first = 0, int count = frames) {
              raw(numbers));
 }
 
-/// (0, 1, 2) and (1, 2, 3).
+/// Returns the array of the triangles (0, 1, 2) and (1, 2, 3).
 std::string triangles(bool fortran) {
   return npy("<i4", "2, 3", fortran,
              raw(fortran ? std::vector<std::int32_t>{0, 1, 1, 2, 2, 3} : std::vector<std::int32_t>{0, 1, 2, 1, 2, 3}));
 }
 
-/// Reads all frames; each must be as `coordinate` says.
+/// Reads all frames and checks that each has the numbers of `coordinate`.
 void check_frames(MeshSequence& sequence, int count = frames) {
   REQUIRE(sequence.size() == static_cast<std::size_t>(count));
   for (int f = 0; f < count; ++f) {
@@ -115,7 +115,7 @@ TEST_CASE("arrays are read by the names that people give them", "[unit]") {
                                      {name + ".npy", x}});
       check_frames(*npz_sequence(written(scratch / "named.npz", bytes), nullptr));
     }
-  // SMPL's file has the body at rest and more than that.
+  // SMPL's file holds the body at rest among other arrays.
   const std::string smpl = zip({{"J_regressor.npy", one}, {"v_template.npy", one}, {"f.npy", f}});
   check_frames(*npz_sequence(written(scratch / "smpl.npz", smpl), nullptr), 1);
 }
@@ -131,7 +131,7 @@ TEST_CASE("frames of one array each are read in natural order", "[unit]") {
     CHECK(sequence->name(10) == stem + "10.npy");
     check_frames(*sequence, 11);
   }
-  // numpy.savez(file, vertices, triangles)
+  // The names are those that numpy.savez(file, vertices, triangles) gives.
   check_frames(*npz_sequence(
       written(scratch / "two.npz", zip({{"arr_0.npy", positions(true)}, {"arr_1.npy", triangles(true)}})), nullptr));
   std::vector<std::filesystem::path> files{written(scratch / "F.npy", triangles(true))};
@@ -142,7 +142,7 @@ TEST_CASE("frames of one array each are read in natural order", "[unit]") {
   check_frames(*npy_sequence(alone, &mesh));
   const Mesh faces = faces_in_arrays(files.front());
   check_frames(*npy_sequence(alone, &faces));
-  // Frames of several arrays, some of them longer.
+  // Frames may come from several arrays, some of which hold several.
   const auto parts = npy_sequence({files[1], written(scratch / "rest.npy", positions(true, 1, 4))}, &mesh);
   CHECK(parts->name(4) == (scratch / "rest.npy").string() + ": frame 3");
   check_frames(*parts);
@@ -163,7 +163,7 @@ TEST_CASE("arrays that hold no frames are refused with what to do", "[unit]") {
   CHECK_THAT(refused({{"frame_0.npy", positions(false)},
                       {"frame_1.npy", npy("<f8", "3, 3", false, raw(std::vector<double>(9)))},
                       {"f.npy", triangles(false)}}),
-             ContainsSubstring("accepted"));  // the second is asked for its faces when it is read
+             ContainsSubstring("accepted"));  // faces of the second are checked when it is read
   std::string undecided = positions(false);
   undecided.replace(undecided.find("False"), 5, "Maybe");
   CHECK_THAT(refused({{"v.npy", undecided}, {"f.npy", triangles(false)}}), ContainsSubstring("Fortran order"));
@@ -184,12 +184,12 @@ TEST_CASE("an archive that announces more than deflate can pack is refused befor
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool has_limit = false;  // their own memory is beyond any limit
+constexpr bool has_limit = false;  // the sanitizers' own memory exceeds any limit
 #else
 constexpr bool has_limit = true;
 #endif
 
-/// While it lives, this process may take so many bytes more than it has.
+/// Limits this process to `more` bytes beyond what it has, as long as the object lives.
 class MemoryLimit {
  public:
   explicit MemoryLimit(std::uint64_t more) {
@@ -208,7 +208,7 @@ class MemoryLimit {
   rlimit before_{};
 };
 
-/// One to four damages: bytes, runs of them, digits of the header, an end that is missing.
+/// Returns the bytes with one to four damages: changed bytes, repeated runs, other digits in the header, a missing end.
 std::string damaged(Random& random, std::string bytes) {
   for (int k = 1 + random.below(4); k > 0 && !bytes.empty(); --k) {
     const std::size_t at = random.bits() % bytes.size();
@@ -226,7 +226,8 @@ std::string damaged(Random& random, std::string bytes) {
   return bytes;
 }
 
-/// A damaged file: arrays alone, an archive, or a whole archive of damaged arrays, whose checksums are right.
+/// Returns a damaged file: an array alone, a damaged archive, or a whole archive, with right checksums, of damaged
+/// arrays.
 std::string damaged_file(Random& random, bool archive) {
   const bool fortran = random.one_in(2);
   if (!archive) return damaged(random, positions(fortran));
@@ -238,7 +239,7 @@ std::string damaged_file(Random& random, bool archive) {
   return zip(members);
 }
 
-/// Reads every frame of so many damaged files; each must end in frames or in a refusal that names the file.
+/// Reads every frame of `cases` damaged files. Each must end in frames or in a refusal that names the file.
 void fuzz(std::uint64_t seed, int cases) {
   const std::filesystem::path memory = "/dev/shm";  // a disk takes a hundred times as long
   const Scratch scratch(std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path());
@@ -264,7 +265,7 @@ void fuzz(std::uint64_t seed, int cases) {
     FAIL_CHECK("seed " << seed << ", case " << i << ": " << failed);
     return;
   }
-  CHECK(read[true] > cases / 100);  // some damage hits what is not read
+  CHECK(read[true] > cases / 100);  // some damage hits bytes that are not read
   CHECK(read[false] > cases / 4);
 }
 
@@ -278,5 +279,5 @@ TEST_CASE("damaged arrays of the day's seed end likewise", "[unit]") {
   fuzz(ogc::tests::daily_seed("damaged arrays"), 10'000);
 }
 
-// Once, when a reader changes: tests_compare "a million damaged arrays".
+// Run once when a reader changes: tests_compare "a million damaged arrays".
 TEST_CASE("a million damaged arrays", "[.once]") { fuzz(1, 1'000'000); }

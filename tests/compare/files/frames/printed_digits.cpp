@@ -1,4 +1,4 @@
-// How many digits text files print: of each format, of formats of numbers, and of files that say nothing.
+// Tests how many digits text files print: in each file format, in each format of numbers, and where digits say nothing.
 #include "compare/files/frames/printed_digits.hpp"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int points = 12;
 
-/// Coordinate k of point i, up to 3.6 in size.
+/// Returns coordinate k of point i, at most 3.6 in size.
 double coordinate(int i, int k) { return 3.6 * std::sin(1 + 3.0 * i + k); }
 
 std::string text(const char* format, double x) {
@@ -25,7 +25,7 @@ std::string text(const char* format, double x) {
   return buffer;
 }
 
-/// A line for each point: what stands before, its coordinates, what stands behind.
+/// Returns a line for each point: `before`, its coordinates, `behind`.
 std::string lines(const char* format, const std::string& before = "", const std::string& behind = "") {
   std::string all;
   for (int i = 0; i < points; ++i) {
@@ -43,7 +43,7 @@ struct Kind {
 
 const std::string ply_begins = "ply\nformat ascii 1.0\nelement info 1\nproperty float key\nelement vertex 12\n";
 
-/// Each with other numbers than coordinates, of other digits.
+/// Each format also holds numbers other than coordinates, with other digits.
 const std::vector<Kind> kinds{
     {"a.obj", [](const char* f) { return "vn 0.1234 0.5678 0.9999\n" + lines(f, "v ") + "f 1 2 3\n"; }},
     {"a.stl",
@@ -99,7 +99,7 @@ TEST_CASE("digits of coordinates are counted in every text format", "[unit]") {
     CHECK((fixed->digits == 6 && fixed->are_decimals && fixed->unit == Approx(1e-6)));
     CHECK_FALSE(digits("%.17g"));
     CHECK_FALSE(digits("%.16e"));
-    CHECK_FALSE(digits("%.1f"));  // as people type
+    CHECK_FALSE(digits("%.1f"));  // numbers with so few digits may be typed by hand
     CHECK_FALSE(digits("%.2g"));
   }
 }
@@ -133,7 +133,7 @@ TEST_CASE("exact and binary coordinates have no digits to speak of", "[unit]") {
                  "property float y\nproperty float z\nend_header\n0.123456789"));
   CHECK_FALSE(of("cut.ply", "ply\nformat ascii 1.0\nelement vertex 12"));
   CHECK_FALSE(of("cut.vtp", "<Points><DataArray format=\"ascii\""));
-  // Heights alone are rounded, on a grid of exact numbers.
+  // Only heights are rounded, on a grid of exact numbers.
   std::string field;
   for (int i = 0; i < points; ++i)
     field += "v " + text("%.2g", 0.1 * i) + " 0.5 " + text("%.9g", coordinate(i, 0)) + "\n";

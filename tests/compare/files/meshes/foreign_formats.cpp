@@ -1,4 +1,4 @@
-// OFF, STL and glTF: what they hold is read, and what is wrong is named with its line, face, facet, accessor or byte.
+// Tests OFF, STL and glTF: their contents are read, and errors are named with line, face, facet, accessor or byte.
 #include <algorithm>
 #include <bit>
 
@@ -115,7 +115,7 @@ TEST_CASE("glTF is read with its nodes, in one file, beside its buffer and in ba
   for (const char* name : {"beside.gltf", "whole.glb", "text.gltf"}) {
     const Mesh mesh = read_mesh(scratch / name);
     CHECK(mesh.triangles == two_triangles);
-    // A quarter turn about z, twice as large in x, then 3 up.
+    // The node turns by 90° about z, doubles x, then moves by 3 along z.
     CHECK(mesh.positions == std::vector<Vec3>{{0, 0, 3}, {0, 2, 3}, {-1, 2, 3}, {-1, 0, 3}});
   }
   const std::string strip = replaced(replaced(square_gltf(), "\"indices\":1,", "\"mode\":5,"), "\"scene\":0,", "");
@@ -150,7 +150,7 @@ TEST_CASE("what is wrong with a glTF file is named with its primitive, accessor,
   CHECK_THAT(gltf_error(replaced(replaced(whole, "\"scale\":[1,2,1]}", "\"scale\":[1,2,1]}" + nodes), "\"nodes\":[1]",
                                  "\"nodes\":[1" + numbers + "]")),
              !Contains("repeat"));            // six corners of nineteen bytes
-  const std::string corners(3'000'000, 'A');  // of indices of one byte, all 0
+  const std::string corners(3'000'000, 'A');  // indices of one byte, all 0
   const std::string large = replaced(
       replaced(square_gltf("\"uri\":\"data:;base64," + corners + "\","), "\"componentType\":5123,\"count\":6",
                "\"componentType\":5121,\"count\":2249997"),

@@ -1,6 +1,7 @@
-// Files of every format, damaged at random: each ends in a mesh or in a refusal that names it, within 100 MB over what
-// the program has already. Cases run in processes of their own, under a limit on memory; a frozen seed tells of
-// changes, and another, new each day and printed, of what nobody thought of. OGC_FUZZ_CASES sets how many of each file.
+// Damages files of every format at random. Each must end in a mesh or in a refusal that names it, within 100 MB beyond
+// what the program has. Cases run in separate processes under a limit on memory. A frozen seed shows what a change
+// breaks; another seed, new each day and printed, finds errors that nobody thought of. OGC_FUZZ_CASES sets the number
+// of cases of each file.
 #include <zlib.h>
 
 #include "compare/files/meshes/mesh_files.hpp"
@@ -27,7 +28,7 @@ std::string base64(const std::string& bytes) {
   return uri.substr(uri.find(',') + 1, uri.rfind('"') - uri.find(',') - 1);
 }
 
-/// A VTP file whose points are packed by zlib, in one block.
+/// Returns a VTP file whose points zlib packs in one block.
 std::string packed_vtp() {
   std::string points;
   for (const Vec3& p : square.positions)
@@ -70,7 +71,7 @@ std::vector<Sample> samples() {
           {"m.mesh", cube_medit()}};
 }
 
-/// What the program does with a mesh; empty, or what it must not have done.
+/// Makes a mesh of the file and validates it. Returns "" or what the program must not have done.
 std::string fault_of(const std::string& bytes, const std::string& name) {
   try {
     for (const MeshOptions& options : {MeshOptions{.rounded = true}, MeshOptions{.weld = true}}) {
@@ -104,7 +105,7 @@ TEST_CASE("a reader that takes too much memory, dies or complains about somethin
   if (limits_memory) CHECK(failure(sample, greedy, 7, 3) == "m.off, seed 7, case 0 m.off takes too much");
   CHECK_THAT(failure(sample, dying, 7, 3), Catch::Matchers::Contains("m.off, seed 7, case 0 signal"));
   CHECK(failure(sample, fault_of, 7, 3) == "");
-  CHECK(fault_of("gone", "m.max") == "");  // refused by its name
+  CHECK(fault_of("gone", "m.max") == "");  // the name alone is refused
 }
 
 TEST_CASE("damaged mesh files end in an answer or a named refusal, within 100 MB: a frozen seed", "[property]") {

@@ -1,4 +1,4 @@
-// Round trips bit for bit, files as other programs write them, and every way in which a mesh file can be broken.
+// Tests round trips bit for bit, files in the forms of other programs, and every way to break a mesh file.
 #include "compare/files/meshes/mesh_files.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 const std::vector<Triangle> two_triangles{{0, 1, 2}, {0, 2, 3}};
 const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
-// Awkward doubles: thirds, signed zero, extremes of the range, values with all 53 bits.
+// Returns a mesh of difficult doubles: thirds, signed zeros, the ends of the range, values with all 53 bits.
 Mesh awkward_mesh() {
   Mesh mesh;
   std::mt19937_64 random(3);
@@ -58,8 +58,8 @@ void append(std::string& bytes, Number value, bool big_endian) {
   bytes.append(raw.data(), raw.size());
 }
 
-// A square as a scanner might write it: single precision, colours, a confidence list, a user element before the faces,
-// quality behind each face.
+// Returns a square in the form of a scanner's file: single precision, colours, a confidence list, a user element before
+// the faces, quality after each face.
 std::string foreign_ply(bool big_endian) {
   std::string bytes = std::string("ply\r\nformat binary_") + (big_endian ? "big" : "little") +
                       "_endian 1.0\r\ncomment made by hand\r\nobj_info nothing\r\nelement vertex 4\r\nproperty float "
@@ -271,7 +271,7 @@ TEST_CASE("lines end with a line feed, a carriage return or both, and a byte ord
   }
   CHECK_THROWS_WITH(parse_polygon_mesh(std::string("\xff\xfev\0 \0", 6), "m.obj"),
                     Contains("m.obj: begins as text in UTF-16"));
-  std::string binary = print_ply(mesh, PlyEncoding::binary);  // with a line feed as the first byte of its data
+  std::string binary = print_ply(mesh, PlyEncoding::binary);  // its data begin with a line feed
   const std::size_t end = binary.find("end_header\n") + 11;
   binary = with_ends(binary.substr(0, end), "\r") + "\n" + binary.substr(end + 1);
   CHECK(of_ply(binary).positions[0].x != 0);

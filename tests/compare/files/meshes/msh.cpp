@@ -1,4 +1,4 @@
-// Gmsh's two text formats: what they hold comes back, and each thing that can be wrong is named with its line.
+// Tests Gmsh's two text formats: their contents are read and written back, and each error is named with its line.
 #include "compare/files/meshes/msh.hpp"
 
 #include "compare/files/bytes.hpp"
@@ -17,7 +17,7 @@ using ogc::tests::solid_scene;
 
 namespace {
 
-/// One tetrahedron, with a triangle of its surface, a comment, and tags that are not in order.
+/// One tetrahedron, with a triangle of its surface, a comment, and tags out of order.
 const std::string old_format = R"($MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -39,7 +39,7 @@ $Elements
 $EndElements
 )";
 
-/// The same with tags up to 9 and two blocks of nodes.
+/// The same tetrahedron with tags up to 9 and two blocks of nodes.
 const std::string new_format = R"($MeshFormat
 4.1 0 8
 $EndMeshFormat

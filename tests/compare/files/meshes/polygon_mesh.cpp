@@ -1,5 +1,5 @@
-// Cutting keeps area, orientation and corners; leaving out and merging keep what is left where it was, and say what
-// became of the rest.
+// Tests that cutting keeps area, orientation and corners, and that leaving out and merging keep the rest in place and
+// report what they changed.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::vector<Index> in_order(std::size_t count) {
   return corners;
 }
 
-/// Twice the signed area of a polygon or triangle in the plane z = 0.
+/// Returns twice the signed area of a polygon or triangle in the plane z = 0.
 double area(const std::vector<Vec3>& positions, std::span<const Index> corners) {
   double sum = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -37,7 +37,7 @@ double area(const std::vector<Vec3>& positions, std::span<const Index> corners) 
   return sum;
 }
 
-/// n − 2 triangles of the polygon's orientation that have its area together, and its sides each once.
+/// Checks that the cut has n − 2 triangles of the polygon's orientation and total area, and each side once.
 void check_cut(const std::vector<Vec3>& positions) {
   const std::vector<Index> corners = in_order(positions.size());
   const std::vector<Triangle> triangles = triangulate(corners, positions);
@@ -160,7 +160,7 @@ TEST_CASE("faces that collapse, have no area or are there twice are left out, wi
                     Contains("m.obj: has 1 face that is none: 1 has the same vertices as another; the first: face 3 "
                              "(line 10); leave --strict out"));
   CHECK_THROWS_WITH(of_obj(square + "f 1 1 2\n"), Contains("has 4 vertex positions and no face that has an area"));
-  // Positions of another file: nothing is known of areas here.
+  // Positions come from another file, so areas are unknown here.
   CHECK(of_obj("v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\nf 1 1 2\nf 3 2 1\n", {.keep_unused = true}).mesh.triangles ==
         std::vector<Triangle>{{0, 1, 2}});
 }

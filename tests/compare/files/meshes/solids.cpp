@@ -1,4 +1,4 @@
-// Tetrahedra in the formats in which solids are exchanged: each holds the same cube, and what is wrong is named.
+// Tests the formats in which tetrahedra are exchanged: each holds the same cube, and each error is named.
 #include <algorithm>
 
 #include "compare/files/meshes/mesh_files.hpp"
@@ -52,7 +52,7 @@ TEST_CASE("a cube of six tetrahedra is the same in each format, and valid", "[un
 
 TEST_CASE("a cube whose file is cut anywhere is refused with a reason, whatever its format", "[unit]") {
   for (const auto& [name, bytes] : cubes()) {
-    std::size_t needed = bytes.find_last_not_of('\n') + 1;  // what follows the cells of a .vtk file is not read
+    std::size_t needed = bytes.find_last_not_of('\n') + 1;  // bytes after the cells of a .vtk file are not read
     if (name == "m.vtk") needed = bytes.find("\nPOINT_DATA");
     for (std::size_t size = 0; size + 1 < needed; ++size) {
       INFO(name << ", " << size << " of " << bytes.size() << " bytes");
@@ -107,7 +107,7 @@ TEST_CASE("tetrahedra that are inverted, all of them, are turned with a word; st
   }
   CHECK_THROWS_WITH(make_mesh(turned, {.strict = true}),
                     Contains("m.mesh: all 6 tetrahedra are inverted; leave --strict"));
-  std::swap(turned.tetrahedra[2][0], turned.tetrahedra[2][1]);  // five of six are inverted: left as they are
+  std::swap(turned.tetrahedra[2][0], turned.tetrahedra[2][1]);  // only five of six are inverted, so they stay
   CHECK(make_mesh(turned).mesh.tetrahedra == turned.tetrahedra);
 }
 

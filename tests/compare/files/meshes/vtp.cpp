@@ -1,5 +1,5 @@
-// What VTK writes is tested with VTK itself (tests/experiments/program/commands/audit_frames.py); here what this
-// program writes, every section, and what is broken.
+// Tests what this program writes as VTP, every section that it reads, and broken files. Files of VTK itself are tested
+// in tests/experiments/program/commands/audit_frames.py.
 #include <algorithm>
 #include <string>
 
@@ -92,7 +92,7 @@ TEST_CASE("broken VTP files are refused with the array or cell and the reason", 
           "appended data are missing");
 }
 
-// The appended data hold lengths: 8 bytes before each array. A length beyond the end takes no memory for it.
+// The appended data begin with a length of 8 bytes before each array. A length beyond the end takes no memory.
 TEST_CASE("a VTP file cut anywhere, or with an absurd length, is refused", "[unit]") {
   const std::string bytes = vtp_bytes(
       {.mesh = mesh, .vertex_numbers = {0, 1, 2, 3}, .cell_numbers = {0, 0, 1}, .cell_counts = {0, 0, 0}});

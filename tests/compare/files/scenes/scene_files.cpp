@@ -1,4 +1,4 @@
-// A scene comes back bit for bit; every key of the schema is read and no other is accepted; every bad input is named.
+// Tests that a scene comes back bit for bit, that exactly the keys of the schema are read, and that bad input is named.
 #include "compare/files/scenes/scene_files.hpp"
 
 #include <cmath>
@@ -28,7 +28,7 @@ using ogc::tests::solid_scene;
 
 namespace {
 
-// Everything that a scene file can hold, in values that are not defaults.
+// Returns a scene that has everything a scene file can hold, in values other than defaults.
 Scene full_scene() {
   Scene scene = small_scene();
   scene.rest_positions[1].y = 0.02;
@@ -60,7 +60,7 @@ Scene full_scene() {
   return scene;
 }
 
-// A vertex of the sheet on a path of three positions.
+// Returns a scene in which a vertex of the sheet follows a path of three positions.
 Scene keyframed_scene() {
   Scene scene = full_scene();
   scene.motions.resize(1);
@@ -73,7 +73,7 @@ Scene keyframed_scene() {
   return scene;
 }
 
-// A written scene whose JSON can be changed before it is read.
+// Writes a scene whose JSON can be changed before it is read.
 class Edited {
  public:
   explicit Edited(const Scene& scene = full_scene())
@@ -382,7 +382,7 @@ TEST_CASE("the reader reads every key of the schema and no other", "[unit]") {
       CHECK_THAT(edited.error(), Contains("has no '" + key.get<std::string>() + "'"));
     }
   });
-  CHECK(keys > 70);  // the walk has reached settings, two materials, and both selections
+  CHECK(keys > 70);  // the walk has reached settings, two materials and both selections
 }
 
 TEST_CASE("the schema describes every key that the writer writes, with the defaults of the structs", "[unit]") {
@@ -511,7 +511,7 @@ TEST_CASE("what is wrong with a mesh is said of the body that names it", "[unit]
   Edited edited(small_scene());
   const auto write = [&](const Mesh& mesh) { write_mesh(edited.scratch() / "small_sheet.ply", mesh); };
   const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}};
-  // What is said of a scene that can be used, without the folder.
+  // Returns the notes about a scene that is accepted, without the folder.
   const auto notes = [&] {
     CHECK(edited.error() == "");
     std::string text;

@@ -27,14 +27,14 @@ double area_squared(const std::array<Vec3f, 3>& t) {
   return std::pow(uy * vz - uz * vy, 2) + std::pow(uz * vx - ux * vz, 2) + std::pow(ux * vy - uy * vx, 2);
 }
 
-/// Of a mesh stage's case, as its inputs tell it.
+/// Returns the number of vertices of a mesh stage's case, read from its inputs.
 Index vertex_count(const TestCase& test) {
   for (const Quantity& quantity : inputs_of(test))
     if (quantity.name == "vertices") return static_cast<Index>(quantity.numbers.at(0));
   return -1;
 }
 
-/// Whether any of its cases has coordinates that dust may make small.
+/// Returns whether any of the stage's first 20 cases has coordinates that dust may make small.
 bool has_coordinates(Stage stage) {
   for (std::uint64_t i = 0; i < 20; ++i) {
     TestCase test = generate({stage, std::string(generators(stage)[0].name), 1, i, "", {}});
@@ -43,7 +43,7 @@ bool has_coordinates(Stage stage) {
   return false;
 }
 
-/// Numbers of the models that cases of a stage have, one set for each enumeration.
+/// Holds the numbers of the models that cases of a stage have, one set for each enumeration.
 struct ModelsSeen {
   std::set<std::size_t> membrane, bending, activation, damping;
   void add(const Scene& scene) {
@@ -125,7 +125,7 @@ TEST_CASE("seed, index, stage and generator each give other numbers", "[property
   REQUIRE(seen.size() == static_cast<std::size_t>(count));
 }
 
-// A model that is added to the enumerations and their names is asked about, or this fails.
+// Fails for a model that is added to the enumerations and their names, but that no case has.
 TEST_CASE("each model that has a name is among the cases of the stages that read it", "[property]") {
   const auto all = [](std::span<const std::string_view> names) {
     std::set<std::size_t> numbers;
@@ -174,7 +174,7 @@ TEST_CASE("each model that has a name is among the cases of the stages that read
 
 TEST_CASE("at least half of a stage's cases lie close to a decision boundary", "[unit]") {
   for (const Stage stage : all_stages) {
-    if (stage == Stage::bound) continue;  // a minimum has no boundary
+    if (stage == Stage::bound) continue;  // a minimum has no decision boundary
     double near = 0, all = 0;
     for (const Generator& generator : generators(stage)) {
       all += generator.share;
@@ -190,7 +190,7 @@ TEST_CASE("each degeneracy has the ladders that compare/judge/README.md names", 
   const auto table = readme.substr(readme.find("<!-- ladders -->"),
                                    readme.find("<!-- end of the ladders -->") - readme.find("<!-- ladders -->"));
   REQUIRE(std::count(table.begin(), table.end(), '\n') > 10);
-  // `stage` `ladder.x` `ladder.y`, `stage` …
+  // The table alternates: `stage` `ladder.x` `ladder.y`, `stage` …
   std::optional<Stage> stage;
   int named = 0;
   for (std::size_t begin = table.find('`'); begin != std::string::npos;) {
@@ -225,7 +225,7 @@ TEST_CASE(
     for (const Generator& generator : generators(stage))
       for (std::uint64_t i = 0; i < (generator.least > 0 ? 1u : 200u); ++i)
         sizes.insert(vertex_count(generate({stage, std::string(generator.name), 1, i, "", {}})));
-    // which validate asks for a face
+    // A scene needs a face to be valid.
     const bool is_scene = stage == Stage::rest_state || stage == Stage::sweep || stage == Stage::step;
     const bool detects = stage == Stage::detect_vertex_facet || stage == Stage::detect_edge_edge;
     INFO(stage_name(stage));

@@ -26,17 +26,17 @@ std::filesystem::path write_run(const std::filesystem::path& folder, const Scene
   return folder;
 }
 
-/// Something for every stage but that of solids: the yarn held, a hinge in the cloth, a spring.
+/// Returns a scene with cases for every stage but those of solids: a fixed yarn, a hinge in the cloth, a spring.
 Scene full_scene() {
   Scene scene = recorded_scene();
   scene.bodies[0].fixed = false;
   scene.bodies[2].fixed = true;
   scene.springs.push_back({1, 5, 20, 0.5, 0.001});
-  scene.settings.contact_radius = 2;  // frames lie within it
+  scene.settings.contact_radius = 2;  // all frames lie within it
   return scene;
 }
 
-/// One frame of a block, stretched.
+/// Writes a run with one frame of a stretched block.
 std::filesystem::path write_solid_run(const std::filesystem::path& folder) {
   Scene scene = solid_scene();
   round_to_single(scene);
@@ -52,8 +52,8 @@ std::filesystem::path write_solid_run(const std::filesystem::path& folder) {
   return folder;
 }
 
-/// Two squares of four cells each side, one above the other at half of r, and beside them one that is far away; the
-/// upper one falls at 1 mm/s, and is turned: contacts of parallel edges have no stiffness.
+/// Returns squares of four cells a side: two one above the other at half of r, and a third far away. The upper one
+/// falls at 1 mm/s and is turned, because contacts of parallel edges have no stiffness.
 Scene facing_sheets() {
   Scene scene;
   scene.name = "facing_sheets";

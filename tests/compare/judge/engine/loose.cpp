@@ -6,7 +6,7 @@ using ogc::tests::loose_problems;
 
 namespace {
 
-/// A report in which the largest error of each metric is this share of its tolerance.
+/// Returns a report in which the largest error of each metric is `share` of its tolerance.
 StageReport report_with(Stage stage, double share) {
   StageReport report{Tally(stage)};
   for (std::size_t i = 0; i < report.tally.metrics.size(); ++i)

@@ -91,7 +91,7 @@ TEST_CASE("the mesh of a saved case is one that an audit takes, whatever degener
         CHECK(describe(validate(mesh)).empty());
         const auto* whole = std::any_cast<MeshCase>(&test.data);
         if (whole && mesh.positions.size() == whole->positions.size() &&
-            text.find('#') == std::string::npos)  // nothing left out or added
+            text.find('#') == std::string::npos)  // nothing is left out or added
           CHECK(to_single(mesh.positions) == whole->positions);
       }
 }
@@ -102,7 +102,7 @@ TEST_CASE("what an audit says of the mesh of a point and a triangle is the dista
     for (std::uint64_t index = 0; index < 50; ++index) {
       const TestCase test = generate({Stage::closest_face, generator, 5, index, "", {}});
       const Mesh mesh = make_mesh(parse_obj(print_shape_obj(shape_of(test)), "saved.obj")).mesh;
-      if (mesh.triangles.size() != 1 || mesh.positions.size() != 5) continue;  // collapsed
+      if (mesh.triangles.size() != 1 || mesh.positions.size() != 5) continue;  // the case has collapsed
       ++asked;
       const auto& c = case_of<ClosestFaceCase>(test.data);
       const double exact = ogc::reference::authority().closest_face({{c.point}, {c.triangle}}).distance[0];

@@ -16,7 +16,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// A stage with a mismatch, errors and a metric that is loose, and one that was skipped.
+/// Returns the report of a stage with a mismatch, errors and a loose metric, and of one that was skipped.
 std::vector<StageReport> two_reports() {
   StageReport wrong{Tally(Stage::closest_face)}, skipped{Tally(Stage::bound)};
   wrong.tally.begin({Stage::closest_face, "uniform", 1, 2, "", {}});
@@ -50,7 +50,7 @@ TEST_CASE(
   REQUIRE(count(table, "class=\"loose\"") == 1);
   REQUIRE(count(page, "<svg ") == 2);
   REQUIRE(count(page, "stage=closest_face gen=uniform seed=1 index=2") >= 2);
-  REQUIRE(count(table, "<td>0.4</td>") == 1);  // near share
+  REQUIRE(count(table, "<td>0.4</td>") == 1);  // share of cases near a boundary
   REQUIRE(count(page, report_total(two_reports())) == 1);
 }
 

@@ -1,4 +1,4 @@
-// Verdicts on answers made by hand: what the grey zone excuses and what it does not.
+// Tests verdicts on answers made by hand: what the grey zone excuses and what it does not.
 #include "compare/judge/stages/verdict.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 std::string first_message(const Tally& tally) { return tally.mismatches.empty() ? "" : tally.mismatches[0].message; }
 
-/// A point 1 above the corner (0, 0, 0) of a right triangle, which is on both of its edges' planes: the exact answer is
+/// A point 1 above the corner (0, 0, 0) of a right triangle lies in the planes of both edges there; the exact answer is
 /// the corner.
 struct FaceFixture {
   std::vector<TestCase> cases{{{Stage::closest_face, "uniform", 0, 0, "", {}}, ClosestFaceCase{}}};
@@ -29,7 +29,7 @@ struct FaceFixture {
   std::string verdict() const { return first_message(tally()); }
 };
 
-/// Four vertices over a triangle; contacts are whatever a test says they are.
+/// Holds four vertices over a triangle; each test sets the contacts.
 struct SetFixture {
   MeshCase mesh;
   DetectVertexFacetTruth truth;
@@ -79,7 +79,7 @@ TEST_CASE("closest_face: features are accepted on both sides of a grey boundary 
 
 TEST_CASE("closest_face: distances, bounds and weights", "[unit]") {
   FaceFixture test;
-  // Σ|δ| = 1 + 2 + 2 = 5 is the unit: 12 u · 5 = 3.6e-6.
+  // The unit is Σ|δ| = 1 + 2 + 2 = 5, and 12 u · 5 = 3.6e-6.
   test.out.distance[0] = 1 + 3.5e-6f;
   REQUIRE(test.verdict().empty());
   test.out.distance[0] = 1 + 3.8e-6f;
@@ -148,7 +148,7 @@ TEST_CASE("grey decisions that are answered otherwise than exactly are counted, 
   CHECK(set.tally().total().not_exact == 0);
   set.out.contacts = {};
   CHECK(set.tally().total().not_exact == 1);
-  set.out.contacts = {set.edge};  // one is missing, another is there
+  set.out.contacts = {set.edge};  // one contact is missing, another is added
   CHECK(set.tally().total().not_exact == 2);
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("a smallest distance may be too small by rounding, never too large", "
 }
 
 TEST_CASE("truncate: the stored position must obey its bound exactly", "[unit]") {
-  // From (1, 0, 0) by (3, 4, 0) with bound 2.5: half of the way.
+  // The motion is (3, 4, 0) from (1, 0, 0) with bound 2.5, so half of the way is left.
   const TruncateIn in{{{1, 0, 0}}, {{4, 4, 0}}, {2.5f}};
   const TruncateTruth truth{{1}, {0}, {0}, {{2.5, 2, 0}}};
   REQUIRE(truncate_verdict(in, truth, moved({2.5f, 2, 0}, true)).empty());
@@ -207,6 +207,6 @@ TEST_CASE("truncate: what does not exceed its bound comes back bit for bit", "[u
   const TruncateTruth truth{{0}, {1}, {1}, {{4, 4, 0}}};
   REQUIRE(truncate_verdict(in, truth, moved({4, 4, 0}, false)).empty());
   REQUIRE(truncate_verdict(in, truth, moved({4, std::nextafter(4.0f, 0.0f), 0}, false)).starts_with("position"));
-  // ‖x − x_prev‖ = b exactly is grey: calling it cut is accepted, and then the last bit may differ.
+  // ‖x − x_prev‖ = b is grey: the answer may call it cut, and then the last bit may differ.
   REQUIRE(truncate_verdict(in, truth, moved({4, std::nextafter(4.0f, 0.0f), 0}, true)).empty());
 }

@@ -1,4 +1,4 @@
-// Verdicts of rest_state, block and initial_guess on answers made by hand.
+// Tests verdicts of rest_state, block and initial_guess on answers made by hand.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -11,7 +11,7 @@ using namespace ogc::compare;
 
 namespace {
 
-/// One triangle and one hinge with scales of 1.
+/// Holds one triangle and one hinge with scales of 1.
 struct RestFixture {
   RestStateTruth truth;
   RestStateOut out;
@@ -41,7 +41,7 @@ struct RestFixture {
     const Tally judged = tally();
     return judged.mismatches.empty() ? "" : judged.mismatches[0].message;
   }
-  /// The verdict after a change to the right answer.
+  /// Returns the verdict after a change to the right answer.
   static std::string after(const std::function<void(RestStateOut&)>& change) {
     RestFixture test;
     change(test.out);
@@ -58,7 +58,7 @@ std::string block_verdict(std::vector<std::uint8_t> answer) {
   return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
 }
 
-/// From (1, 0, 0) by (3, 4, 0), with bound 2.5: half of the way.
+/// Holds a motion by (3, 4, 0) from (1, 0, 0) with bound 2.5, which leaves half of the way.
 struct GuessFixture {
   InitialGuessIn in{{{{1, 0, 0}, {3, 4, 0}, {}, 1, {1, 0, 0}, 2.5f, 0}}};
   InitialGuessTruth truth{{{4, 4, 0}}, {4}};
