@@ -1,4 +1,4 @@
-// Radii are such that blocks of neighbours overlap: with smaller ones most points would lie in one block or none.
+// Radii are so large that blocks of neighbours overlap; with smaller ones most points would lie in one block or none.
 #include "tests/reference/mesh_zoo.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ Surface scaled(const Surface& surface, double factor) {
   return mapped(surface, [&](Vec3f x) { return at(factor * x.x, factor * x.y, factor * x.z); });
 }
 
-/// k triangles around the origin, neighbour i at (cos, sin, height) of its angle.
+/// Returns k triangles around the origin; neighbour i lies at (cos, sin, height) of its angle.
 Surface star_of(int k, double height_even, double height_odd) {
   Surface surface{{{0, 0, 0}}, {}, {}, {}};
   for (int i = 0; i < k; ++i) {
@@ -27,7 +27,7 @@ Surface star_of(int k, double height_even, double height_odd) {
   return surface;
 }
 
-/// Thin triangles side by side, height `thickness` over a base of 1.
+/// Returns thin triangles side by side, of height `thickness` over a base of 1.
 Surface needles(int count, double thickness) {
   Surface surface{{{0, 0, 0}}, {}, {}, {}};
   for (int i = 0; i <= count; ++i) surface.positions.push_back(at(1, thickness * i, 0.25 * thickness * (i % 2)));
@@ -35,7 +35,7 @@ Surface needles(int count, double thickness) {
   return surface;
 }
 
-/// A sphere of rings, its poles vertices.
+/// Returns a sphere of rings whose poles are vertices.
 Surface ball(int rings, int sides) {
   Surface surface;
   surface.positions.push_back(at(0, 0, 1));
@@ -59,12 +59,12 @@ Surface ball(int rings, int sides) {
   return surface;
 }
 
-/// A sheet over a product of waves: all kinds of vertices at once.
+/// Returns a sheet over a product of waves, with all kinds of vertices.
 Surface waves(int n, double amplitude) {
   return mapped(grid(n), [&](Vec3f x) { return at(x.x, x.y, amplitude * std::sin(2.1 * x.x) * std::cos(1.7 * x.y)); });
 }
 
-/// A sheet with yarn that leaves it, and a vertex on its own.
+/// Adds a yarn that leaves the sheet, and an isolated vertex.
 Surface with_yarn(Surface surface) {
   const auto free = static_cast<Index>(surface.positions.size());
   surface.positions.insert(surface.positions.end(), {{0.5f, 0.25f, 1}, {1.5f, 0.5f, 1.25f}, {-1, -1, 0.5f}});
@@ -72,8 +72,8 @@ Surface with_yarn(Surface surface) {
   return surface;
 }
 
-/// Points near a mesh: its vertices, the middles of its edges and triangles, each moved along the axes, along the
-/// diagonal and at random by parts of r.
+/// Returns points near a mesh: its vertices and the middles of its edges and triangles, each moved along the axes,
+/// along the diagonal and at random by parts of r.
 std::vector<Vec3f> points_near(const Surface& surface, float r, std::size_t count, std::mt19937& random) {
   std::vector<Vec3f> centres = surface.positions;
   for (const auto& t : surface.triangles) {
@@ -108,8 +108,8 @@ class Zoo {
     all_.push_back(std::move(specimen));
   }
 
-  /// The same mesh, turned exactly, scaled by powers of ten, by powers of two down to denormal coordinates, and moved
-  /// far away.
+  /// Adds the mesh, and copies that are turned exactly, scaled by powers of ten and by powers of two down to denormal
+  /// coordinates, and moved far away.
   void add_family(const std::string& name, const Surface& surface, double radius) {
     add(name, surface, radius);
     add(name + ", turned", mapped(surface, turned), turned_scale * radius);

@@ -1,5 +1,5 @@
-// Two hundred and more meshes on which the theorems of the paper's section 3 are tested: every kind of vertex and edge,
-// every size, exact coincidences.
+// Holds more than two hundred meshes on which the theorems of the paper's section 3 are tested: every kind of vertex
+// and edge, every size, exact coincidences.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace ogc::tests {
 
-/// A mesh with a contact radius of about its edges' length, and points to ask about: near its faces, on its planes and
+/// A mesh with a contact radius of about its edges' length, and points to test: near its faces, on its planes and
 /// vertices.
 struct Specimen {
   std::string name;
@@ -19,17 +19,18 @@ struct Specimen {
   std::vector<Vec3f> points;
 };
 
-/// At least 200, the same ones in every run.
+/// Returns at least 200 specimens, the same ones in every run.
 const std::vector<Specimen>& mesh_zoo();
 
 Surface tetrahedron();
 Surface octahedron();
 Surface cube();
-/// `pages` half-planes' triangles on the edge from vertex 0 to vertex 1, evenly around it over `turn` (1: all around).
+/// Returns `pages` triangles on the edge from vertex 0 to vertex 1, evenly spread around it over `turn` (1: a full
+/// turn).
 Surface book(int pages, double turn);
-/// A closed strip of 2n triangles with a half twist.
+/// Returns a closed strip of 2n triangles with a half twist.
 Surface moebius(int n);
-/// Four triangles around vertex 0, neighbours alternately above and below.
+/// Returns four triangles around vertex 0, whose neighbours lie alternately above and below.
 Surface saddle();
 
 }  // namespace ogc::tests

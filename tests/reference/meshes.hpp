@@ -1,4 +1,4 @@
-// Small meshes whose contacts can be derived by hand, and exact ways to move them: integer coordinates stay exact in
+// Makes small meshes whose contacts can be derived by hand, and moves them exactly: integer coordinates stay exact in
 // single precision.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace ogc::tests {
 using compare::Index;
 using compare::Vec3f;
 
-/// Positions, triangles and loose edges of which a question is made.
+/// Positions, triangles and loose edges from which a question is made.
 struct Surface {
   std::vector<Vec3f> positions;
   std::vector<compare::Triangle> triangles;
@@ -26,13 +26,13 @@ struct Surface {
   }
 };
 
-/// The question about a surface; both arguments must outlive it.
+/// Returns the question about a surface; both arguments must outlive it.
 inline compare::DetectIn question(const Surface& surface, const compare::Topology& topology, float r, float r_q) {
   return {&topology, surface.groups, surface.positions, r, r_q};
 }
 
-/// n × n vertices, vertex i + n j at (i, j, z) · spacing; each cell is cut from its lower right to its upper left
-/// corner, so inner vertices have six neighbours.
+/// Returns n × n vertices, vertex i + n j at (i, j, z) · spacing. Each cell is cut from its lower right to its upper
+/// left corner, so inner vertices have six neighbours.
 inline Surface grid(int n, float z = 0, float spacing = 1) {
   Surface surface;
   for (int j = 0; j < n; ++j) {
@@ -49,7 +49,7 @@ inline Surface grid(int n, float z = 0, float spacing = 1) {
   return surface;
 }
 
-/// Both surfaces in one, the second one's vertices after the first one's.
+/// Returns both surfaces in one; the second one's vertices follow the first one's.
 inline Surface together(Surface a, const Surface& b) {
   const auto shift = static_cast<Index>(a.positions.size());
   a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
@@ -64,26 +64,26 @@ Surface mapped(Surface surface, Map map) {
   return surface;
 }
 
-/// Every coordinate moved by at most `amount`.
+/// Moves every coordinate by at most `amount`.
 inline Surface jittered(const Surface& surface, std::mt19937& random, float amount) {
   std::uniform_real_distribution<float> move(-amount, amount);
   return mapped(surface, [&](Vec3f x) { return Vec3f{x.x + move(random), x.y + move(random), x.z + move(random)}; });
 }
 
-/// A similarity with factor 5 and integer entries: no axis stays an axis, integer coordinates stay exact.
+/// Applies a similarity with integer entries that maps no axis to an axis and keeps integer coordinates exact.
 inline Vec3f turned(const Vec3f& x) {
   const Vec3f a{3 * x.x - 4 * x.y, 4 * x.x + 3 * x.y, 5 * x.z};
   return {5 * a.x, 3 * a.y - 4 * a.z, 4 * a.y + 3 * a.z};
 }
 inline constexpr float turned_scale = 25;
 
-/// A vertex of its own, in no triangle.
+/// Adds a vertex that belongs to no triangle.
 inline Surface with_vertex(Surface surface, const Vec3f& x) {
   surface.positions.push_back(x);
   return surface;
 }
 
-/// A grid whose two halves lie above each other, jittered: self-contact of all kinds.
+/// Returns a jittered grid whose two halves lie above each other, with self-contact of all kinds.
 inline Surface folded(int n, float gap, std::mt19937& random, float amount) {
   Surface surface = mapped(grid(n), [&](Vec3f x) {
     const float middle = static_cast<float>(n) / 2;
@@ -92,7 +92,7 @@ inline Surface folded(int n, float gap, std::mt19937& random, float amount) {
   return jittered(surface, random, amount);
 }
 
-/// Triangles thrown at random into a unit cube, sharing random vertices: non-manifold edges, boundaries, intersections.
+/// Returns random triangles in a unit cube that share random vertices: non-manifold edges, boundaries, intersections.
 inline Surface soup(int vertices, int triangles, std::mt19937& random) {
   Surface surface;
   std::uniform_real_distribution<float> coordinate(0, 1);

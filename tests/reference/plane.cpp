@@ -1,4 +1,4 @@
-// plane: two sheets a tenth of an edge apart, whose planes are known by hand; each way in which they may be wrong is
+// Tests stage plane on two sheets an eighth of an edge apart, whose planes are known by hand: each possible fault is
 // found, and nothing else is.
 #include "reference/geometry/plane.hpp"
 
@@ -25,7 +25,7 @@ namespace {
 constexpr int side = 3, sheet_vertices = side * side;
 constexpr float gap = 0.125f, query_radius = 0.75f, relaxation = 0.4375f;
 
-/// Which sheet the vertices of a pair lie in; −1: in both.
+/// Returns the sheet in which all vertices of a pair lie, or -1 if they lie in both.
 template <class Vertices>
 int sheet_of(const Vertices& vertices) {
   int lower = 0, upper = 0;
@@ -33,13 +33,14 @@ int sheet_of(const Vertices& vertices) {
   return lower == 0 ? 1 : (upper == 0 ? 0 : -1);
 }
 
-/// The sheets at z = 0 and z = gap, each vertex with one plane for each pair between them that it is part of.
+/// Holds the sheets at z = 0 and z = gap. Each vertex has one plane for each pair between the sheets to which it
+/// belongs.
 struct TwoSheets {
   Surface surface = together(grid(side), grid(side, gap));
   compare::Topology topology = surface.topology();
   std::vector<std::uint8_t> is_fixed = std::vector<std::uint8_t>(surface.positions.size(), 0);
   std::vector<std::vector<VertexPlane>> rows{surface.positions.size()};
-  /// Within a sheet the nearest pairs are √½ apart, each vertex from the hypotenuse opposite.
+  /// Within a sheet the nearest pairs are √½ apart: each vertex and the hypotenuse opposite to it.
   std::vector<float> bound = std::vector<float>(surface.positions.size(), relaxation * 0.7f);
   std::size_t pairs = 0;
 
@@ -71,7 +72,7 @@ struct TwoSheets {
       const float way = sheet == 0 ? relaxation * gap : (1 - relaxation) * gap;
       rows[static_cast<std::size_t>(v)].push_back({pair, {0, 0, normal}, double{normal} * way});
     };
-    // from the first side to the second
+    // The normal points from the first side to the second.
     const float up = a == 0 ? 1 : -1;
     for (const Index v : first) bear(v, a, up);
     for (const Index v : second) bear(v, b, -up);
@@ -88,7 +89,7 @@ TEST_CASE("plane: two sheets with planes between them, each vertex as free as it
 }
 
 TEST_CASE("plane: every fault of an answer is found", "[unit]") {
-  // a vertex in the middle of the lower sheet, and a plane that it bears
+  // Faults are planted at a vertex in the middle of the lower sheet and at one of its planes.
   constexpr std::size_t vertex = 4, some = 3;
   const auto with = [](const std::function<void(TwoSheets&)>& fault) {
     TwoSheets sheets;
@@ -154,7 +155,7 @@ TEST_CASE("plane: a fixed side bears none, and stands where it is", "[unit]") {
 
 TEST_CASE("plane: positions that leave a half-space are counted, however near", "[unit]") {
   const compare::VertexPlanes planes{{0, 1}, {{{}, {0.1f, 0.2f, 0.3f}, 0}}};
-  const Vec3f on{-3, 0, 1};  // 0.3f − 3 · 0.1f > 0 by 7·10⁻⁹: the floats are no tenths
+  const Vec3f on{-3, 0, 1};  // 0.3f − 3 · 0.1f > 0 by 7·10⁻⁹, since floats are no exact tenths
   CHECK(reference::broken_planes(planes, std::array{on}) == 1);
   CHECK(reference::broken_planes(planes, std::array{Vec3f{0, 0, 0}}) == 0);
   CHECK(reference::broken_planes({}, std::array{on}) == 0);
@@ -190,7 +191,7 @@ TEST_CASE("pair_planes: of every mesh they hold all pairs within r_q, and no ver
 
 namespace {
 
-/// Two triangles above one another, few enough that all their pairs are due.
+/// Holds two triangles above one another, so near that planes are due for all their pairs.
 struct TwoTriangles {
   compare::Topology topology = compare::build_topology(6, std::vector<compare::Triangle>{{0, 1, 2}, {3, 4, 5}});
   std::vector<Vec3f> positions{{0, 0, 0},           {1, 0, 0},           {0, 1, 0},
@@ -219,7 +220,7 @@ TEST_CASE("plane: what an answer takes from the vertices is told", "[unit]") {
     CHECK(reference::plane_freedom(two.in(), out).missing == due);
   }
   SECTION("room between two sides, however little") {
-    const double height = 0x1p-18 * gap;  // of both sides 2⁻¹⁷, where Σ|δ| is up to 23 gaps, 69 u are accepted
+    const double height = 0x1p-18 * gap;  // both sides lose 2⁻¹⁷ together; Σ|δ| is up to 23 gaps, and 69 u are accepted
     for (VertexPlane& plane : out.planes.items) plane.offset -= height;
     CHECK(reference::plane_freedom(two.in(), out).narrowing > compare::plane_narrowing_tolerance);
   }
@@ -229,7 +230,7 @@ TEST_CASE("plane: what an answer takes from the vertices is told", "[unit]") {
     CHECK(reference::plane_freedom(two.in(), out).ball_shortfall[2] <= compare::plane_ball_tolerance);
   }
   SECTION("half-spaces of pairs that are none") {
-    // vertex 1 and the upper triangle, which are 0.28 m apart
+    // The pair is vertex 1 and the upper triangle, 0.28 m apart.
     out.planes.items.front().pair = {compare::PrimitivePair::Kind::vertex_triangle, 1, 1};
     CHECK(reference::plane_freedom(two.in(), out).needless == 1);
   }
@@ -241,7 +242,7 @@ TEST_CASE("plane: a fixed side leaves the other all the room", "[unit]") {
   compare::PlaneOut out = reference::pair_planes(two.in());
   CHECK(reference::plane_guarantee(two.in(), out).kept());
   CHECK(reference::plane_freedom(two.in(), out).narrowing <= compare::plane_narrowing_tolerance);
-  // γ_p of the gap alone: less by 0.45 · 2²⁴ u of the gap, and Σ|δ| is up to 23 gaps
+  // Planes with only γ_p of the gap lose 0.45 · 2²⁴ u of the gap, where Σ|δ| is up to 23 gaps.
   for (VertexPlane& plane : out.planes.items) plane.offset -= double{relaxation} * double{gap};
   CHECK(reference::plane_freedom(two.in(), out).narrowing > 1e5);
 }

@@ -1,5 +1,5 @@
-// Sentences of the paper's section 3 and 4 that do not hold as printed on some class of meshes, each with the smallest
-// mesh that shows it (compare/deviations.md). What does hold there is checked beside it.
+// Tests sentences of the paper's sections 3 and 4 that, as printed, fail on some class of meshes, each with the
+// smallest mesh that shows it (compare/deviations.md). What does hold there is checked beside it.
 #include <algorithm>
 
 #include "reference/definitions/contact_sets.hpp"
@@ -38,7 +38,7 @@ std::vector<Face> faces_touched(const std::vector<VertexFacetContact>& contacts,
 
 TEST_CASE("counterexample to the remark on saddles in §3.3: within r of one, and in no block of its faces or edges",
           "[unit]") {
-  // The star reaches 2.3 from its saddle, r = 6: the closest points of the star are vertices of its rim.
+  // The star extends 2.3 from its saddle and r = 6, so the closest points of the star are vertices of its rim.
   const Surface star = with_vertex(saddle(), {0, 0, 5});
   const auto topology = star.topology();
   const Complex mesh{topology, star.positions};
@@ -47,7 +47,7 @@ TEST_CASE("counterexample to the remark on saddles in §3.3: within r of one, an
   REQUIRE(reference::sign(reference::gap_points(mesh.at(0), x, 6)) < 0);
   for (const Index t : topology.vertex_triangles[0]) CHECK_FALSE(in_block(mesh, triangle_face(t), x, 6));
   for (const Index e : topology.vertex_edges[0]) CHECK_FALSE(in_block(mesh, edge_face(e), x, 6));
-  // Covering holds all the same: two vertices of the rim.
+  // Covering still holds, by two vertices of the rim.
   const auto contacts = reference::vertex_facet_over_all_pairs(question(star, topology, 6, 6));
   CHECK(faces_touched(contacts, 5) == std::vector<Face>{vertex_face(1), vertex_face(3)});
 }
@@ -87,7 +87,7 @@ TEST_CASE(
   CHECK_FALSE(reference::is_hull_edge(mesh, 4, e));
   const Vec3f above{1, 1, 0.5f};
   CHECK(in_block(mesh, vertex_face(4), above, 1));
-  // on the plane of that edge, and half a radius from the vertex
+  // The point lies on the plane of that edge, half a radius from the vertex.
   CHECK(reference::sign(reference::along(mesh.at(4), mesh.at(3), above)) == 0);
 }
 
@@ -123,7 +123,7 @@ TEST_CASE(
   const Surface line = with_vertex({{{0, 0, 0}, {4, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}, {}, {}}, {1, 0, 0.5f});
   const auto topology = line.topology();
   const auto in = question(line, topology, 1, 1);
-  // The vertex is above the inside of the edges 0–1 and 0–2 at once.
+  // The vertex lies above the interiors of the edges 0–1 and 0–2 at once.
   const std::vector<Face> both{edge_face(compare::find_edge(topology, 0, 1)),
                                edge_face(compare::find_edge(topology, 0, 2))};
   CHECK(faces_touched(reference::vertex_facet_by_definition(in), 3) == both);
@@ -147,7 +147,7 @@ TEST_CASE(
 TEST_CASE(
     "counterexample to \"detected exactly twice\" (§4.2): Algorithm 2 as printed enters a pair from one side only",
     "[unit]") {
-  // Edge 0 ends at vertex 1, where edge 1 goes on and comes nearer to edge 2 (vertices 3, 4), which crosses beyond
+  // Edge 0 ends at vertex 1, where edge 1 continues and comes nearer to edge 2 (vertices 3, 4), which crosses beyond
   // vertex 1.
   const Surface bend{{{-2, 0, 0}, {0, 0, 0}, {2, 0, 0.5f}, {1, -2, 1}, {1, 2, 1}}, {}, {{0, 1}, {1, 2}, {3, 4}}, {}};
   const auto topology = bend.topology();
@@ -156,11 +156,11 @@ TEST_CASE(
   const Vec3f on_edge_0{0, 0, 0}, on_edge_2{1, 0, 1};  // closest points of the two, √2 apart
   const auto closest = reference::closest_features({{mesh.at(0), mesh.at(1)}, {mesh.at(3), mesh.at(4)}});
   REQUIRE(closest == reference::EdgeFeatures{compare::EdgeFeature::end_1, compare::EdgeFeature::interior});
-  // from edge 0: {e, a} with a the inside of edge 2 is entered
+  // From edge 0, {e, a} is entered with the interior of edge 2 as a.
   CHECK(in_edge_only_block(mesh, edge_face(2), on_edge_0, r));
-  CHECK_FALSE(in_edge_only_block(mesh, vertex_face(1), on_edge_2, r));  // from edge 2: a = vertex 1 is refused
+  CHECK_FALSE(in_edge_only_block(mesh, vertex_face(1), on_edge_2, r));  // from edge 2, a = vertex 1 is refused
   const auto contacts = reference::detect_edge_edge(question(bend, topology, r, r)).exact.contacts;
-  // only the pair that holds from both sides
+  // Only the pair that both sides accept is a contact.
   CHECK(contacts == std::vector<compare::EdgeEdgeContact>{{edge_face(1), edge_face(2), 1, 2}});
 }
 

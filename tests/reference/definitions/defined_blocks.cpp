@@ -1,4 +1,4 @@
-// Blocks twice: half-spaces (Eq. 8–10, 14, 15) against cones of normals (Eq. 7), on the whole zoo.
+// Compares two definitions of blocks on the whole zoo: half-spaces (Eq. 8–10, 14, 15) and cones of normals (Eq. 7).
 #include "reference/definitions/defined_blocks.hpp"
 
 #include <algorithm>
@@ -97,7 +97,8 @@ TEST_CASE("block_margins: a point is in a block where all margins hold; lengths 
 
 TEST_CASE("block_margins: distances to each boundary of an edge's, a triangle's and a vertex's block by hand",
           "[unit]") {
-  // Edge 0 from (0,0,0) to (4,0,0), triangle towards +y with its third corner at (0,3,0); x = (1,-2,0) with r = 5.
+  // Edge 0 goes from (0,0,0) to (4,0,0); its triangle lies towards +y with its third corner at (0,3,0); x = (1,-2,0)
+  // with r = 5.
   const Surface surface{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}, {{0, 1, 2}}, {}, {}};
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};

@@ -1,5 +1,5 @@
-// The polyhedral Gauss map: kinds of vertices by hand, corners that are normals of triangles, areas that are angle
-// deficits.
+// Tests the polyhedral Gauss map: kinds of vertices by hand, corners that are normals of triangles, areas that are
+// angle deficits.
 #include "reference/definitions/gauss_map.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// 2π minus the angles of the triangles at v [rad].
+/// Returns 2π minus the angles of the triangles at v [rad].
 double angle_deficit(const Complex& mesh, Index v) {
   double sum = 0;
   for (const Index t : mesh.topology.vertex_triangles[static_cast<std::size_t>(v)]) {
@@ -42,8 +42,8 @@ double angle_deficit(const Complex& mesh, Index v) {
 
 bool near_unit(const Unit& a, const Unit& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 1e-12; }
 
-/// Five triangles around vertex 0: neighbours on the corners of a square at height −1, and vertex 2 in the middle of a
-/// side at `height`.
+/// Returns five triangles around vertex 0. Its neighbours are the corners of a square at height −1, and vertex 2 in the
+/// middle of a side at `height`.
 Surface five_spokes(float height) {
   return {{{0, 0, 0}, {2, 2, -1}, {0, 2, height}, {-2, 2, -1}, {-2, -2, -1}, {2, -2, -1}},
           {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}},
@@ -72,9 +72,9 @@ TEST_CASE("gauss_map: convex, mixed and saddle vertices by hand", "[unit]") {
   CHECK(kind_of(tetrahedron(), 0) == VertexKind::convex);
   CHECK(kind_of(cube(), 3) == VertexKind::convex);
   CHECK(kind_of(saddle(), 0) == VertexKind::saddle);
-  CHECK(kind_of(saddle(), 1) == VertexKind::convex);  // at the rim: two triangles that meet in a ridge
+  CHECK(kind_of(saddle(), 1) == VertexKind::convex);  // at the rim two triangles meet in a ridge
   CHECK(kind_of(grid(3), 4) == VertexKind::convex);   // flat
-  // (0,2,−1/4) is above the line between its neighbours: still a ridge
+  // (0,2,−1/4) is above the line between its neighbours, which is still a ridge.
   CHECK(kind_of(five_spokes(-0.25f), 0) == VertexKind::convex);
   CHECK(kind_of(five_spokes(-1.5f), 0) == VertexKind::mixed);
   CHECK(kind_of({{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}, {}}, 0) == VertexKind::convex);
@@ -127,7 +127,7 @@ TEST_CASE(
   }
   CHECK(reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(3))) == Approx(2 * pi));
   CHECK(reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(4))) == Approx(4 * pi));
-  // a right angle of a sheet: a quarter of a sphere
+  // A right angle of a sheet maps to a quarter of a sphere.
   CHECK(reference::solid_angle(reference::gauss_map(mesh, reference::vertex_face(0))) == Approx(pi));
 }
 
@@ -187,9 +187,9 @@ TEST_CASE(
       if (!polygon || !polygon->closed) continue;
       ++closed;
       CHECK(polygon->normals.size() == topology.vertex_triangles[static_cast<std::size_t>(v)].size());
-      // An area on the sphere is known up to whole spheres. Where a star passes through itself, an arc between two
-      // normals that passed through opposite directions has jumped to the other side of the sphere: then up to half
-      // spheres.
+      // An area on the sphere is known up to whole spheres. Where a star passes through itself, it is known up to half
+      // spheres: an arc between two normals that passed through opposite directions has jumped to the other side of the
+      // sphere.
       const bool crosses_itself = specimen.name.starts_with("folded sheet") || specimen.name.starts_with("jittered") ||
                                   specimen.name.starts_with("soup");
       const double turns = (polygon->area - angle_deficit(mesh, v)) / (crosses_itself ? 2 * pi : 4 * pi);

@@ -1,4 +1,5 @@
-// Exact smallest distances against CGAL's own squared distance in rational numbers over all pairs; fractions by hand.
+// Compares exact smallest distances with CGAL's squared distances in rational numbers over all pairs, and with
+// fractions by hand.
 #include "reference/definitions/nearest.hpp"
 
 #include <CGAL/Exact_rational.h>
@@ -31,8 +32,7 @@ Kernel::Point_3 point(const Surface& surface, Index v) {
   return {exact(x.x), exact(x.y), exact(x.z)};
 }
 
-/// What all_pairs is about: the square of d_min, r_q² where nothing is nearer, and the lowest-numbered partner of that
-/// distance.
+/// Holds the square of d_min, or r_q² if nothing is nearer, and the lowest-numbered partner at that distance.
 struct Smallest {
   Rational square;
   Index partner = -1;
@@ -79,7 +79,7 @@ AllPairs all_pairs(const Surface& surface, const compare::Topology& topology, fl
   return result;
 }
 
-/// In lowest terms, for Rational is.
+/// Returns the fraction in lowest terms, as Rational is.
 std::string text(const Rational& q) {
   std::ostringstream stream;
   stream << numerator(q) << "/" << denominator(q);
@@ -132,8 +132,8 @@ TEST_CASE("nearest: partners and fractions are those of CGAL's rational squared 
 }
 
 TEST_CASE("nearest: fractions by hand", "[unit]") {
-  // 3/4 above the middle of a triangle's long side; the sides' own smallest distances are those of the point's absence:
-  // r_q = 2.
+  // The vertex is 3/4 above the middle of a triangle's long side. An edge's own smallest distance is to other edges;
+  // there is none, so it is r_q = 2.
   const Surface surface = with_vertex({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}, {}, {}}, {2, 2, 0.75f});
   const auto topology = surface.topology();
   const auto squares = reference::exact_squares(question(surface, topology, 1, 2), 0.5f);
@@ -148,7 +148,7 @@ TEST_CASE("nearest: of equally near partners the lowest-numbered, whatever the t
   const auto topology = surface.topology();
   const auto in = question(surface, topology, 1, 1);
   const auto first = reference::nearest_primitives(in);
-  // Vertex 14 lies above a vertex of six triangles, all at 1/2.
+  // Vertex 14 lies 1/2 below a vertex of six triangles, all equally near.
   const auto around = topology.vertex_triangles[14 + 36];
   CHECK(first.vertex[14].partner == *std::min_element(around.begin(), around.end()));
   for (int k = 0; k < 5; ++k) {

@@ -1,5 +1,5 @@
-// The sphere query of CGAL's tree against all boxes, in integers small enough for exact doubles, and on balls that
-// touch.
+// Compares the sphere query of CGAL's tree with a check of all boxes, in integers small enough for exact doubles, and
+// on balls that touch.
 #include "reference/definitions/sphere_tree.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using reference::Index;
 
 namespace {
 
-/// Exact where all numbers are integers below 2²⁵.
+/// Returns the squared distance, exact if all numbers are integers below 2²⁵.
 double squared_distance(const Box& box, const std::array<double, 3>& x) {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {

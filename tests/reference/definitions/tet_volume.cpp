@@ -1,4 +1,5 @@
-// §3.9 inside the body: the depth of Chen et al. 2023 by its definition, against bodies whose depth is known otherwise.
+// Tests §3.9 inside the body: the depth by the definition of Chen et al. 2023, on bodies whose depth is known
+// otherwise.
 #include "reference/definitions/tet_volume.hpp"
 
 #include <algorithm>
@@ -27,8 +28,8 @@ struct Body {
   std::vector<Tetrahedron> tetrahedra;
 };
 
-/// nx × ny × nz cells, six tetrahedra around the diagonal of each; vertex (i, j, k) at map(i, j, k). Tetrahedra are
-/// listed cell by cell, i slowest.
+/// Returns nx × ny × nz cells, each of six tetrahedra around its diagonal; vertex (i, j, k) lies at map(i, j, k).
+/// Tetrahedra are listed cell by cell, i slowest.
 template <class Map>
 Body blocks(int nx, int ny, int nz, Map map) {
   Body body;
@@ -48,7 +49,7 @@ Body blocks(int nx, int ny, int nz, Map map) {
             ++at[static_cast<std::size_t>(orders[o][s])];
             t[s + 1] = number(at[0], at[1], at[2]);
           }
-          if (o >= 3) std::swap(t[2], t[3]);  // odd orders turn the other way
+          if (o >= 3) std::swap(t[2], t[3]);  // odd orders have the other orientation
           body.tetrahedra.push_back(t);
         }
   return body;
@@ -62,7 +63,7 @@ Body box(int n) {
 
 constexpr int ring_cells = 40, ring_turn = 36;  // one turn is 36 cells: the last 4 cells lie in the first 4
 
-/// A bar bent around the z axis by more than a whole turn, so that its two ends overlap. Radius 1 … 3, height 0 … 2.
+/// Returns a bar bent around the z axis by more than a turn, so that its two ends overlap. Radius 1 … 3, height 0 … 2.
 Body overlapping_ring() {
   return blocks(2, ring_cells, 2, [](int i, int j, int k) {
     const double angle = 2 * std::numbers::pi * j / ring_turn, radius = 1 + i;
@@ -71,14 +72,15 @@ Body overlapping_ring() {
   });
 }
 
-/// The cell along the bar that a tetrahedron of the ring lies in.
+/// Returns the cell along the bar in which a tetrahedron of the ring lies.
 int ring_cell(Index tetrahedron) { return tetrahedron / 12 % ring_cells; }
 
 double euclidean(const Vec3f& x, const std::array<double, 3>& y) {
   return std::hypot(x.x - y[0], x.y - y[1], x.z - y[2]);
 }
 
-/// By the closest features of Algorithm 1, which share no formula with the rational closest points.
+/// Returns the distance by the closest features of Algorithm 1, which share no formula with the rational closest
+/// points.
 double triangle_distance(const Body& body, const reference::BoundaryTriangle& side, const Vec3f& x) {
   const auto corner = [&](std::size_t k) { return body.positions[static_cast<std::size_t>(side.vertices[k])]; };
   const std::array<Vec3f, 3> corners{corner(0), corner(1), corner(2)};
@@ -132,7 +134,7 @@ TEST_CASE(
   std::uniform_real_distribution<double> share(0.01, 0.99), radius(1.2, 2.8), height(0.1, 1.9);
   int misled = 0;
   for (int n = 0; n < 20; ++n) {
-    // half of them near an end
+    // Half of the points lie near an end.
     const double overlap = ring_cells - ring_turn,
                  cell = n % 2 == 0 ? overlap * share(random) : overlap - 0.5 * share(random);
     const double angle = 2 * std::numbers::pi * cell / ring_turn, rho = radius(random);
@@ -141,7 +143,7 @@ TEST_CASE(
     const auto sheets = volume.sheets(x);
     REQUIRE(sheets.size() == 2);
     for (const auto& sheet : sheets) {
-      // The bar near the sheet, up to a quarter turn away, does not overlap itself: there the nearest boundary is the
+      // Up to a quarter turn away from the sheet the bar does not overlap itself, so the nearest boundary there is the
       // answer.
       double expected = 1e9;
       for (const auto& side : volume.boundary())
@@ -162,15 +164,16 @@ TEST_CASE(
     "[unit]") {
   const Body body = overlapping_ring();
   const TetVolume volume(body.positions, body.tetrahedra);
-  // 0.02 of a cell before the last end: there the bar's second sheet ends, and its first one goes on for half a turn.
+  // The point is 0.02 of a cell before the last end. The bar's second sheet ends there; its first one continues for
+  // half a turn.
   const double angle = 2 * std::numbers::pi * (ring_cells - ring_turn - 0.02) / ring_turn;
   const Vec3f x{static_cast<float>(2 * std::cos(angle)), static_cast<float>(2 * std::sin(angle)), 1.0f};
   const auto sheets = volume.sheets(x);
   REQUIRE(sheets.size() == 2);
   std::array<double, 2> depth{};
   for (std::size_t s = 0; s < 2; ++s) depth[s] = volume.shortest_path_to_boundary(x, sheets[s][0]).path.length;
-  CHECK(depth[0] > 0.9);   // the bar's top, bottom or sides: about 1
-  CHECK(depth[1] < 0.01);  // its end: 2 sin(0.02 · 10°)
+  CHECK(depth[0] > 0.9);   // the bar's top, bottom or sides, about 1 away
+  CHECK(depth[1] < 0.01);  // the bar's end, 2 sin(0.02 · 10°) away
   const auto& refused = volume.shortest_path_to_boundary(x, sheets[0][0]);
   CHECK(refused.refused >= 2);  // the end's triangles belong to the other sheet
 }
@@ -210,7 +213,7 @@ TEST_CASE(
   CHECK_THROWS_AS(volume.shortest_path_to_boundary({0.5f, 0.5f, 0.5f}, 99), compare::InputError);
   const BoundaryDepth middle = volume.shortest_path_to_boundary({0.5f, 0.5f, 0.5f}, 0);
   CHECK(middle.path.length == 0.5);
-  CHECK(middle.equally_near.size() == 12);  // the centre of each side lies on the diagonal of its two triangles
+  CHECK(middle.equally_near.size() == 12);  // the centre of each side lies on the diagonal between its two triangles
 }
 
 TEST_CASE("tet volume: inverted, flat, folded, crowded and wound tetrahedra are refused by their names", "[unit]") {
@@ -228,7 +231,8 @@ TEST_CASE("tet volume: inverted, flat, folded, crowded and wound tetrahedra are 
   const Body crowded{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 1, -1}},
                      {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 2, 1, 5}}};
   CHECK(contains(refusal(crowded), "belongs to 3 tetrahedra"));
-  // Two turns of six tetrahedra around the edge of vertices 0 and 1, each with vertices of its own on the rim.
+  // Six tetrahedra make a turn around the edge of vertices 0 and 1; there are two turns, each with its own rim
+  // vertices.
   Body wound{{{0, 0, 0}, {0, 0, 1}}, {}};
   for (int k = 0; k < 12; ++k) {
     const double angle = std::numbers::pi * k / 3;
@@ -269,7 +273,7 @@ TEST_CASE(
   CHECK(depths({0.75f, 1.25f, 1.875f}) == std::vector<double>{0.625});
   CHECK(depths({0.75f, 1.25f, 2.5f}).empty());
   CHECK(depths({2.25f, 2, 1}).size() == 1);  // beside the middle of a ridge
-  // A vertex of the body itself is in no contact with its own sheet and its own faces.
+  // A vertex of the body has no contact with its own sheet and its own faces.
   const Vec3f corner = body.positions.back();
   CHECK(reference::volumetric_contacts(volume, surface, corner, 0.5f, static_cast<Index>(body.positions.size()) - 1)
             .empty());

@@ -1,5 +1,5 @@
-// What the paper says of blocks and contact sets (§3.3, §4.1), on the whole zoo. Where a sentence holds on some classes
-// of meshes only, the rest is in counterexamples.cpp.
+// Tests the paper's statements about blocks and contact sets (§3.3, §4.1) on the whole zoo. Statements that hold on
+// some classes of meshes only are in counterexamples.cpp too.
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -24,7 +24,7 @@ using reference::TriangleFeature;
 
 namespace {
 
-/// The faces of one triangle in the order of TriangleFeature.
+/// Returns the faces of one triangle in the order of TriangleFeature.
 std::array<Face, 7> faces_of(const Complex& mesh, Index t) {
   const auto [a, b, c] = mesh.triangle(t);
   const auto [ab, bc, ca] = mesh.topology.triangle_edges[static_cast<std::size_t>(t)];
@@ -37,7 +37,7 @@ reference::Corners corners_of(const Complex& mesh, Index t) {
   return {mesh.at(a), mesh.at(b), mesh.at(c)};
 }
 
-/// The face of an edge that is closest to x: an end or the interior.
+/// Returns the face of an edge that is closest to x: an end or the interior.
 Face closest_on_edge(const Complex& mesh, Index e, const Vec3f& x) {
   const auto [a, b] = mesh.edge(e);
   const auto feature = reference::closest_features({{mesh.at(a), mesh.at(b)}, {x, x}}).first;
@@ -59,7 +59,7 @@ bool near_triangle(const Complex& mesh, Index t, const Vec3f& x, float r) {
              reference::feature_gap(corners, reference::closest_feature(corners, x), x), r)) <= 0;
 }
 
-/// dis(x, M) ≤ r, over vertices, edges and triangles.
+/// Returns whether dis(x, M) ≤ r, over vertices, edges and triangles.
 bool near_mesh(const Complex& mesh, const Vec3f& x, float r) {
   for (Index v = 0; v < mesh.topology.vertex_count; ++v) {
     if (reference::sign(reference::gap_points(mesh.at(v), x, r)) <= 0) return true;
@@ -73,7 +73,7 @@ bool near_mesh(const Complex& mesh, const Vec3f& x, float r) {
   return false;
 }
 
-/// The faces whose blocks hold x.
+/// Returns the faces whose blocks hold x.
 std::set<Face> blocks_at(const Complex& mesh, const Vec3f& x, float r) {
   std::set<Face> found;
   const auto ask = [&](FaceKind kind, std::size_t count) {
@@ -104,7 +104,8 @@ void examine_edges(const Complex& mesh, const std::set<Face>& blocks, const Vec3
   }
 }
 
-/// a ⊂ t: the closest point of t is the one on a, so dis(x, a) ≤ dis(x, b) for all faces b of t, and < for those b ⊂ a.
+/// Checks for a ⊂ t that the closest point of t is the one on a, so that dis(x, a) ≤ dis(x, b) for all faces b of t,
+/// and dis(x, a) < dis(x, b) for those with b ⊂ a.
 void examine_triangles(const Complex& mesh, const std::set<Face>& blocks, const Vec3f& x, Findings& findings) {
   for (std::size_t i = 0; i < mesh.topology.triangles.size(); ++i) {
     const auto t = static_cast<Index>(i);
@@ -135,7 +136,7 @@ Findings examine(const Specimen& specimen) {
   return findings;
 }
 
-/// Both contact sets and the bounds of one mesh.
+/// Holds both contact sets and the bounds of one mesh.
 struct Answer {
   std::vector<compare::VertexFacetContact> facets;
   std::vector<compare::EdgeEdgeContact> edges;
@@ -182,7 +183,8 @@ std::vector<Index> shuffled(std::size_t n, std::mt19937& random) {
   return names;
 }
 
-/// Vertex v becomes name[v]; triangles in another order, each from another corner on, every other one turned over.
+/// Renames vertex v to name[v] and shuffles the triangles; each begins at another corner, every other one is turned
+/// over.
 Surface renumbered(const Surface& surface, const std::vector<Index>& name, std::mt19937& random) {
   Surface result = surface;
   for (std::size_t v = 0; v < name.size(); ++v)
@@ -198,7 +200,8 @@ Surface renumbered(const Surface& surface, const std::vector<Index>& name, std::
 
 Vec3f scaled(Vec3f x, float factor) { return {factor * x.x, factor * x.y, factor * x.z}; }
 
-/// Nothing is lost on the way there and back, and where the map moves the origin it moves everything by that much.
+/// Returns whether the map and its inverse lose nothing and, if the map moves the origin, it moves every point by the
+/// same amount.
 template <class Map>
 bool is_exact(const Surface& surface, Map map, Map back) {
   const float shift = map({0, 0, 0}).x;
@@ -220,7 +223,7 @@ TEST_CASE(
     covered += findings.covered;
     CHECK(findings.uncovered == 0);
     CHECK(findings.shared == 0);
-    if (specimen.collapsed) continue;  // counterexamples.cpp
+    if (specimen.collapsed) continue;  // counterexamples.cpp tests these
     CHECK(findings.not_closest == 0);
     CHECK(findings.twice_on_triangle == 0);
   }
@@ -253,7 +256,7 @@ TEST_CASE("theorems: the block of a vertex without normals is the vertex itself,
 
 TEST_CASE("theorems: orthogonality, the connection of a point in a block with the face is perpendicular to it",
           "[property]") {
-  // Decided without rounding: the closest points of the edges of a, and of a, lie in the interior of a alone.
+  // Decided without rounding: the closest points of a, and of the edges of a, lie in the interior of a alone.
   for (const Specimen& specimen : mesh_zoo()) {
     if (specimen.collapsed) continue;
     CAPTURE(specimen.name);

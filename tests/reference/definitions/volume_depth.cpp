@@ -1,4 +1,5 @@
-// The truth of stage volume_depth: its exact answer is that of part_contacts; where it doubts it accepts both sides.
+// Tests the truth of stage volume_depth: its exact answer is that of part_contacts, and where it is in doubt it accepts
+// both sides.
 #include "reference/definitions/volume_depth.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ struct Body {
   }
 };
 
-/// A corner of the cube moved inward: a reentrant vertex, valleys, ridges.
+/// Returns a cube with a corner moved inward: a reentrant vertex, valleys, ridges.
 Surface dented_cube() {
   Surface surface = cube();
   surface.positions[7] = {0.5f, 0.75f, 0.5f};
@@ -47,7 +48,7 @@ std::vector<Vec3f> points(std::mt19937& random) {
 
 using Named = std::tuple<bool, Index, reference::Face>;
 
-/// The exact contacts of one point.
+/// Returns the exact contacts of one point.
 std::vector<Named> exact_contacts(const std::vector<VolumePartTruth>& parts) {
   std::vector<Named> all;
   const auto add = [&](const compare::VolumeAnswer& a) {
@@ -97,7 +98,7 @@ TEST_CASE("where a point lies is what winding numbers say, and only on the surfa
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const VolumePartTruth& part = truth.parts[i].front();
     REQUIRE(part.inside == closed.locate(asked[i]).inside());
-    // 16 u of three differences of coordinates that are below 100 m each, in the sum of their moduli
+    // The limit is 16 u of the sum of the moduli of three differences of coordinates, each below 100 m.
     if (part.may_be_inside && part.may_be_outside) REQUIRE(part.held.front().depth - 0.5 <= 16 * 0x1p-24 * 300);
   }
   const std::vector<Vec3f> corner{body.surface.positions[0]};

@@ -1,5 +1,6 @@
-// Random contacts and closest points without features, for the tests of the reference's contact stages: minima found by
-// projecting to and fro, or by the smallest of all candidates, never by deciding where a point belongs.
+// Makes random contacts, and finds closest points without features, to test the reference's contact stages. Minima are
+// found by alternating projections or as the smallest of all candidates, never by deciding in which region a point
+// lies.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@ inline Point mix(const Point& a, const Point& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
-/// Parameter of the point of the closed segment nearest to p.
+/// Returns the parameter of the point of the closed segment nearest to p.
 inline double nearest(const Point& p, const Point& a, const Point& b) {
   const Point e = minus(b, a);
   return std::clamp(inner(minus(p, a), e) / inner(e, e), 0.0, 1.0);
@@ -72,7 +73,7 @@ inline std::array<Point, 4> points(const std::array<compare::Vec3f, 4>& x) {
   return {point(x[0]), point(x[1]), point(x[2]), point(x[3])};
 }
 
-/// Sides of about 1 m, 0.1 to 0.6 m apart, r = 0.7 m; edges at a right angle more or less.
+/// Returns a contact with sides of about 1 m, 0.1 to 0.6 m apart, and r = 0.7 m; edges are nearly perpendicular.
 inline ContactForceCase random_contact(Draw& draw, ContactSides sides) {
   ContactForceCase c;
   c.sides = sides;
@@ -97,7 +98,7 @@ inline ContactForceCase random_contact(Draw& draw, ContactSides sides) {
   return c;
 }
 
-/// g of Eq. 18 with Eq. 20, Eq. 19 corrected.
+/// Returns g of Eq. 18 with Eq. 20 and the corrected Eq. 19.
 inline double activation(double d, double r, double k) {
   if (d >= r) return 0;
   const double tau = r / 2;

@@ -1,5 +1,5 @@
-// Random stencils and the energies written out once more in plain doubles, for the tests of reference/energies: what a
-// derivative is held against must not come from the differentiation that it tests.
+// Makes random stencils and writes the energies once more in plain doubles, for the tests of reference/energies. The
+// derivatives to compare with must not come from the differentiation that is tested.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ class Draw {
   std::mt19937 engine_;
 };
 
-/// Central differences of an energy of one point. With step s the truncation error is s²/6 times a third derivative,
-/// the rounding error 2⁻⁵³ E/s.
+/// Returns central differences of an energy of one point. With step s the truncation error is s²/6 times a third
+/// derivative, the rounding error 2⁻⁵³ E/s.
 template <class Energy>
 Point slope(Energy energy, const Point& at, double step) {
   Point result{};
@@ -45,7 +45,7 @@ Point slope(Energy energy, const Point& at, double step) {
   return result;
 }
 
-/// Smallest of xᵀ B x over many unit vectors x, B given as xx, xy, xz, yy, yz, zz.
+/// Returns the smallest of xᵀ B x over 200 random unit vectors x; B is given as xx, xy, xz, yy, yz, zz.
 inline double smallest_quadratic(const std::array<double, 6>& b, Draw& draw) {
   double smallest = INFINITY;
   for (int i = 0; i < 200; ++i) {

@@ -1,5 +1,5 @@
-// Pictures show the blocks that are decided exactly: what they enclose is inside, what lies beyond their patches is
-// not.
+// Tests that pictures show the blocks that are decided exactly: points that the patches enclose are inside, points
+// beyond them are not.
 #include "reference/illustrations/block_picture.hpp"
 
 #include <cmath>
@@ -27,8 +27,8 @@ Point3 mean_of(const BlockPicture& picture) {
   return {sum[0] / n, sum[1] / n, sum[2] / n};
 }
 
-/// From the middle of the block (they are convex) through the middle of a triangle of its boundary, to the part t of
-/// the way.
+/// Returns the point at the part `part` of the way from `centre`, the middle of the convex block, to the middle of
+/// triangle t of its boundary.
 Vec3f on_ray(const BlockPicture& picture, const std::array<int, 3>& t, const Point3& centre, double part) {
   Point3 x{};
   for (const int k : t) {
@@ -50,7 +50,7 @@ TEST_CASE("block_picture: just inside each patch is in the block, just outside i
     const auto check = [&](Face face, bool edge_only) {
       const BlockPicture picture = reference::block_picture(mesh, face, r, edge_only, 0.02);
       const int dimension = reference::gauss_map(mesh, face, edge_only).dimension + static_cast<int>(face.kind);
-      if (dimension < 2) return;  // flat: nothing is inside
+      if (dimension < 2) return;  // a flat block has no inside
       const auto inside = [&](const Vec3f& x) {
         return edge_only ? reference::in_edge_only_block(mesh, face, x, r) : reference::in_block(mesh, face, x, r);
       };
@@ -91,11 +91,11 @@ TEST_CASE(
       CHECK(patch.closed != open);
     }
   }
-  // cylinder, two ends, two walls
+  // The patches are a cylinder, two ends and two walls.
   CHECK(reference::block_picture(mesh, reference::edge_face(2), 1).patches.size() == 5);
   const Surface flat = grid(3);
   const auto names = flat.topology();
-  // a segment to either side
+  // The block has a segment to either side.
   CHECK(reference::block_picture({names, flat.positions}, reference::vertex_face(4), 1).patches.size() == 2);
   const Surface star = saddle();
   const auto around = star.topology();

@@ -1,4 +1,4 @@
-// What the drawings are meant to show holds for the numbers that they are made of.
+// Tests that the drawings' data have the properties that the drawings are meant to show.
 #include "reference/illustrations/illustrations.hpp"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ TEST_CASE(
   const auto panels = reference::illustration("fig03");
   CHECK(layer(panels[0], "IPC").lines.size() == 2);
   CHECK(layer(panels[0], "OGC").values == std::vector<double>{1, 0});  // vertex 1
-  CHECK(layer(panels[1], "IPC").lines.size() == 2);                    // both segments of the second ring within r
+  CHECK(layer(panels[1], "IPC").lines.size() == 2);                    // both segments of the second ring are within r
   CHECK(layer(panels[1], "OGC").lines.empty());
   CHECK(layer(panels[2], "SDF").lines.size() == 1);
   CHECK(layer(panels[2], "OGC").lines.size() == 2);
@@ -138,7 +138,7 @@ TEST_CASE("illustrations: Fig. 9, the full step penetrates, neither cut does, an
   CHECK(swept(target, obstacle) > 0);
   CHECK(swept(local, obstacle) == 0);
   const double share = global.values[0];
-  for (const double change : {-1e-6, 1e-6}) {  // just short of the touch, and just beyond it
+  for (const double change : {-1e-6, 1e-6}) {  // just before the touch, and just after it
     DrawingLayer near = before;
     for (std::size_t i = 0; i < near.points.size(); ++i)
       for (std::size_t k = 0; k < 2; ++k)

@@ -1,8 +1,9 @@
-// Do two primitives meet on a straight motion? Decided without rounding: the four points lie in one plane where a cubic
-// of the time vanishes, and meet there where polynomials of degree four have the right signs. All of them have integer
-// coefficients once the coordinates are scaled; in Bernstein form a polynomial without a change of sign in its
-// coefficients has no root, and an interval is halved by additions alone. Halves without a root, or on the wrong side,
-// are left; what survives all halvings holds a meeting, or one that is missed by less than 2⁻ᵈᵉᵖᵗʰ of the motion.
+// Decides without rounding whether two primitives meet on a straight motion. The four points lie in one plane where a
+// cubic of the time vanishes, and meet there if polynomials of degree four have the right signs. After scaling the
+// coordinates, all polynomials have integer coefficients. A polynomial in Bernstein form without a change of sign in
+// its coefficients has no root, and an interval is halved by additions alone. Halves without a root, or with wrong
+// signs, are discarded; an interval that survives all halvings holds a meeting, or a miss by less than 2⁻ᵈᵉᵖᵗʰ of the
+// motion.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@
 namespace ogc::tests {
 
 using Integer = boost::multiprecision::mpz_int;
-/// Bernstein coefficients on the interval at hand, up to a common positive factor.
+/// Bernstein coefficients on the current interval, up to a common positive factor.
 using Bernstein = std::vector<Integer>;
 using Points4 = std::array<reference::Triple<double>, 4>;
 
@@ -30,7 +31,7 @@ inline Integer scaled(double value) {
   return shift >= 0 ? Integer(Integer(mantissa) << shift) : Integer(Integer(mantissa) >> -shift);
 }
 
-/// Scaled by binomials, Bernstein coefficients multiply as ordinary ones do.
+/// Holds Bernstein coefficients times binomials, which multiply as ordinary coefficients do.
 struct Scaled {
   std::vector<Integer> c;  ///< binomial(n, k) · Bernstein coefficient
   friend Scaled operator*(const Scaled& a, const Scaled& b) {
@@ -55,7 +56,7 @@ inline Vector crossed(const Vector& a, const Vector& b) {
 }
 inline Scaled dotted(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Bernstein coefficients times a common factor: the least common multiple of the binomials.
+/// Returns the Bernstein coefficients times the least common multiple of the binomials.
 inline Bernstein bernstein(const Scaled& p) {
   static const std::array<std::vector<int>, 5> factor{{{1}, {1, 1}, {2, 1, 2}, {3, 1, 1, 3}, {12, 3, 2, 3, 12}}};
   Bernstein b;
@@ -74,7 +75,7 @@ inline bool all_negative(const Bernstein& b) {
   return true;
 }
 
-/// The two halves, times 2^degree.
+/// Returns the polynomial on the two halves, times 2^degree.
 inline std::array<Bernstein, 2> halves(const Bernstein& b) {
   const std::size_t degree = b.size() - 1;
   Bernstein row = b, left{b[0] << degree}, right{b[degree] << degree};
@@ -86,18 +87,20 @@ inline std::array<Bernstein, 2> halves(const Bernstein& b) {
   return {left, {right.rbegin(), right.rend()}};
 }
 
-/// A vector that moves on a straight line: coefficients at both ends of the interval.
+/// A vector that moves on a straight line: its coefficients at both ends of the interval.
 using Line = std::array<Bernstein, 3>;
 
 struct MeetingQuestion {
   Bernstein coplanar;             ///< must vanish
   std::vector<Bernstein> inside;  ///< must not be negative
-  /// from each vertex of the second primitive to each of the first; a direction along which all are positive parts them
+  /// The vectors from each vertex of the second primitive to each of the first. A direction along which all are
+  /// positive separates the primitives.
   std::vector<Line> apart;
-  Line along;  ///< of two edges: the first one
+  Line along;  ///< for two edges: the first one
 };
 
-/// All of `apart` have a positive product with an integer direction, or all a negative one, all the time.
+/// Returns whether all of `apart` have a positive product with an integer direction at all times, or all a negative
+/// one.
 inline bool parted_by(const MeetingQuestion& q, const std::array<Integer, 3>& direction) {
   int positive = 0, negative = 0;
   for (const Line& line : q.apart)
@@ -109,8 +112,8 @@ inline bool parted_by(const MeetingQuestion& q, const std::array<Integer, 3>& di
   return positive == all || negative == all;
 }
 
-/// Any direction is a proof, so a guess may be rounded: across the first edge, towards the second. Parallel edges have
-/// no other.
+/// Returns whether the direction across the first edge, towards the second, separates the primitives. Any direction
+/// that does is a proof, so it may be rounded. For parallel edges no other direction can.
 inline bool parted_across_edge(const MeetingQuestion& q) {
   using reference::operator*, reference::operator-;
   reference::Triple<double> w, u;
@@ -157,7 +160,7 @@ inline bool meets(const MeetingQuestion& q, int depth) {
   return meets(parts[0], depth - 1) || meets(parts[1], depth - 1);
 }
 
-/// Vertices 0 | 1 2 3 or 0 1 | 2 3, moved from x by `until` times delta.
+/// Returns whether 0 | 1 2 3 (vertex and triangle) or 0 1 | 2 3 (edges) meet on the way from x to x + `until` delta.
 inline bool exactly_meet(bool edges, const Points4& x, const Points4& delta, double until = 1, int depth = 120) {
   std::array<Vector, 4> p;
   const Integer share = scaled(until), one = Integer(1) << exact_bits;

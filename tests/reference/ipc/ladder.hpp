@@ -1,5 +1,5 @@
-// Motions of a vertex and a triangle, or of two edges, that climb towards what is hard: vanishing gaps, vanishing
-// angles, needles, near misses, slides, speeds.
+// Makes motions of a vertex and a triangle, or of two edges, that approach difficult cases: vanishing gaps and angles,
+// needles, near misses, slides, speeds.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ class MotionLadder {
  public:
   explicit MotionLadder(unsigned seed) : engine_(seed) {}
 
-  /// Case i; kinds and rungs take turns.
+  /// Returns case i; kinds and rungs alternate.
   PairMotion next(int i) {
     PairMotion m;
     m.edges = i % 2 == 1;
@@ -32,11 +32,11 @@ class MotionLadder {
 
  private:
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  /// 10⁰ … 10⁻ᵇᵒᵗᵗᵒᵐ, by turns.
+  /// Returns 10⁰ … 10⁻ᵇᵒᵗᵗᵒᵐ in turn.
   static double rung(int i, int bottom) { return std::pow(10.0, -(i % (bottom + 1))); }
 
-  /// In the plane z = 0, touching: the vertex in, on the rim of or beside the triangle; edges that cross, meet at an
-  /// end or miss.
+  /// Places the primitives in the plane z = 0, touching: the vertex in, on the rim of or beside the triangle; edges
+  /// that cross, meet at an end or miss.
   void shape(PairMotion& m, int i) {
     const double slender = i % 5 == 0 ? rung(i / 10, 12) : 1,
                  miss = (i % 3 == 0 ? rung(i / 6, 14) : 0) * (i % 4 < 2 ? 1 : -1);
@@ -58,7 +58,7 @@ class MotionLadder {
     for (std::size_t k = 0; k < (m.edges ? 2u : 1u); ++k) m.x[k][2] += gap;
   }
 
-  /// Down by half the gap to many gaps, along the plane, and every vertex a little on its own.
+  /// Moves the first primitive down by 0.4 to 2.5 gaps and along the plane, and every vertex a little by itself.
   void move(PairMotion& m, int i, double gap) {
     const double down = gap * std::pow(10.0, between(-0.4, 0.4)), slide = i % 4 == 3   ? between(0, 1)
                                                                           : i % 4 == 2 ? gap
@@ -72,8 +72,8 @@ class MotionLadder {
     }
   }
 
-  /// Turned, shrunk to the size of a cloth's triangles, moved away from the origin, given a common velocity, and
-  /// rounded as the exact answer needs it.
+  /// Turns the case, shrinks it to the size of a cloth's triangles, moves it away from the origin, adds a common
+  /// velocity, and rounds as the exact answer needs it.
   void place(PairMotion& m) {
     std::array<std::array<double, 3>, 3> q{};
     const double a = between(0, 6.283), b = between(0, 6.283), size = std::pow(10.0, between(-3, 0));

@@ -1,4 +1,4 @@
-// Runs of the reference's solvers, as their tests look at them.
+// Runs the reference's solvers for their tests.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,8 @@ inline bool clean(const Run& run) {
                      [](const compare::StepMetrics& row) { return row.status == compare::step_clean; });
 }
 
-/// A sheet that falls askew onto a fixed one: contacts of all kinds, friction, damping, several detections a step.
+/// Returns a tilted sheet that falls onto a fixed one: contacts of all kinds, friction, damping, several detections a
+/// step.
 inline compare::Scene drop_scene() {
   compare::Scene scene;
   scene.name = "drop";
@@ -47,8 +48,8 @@ inline compare::Scene drop_scene() {
   return scene;
 }
 
-/// Each step from the snapshot before it gives the bits of the run that did not stop there, with both sheets free:
-/// contacts then couple vertices that no triangle does, so that the matrix' pattern grows and shrinks.
+/// Checks that each step from the snapshot before it gives the bits of an uninterrupted run. Both sheets are free, so
+/// contacts couple vertices that no triangle couples, and the matrix' pattern grows and shrinks.
 inline void check_goes_on_from_any_snapshot(StartSolver start, compare::Scene scene) {
   scene.bodies[1].fixed = false;
   const auto whole = start(scene, {});

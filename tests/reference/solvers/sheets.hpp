@@ -1,4 +1,4 @@
-// Small scenes for the tests of the solvers.
+// Makes small scenes for the tests of the solvers.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace ogc::tests {
 
-/// n × n vertices on side × side [m] at y = height, centred on the y axis, alternating diagonals.
+/// Returns n × n vertices on side × side [m] at y = height, centred on the y axis, with alternating diagonals.
 inline compare::Mesh sheet_mesh(compare::Index n, double side, double height) {
   compare::Mesh mesh;
   for (compare::Index i = 0; i < n; ++i)
@@ -30,7 +30,7 @@ inline void add_sheet(compare::Scene& scene, compare::Index n, double side, doub
               sheet_mesh(n, side, height));
 }
 
-/// A free sheet 4 mm above a fixed one, askew and falling: contacts of all kinds from the first step on.
+/// Returns a tilted free sheet that falls from 4 mm above a fixed one: contacts of all kinds from the first step on.
 inline compare::Scene two_sheets() {
   compare::Scene scene;
   scene.name = "two_sheets";
@@ -46,8 +46,8 @@ inline compare::Scene two_sheets() {
   return scene;
 }
 
-/// A single triangle, 1 cm wide, `height` above the inside of a fixed one, 2 m wide: three contacts of a vertex with a
-/// plane, and nothing else.
+/// Returns a single triangle, 1 cm wide, `height` above the interior of a fixed one, 3 m wide, so that exactly three
+/// contacts of a vertex with a plane arise.
 inline compare::Scene triangle_on_plane(double height, const compare::Material& material) {
   compare::Scene scene;
   scene.name = "triangle_on_plane";

@@ -1,4 +1,4 @@
-// Stencils in batches against stencils alone, for the tests of energies and of barriers.
+// Compares stencils in batches with single stencils, for the tests of energies and barriers.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ inline std::vector<const reference::StencilKernels*> kernels_of_this_machine() {
   return all;
 }
 
-/// Up to batch_width stencils in one batch.
+/// Differentiates up to batch_width stencils in one batch.
 template <std::size_t Count, class Term>
 std::vector<reference::StencilDerivatives> differentiated(
     void (*kernel)(const reference::Batch<Term, Count>&, reference::HessianProjection), const std::vector<Term>& terms,
@@ -29,8 +29,8 @@ std::vector<reference::StencilDerivatives> differentiated(
   return result;
 }
 
-/// Zeros of either sign are one. Of the Hessian the lower triangle: the upper one is its mirror image side by side, and
-/// alone off by roundings.
+/// Returns whether two derivatives have the same bits; zeros of either sign count as equal. Only the lower triangle of
+/// the Hessian is compared: the upper one is its mirror image in batches and differs by roundings for single stencils.
 inline bool same_bits(const reference::StencilDerivatives& a, const reference::StencilDerivatives& b) {
   bool same = a.energy == b.energy && a.gradient == b.gradient;
   for (std::size_t i = 0; i < 12; ++i)
