@@ -1,4 +1,4 @@
-// activation: smoothness where the stages meet, and what Eq. 19 as printed would do.
+// Tests activation: smoothness where the stages meet, and the consequence of Eq. 19 as printed.
 #include "reference/energies/activation.hpp"
 
 #include <array>
@@ -55,7 +55,7 @@ TEST_CASE("activation: slope and curvature are the derivatives of the energy, of
       const auto low = activation_at(d - h, r, k, kind), at = activation_at(d, r, k, kind),
                  high = activation_at(d + h, r, k, kind);
       if ((d - h < r / 2 && d + h >= r / 2) || d + h >= r) continue;
-      // Next to r the cubic's slope tends to 0 and the difference's error, h²/6 · 4k/r, does not.
+      // Next to r the cubic's slope tends to 0, but the error of the difference, h²/6 · 4k/r, does not.
       CHECK((high.energy - low.energy) / (2 * h) == Approx(at.slope).epsilon(1e-6).margin(1e-7 * k * r));
       CHECK((high.slope - low.slope) / (2 * h) == Approx(at.curvature).epsilon(1e-6).margin(1e-7 * k));
     }
@@ -76,8 +76,8 @@ TEST_CASE("activation: every variant repels below r, is convex, and ends at r wi
 }
 
 TEST_CASE("activation: the variants by hand at half the radius", "[unit]") {
-  // r = 2, k = 3, d = 1, depth 1: quadratic 3/2, −3, 3; cubic 2 · 3/6 = 1, −3, 6; IPC 3 ln 2, −3 (2 ln 2 + 1), 3 (2 ln
-  // 2 + 4 + 1).
+  // r = 2, k = 3, d = 1, so the depth is 1. Energy, slope, curvature: quadratic 3/2, −3, 3; cubic 2 · 3/6 = 1, −3, 6;
+  // IPC 3 ln 2, −3 (2 ln 2 + 1), 3 (2 ln 2 + 4 + 1).
   const auto quadratic = activation_at(1, 2, 3, ContactActivation::quadratic),
              cubic = activation_at(1, 2, 3, ContactActivation::cubic);
   const auto barrier = activation_at(1, 2, 3, ContactActivation::ipc_log);
@@ -101,7 +101,7 @@ TEST_CASE("activation: Eq. 19 as printed gives another slope at τ unless r − 
 }
 
 TEST_CASE("activation: the two stages by hand, and their scales", "[unit]") {
-  // r = 2, k = 3, τ = 1: k' = 3; d = 3/2: 3/2 · 1/4; d = 1/4: 3 ln 4 + 3/2.
+  // r = 2, k = 3, τ = 1, so k' = 3. The energy is 3/2 · 1/4 at d = 3/2 and 3 ln 4 + 3/2 at d = 1/4.
   compare::ActivationIn in;
   in.distance = {1.5f, 0.25f, 2.0f};
   in.contact_radius = {2, 2, 2};
@@ -121,8 +121,9 @@ TEST_CASE("activation: the two stages by hand, and their scales", "[unit]") {
 }
 
 TEST_CASE("activation: IPC's curvature over OGC's at equal force", "[unit]") {
-  // κ = 1: largest, 3.35, where OGC's stages meet, f = k_c r/2; 0.52 at 0.02. For small forces κ √(12 f/κ), the depth
-  // being √(f/(3κ)); for large ones OGC's curvature is 4 f²/(k_c r²), IPC's f²/(κ k_c r²) but for a logarithm.
+  // At κ = 1 the ratio is largest, 3.35, where OGC's stages meet, at f = k_c r/2; it is 0.52 at 0.02. For small forces
+  // it is κ √(12 f/κ), since the depth is √(f/(3κ)). For large ones OGC's curvature is 4 f²/(k_c r²) and IPC's is f²/(κ
+  // k_c r²) up to a logarithm.
   using reference::curvature_ratio;
   CHECK(curvature_ratio(0.5, 1) == Approx(3.35).margin(0.005));
   CHECK(curvature_ratio(0.02, 1) == Approx(0.52).margin(0.005));
@@ -140,8 +141,7 @@ TEST_CASE("activation: the curves of the drawing are those of the energies", "[u
   for (std::size_t i = 0; i < reference::stiffness_ratios.size(); ++i)
     for (const auto& point : panels[1].layers[i].points)
       CHECK(point[1] == reference::curvature_ratio(point[0], reference::stiffness_ratios[i]));
-  // Up to half of k_c r OGC's curvature is k_c = 1, so that the ratio is IPC's own curvature, which the first panel
-  // has.
+  // Up to half of k_c r OGC's curvature is k_c = 1, so the ratio is IPC's own curvature, which the first panel shows.
   const reference::DrawingLayer& ipc = panels[0].layers[3];
   REQUIRE(ipc.name == "ipc_log");
   for (std::size_t i = 280; i < 399; ++i) {  // 0.7 r and beyond: forces up to 0.34

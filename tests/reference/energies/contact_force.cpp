@@ -1,5 +1,5 @@
-// The reference's contact against differences of its energy, against mechanics, in closed form, and where it has more
-// than one answer.
+// Compares the reference's contact with differences of its energy, with mechanics and with closed forms, and tests
+// where it has more than one answer.
 #include "reference/energies/contact_force.hpp"
 
 #include "tests/catch.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 compare::ForceAnswer exact(const ContactForceCase& c) { return reference::contact_force(c).front(); }
 
-/// A point above a large triangle, at a quarter of its second and half of its third corner.
+/// Returns a point above a large triangle, at weights of a quarter of its second and half of its third corner.
 ContactForceCase above(float height, float r = 0.5f, float k = 8) {
   ContactForceCase c;
   c.sides = ContactSides::point_triangle;
@@ -190,14 +190,14 @@ TEST_CASE("two edges without triangles share the energy by their overlap where t
     return exact(c).force.z;
   };
   for (const float slope : {0.0f, 1e-12f, 5e-4f}) {
-    REQUIRE(at(3, 5, slope) == Approx(0.5));  // half of the shorter second one
+    REQUIRE(at(3, 5, slope) == Approx(0.5));  // half of the shorter edge, the second
     REQUIRE(at(5, 3, slope) == Approx(0.5));
-    REQUIRE(at(1, 2, slope) == Approx(1));      // all of it
+    REQUIRE(at(1, 2, slope) == Approx(1));      // all of the second
     REQUIRE(at(-2, 6, slope) == Approx(1));     // all of the first
     REQUIRE(at(-2, 3, slope) == Approx(0.75));  // three quarters of the first
   }
-  REQUIRE(at(4, 6, 0) == Approx(1));      // no more than a point: by another rule
-  REQUIRE(at(3, 5, 0.01f) == Approx(1));  // no longer nearly parallel
+  REQUIRE(at(4, 6, 0) == Approx(1));      // they share no more than a point: another rule
+  REQUIRE(at(3, 5, 0.01f) == Approx(1));  // not nearly parallel
   c.rest_squared = {4, 0};
   REQUIRE(at(3, 5, 0) == Approx(1));
 }
@@ -217,7 +217,7 @@ TEST_CASE("nearly parallel edges meet in the middle of their overlap", "[unit]")
 TEST_CASE("where a decision is grey both answers are accepted, the exact one first", "[unit]") {
   REQUIRE(reference::contact_force(above(0.3f)).size() == 1);
   const auto at_radius = reference::contact_force(above(std::nextafter(0.5f, 0.0f)));
-  REQUIRE(at_radius.size() == 1);  // nothing jumps there
+  REQUIRE(at_radius.size() == 1);  // no jump there
   REQUIRE(at_radius[0].force_scale > 0);
   ContactForceCase beside = above(0.3f);
   beside.vertex[0] = {5, 5, 0.3f};  // above the middle of the side between the second and the third corner
@@ -225,7 +225,7 @@ TEST_CASE("where a decision is grey both answers are accepted, the exact one fir
   const auto on_side = reference::contact_force(beside);
   REQUIRE(on_side.size() == 2);
   REQUIRE(on_side[0].force.z == 0);
-  // not to be told from touching: anything up to the force at 2^-23 r
+  // The point cannot be distinguished from a touching one: every force up to that at 2^-23 r is accepted.
   REQUIRE(reference::contact_force(above(1e-7f)).size() == 2);
 }
 
@@ -236,7 +236,7 @@ TEST_CASE("of a needle no force is accepted that is larger than at the exact dis
   const auto needle = reference::contact_force(c);
   REQUIRE(needle.size() == 2);
   CHECK(needle[1].force == compare::Vec3{});
-  // k (r − d)
+  // The scale is k (r − d).
   CHECK(compare::contact_force_tolerance * compare::unit_roundoff * needle[1].force_scale ==
         Approx(8 * (0.5 - 0.3)).epsilon(1e-4));
   CHECK(compare::contact_block_tolerance * compare::unit_roundoff * needle[1].block_scale == Approx(8).epsilon(1e-4));

@@ -1,4 +1,4 @@
-// The reference's friction against differences of the lagged potential, against mechanics, and in closed form.
+// Compares the reference's friction with differences of the lagged potential, with mechanics and with closed forms.
 #include "reference/energies/friction_force.hpp"
 
 #include "tests/catch.hpp"
@@ -24,12 +24,12 @@ FrictionForceCase random_friction(Draw& draw, ContactSides sides) {
   return c;
 }
 
-/// f₀ with f₀' = f₁ and f₀(ε) = ε.
+/// Returns f₀ with f₀' = f₁ and f₀(ε) = ε.
 double potential(double y, double limit) {
   return y < limit ? y * y / limit - y * y * y / (3 * limit * limit) + limit / 3 : y;
 }
 
-/// What friction holds fixed: weights, normal, λ.
+/// Weights, normal and λ, which friction keeps fixed.
 struct Lagged {
   Weights weight{};
   Point normal{};
@@ -46,7 +46,7 @@ struct Lagged {
                                        (2 * h)
                                  : 0;
   }
-  /// The tangential part of Σ w (x − xᵗ).
+  /// Returns the tangential part of Σ w (x − xᵗ).
   Point slip(const FrictionForceCase& c, const std::array<Point, 4>& x) const {
     Point u{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(vertex_count(c.contact.sides)); ++k)
@@ -57,7 +57,7 @@ struct Lagged {
   }
 };
 
-/// A point at 0.25 m above a large triangle that has slipped along x and been lifted; λ = 2 N.
+/// Returns a point at 0.25 m above a large triangle that has slipped along x and moved up; λ = 2 N.
 FrictionForceCase above(float slip, float lift) {
   FrictionForceCase c;
   c.contact.sides = ContactSides::point_triangle;
@@ -160,7 +160,7 @@ TEST_CASE(
     c.contact.contact_radius = radius;
     return reference::friction_force(compare::FrictionForceIn{{c}}).near[0] != 0;
   };
-  constexpr float radius = 0.6f;  // 0.25 is neither it nor half of it
+  constexpr float radius = 0.6f;  // 0.25 is neither this radius nor half of it
   for (const float slip : {0.125f, 0.125f * (1 + 0x1p-15f), 0.125f * (1 - 0x1p-15f)}) CHECK(near(slip, radius));
   for (const float slip : {0.0f, 0.1f, 0.124f, 0.126f, 0.2f}) CHECK_FALSE(near(slip, radius));
   CHECK_FALSE(near(0.125f, 0.2f));

@@ -1,5 +1,5 @@
-// The membrane of the reference against differences of its energy, against mechanics, and against a stretch that has a
-// closed form.
+// Compares the membrane of the reference with differences of its energy, with mechanics, and with a stretch whose force
+// has a closed form.
 #include "reference/energies/membrane.hpp"
 
 #include "tests/catch.hpp"
@@ -52,7 +52,7 @@ double density(const Strain& g, const MembraneCase& c) {
   return c.lame_lambda / 2 * trace * trace + c.lame_mu * (g[0] * g[0] + 2 * g[1] * g[1] + g[2] * g[2]);
 }
 
-/// By the singular values of F: μ/2 (s₁ − s₂)² + (λ + μ)/2 (s₁ s₂ − 1)².
+/// Returns the density from the singular values of F: μ/2 (s₁ − s₂)² + (λ + μ)/2 (s₁ s₂ − 1)².
 double neo_hookean_density(const Columns& f, const MembraneCase& c) {
   const double squares = inner(f[0], f[0]) + inner(f[1], f[1]), product = norm(outer(f[0], f[1]));
   return c.lame_mu / 2 * (squares - 2 * product) +
@@ -67,7 +67,7 @@ double energy(const Point& own, const MembraneCase& c) {
   return c.area * (psi + c.damping * density({now[0] - before[0], now[1] - before[1], now[2] - before[2]}, c));
 }
 
-/// The same stencil asked about its next corner.
+/// Returns the same stencil with its next corner as the first.
 MembraneCase turned(const MembraneCase& c) {
   MembraneCase next = c;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -114,8 +114,8 @@ TEST_CASE("the reference's membrane exerts no net force and, without damping, no
       }
       scale += answer.force_scale;
     }
-    // Gradients of a turned stencil are rounded to single once more: an error of u in an input, one unit of the
-    // condition; arms are shorter than 3 m.
+    // Gradients of a turned stencil are rounded to single precision once more: an error of u in an input, one unit of
+    // the condition. Arms are shorter than 3 m.
     CHECK(norm(force) < 4 * compare::unit_roundoff * scale);
     CHECK(norm(torque) < 12 * compare::unit_roundoff * scale);
   }
@@ -133,8 +133,8 @@ TEST_CASE("the reference's membrane block is positive semidefinite, also under c
 }
 
 TEST_CASE("a uniform stretch of the reference's membrane has the force of its closed form", "[property]") {
-  // Corners (0,0), (1,0), (0,1) stretched to (s,0), (0,s): G = (s² − 1)/2 I, S = 2 (λ + μ) G, force on corner 0: A F S
-  // ∇N₀ summed, towards the inside.
+  // Corners (0,0), (1,0), (0,1) are stretched to (s,0), (0,s). Then G = (s² − 1)/2 I and S = 2 (λ + μ) G. The force on
+  // corner 0 is A F S ∇N₀, summed, towards the inside.
   for (const float s : {0.5f, 1.0f, 1.25f, 2.0f}) {
     MembraneCase c;
     c.gradient = {{{1, 0}, {0, 1}}};
@@ -160,7 +160,7 @@ TEST_CASE("the reference's membrane at rest exerts nothing, and damping resists 
   c.lame_lambda = c.lame_mu = 4;
   c.damping = 3;
   CHECK(exact(c).force == compare::Vec3{});
-  // Turned as a whole since the start of the step: no strain, no damping.
+  // The triangle turned as a whole since the start of the step: no strain, no damping.
   c.corner = {{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
   CHECK(exact(c).force == compare::Vec3{});
   c.corner[0] = {-0.25f, 0, 0};
@@ -183,15 +183,15 @@ TEST_CASE("at rest the stable Neo-Hookean membrane exerts nothing, and answers s
       MembraneCase moved = c;
       (corner == 1 ? moved.corner[1].x : moved.corner[2].x) += small;
       const compare::ForceAnswer a = exact(moved), b = exact(neo_hookean(moved));
-      // Equal to first order; the second is some small² times the stiffness.
+      // The models agree to first order; the second-order term is some small² times the stiffness.
       CHECK(std::hypot(a.force.x - b.force.x, a.force.y - b.force.y) < 20 * small * small);
       CHECK(std::hypot(a.force.x, a.force.y) > 0.5 * std::abs(small));
     }
 }
 
 TEST_CASE("a uniform stretch of the stable Neo-Hookean membrane has the force of its closed form", "[property]") {
-  // Corners (0,0), (1,0), (0,1) stretched to (s,0), (0,s): ψ = (λ + μ)/2 (s² − 1)², ∂ψ/∂F = (λ + μ)(s² − 1) s I, force
-  // on corner 0: A times its row sums.
+  // Corners (0,0), (1,0), (0,1) are stretched to (s,0), (0,s). Then ψ = (λ + μ)/2 (s² − 1)² and ∂ψ/∂F = (λ + μ)(s² − 1)
+  // s I; the force on corner 0 is A times its row sums.
   for (const float s : {0.5f, 1.0f, 1.25f, 2.0f}) {
     MembraneCase c;
     c.gradient = {{{1, 0}, {0, 1}}};
@@ -235,7 +235,8 @@ TEST_CASE(
     double largest = 0;
     for (std::size_t k = 0; k < 6; ++k)
       raised[k] = block[k] - second[k], largest = std::max(largest, std::abs(raised[k]));
-    // Differences over 10⁻⁴ of energies of the size of the block: 2⁻⁵³/10⁻⁸ by rounding, fourth derivatives times 10⁻⁸.
+    // Differences over 10⁻⁴ of energies of the size of the block have errors of 2⁻⁵³/10⁻⁸ by rounding and 10⁻⁸ times
+    // fourth derivatives.
     CHECK(smallest_quadratic(raised, draw) >= -1e-4 * size);
     if (smallest_quadratic(second, draw) < 1e-3 * size) continue;
     ++definite;
@@ -255,8 +256,8 @@ TEST_CASE("a collapsed stable Neo-Hookean triangle is pulled together alone, and
   c.lame_mu = 5;
   const auto answers = reference::membrane(neo_hookean(c));
   REQUIRE(answers.size() == 2);
-  // −A μ F ∇N₀ = 0.5 · 5 · (f₁ + f₂), f₁ = (1, 0, 0), f₂ = (0.5, 0, 0); −A c g has c = −(λ + 2μ) = −13 and ‖g‖ = ‖f₁ −
-  // f₂‖ = 0.5.
+  // −A μ F ∇N₀ = 0.5 · 5 · (f₁ + f₂) with f₁ = (1, 0, 0), f₂ = (0.5, 0, 0). In −A c g, c = −(λ + 2μ) = −13 and ‖g‖ =
+  // ‖f₂‖ = 0.5.
   CHECK(answers[0].force.x == Approx(0.5 * 5 * 1.5));
   CHECK(answers[1].force.x == Approx(0.5 * 5 * 1.5));
   CHECK(compare::membrane_force_tolerance * compare::unit_roundoff * answers[1].force_scale >= 0.5 * 13 * 0.5);

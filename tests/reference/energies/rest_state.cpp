@@ -1,4 +1,5 @@
-// Rest data: partitions and identities that hold for every mesh, and shapes whose numbers can be written down.
+// Tests rest data by partitions and identities that hold for every mesh, and by shapes whose numbers can be written
+// down.
 #include "reference/energies/rest_state.hpp"
 
 #include <cmath>
@@ -22,7 +23,7 @@ RestStateTruth rest_of(Scene& scene) {
   return reference::rest_state({&scene, &topology});
 }
 
-/// A crumpled sheet of one free body.
+/// Returns a crumpled sheet of one free body.
 Scene crumpled(unsigned seed) {
   std::mt19937 random(seed);
   const tests::Surface surface = tests::jittered(tests::grid(6), random, 0.4f);
@@ -33,7 +34,7 @@ Scene crumpled(unsigned seed) {
   return scene;
 }
 
-/// Two triangles on the edge from (0, 0, 0) to (2, 0, 0): one corner at (1, 1, 0), the other at `far`.
+/// Returns two triangles on the edge from (0, 0, 0) to (2, 0, 0): one corner at (1, 1, 0), the other at `far`.
 Scene hinge(const Vec3& far) {
   Scene scene;
   scene.name = "hinge";
@@ -49,7 +50,7 @@ double angle_of(const Vec3& far) {
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// By the three sides.
+/// Returns the area from the three sides.
 double area(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double p = distance(a, b), q = distance(b, c), r = distance(c, a), s = (p + q + r) / 2;
   return std::sqrt(s * (s - p) * (s - q) * (s - r));
@@ -105,7 +106,7 @@ TEST_CASE(
 TEST_CASE("rest state: a flat hinge has angle 0, a right angle has a quarter turn, folded ones half a turn", "[unit]") {
   using std::numbers::pi;
   CHECK(angle_of({1, -1, 0}) == 0);
-  // The second normal of far corner (1, 0, 1) is (0, 1, 0)·2: from +z about +x by −90°.
+  // The second normal for the far corner (1, 0, 1) is (0, 1, 0)·2: +z turned about +x by −90°.
   CHECK(angle_of({1, 0, 1}) == Approx(-pi / 2).epsilon(1e-15));
   CHECK(angle_of({1, 0, -1}) == Approx(pi / 2).epsilon(1e-15));
   CHECK(angle_of({1, -1, 1}) == Approx(-pi / 4).epsilon(1e-15));
@@ -124,7 +125,7 @@ TEST_CASE("rest state: hinges are as stiff as 3 k e^2 / (A0 + A1)", "[unit]") {
   Scene scene = hinge({1, -2, 0});
   scene.bodies[0].material.bending_stiffness = 0.5;
   const RestStateTruth rest = rest_of(scene);
-  // e = 2, areas 1 and 2.
+  // The edge has length 2, the areas are 1 and 2.
   CHECK(rest.stiffness.at(0) == 0.5 * 3 * 4 / 3);
   CHECK(rest.exact.hinges[0].vertex == std::array<compare::Index, 4>{0, 1, 2, 3});
   CHECK(rest.edge_length_squared == std::vector<double>{4, 2, 5, 2, 5});
@@ -132,7 +133,7 @@ TEST_CASE("rest state: hinges are as stiff as 3 k e^2 / (A0 + A1)", "[unit]") {
 }
 
 TEST_CASE("rest state: needles and folds keep every bit", "[unit]") {
-  // Height 2⁻¹⁹ over a side of 2²⁰: 2A = 2. The normals of a fold by 2⁻¹⁹ short of half a turn.
+  // A needle has a height of 2⁻¹⁹ over a side of 2²⁰, so 2A = 2. A fold misses half a turn by 2⁻¹⁹.
   Scene scene;
   scene.name = "needle";
   append_body(scene, {.name = "sheet", .material = {}},

@@ -1,5 +1,5 @@
-// The reference's rod against differences of its energy written out in plain doubles, and its orientations against what
-// a minimiser on the sphere must be: nothing near or far has less energy, and M q + b = μ q with μ at least σ.
+// Compares the reference's rod with differences of its energy written in plain doubles. Checks that its orientations
+// are minimisers on the sphere: no orientation near or far has less energy, and M q + b = μ q with μ at least σ.
 #include <algorithm>
 #include <limits>
 
@@ -29,7 +29,7 @@ Quaternion orientation(Draw& draw) {
   return single;
 }
 
-/// The rows of the rotation matrix of q.
+/// Returns the rows of the rotation matrix of q.
 std::array<Point, 3> matrix_of(const Quaternion& q) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];
   return {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
@@ -49,7 +49,7 @@ RodCase random_rod(Draw& draw) {
   return c;
 }
 
-/// k_s l/2 (‖D/l − R e₃‖² + k ‖Rᵀ D/l − Rᵗᵀ Dᵗ/l‖²) of the end at x.
+/// Returns k_s l/2 (‖D/l − R e₃‖² + k ‖Rᵀ D/l − Rᵗᵀ Dᵗ/l‖²) with the segment's end `own` at x.
 double energy(const RodCase& c, const Point& x) {
   const auto other = point(c.vertex[static_cast<std::size_t>(1 - c.own)]);
   const Point d = c.own == 1 ? minus(x, other) : minus(other, x), before = minus(point(c.start[1]), point(c.start[0]));
@@ -90,19 +90,18 @@ double energy(const OrientationAnswer& answer, const Four& q) {
 
 double size(const Four& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); }
 
-/// The angle θ of the rotation that is left over between the segment and a neighbour, from matrices alone: a trace
-/// tells it.
+/// Returns the angle θ of the remaining rotation between the segment and a neighbour, from the trace of matrices alone.
 double angle_to(const OrientationCase& c, const Quaternion& q, bool is_ahead) {
   const RodNeighbour& f = is_ahead ? c.ahead : c.behind;
   const auto a = matrix_of(is_ahead ? q : f.now), b = matrix_of(is_ahead ? f.now : q), p = matrix_of(f.rest);
-  double trace = 0;  // of (aᵀ b) pᵀ
+  double trace = 0;  // trace of (aᵀ b) pᵀ
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = 0; k < 3; ++k) trace += a[k][i] * b[k][j] * p[i][j];
   return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0));
 }
 
-/// k_s l/2 ‖D/l − R e₃‖² and w (1 − cos θ/2) of both neighbours.
+/// Returns k_s l/2 ‖D/l − R e₃‖² plus w (1 − cos θ/2) of both neighbours.
 double physical_energy(const OrientationCase& c, const Quaternion& q) {
   const auto r = matrix_of(q);
   const Point d = minus(point(c.vertex[1]), point(c.vertex[0]));
@@ -131,8 +130,8 @@ TEST_CASE("the reference's force of a rod is minus the slope of its energy, its 
       const compare::ForceAnswer exact = reference::rod(c);
       const Point x = point(c.vertex[static_cast<std::size_t>(own)]),
                   by_differences = slope([&](const Point&at) { return energy(c, at); }, x, 1e-3);
-      // A parabola has no truncation error: 2⁻⁵³ of 200 J over the step; orientations are units within 2⁻²³, of forces
-      // of at most 300 N.
+      // A parabola has no truncation error. Rounding gives 2⁻⁵³ of 200 J over the step; quaternions have length 1
+      // within 2⁻²³, with forces of at most 300 N.
       CHECK(std::abs(exact.force.x + by_differences[0]) <= 1e-4);
       CHECK(std::abs(exact.force.y + by_differences[1]) <= 1e-4);
       CHECK(std::abs(exact.force.z + by_differences[2]) <= 1e-4);
@@ -155,7 +154,7 @@ TEST_CASE("a rigid motion meets no force of a rod that rested, elastic or viscou
     c.vertex = {compare::Vec3f{}, along(c.orientation)};
     c.start = {compare::Vec3f{}, along(c.orientation_start)};
     const compare::ForceAnswer exact = reference::rod(c);
-    // 2⁻²² of k_s (1 + k): coordinates and quaternions are rounded
+    // Coordinates and quaternions are rounded: 2⁻²² of k_s (1 + k).
     CHECK(std::hypot(exact.force.x, exact.force.y, exact.force.z) <= 15 * 0x1p-22);
   }
 }
@@ -193,12 +192,12 @@ TEST_CASE("from a near old q it minimises the energy of stretch, shear, bend and
     c.damping = 0;
     const Four q = reference::orientation(c).front().orientation;
     for (std::size_t k = 0; k < 4; ++k) c.orientation[k] = static_cast<float>(q[k]);
-    // Signs taken from the answer itself: at a fixed point they are those of the nearest turns.
+    // Signs come from the answer itself; at a fixed point they are those of the nearest turns.
     const Four again = reference::orientation(c).front().orientation;
     if (std::abs(again[0] - q[0]) + std::abs(again[1] - q[1]) + std::abs(again[2] - q[2]) + std::abs(again[3] - q[3]) >
         1e-5)
       continue;
-    // At π the energy has a ridge, and another turn than the one that is held may lie lower behind it.
+    // At π the energy has a ridge, and beyond it another turn than the chosen one may have less energy.
     if (std::max(angle_to(c, c.orientation, false), angle_to(c, c.orientation, true)) > 2.9) continue;
     ++compared;
     const double least = physical_energy(c, c.orientation);
@@ -221,11 +220,11 @@ TEST_CASE("where neighbours ask for nothing the frame turns about nothing but wh
   c.orientation_start = c.orientation;
   c.rest_length = 1;
   c.stretch = 2;
-  // from e₃ to e₁ by a quarter turn about e₂
+  // A quarter turn about e₂ takes e₃ to e₁.
   const Four q = reference::orientation(c).front().orientation;
   CHECK(q[1] == Approx(std::sqrt(0.5)).epsilon(1e-12));
   CHECK(q[3] == Approx(std::sqrt(0.5)).epsilon(1e-12));
-  c.vertex[1] = {0, 0, 0};  // nothing asks for anything
+  c.vertex[1] = {0, 0, 0};  // no energy depends on the frame
   CHECK(reference::orientation(c).front().orientation == Four{0, 0, 0, 1});
 }
 
@@ -242,10 +241,10 @@ TEST_CASE("a grey sign has two answers, and a reversed director none that stands
   REQUIRE(both.size() == 2);
   CHECK(both[0].orientation[2] == Approx(1));
   CHECK(both[1].orientation[2] == Approx(-1));
-  c.ahead.now = {1, 0, 0, 0};  // a half turn that reverses the director, against a stretch that holds it
+  c.ahead.now = {1, 0, 0, 0};  // a half turn that reverses the director, against a stretch that keeps it
   c.orientation = {0.6f, 0, 0, 0.8f};
   CHECK(std::isinf(reference::orientation(c).front().scale));
-  c.ahead.weight = 100;  // and where it does not
+  c.ahead.weight = 100;  // here the neighbour overcomes the stretch
   CHECK(reference::orientation(c).front().orientation[0] == Approx(1));
   CHECK(reference::orientation(c).front().scale < 10);
 }

@@ -1,4 +1,5 @@
-// The spring of the reference against differences of its energy, mechanics, and the lengths at which it changes over.
+// Compares the spring of the reference with differences of its energy and with mechanics, and tests the lengths at
+// which its form changes.
 #include "reference/energies/spring.hpp"
 
 #include "tests/catch.hpp"
@@ -26,7 +27,7 @@ double energy(const Point& own, const SpringCase& c) {
          ((length - c.rest_length) * (length - c.rest_length) + c.damping * (length - before) * (length - before));
 }
 
-/// Of a stitch, with the vertex asked about at `own`.
+/// Returns the energy of a stitch with its vertex `own` at the position `own`.
 double seam_energy(const Point& own, const SpringCase& c) {
   const auto length = [&](const std::array<compare::Vec3f, 3>& at, const Point* moved) {
     std::array<Point, 3> x{point(at[0]), point(at[1]), point(at[2])};
@@ -53,7 +54,7 @@ TEST_CASE("the reference's spring force is minus the slope of the energy, along 
     if (norm(minus(point(c.vertex[0]), point(c.vertex[1]))) < 0.1) continue;
     const Point force = force_of(reference::spring(c)),
                 fallen = slope([&](const Point&x) { return energy(x, c); }, point(c.vertex[0]), 1e-5);
-    // Energies of some 100 J with third derivatives below 10⁵ at lengths above 0.1 m.
+    // Energies are some 100 J, with third derivatives below 10⁵ at lengths above 0.1 m.
     for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(force[k] + fallen[k]) < 1e-4);
     CHECK(norm(outer(force, minus(point(c.vertex[0]), point(c.vertex[1])))) < 1e-13 * (1 + norm(force)));
     std::swap(c.vertex[0], c.vertex[1]);
@@ -96,7 +97,7 @@ TEST_CASE("a spring to a point of an edge: its forces are minus the energy's slo
       const Point force = force_of(reference::spring(c)),
                   fallen = slope([&](const Point&x) { return seam_energy(x, c); }, point(c.vertex[own]), 1e-5);
       for (std::size_t k = 0; k < 3; ++k) {
-        CHECK(std::abs(force[k] + fallen[k]) < 1e-3);  // energies as above, at lengths that may be shorter
+        CHECK(std::abs(force[k] + fallen[k]) < 1e-3);  // the same energies, at lengths that may be shorter
         sum[k] += force[k];
         moment[k] += outer(point(c.vertex[own]), force)[k];
       }
@@ -164,7 +165,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block is not", "[property]") {
-  SpringCase c;  // in the middle of the edge but for 10⁻⁸ of its length, a fifth of a rounding
+  SpringCase c;  // off the middle of the edge by 10⁻⁸ of its length, a fifth of a rounding
   c.vertex = {{{0.5f, 1e-8f, 0}, {0, 0, 0}, {1, 0, 0}}};
   c.start = c.vertex;
   c.stiffness = 16;
@@ -173,7 +174,7 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
     c.rest_length = rest_length;
     const compare::ForceAnswer answer = reference::spring(c);
     const double accepted = compare::spring_block_tolerance * compare::unit_roundoff * answer.block_scale;
-    // of n nᵀ alone
+    // The part missing is that of n nᵀ alone.
     const double missing = std::sqrt(answer.block[0] * answer.block[0] + answer.block[5] * answer.block[5]);
     CHECK((missing <= accepted) == (rest_length > 0));
     CHECK(std::sqrt(missing * missing + answer.block[3] * answer.block[3]) > accepted);
@@ -183,13 +184,13 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
 TEST_CASE("damping of a spring's strain sees no rigid motion, damping by vertex a translation, too", "[property]") {
   SpringCase c;
   c.vertex = {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
-  c.start = {{{5, 1, 0}, {5, 0, 0}, {5, 0, 0}}};  // turned and shifted, as long
+  c.start = {{{5, 1, 0}, {5, 0, 0}, {5, 0, 0}}};  // turned and moved, with the same length
   c.stiffness = 2;
   c.rest_length = 1;
   c.damping = 3;
   CHECK(reference::spring(c).force == compare::Vec3{});
   c.damping_form = compare::DampingForm::per_vertex;
-  // −k B moved, B = k_s n nᵀ at rest length, moved = (−4, −1, 0)
+  // The force is −k B Δ with B = k_s n nᵀ at rest length and Δ = (−4, −1, 0).
   CHECK(reference::spring(c).force.x == Approx(3 * 2 * 4));
   CHECK(reference::spring(c).force.y == Approx(0).margin(1e-14));
 }

@@ -1,4 +1,5 @@
-// The reference's force of a volume against differences of its energy with weights, direction and normal force held.
+// Compares the reference's force of a volume with differences of its energy, with fixed weights, direction and normal
+// force.
 #include "reference/energies/volume_force.hpp"
 
 #include "tests/catch.hpp"
@@ -39,7 +40,7 @@ double depth(const VolumeForceCase& c, const std::array<Point, 4>& x) {
   return std::max(0.0, c.contact_radius - height);
 }
 
-/// f₀ with f₀' = f₁ and f₀(ε) = ε.
+/// Returns f₀ with f₀' = f₁ and f₀(ε) = ε.
 double potential(double y, double limit) {
   return y < limit ? y * y / limit - y * y * y / (3 * limit * limit) + limit / 3 : y;
 }
@@ -70,7 +71,7 @@ TEST_CASE("the reference's force of a volume is minus the slope of its energy", 
         std::array<Point, 4> above = points(c.vertex), below = above;
         above[static_cast<std::size_t>(own)][axis] += step;
         below[static_cast<std::size_t>(own)][axis] -= step;
-        // third derivatives of f₀ are at most 2/ε² times μ λ ≤ 10 N: 2e5 step²; rounding 2⁻⁵² of 10 J over the step
+        // Third derivatives of f₀ are at most 2/ε² times μ λ ≤ 10 N: 2e5 step². Rounding is 2⁻⁵² of 10 J over the step.
         REQUIRE(std::abs(force[axis] + (energy(c, above) - energy(c, below)) / (2 * step)) <= 1e-6);
       }
     }

@@ -1,5 +1,5 @@
-// Blocks: the four properties of §3.3 as theorems, on random and hand-made meshes, and the boundaries of Eq. 8–10, 14
-// and 15 as printed.
+// Tests the four properties of blocks of §3.3 as theorems, on random and hand-made meshes, and the boundaries of Eq.
+// 8–10, 14 and 15 as printed.
 #include "reference/geometry/blocks.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Surface tetrahedron() {
   return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}, {}, {}};
 }
 
-/// Four triangles around vertex 0, whose neighbours are alternately above and below it.
+/// Returns four triangles around vertex 0, whose neighbours lie alternately above and below it.
 Surface saddle() {
   return {{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}},
           {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
@@ -36,12 +36,12 @@ Surface saddle() {
           {}};
 }
 
-/// Three triangles on the edge from vertex 0 to vertex 1.
+/// Returns three triangles on the edge from vertex 0 to vertex 1.
 Surface fan() {
   return {{{0, 0, 0}, {4, 0, 0}, {2, 3, 0}, {2, -3, 1}, {2, 0, 4}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}, {}, {}};
 }
 
-/// Distance from x to the closed face.
+/// Returns the distance from x to the closed face.
 double distance_to(const Complex& mesh, Face face, const Vec3f& x) {
   const auto v = mesh.vertices(face).items;
   if (face.kind == FaceKind::vertex) return reference::distance(reference::gap_points(mesh.at(v[0]), x));
@@ -53,7 +53,7 @@ double distance_to(const Complex& mesh, Face face, const Vec3f& x) {
   return reference::distance(reference::feature_gap(corners, reference::closest_feature(corners, x), x));
 }
 
-/// The faces of one triangle: corners, edges, itself.
+/// Returns the faces of one triangle: corners, edges, the triangle.
 std::vector<Face> faces_of(const Complex& mesh, Index t) {
   std::vector<Face> faces;
   for (const Index v : mesh.triangle(t)) faces.push_back(vertex_face(v));
@@ -71,7 +71,7 @@ struct Counts {
   int inside = 0, covered = 0, shared = 0, uncovered = 0, farther = 0;
 };
 
-/// The properties at one point, over the faces of every triangle.
+/// Counts violations of the properties at one point, over the faces of every triangle.
 void examine(const Complex& mesh, const Vec3f& x, float r, Counts& counts) {
   bool within = false, covered = false;
   for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t) {
@@ -196,7 +196,7 @@ TEST_CASE(
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};
   const Index spine = compare::find_edge(topology, 0, 1), loose = compare::find_edge(topology, 2, 3);
-  // Opposite vertices lie towards +y, −y (and up a little) and +z; only −z with little y is away from all three.
+  // Opposite vertices lie towards +y, −y (slightly up) and +z; only −z with a small y is away from all three.
   CHECK(in_block(mesh, edge_face(spine), {2, 0, -1}, 1));
   CHECK_FALSE(in_block(mesh, edge_face(spine), {2, 0, 1}, 1));
   CHECK_FALSE(in_block(mesh, edge_face(spine), {2, 0.5f, -0.5f}, 1));

@@ -1,4 +1,4 @@
-// bound: Eq. 21, 23, 25 by brute force over the definitions, rounded down.
+// Tests bounds: Eq. 21, 23, 25 by brute force over the definitions, rounded down.
 #include "reference/geometry/bound.hpp"
 
 #include <algorithm>

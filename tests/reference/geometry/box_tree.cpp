@@ -7,7 +7,8 @@
 
 using namespace ogc::reference;
 
-/// Sizes about the leaves' and about those from which on two threads build: every node has its place beforehand.
+/// Sizes lie around that of a leaf and around those from which two threads build, because every node's place is
+/// computed beforehand.
 TEST_CASE("the reference's box tree visits each box that meets the query once, and no other, at any number of boxes",
           "[property]") {
   std::mt19937 random(11);

@@ -1,5 +1,5 @@
-// detect_vertex_facet: contacts by hand, Algorithm 1 against the definition (Eq. 12), smallest distances, invariances,
-// grey decisions.
+// Tests detect_vertex_facet: contacts by hand, Algorithm 1 against the definition (Eq. 12), smallest distances,
+// invariances, grey decisions.
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::vector<VertexFacetContact> contacts_of(const compare::DetectVertexFacetTrut
   return result;
 }
 
-/// Eq. 12 over all faces of triangles, with the strict test of Alg. 1 line 7.
+/// Returns the set of Eq. 12 over all faces of triangles, with the strict test of Alg. 1 line 7.
 std::vector<VertexFacetContact> by_definition(const Surface& surface, float r) {
   const auto topology = surface.topology();
   const reference::Complex mesh{topology, surface.positions};
@@ -56,7 +56,7 @@ std::vector<VertexFacetContact> by_definition(const Surface& surface, float r) {
             reference::sign(reference::face_gap(mesh, face, mesh.at(v), r)) >= 0)
           continue;
         const auto same = [&](const VertexFacetContact& c) { return c.face == face; };
-        // triangles ascend: the first one is the owner
+        // triangles ascend, so the first one is the owner
         if (std::none_of(found.begin(), found.end(), same)) found.insert({v, face, number});
       }
     }
@@ -69,7 +69,7 @@ struct Distances {
   std::vector<float> of_vertex, of_triangle;
 };
 
-/// Eq. 22 and 26 over all pairs.
+/// Returns the distances of Eq. 22 and 26 over all pairs.
 Distances smallest_by_definition(const Surface& surface, float r_q) {
   Distances result{std::vector<float>(surface.positions.size(), r_q),
                    std::vector<float>(surface.triangles.size(), r_q)};
@@ -94,7 +94,7 @@ Distances smallest_by_definition(const Surface& surface, float r_q) {
   return result;
 }
 
-/// Whether an answer is the exact one or differs only where grey decisions allow it.
+/// Returns whether an answer is the exact one or differs from it only as grey decisions allow.
 bool accepted(const compare::DetectVertexFacetTruth& truth, const std::vector<VertexFacetContact>& answer) {
   const std::set<VertexFacetContact> exact(truth.exact.contacts.begin(), truth.exact.contacts.end()),
       given(answer.begin(), answer.end());
@@ -166,7 +166,7 @@ TEST_CASE("detect_vertex_facet: d = r is no contact, and d_min counts faces whos
   const Surface sheet = grid(3, 0, 4);
   CHECK(detect(with_vertex(sheet, {1, 1, 2}), 2, 3).exact.contacts.empty());
   CHECK(detect(with_vertex(sheet, {1, 1, std::nextafter(2.0f, 0.0f)}), 2, 3).exact.contacts.size() == 1);
-  // Over the saddle's vertex nothing but its neighbours' faces can be in contact, but the distance to it counts.
+  // Over the saddle's vertex only faces of its neighbours can be contacts, but the distance to the vertex counts.
   const Surface saddle{{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}},
                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
                        {},
@@ -259,7 +259,7 @@ TEST_CASE("detect_vertex_facet: pairs inside one rigid group are neither contact
   CHECK(rigid.pairs == 0);
   surface.groups[9] = 1;
   CHECK(detect(surface, 0.5f, 1).exact.contacts.size() == 1);
-  // The vertex below is in the group, but not all of the triangles around it are: these still generate the contact.
+  // The vertex below is in the group, but not all triangles around it are; the others still generate the contact.
   surface.groups.assign(10, 0);
   surface.groups[5] = -1;
   CHECK(detect(surface, 0.5f, 1).exact.contacts == std::vector<VertexFacetContact>{{9, vertex_face(4), 1}});
@@ -323,7 +323,7 @@ TEST_CASE("detect_vertex_facet: a distance next to r is grey, and absence is acc
 
 TEST_CASE("detect_vertex_facet: moving every coordinate by a unit in the last place stays within the grey decisions",
           "[property]") {
-  // Coordinates and differences of one size, so that a last place is less than 16 u of every difference.
+  // Coordinates and differences have one size, so a last place is less than 16 u of every difference.
   std::mt19937 random(12);
   std::uniform_int_distribution<int> step(-1, 1);
   const Surface flat = together(mapped(grid(4), turned), mapped(grid(4, 0.5f), turned));

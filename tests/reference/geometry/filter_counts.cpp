@@ -1,4 +1,4 @@
-// Filter counts: one for each question, on whatever thread, and undecided only where exact numbers were asked.
+// Tests filter counts: each question counts once, on every thread, and is undecided only if exact numbers were needed.
 #include "reference/geometry/filter_counts.hpp"
 
 #include <set>
@@ -14,7 +14,7 @@ using reference::Filtered;
 
 namespace {
 
-/// 2⁸⁰ + 1 − 2⁸⁰: a double loses the 1.
+/// Returns 2⁸⁰ + 1 − 2⁸⁰, in which a double loses the 1.
 reference::Margin drowned() { return reference::along({0, 0, 0}, {0x1p40f, 1, -0x1p40f}, {0x1p40f, 1, 0x1p40f}); }
 
 }  // namespace

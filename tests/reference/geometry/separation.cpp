@@ -1,4 +1,4 @@
-// What detections leave out when they are asked for their exact answer alone.
+// Tests what detections may leave out when only their exact answer is needed.
 #include "reference/geometry/separation.hpp"
 
 #include <random>
@@ -16,7 +16,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Two wavy sheets `gap` apart, scattered by `noise` [m], above a fixed one.
+/// Returns two wavy sheets `gap` apart, scattered by `noise` [m], above a fixed one.
 compare::Scene waves(double gap, double noise) {
   compare::Scene scene;
   scene.name = "waves";
@@ -36,7 +36,7 @@ compare::Scene waves(double gap, double noise) {
 }  // namespace
 
 TEST_CASE("a slab shows that primitives are apart, up to about their distance, and never farther", "[property]") {
-  // (0, 0, 5) over a triangle in z = 0, and crossing edges 2 apart.
+  // One pair is (0.25, 0.25, 5) over a triangle in z = 0, the other two crossing edges 2 apart.
   const std::array<Vec3f, 4> point{Vec3f{0.25f, 0.25f, 5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
       edges{Vec3f{-1, 0, 0}, {1, 0, 0}, {0, -1, 2}, {0, 3, 2}};
   CHECK(reference::surely_beyond_triangle(point, 4.9));

@@ -1,4 +1,5 @@
-// truncate: the flag is exact, the truncated position lies on the sphere, everything else comes back unchanged.
+// Tests truncate: the flag is exact, the truncated position lies on the sphere, and other positions come back
+// unchanged.
 #include "reference/geometry/truncate.hpp"
 
 #include <array>
@@ -54,7 +55,7 @@ TEST_CASE("truncate: truncated positions keep direction and have the bound's len
 
 namespace {
 
-/// From the origin to (3, 0, 5) below the half-space z ≤ 1.
+/// Returns a move from the origin to (3, 0, 5) below the half-space z ≤ 1.
 compare::TruncateIn below_a_ceiling(float bound, const std::array<float, 6>& block, bool is_prescribed) {
   compare::TruncateIn in{{{0, 0, 0}}, {{3, 0, 5}}, {bound}};
   in.half_spaces = {{0, 1}, {{{0, 0, 1}, 1}}, {{0, 0, 0}}, {block}, {static_cast<std::uint8_t>(is_prescribed)}};
@@ -91,7 +92,7 @@ TEST_CASE("truncate: a prescribed vertex stops on its way", "[unit]") {
 }
 
 TEST_CASE("truncate: beside a half-space a prescribed vertex goes on to its end, between two it may stop", "[unit]") {
-  // at (0, 0, 1), on z ≤ 1, along x into the ball
+  // The vertex starts at (0, 0, 1), on z ≤ 1, and moves along x to the surface of the ball.
   compare::TruncateIn in = below_a_ceiling(2, leaning, true);
   in.previous = in.half_spaces.current = {{0, 0, 1}};
   in.position = {{3, 0, 1}};
@@ -125,7 +126,7 @@ TEST_CASE("truncate: the half-space decides exactly, and within the slack of dou
   in.position = {{3, 0, std::nextafter(1.0f, 2.0f)}};
   CHECK(reference::truncate(in).cut[0] == 1);
   CHECK(reference::truncate(in).grey[0] == 0);
-  // 0.3f − 3 · 0.1f > 0 by 7·10⁻⁹: no grey zone of single precision
+  // 0.3f − 3 · 0.1f > 0 by 7·10⁻⁹; there is no grey zone of single precision.
   in.half_spaces.items = {{{0.1f, 0.2f, 0.3f}, 0}};
   in.position = {{-3, 0, 1}};
   CHECK(reference::truncate(in).cut[0] == 1);

@@ -14,7 +14,8 @@ namespace {
 
 ContactSides sides_of(bool edges) { return edges ? ContactSides::edge_edge : ContactSides::point_triangle; }
 
-/// The documented size is a million: OGC_CCD_CASES=1000000 build/…/tests_reference "CCD: no meeting*".
+/// Returns the number of cases. The documented size is a million: OGC_CCD_CASES=1000000 build/…/tests_reference "CCD:
+/// no meeting*".
 int ladder_cases() {
   const char* text = std::getenv("OGC_CCD_CASES");
   return text ? std::atoi(text) : 6000;
@@ -46,7 +47,7 @@ TEST_CASE("exact meeting: edges cross, pass each other's ends, and stay parallel
   Points4 delta{};
   delta[0] = delta[1] = {0, 0, -2};
   CHECK(exactly_meet(true, x, delta));
-  delta[0] = delta[1] = {2, 0, -2};  // the end touches in the middle of the way
+  delta[0] = delta[1] = {2, 0, -2};  // the end touches in the middle of the motion
   CHECK(exactly_meet(true, x, delta));
   delta[0] = delta[1] = {2 + 0x1p-40, 0, -2};
   CHECK_FALSE(exactly_meet(true, x, delta));
@@ -74,7 +75,7 @@ TEST_CASE("CCD: no meeting is missed on the ladders of gaps, angles, needles, ne
              << "of the last two " << tally.false_positives << " do not meet at all");
   CHECK(tally.cleared > cases / 10);
   CHECK(tally.stopped > cases / 10);
-  // What keeps a tenth of its gap is stopped only if the end comes closer than that: most of these motions do.
+  // CCD that keeps a tenth of the gap stops a harmless motion only if it ends closer than that, which most of these do.
   CHECK(tally.false_positives < cases / 4);
 }
 
@@ -104,8 +105,8 @@ TEST_CASE("CCD: a long slide at a hair's breadth, away from a triangle, and a co
   CHECK(additive_ccd(ContactSides::point_triangle, x, delta, 0) == 1);
 }
 
-/// Their first safe step ends where rounding hides the gap, while both move apart along the connection seen there: that
-/// connection proves nothing.
+/// The first safe step ends where rounding hides the gap. Both edges move apart along the connection that is seen
+/// there, but that connection proves nothing.
 TEST_CASE("CCD: two nearly parallel edges that meet after 2e-12 of their way are stopped before", "[unit]") {
   const Points4 x{{{0.80323611859320732, -0.19054859758035292, 0.28876038511262969},
                    {0.80187377197897902, -0.19347845971359057, 0.28876038511262969},

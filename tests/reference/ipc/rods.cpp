@@ -1,4 +1,4 @@
-// IPC with the frames of rods as unknowns: the minimiser that sweeps reach, and cords that meet.
+// Tests IPC with the frames of rods as unknowns: it reaches the minimiser of the sweeps, and its cords meet.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,7 +31,7 @@ void add_cord(compare::Scene& scene, const char* name, const std::vector<Vec3>& 
   append_body(scene, body, mesh);
 }
 
-/// A cord that falls askew across a fixed one.
+/// Returns a tilted cord that falls across a fixed one.
 compare::Scene crossing_cords() {
   compare::Scene scene;
   scene.name = "crossing";
@@ -49,8 +49,8 @@ compare::Scene crossing_cords() {
   return scene;
 }
 
-/// Of the cords' edges that cross seen from above, the least height of the falling one over the other; infinity where
-/// none cross.
+/// Returns the least height of the falling cord over the other at edges that cross seen from above, or infinity if none
+/// cross.
 double lowest_above(const compare::Topology& topology, const State& x) {
   double least = std::numeric_limits<double>::infinity();
   const auto side = [&](Index a, Index b, Index c) {
@@ -73,9 +73,9 @@ double lowest_above(const compare::Topology& topology, const State& x) {
 
 }  // namespace
 
-// Sweeps round to single precision in each step, at 1 cm from the origin: 2⁻²⁴ of it, five times. IPC ends a step where
+// Sweeps round to single precision in each of five steps, at 1 cm from the origin: 2⁻²⁴ of it. IPC ends a step when
 // nothing would move faster than 1e-7 lengths of the rod a second, 1e-12 m in a step. A frame follows the ends of its
-// segment of 1 mm: ends that are off by 5e-9 m each turn it by 1e-5 at most.
+// segment of 1 mm, so errors of 5e-9 m at each end turn it by at most 1e-5.
 TEST_CASE("rods: IPC and converged sweeps end at the same minimiser", "[property]") {
   std::vector<Vec3> points;
   for (int k = 0; k <= 10; ++k) points.push_back({1e-3 * k, 3e-4 * std::sin(0.8 * k), 2e-4 * std::cos(0.5 * k)});

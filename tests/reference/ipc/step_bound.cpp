@@ -1,5 +1,5 @@
-// The bound of a step by both rules of ipc_ccd: what bounds it by all pairs must hold what bounds it by the active
-// ones, and whatever else comes near.
+// Tests the bound of a step by both rules of ipc_ccd: the bound by all pairs must cover the active pairs and all pairs
+// that come near.
 #include "reference/ipc/step_bound.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using compare::Index;
 
 namespace {
 
-/// Number in [−1, 1) that depends on the case, the vertex and the axis alone.
+/// Returns a number in [−1, 1) that depends on the case, the vertex and the axis alone.
 double draw(int number, std::size_t vertex, std::size_t axis) {
   const double x = std::sin(12.9898 * (number + 1) + 78.233 * static_cast<double>(vertex + 1) +
                             37.719 * static_cast<double>(axis + 1)) *
@@ -25,7 +25,7 @@ double draw(int number, std::size_t vertex, std::size_t axis) {
   return 2 * (x - std::floor(x)) - 1;
 }
 
-/// All pairs that share no vertex: no box, no distance.
+/// Returns all pairs that share no vertex, without boxes or distances.
 std::vector<PrimitivePair> every_pair(const compare::Topology& topology, std::size_t vertex_count) {
   std::vector<PrimitivePair> pairs;
   const auto vertices = static_cast<Index>(vertex_count), edges = static_cast<Index>(topology.edges.size());
@@ -41,7 +41,7 @@ std::vector<PrimitivePair> every_pair(const compare::Topology& topology, std::si
   return pairs;
 }
 
-/// x + share p.
+/// Returns x + share p.
 State moved(const State& x, double share, const State& p) {
   State to = x;
   for (std::size_t v = 0; v < x.size(); ++v) to[v] = x[v] + share * p[v];

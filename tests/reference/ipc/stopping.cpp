@@ -1,4 +1,4 @@
-// The length that a step's tolerance is a share of.
+// Tests the length of which a step's tolerance is a share.
 #include "reference/ipc/stopping.hpp"
 
 #include <cmath>

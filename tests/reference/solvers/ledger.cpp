@@ -1,5 +1,5 @@
-// The ledger of steps that are told by hand, where energy and momentum are known in closed form: a triangle without
-// elasticity, which moves as one above a wall.
+// Tests the ledger on steps written by hand whose energy and momentum have a closed form: a triangle without elasticity
+// moves as one above a wall.
 #include "reference/solvers/ledger.hpp"
 
 #include <cmath>
@@ -15,10 +15,10 @@ using compare::Vec3f;
 namespace {
 
 constexpr double radius = 0x1p-10,
-                 distance = 0.75 * radius;  // r; of the triangle above the wall, in the quadratic stage
-constexpr float far = 0x1p-7f;              // an r_q that reaches the wall
+                 distance = 0.75 * radius;  // r, and the triangle's distance from the wall, in the quadratic stage
+constexpr float far = 0x1p-7f;              // a query radius that reaches the wall
 
-/// Three free vertices `distance` above a fixed triangle. All numbers are exact in single precision.
+/// Returns three free vertices `distance` above a fixed triangle. All numbers are exact in single precision.
 compare::Scene above_a_wall() {
   compare::Scene scene;
   scene.name = "above_a_wall";
@@ -37,7 +37,7 @@ compare::Scene above_a_wall() {
 
 double mass(const compare::Scene& scene) { return scene.bodies[0].material.density * 0x1p-11; }  // of the triangle [kg]
 
-/// A step of that scene, told event by event.
+/// A step of that scene, built event by event.
 class Told {
  public:
   Told(const compare::Scene& scene, const Vec3f& velocity)
@@ -60,7 +60,7 @@ class Told {
     happens(StepEventKind::detection, 0).vertex_facet.contacts = std::move(contacts);
     return *this;
   }
-  /// A round or a sweep that takes the first `count` vertices to y; the others stay, and count as cut.
+  /// Adds a round or a sweep that takes the first `count` vertices to y; the others stay and count as cut.
   Told& moves(StepEventKind kind, std::size_t count) {
     for (std::size_t v = 0; v < count; ++v) now_[v] = step_.target[v];
     happens(kind, 3 - count);
@@ -100,7 +100,7 @@ void check_vector(const compare::Vec3& found, double x, double y, double z) {
 
 }  // namespace
 
-// Velocities are powers of two, so that targets and velocities are exact; what is left is rounding in double.
+// Velocities are powers of two, so targets and velocities are exact; only rounding in double remains.
 TEST_CASE("where truncation takes a whole step, the ledger has what and which way it was", "[property]") {
   const auto [vx, vy] = GENERATE(
       table<float, float>({{0.25f, 0.0f}, {0.0f, 0.0625f}, {0.0f, -0.0625f}, {0.25f, 0.0625f}, {-0.25f, -0.0625f}}));

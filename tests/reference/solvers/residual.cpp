@@ -1,4 +1,4 @@
-// Eq. 29 where every force is known in closed form: a triangle that moves as one, so that nothing but inertia acts.
+// Tests Eq. 29 where every force has a closed form: a triangle moves as one, so only inertia acts.
 #include "reference/solvers/residual.hpp"
 
 #include <algorithm>
@@ -14,11 +14,11 @@ using namespace ogc::tests;
 
 namespace {
 
-/// A triangle alone, 1 cm wide, far from everything.
+/// Returns a single triangle, 1 cm wide, far from everything.
 compare::Scene lone_triangle() {
   compare::Scene scene;
   scene.name = "lone_triangle";
-  compare::Material soft;  // rest data are rounded to single precision; what that stretches must weigh nothing
+  compare::Material soft;  // rest data are rounded to single precision; the force of that strain must be negligible
   soft.lame_lambda = soft.lame_mu = 1e-3;
   append_body(scene, {.name = "triangle", .material = soft},
               {{{0, 0, 0}, {0, 0, 0.01}, {0.01, 0, 0}}, {{0, 1, 2}}, {}});
@@ -33,8 +33,8 @@ TEST_CASE("the residual is the mean force by that after the guess loop, to the r
   compare::Scene scene = lone_triangle();
   const compare::Settings& settings = scene.settings;
   const double speed = 2, h = settings.time_step, way = speed * h;
-  const double mass = scene.bodies[0].material.density * 0.5e-4 / 3;  // a third of the triangle's, at each vertex
-  // Eq. 21 with nothing near: each vertex is held within γ_p r_q of its start, r_q capped (method.md §5.3).
+  const double mass = scene.bodies[0].material.density * 0.5e-4 / 3;  // a third of the triangle's mass, at each vertex
+  // By Eq. 21 with nothing near, each vertex is held within γ_p r_q of its start; r_q is capped (method.md §5.3).
   const double query_radius = std::min(settings.contact_radius + way,
                                        settings.query_radius_cap * settings.contact_radius);
   const double guessed = settings.bound_relaxation * query_radius;

@@ -1,5 +1,4 @@
-// The order of Algorithm 3 in scripted runs, and the reference's own step against what physics and the method say of
-// it.
+// Tests the order of Algorithm 3 in scripted runs, and compares the reference's own step with physics and the method.
 #include "reference/solvers/step.hpp"
 
 #include <algorithm>
@@ -16,7 +15,7 @@ namespace {
 
 constexpr StepEventKind find = StepEventKind::detection, guess = StepEventKind::guess, sweep = StepEventKind::sweep;
 
-/// The events of a step whose rounds and iterations cut these numbers of vertices; 0 after the last of them.
+/// Returns the events of a step whose rounds and iterations cut these numbers of vertices; later ones cut none.
 std::vector<StepEventKind> order(const compare::Settings& settings, Index moving, std::vector<Index> cuts) {
   reference::StepOrder order(settings, moving);
   std::vector<StepEventKind> events;
@@ -37,7 +36,7 @@ compare::Settings settings(std::int64_t iterations, double fraction = 0.01) {
   return settings;
 }
 
-/// n × n vertices on a grid of 1 cm in the plane y = height.
+/// Returns n × n vertices on a grid of 1 cm in the plane y = height.
 compare::Mesh sheet(Index n, double height) {
   compare::Mesh mesh;
   for (Index j = 0; j < n; ++j)
@@ -98,7 +97,7 @@ TEST_CASE("the threshold is the fraction of K rounded up, at least one vertex", 
   CHECK(again(0, 8, 1));
   CHECK_FALSE(again(0, 8, 0));
   CHECK(again(0.01, 0, 1));
-  // As stored, a tenth is a little more than a tenth.
+  // In single precision a tenth is slightly more than a tenth.
   CHECK_FALSE(again(0.1f, 10, 1));
 }
 
@@ -115,7 +114,7 @@ TEST_CASE("a sheet far from everything falls by h² g in the reference's own ste
   compare::Scene scene = scene_of(sheet(4, 1), {0, -2, 0});
   const compare::StepOut out = step_of(scene);
   const double fall = (2 + 9.81f * double{0.01f}) * double{0.01f};
-  // Coordinates of 1 m are stored within 2⁻²⁵ m; the strains that these roundings make pull by less.
+  // Coordinates of 1 m are stored within 2⁻²⁵ m; the strains of these roundings cause less.
   for (const compare::Vec3f& x : out.position) CHECK(std::abs(x.y - (1 - fall)) < 0x1p-23);
   CHECK(out.events.size() > 6);
 }

@@ -1,4 +1,4 @@
-// The reference's sweep against what physics says of it, and the rule by which positions are read.
+// Compares the reference's sweep with physics, and tests the rule by which positions are read.
 #include "reference/solvers/sweep.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using compare::Vec3f;
 
 namespace {
 
-/// (n + 1)² vertices at the integers of the plane z = height.
+/// Returns (n + 1)² vertices at the integers of the plane z = height.
 compare::Mesh sheet(int n, double height) {
   compare::Mesh mesh;
   for (int j = 0; j <= n; ++j)
@@ -31,7 +31,7 @@ compare::Mesh sheet(int n, double height) {
   return mesh;
 }
 
-/// A sweep with all that it looks at: at rest at the start, without contacts and bounds, each vertex of its own colour.
+/// A sweep with all its inputs: at rest at the start, without contacts and bounds, each vertex of its own colour.
 struct Question {
   compare::Scene scene;
   compare::Topology topology;
@@ -78,7 +78,7 @@ compare::Scene scene_of(std::initializer_list<compare::Mesh> meshes) {
   compare::Scene scene;
   scene.name = "test";
   compare::Material material;
-  material.membrane = compare::MembraneModel::st_venant_kirchhoff;  // whose energy is written out below
+  material.membrane = compare::MembraneModel::st_venant_kirchhoff;  // the energy of this model is written below
   for (const compare::Mesh& mesh : meshes) append_body(scene, {.name = "sheet", .material = material}, mesh);
   scene.settings.contact_radius = 0.25;
   scene.settings.friction_velocity = 1;
@@ -92,8 +92,8 @@ void shake(std::vector<Vec3f>& points, std::mt19937& random, float size) {
 
 double distance(const Vec3& a, const Vec3f& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Inertia and St. Venant–Kirchhoff energy of a sheet of unit right triangles, written out for them alone: F's columns
-/// are edges.
+/// Returns inertia and St. Venant–Kirchhoff energy of a sheet of unit right triangles, written for them alone: F's
+/// columns are edges.
 double energy(const Question& q, const std::vector<Vec3f>& x) {
   const compare::Material& m = q.scene.bodies[0].material;
   double sum = 0;
@@ -107,7 +107,7 @@ double energy(const Question& q, const std::vector<Vec3f>& x) {
       return std::array{double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
     };
     const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-    // Triangles (a, b, d) and (a, d, c) of a cell: their right angles are at b and c.
+    // The right angles of a cell's triangles (a, b, d) and (a, d, c) are at b and c.
     const bool lower = t[1] == t[0] + 1;
     const auto first = lower ? edge(0, 1) : edge(2, 1), second = lower ? edge(1, 2) : edge(0, 2);
     const double xx = (dot(first, first) - 1) / 2, xy = dot(first, second) / 2, yy = (dot(second, second) - 1) / 2;
@@ -138,7 +138,7 @@ TEST_CASE("without energies a sweep takes every vertex to its target", "[unit]")
 TEST_CASE("a sheet at rest stays", "[unit]") {
   const Question q(scene_of({sheet(3, 0)}));
   const std::vector<Vec3f> x = q.swept().position;
-  // The rest gradients are rounded: strains of u against stiffnesses of at least as much as inertia's.
+  // The rest gradients are rounded: strains of u, with stiffnesses that are at least inertia's.
   for (std::size_t v = 0; v < x.size(); ++v) CHECK(distance({x[v].x, x[v].y, x[v].z}, q.old[v]) <= 8 * 0x1p-24);
 }
 
@@ -233,7 +233,7 @@ TEST_CASE("with inertia ahead of stiffness every sweep lowers the energy until n
   for (int sweep = 0; sweep < 60; ++sweep) {
     q.old = q.swept().position;
     const double after = energy(q, q.old);
-    // Positions are stored to u: the energy's slope is bounded by what is left of it.
+    // Positions are stored to u; the rest of the energy bounds its slope.
     CHECK(after <= before + 1e-6 * start);
     before = after;
   }
@@ -260,7 +260,7 @@ TEST_CASE(
   compare::SweepOut out = q.swept();
   for (std::size_t v = 4; v < 8; ++v) CHECK(q.truth(out).grey[v] == 0);
   CHECK(distance(q.truth(out).position[7], out.position[7]) <= q.truth(out).accepted[7]);
-  out.position[7].z = 0.1f;  // where it went without the block
+  out.position[7].z = 0.1f;  // its position without the block
   CHECK(distance(q.truth(out).position[7], out.position[7]) > q.truth(out).accepted[7]);
 
   for (Vec3f& p : q.old) p.z = p.z > 0.1f ? 1e-4f : 0;

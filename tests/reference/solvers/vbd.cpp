@@ -1,4 +1,4 @@
-// Vertex Block Descent in double against the potential that Newton differentiates, and against the judged sweep.
+// Compares Vertex Block Descent in double with the potential that Newton differentiates, and with the judged sweep.
 #include "reference/solvers/vbd_solver.hpp"
 
 #include <algorithm>
@@ -78,8 +78,8 @@ TEST_CASE("reference VBD takes the step of the judged sweep, up to what storing 
   CHECK(rows[0].discrete_detections ==
         std::ranges::count(judged.events, compare::StepEventKind::detection, &compare::StepEvent::kind));
   const compare::Snapshot end = simulation->snapshot();
-  // Coordinates below 6 cm are stored to 2⁻²⁹ m, once a colour and iteration, and a vertex hands on no more than the
-  // errors that it reads: its own stiffness is the sum of those that tie it to them.
+  // Coordinates below 6 cm are stored to 2⁻²⁹ m, once a colour and iteration. A vertex passes on no more than the
+  // errors that it reads, because its own stiffness is the sum of those that couple it to them.
   const int roundings = 3 * (1 + *std::ranges::max_element(judged.colour));
   for (std::size_t v = 0; v < end.positions.size(); ++v)
     CHECK(distance(end.positions[v], judged.position[v]) <= roundings * std::sqrt(3.0) * 0x1p-29);
@@ -88,7 +88,7 @@ TEST_CASE("reference VBD takes the step of the judged sweep, up to what storing 
 TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, single-precision storage left out",
           "[property]") {
   compare::Scene scene = two_sheets();
-  // Contacts that are stiff beside the inertia make it slow (at 100 N/m and 1/100 s thousands of iterations are not
+  // Contacts that are stiff beside the inertia slow it down (at 100 N/m and 1/100 s thousands of iterations are not
   // enough).
   for (compare::Body& body : scene.bodies) body.material.contact_stiffness = 10;
   scene.settings.time_step = 1.0 / 400;
@@ -104,8 +104,8 @@ TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, sin
                       [](const auto& row) { return row.detected == 1; }) >= 49);
 }
 
-/// With w² in the blocks two partners that are solved at once take the whole of their overlap away each, and what is
-/// left after as many sweeps is twelve times as much (Fig. 17).
+/// With w² in the blocks, two partners that are solved at once each remove the whole of their overlap; as many sweeps
+/// leave twelve times as much (Fig. 17).
 TEST_CASE(
     "reference VBD: where contact is stiff more sweeps come closer, also with colours that facing vertices of equal "
     "sheets share",

@@ -1,5 +1,5 @@
-// Whether a vertex's update lowers its incremental potential (method.md §4.2, §7.1): where normals and closest points
-// stay and no stage is logarithmic it never raises it; where they move, and elsewhere, it seldom does.
+// Tests whether a vertex's update lowers its incremental potential (method.md §4.2, §7.1). Where normals and closest
+// points stay and no stage is logarithmic it never raises it; elsewhere it seldom does.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -25,7 +25,7 @@ struct Kind {
   std::string name;
   ContactActivation activation = ContactActivation::ogc;
   bool has_membrane = false, has_hinges = false, has_friction = false;
-  bool is_parallel = false;  ///< edges of both sheets, but for 10⁻⁴ of their length
+  bool is_parallel = false;  ///< edges of both sheets are parallel but for 10⁻⁴ of their length
 };
 
 double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
@@ -70,11 +70,11 @@ struct Pile {
   }
 };
 
-/// What one vertex's update does to its potential, with friction, normals and closest points of the state before.
+/// The effect of one vertex's update on its potential, with friction, normals and closest points of the state before.
 struct Change {
   double predicted = 0;  ///< by the quadratic model [J], negative
   double real = 0;       ///< [J]
-  double model = 0;      ///< of inertia, contact and friction alone, with normals and closest points as they were [J]
+  double model = 0;      ///< of inertia, contact and friction alone, with fixed normals and closest points [J]
 };
 
 template <class Term, std::size_t N>
@@ -121,11 +121,11 @@ Change change_by(const reference::Potential& potential, compare::Index v, const 
   return change;
 }
 
-/// Counts of many updates.
+/// Counts over many updates.
 struct Count {
-  int all = 0, rises = 0, large = 0;  ///< large: by more than a tenth of what the model promises
+  int all = 0, rises = 0, large = 0;  ///< large: rises by more than a tenth of the model's decrease
   int bent = 0;                       ///< truncated to where the model itself is higher
-  double worst = 0;                   ///< of what the model promises
+  double worst = 0;                   ///< largest rise as a share of the model's decrease
   std::vector<double> shares{};
 
   void add(const Change& change) {
@@ -148,7 +148,7 @@ struct Count {
   }
 };
 
-/// `sink(change)` of each free vertex's update at the pile's state.
+/// Calls `sink(change)` for each free vertex's update at the pile's state.
 template <class Sink>
 void update_each(Pile& pile, bool is_truncated, Sink sink) {
   reference::Potential potential(pile.scene, pile.topology);

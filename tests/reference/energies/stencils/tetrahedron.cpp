@@ -1,5 +1,4 @@
-// The stage's truth against differences of the energy that Newton's method takes, which is written in another way: two
-// formulas, one energy.
+// Compares the stage's truth with differences of the energy that Newton's method uses, which has another formula.
 #include "reference/energies/tetrahedron.hpp"
 
 #include <cmath>
@@ -16,7 +15,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Of the unit tetrahedron, whose rest data single precision holds exactly but for 1/6.
+/// Returns the unit tetrahedron, whose rest data single precision holds exactly except 1/6.
 TetrahedronTerm unit_term(double damping) {
   TetrahedronTerm term;
   term.gradient = {{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -44,7 +43,7 @@ compare::TetrahedronCase question_of(const TetrahedronTerm& term, const Corners<
   return question;
 }
 
-/// Numbers of single precision: near rest, sheared, flat, inverted, a needle.
+/// Returns shapes in numbers of single precision: near rest, sheared, flat, inverted, a needle.
 Corners<4> shape(Draw& draw, int kind) {
   Corners<4> x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (auto& p : x)
@@ -69,7 +68,7 @@ TEST_CASE("tetrahedron: the stage's force and block are the derivatives of Newto
       const StencilDerivatives all = stencil_derivatives<4>(x, HessianProjection::none,
                                                             [&](const auto& at) { return term.energy(at); });
       const compare::ForceAnswer answer = tetrahedron(question_of(term, x, start));
-      // The sixth is rounded to single precision: 2⁻²⁵ of what it multiplies.
+      // 1/6 is rounded to single precision, an error of 2⁻²⁵ of its product.
       const double margin = 1e-7 * answer.force_scale;
       CHECK(answer.force.x == Approx(-all.gradient[0]).margin(margin));
       CHECK(answer.force.y == Approx(-all.gradient[1]).margin(margin));

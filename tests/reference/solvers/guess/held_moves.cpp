@@ -1,5 +1,5 @@
-// What contacts leave of a move, worked out by hand, and the judge's errors against moves that are evaluated in single
-// precision.
+// Tests what contacts leave of a move, worked out by hand, and compares the judge's errors with moves evaluated in
+// single precision.
 #include "reference/solvers/guess/held_moves.hpp"
 
 #include <cmath>
@@ -23,7 +23,7 @@ using Move = Triple<double>;
 double norm(const Move& a) { return std::hypot(a[0], a[1], a[2]); }
 double between(const Move& a, const Move& b) { return norm(a - b); }
 
-/// The vertex is above its partner, n = +z.
+/// Returns a contact of a vertex above its partner, n = +z.
 Hold above(const Move& others, double friction = 0, double weight = 1) {
   return {.weight = weight, .normal = {0, 0, 1}, .others = others, .friction = friction};
 }
@@ -54,18 +54,18 @@ struct Sheets {
 TEST_CASE("what closes a contact is taken, and what opens it or goes along it is left", "[unit]") {
   CHECK(held_by(above({}), {1, 2, -3}) == Move{1, 2, 0});
   CHECK(held_by(above({}), {1, 2, 3}) == Move{1, 2, 3});
-  // seen from below, where the weight is negative
+  // Seen from below, the weight is negative.
   CHECK(held_by(above({}, 0, -1), {1, 2, 3}) == Move{1, 2, 0});
   CHECK(held_by(above({}, 0, -0.5), {1, 2, -3}) == Move{1, 2, -3});
 }
 
 TEST_CASE("a partner that makes room is followed, and one that comes is not fled from", "[unit]") {
-  // −(partner's move), as its weights add up to −1
+  // The first argument is minus the partner's move, since its weights add up to −1.
   CHECK(held_by(above({0, 0, 1}), {0, 0, -3}) == Move{0, 0, -1});
   CHECK(held_by(above({0, 0, 4}), {0, 0, -3}) == Move{0, 0, -3});
   CHECK(held_by(above({0, 0, -1}), {0, 0, -3}) == Move{0, 0, 0});
   CHECK(held_by(above({0, 0, -1}), {0, 0, 0}) == Move{0, 0, 0});
-  // a corner with half of the weight goes twice as far for the same room
+  // A corner with half of the weight moves twice as far for the same room.
   CHECK(held_by(above({0, 0, 1}, 0, 0.5), {0, 0, -3}) == Move{0, 0, -2});
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("friction takes slip up to mu times the approach that was taken", "[un
   CHECK(between(held_by(above({}, 0.5), {3, 4, -2}), {2.4, 3.2, 0}) < 1e-15);
   CHECK(held_by(above({}, 0.5), {0.3, 0.4, -2}) == Move{0, 0, 0});
   CHECK(held_by(above({}, 0.5), {3, 4, 2}) == Move{3, 4, 2});
-  // relative to the partner, who takes the vertex along
+  // Slip is relative to the partner, which takes the vertex along.
   CHECK(held_by(above({-1, 0, 0}, 1), {0, 0, -2}) == Move{1, 0, 0});
   CHECK(between(held_by(above({-5, 0, 0}, 1), {0, 0, -2}), {2, 0, 0}) < 1e-15);
 }
@@ -126,7 +126,8 @@ TEST_CASE("what contacts took in a round is not expected of the others in the ne
   reference::HeldMoves twice = sheets.moves();
   const reference::State first = twice.round(sheets.contacts, previous, target),
                          second = twice.round(sheets.contacts, previous, target);
-  // Both sheets stop in the first round; in the second one neither expects the other to come, and stops all the same.
+  // Both sheets stop in the first round. In the second one neither expects the other to come, but both stop all the
+  // same.
   CHECK(first != target);
   for (std::size_t v = 0; v < first.size(); ++v) CHECK(between(first[v], second[v]) < 1e-3);
 }

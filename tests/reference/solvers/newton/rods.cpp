@@ -1,5 +1,5 @@
-// Newton's method with the frames of rods as unknowns: derivatives against differences, the same minimiser as sweeps
-// reach, the deflection of a cantilever, and the twist at which a ring leaves its plane.
+// Tests Newton's method with the frames of rods as unknowns: derivatives against differences, the minimiser of the
+// sweeps, the deflection of a cantilever, and the twist at which a ring leaves its plane.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,7 @@ namespace {
 using compare::Index;
 using compare::Vec3;
 
-/// A rod along these points whose first segment is held.
+/// Returns a rod along these points whose first segment is held.
 compare::Scene held_rod(const std::vector<Vec3>& points, const compare::RodMaterial& rod) {
   compare::Scene scene;
   scene.name = "rod";
@@ -58,7 +58,7 @@ TEST_CASE("rods: gradients and Hessians of segments and joints are those of thei
   system.begin_step(x, 1);
   for (std::size_t v = 0; v < x.size(); ++v)
     for (std::size_t axis = 0; axis < 3; ++axis) x[v][axis] += 1e-4 * std::sin(3.0 * static_cast<double>(3 * v + axis));
-  system.sweep(x);  // frames that are neither those of the start nor at rest
+  system.sweep(x);  // frames are neither those of the start nor at rest
   x.resize(x.size() + system.segments());
   for (std::size_t i = 0; i < system.size(); ++i) {
     const auto unknown = system.vertices(i);
@@ -72,7 +72,7 @@ TEST_CASE("rods: gradients and Hessians of segments and joints are those of thei
     };
     const std::size_t count = unknown[2] < 0 ? 6 : 9;
     for (std::size_t a = 0; a < count; ++a) {
-      // Positions in metres, turns in radians: steps that lose half of the digits in each.
+      // Positions are in metres, turns in radians; steps in each lose half of the digits.
       const auto step = [&](std::size_t k) { return unknown[k / 3] < 4 ? 1e-6 : 1e-3; };
       const double slope = (moved(a, step(a), a, 0) - moved(a, -step(a), a, 0)) / (2 * step(a));
       CHECK(at.gradient[a] == Approx(slope).epsilon(1e-5).margin(1e-9));
@@ -101,15 +101,15 @@ TEST_CASE("rods: Newton's method and converged sweeps end at the same minimiser"
     vbd->advance(1);
   }
   const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
-  // Both are rounded to single precision in each step, at 1 cm from the origin: 2⁻²⁴ of it, five times.
+  // Both are rounded to single precision in each of five steps, at 1 cm from the origin: 2⁻²⁴ of it.
   for (std::size_t v = 0; v < points.size(); ++v) CHECK(distance(a.positions[v], b.positions[v]) < 5e-9);
   for (std::size_t e = 0; e < a.orientations.size(); ++e)
     for (std::size_t k = 0; k < 4; ++k)
       CHECK(double{a.orientations[e][k]} == Approx(double{b.orientations[e][k]}).margin(1e-5));
 }
 
-// A straight rod in free fall has neither forces nor torques after its guess: what is left of both is rounding.
-// Implicit Euler falls by g h² n (n + 1)/2; the floor acts from 2.8 mm down, which the sixth step reaches.
+// A straight rod in free fall has neither forces nor torques after its guess but for rounding. Implicit Euler falls by
+// g h² n (n + 1)/2; the floor acts from 2.8 mm down, which the sixth step reaches.
 TEST_CASE("rods: Newton's steps of a straight cord converge in free fall, and when it meets the walls of a channel",
           "[property]") {
   compare::Scene scene;
@@ -153,7 +153,7 @@ TEST_CASE("rods: a cantilever under its weight sinks as a beam does, in proporti
     return -double{newton->snapshot().positions.back().y};
   };
   const double density = 4e-4, bend = 1e-4, load = density * 9.81;
-  // The frame of the held segment is clamped, at its middle: half a segment more than is free.
+  // The frame of the held segment is clamped at its middle, half a segment before the free part.
   const double length = 100.5e-3, sunk = deflection(density, bend);
   CHECK(sunk == Approx(load * std::pow(length, 4) / (8 * bend)).epsilon(0.01));
   CHECK(deflection(density, 2 * bend) == Approx(sunk / 2).epsilon(2e-3));
@@ -162,7 +162,8 @@ TEST_CASE("rods: a cantilever under its weight sinks as a beam does, in proporti
 
 TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a twist of 2 pi sqrt 3 (Michell)",
           "[property]") {
-  // All but one side of a polygon, its first and last side held: what grows of a ripple in half a second.
+  // The ring is all but one side of a polygon, with its first and last side held. Returns the growth of a ripple in
+  // half a second.
   const auto growth = [](double share_of_critical) {
     constexpr Index n = 60;
     const double radius = 0.02, angle = 2 * std::numbers::pi / (n + 1), side = 2 * radius * std::sin(angle / 2);
@@ -170,18 +171,19 @@ TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a tw
     for (Index k = 0; k <= n; ++k) rest.push_back({side * k, 0, 0});
     compare::Scene scene = held_rod(rest, {.density = 1e-3, .stretch = 1, .bend = 2e-7});
     scene.motions.push_back({.name = "other clamp", .vertices = {n - 1, n}, .keyframes = {}});
-    constexpr double ripple = 1e-3;  // of the radius
+    constexpr double ripple = 1e-3;  // share of the radius
     for (Index k = 0; k <= n; ++k) {
       const bool is_held = k < 2 || k + 1 >= n;
       scene.mesh.positions[static_cast<std::size_t>(k)] = {radius * std::sin(angle * k), radius * std::cos(angle * k),
                                                            is_held ? 0 : ripple * radius * std::sin(2 * angle * k)};
     }
-    // Frames that follow the polygon, each turned about its director by as much as the ring twists up to there: the
-    // director of a side is x turned by -angle (e + 1/2) about z.
+    // Frames follow the polygon, each turned about its director by the ring's twist up to there. The director of a side
+    // is x turned by -angle (e + 1/2) about z.
     const double twist = share_of_critical * std::sqrt(3.0) * angle;
     for (Index e = 0; e < n; ++e) {
       const double way = -angle * (e + 0.5) / 2, turn = twist * e / 2, half = std::sqrt(0.5);
-      // z turns to x about y, the twist about z comes first: (0, 0, sin way, cos way) (0, s, 0, c) (0, 0, sin, cos)
+      // The twist about z comes first, then z turns to x about y: (0, 0, sin way, cos way) (0, s, 0, c) (0, 0, sin,
+      // cos).
       const double x = half * std::sin(turn), y = half * std::cos(turn), z = half * std::sin(turn),
                    w = half * std::cos(turn);
       scene.orientations.push_back({static_cast<float>(std::cos(way) * x - std::sin(way) * y),
@@ -205,7 +207,7 @@ TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a tw
     for (const compare::Vec3f& x : newton->snapshot().positions) largest = std::max(largest, std::abs(double{x.z}));
     return largest / (ripple * radius);
   };
-  // The held sides and the one that is missing, 3 of 61, have no say, which makes the ring stiffer by as much.
+  // The held sides and the missing one, 3 of 61, do not bend, which makes the ring stiffer by as much.
   CHECK(growth(1) < 1);
   CHECK(growth(1.08) > 10);
 }

@@ -1,5 +1,5 @@
-// Newton's method with driven volumes (§3.9): derivatives of their contacts, and the minimiser that converged sweeps
-// reach.
+// Tests Newton's method with driven volumes (§3.9): derivatives of their contacts, and the minimiser that converged
+// sweeps reach.
 #include <cmath>
 
 #include "compare/oracle/volume_audit.hpp"
@@ -19,9 +19,9 @@ using compare::Index;
 using compare::Vec3;
 
 constexpr double contact_radius = 5e-3;
-constexpr std::size_t cloth = 36;  ///< its vertices stand first
+constexpr std::size_t cloth = 36;  ///< the cloth's vertices come first
 
-/// A contact with a triangle in the plane y = 0.
+/// Returns a contact with a triangle in the plane y = 0.
 reference::VolumeTerm term() {
   reference::VolumeTerm term;
   term.vertex = {0, 1, 2, 3};
@@ -32,12 +32,12 @@ reference::VolumeTerm term() {
   return term;
 }
 
-/// Its point at this height φ.
+/// Returns the positions with the contact's point at height φ.
 std::array<Triple<double>, 4> at_height(double height) {
   return {{{0.1, height, 0.2}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}}};
 }
 
-/// A sheet r above a block that is its ground and moves at this velocity [m/s].
+/// Returns a sheet at `height` above a driven block that moves at this velocity [m/s].
 compare::Scene sheet_on_block(double height, const Vec3& velocity) {
   compare::Scene scene;
   scene.name = "sheet_on_block";
@@ -111,8 +111,8 @@ TEST_CASE("volumes: Newton's method and converged sweeps end at the same minimis
     CHECK(row.volume_contacts >= static_cast<std::int64_t>(cloth));
     CHECK(row.volume_contacts == swept.volume_contacts);
     const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
-    // Both are rounded to single precision in each step, within 0.1 m of the origin: 2⁻²⁵ of it by coordinate, which
-    // h² a = h v carries on with less than twice as much more in each step.
+    // Both are rounded to single precision in each step, within 0.1 m of the origin: 2⁻²⁵ of it in each coordinate.
+    // Through h² a = h v each step adds less than twice the difference so far.
     for (std::size_t v = 0; v < cloth; ++v)
       CHECK(distance(a.positions[v], b.positions[v]) < std::pow(3, step) * std::sqrt(3) * 0x1p-25 * 0.1);
   }
@@ -126,7 +126,8 @@ TEST_CASE("Newton: who begins inside a volume comes out on the nearest side, and
   const auto newton = reference::start_newton(scene, {});
   for (const compare::StepMetrics& row : newton->advance(60)) {
     CHECK(row.status == compare::step_clean);
-    CHECK(row.vertices_inside == 0);  // at the step's last detection: one that converges has pushed everyone out
+    // checked at the step's last detection; a converged step has pushed all vertices out
+    CHECK(row.vertices_inside == 0);
   }
   const compare::Snapshot end = newton->snapshot();
   CHECK(auditor.audit(compare::to_double(end.positions)).vertices_inside == 0);

@@ -1,4 +1,4 @@
-// What ablations put in the place of the method's choices does what it says, and nothing at its defaults.
+// Tests that each ablation of the method's choices does what its name tells, and changes nothing at its default.
 #include "reference/solvers/variants/settings.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using reference::operator-;
 
 namespace {
 
-/// A level sheet 2 mm above a larger one, whose vertices no two lie above each other.
+/// Returns a level sheet 2 mm above a larger one, with no two vertices above each other.
 compare::Scene level_sheets() {
   compare::Scene scene;
   scene.name = "level_sheets";
@@ -36,7 +36,7 @@ compare::Scene level_sheets() {
   return scene;
 }
 
-/// A scene at its start, as sets are asked about it.
+/// A scene at its start, with the data that contact sets need.
 struct Asked {
   compare::Scene scene;
   compare::Topology topology;
@@ -63,7 +63,7 @@ struct Asked {
   }
 };
 
-/// Two sheets askew, with a radius that reaches far.
+/// Returns two tilted sheets with a large radius.
 Asked askew_sheets() {
   compare::Scene scene = two_sheets();
   scene.settings.contact_radius = 8e-3;
@@ -71,8 +71,8 @@ Asked askew_sheets() {
   return Asked(std::move(scene));
 }
 
-/// Σ‖f_t‖ / Σ‖f‖ of the contact forces on the level sheet's inner vertices: at its rim what lies beside it is pushed
-/// outwards, rightly.
+/// Returns Σ‖f_t‖ / Σ‖f‖ of the contact forces on the level sheet's inner vertices. At its rim, contacts beside it
+/// rightly push outwards.
 double tangential_share(const Asked& asked, reference::ContactSet set) {
   const reference::State x = reference::widened(asked.positions);
   reference::Potential potential(asked.scene, asked.topology);
