@@ -1,5 +1,5 @@
-// The judge with both sides at hand: it passes the exact contestant, catches every planted fault, and `ogc compare`
-// says so.
+// Tests the judge with both sides: it passes the exact contestant and catches every planted fault, and `ogc compare`
+// reports so.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -35,16 +35,16 @@ JudgeOptions few_cases(Stage stage) {
   return options;
 }
 
-/// What went wrong, for the log of a failed test.
+/// Returns the first mismatch, for the log of a failed test.
 std::string first_mismatch(const StageReport& report) {
   if (report.tally.mismatches.empty()) return "no mismatch";
   return print_problem(report.tally.mismatches[0].name) + ": " + report.tally.mismatches[0].message;
 }
 
-/// Which faults are asked for: all, those that any generator shows, or those that need a generator of their own.
+/// Faults to plant: all, those that any generator shows, or those that need their own generator.
 enum class Shown { in_any_way, by_any, by_its_own };
 
-/// The judge catches the faults that are planted in these stages.
+/// Checks that the judge catches the faults planted in these stages.
 void check_caught(const std::vector<Stage>& stages, Shown shown = Shown::in_any_way) {
   const Authority authority = reference::authority();
   for (const tests::Fault& fault : tests::faults()) {
@@ -54,10 +54,10 @@ void check_caught(const std::vector<Stage>& stages, Shown shown = Shown::in_any_
     fault.plant(wrong, authority);
     JudgeOptions options = few_cases(fault.stage);
     options.generator = fault.generator;
-    // A fault that one generator alone can show needs scenes enough of it.
+    // A fault that only one generator shows needs enough scenes of it.
     const std::uint64_t most = (fault.generator.empty() ? 1 : 20) * options.cases;
     std::uint64_t found = 0;
-    // Most are found in a few cases; all are asked for the others alone.
+    // A twentieth of the cases shows most faults; only the others get all cases.
     for (options.cases /= 20; found == 0 && options.cases <= most; options.cases *= 20)
       found = judge_stage(fault.stage, wrong, authority, options).tally.mismatched;
     INFO(fault.name);
@@ -77,7 +77,7 @@ TEST_CASE("the exact answers pass their own judge", "[agreement]") {
   }
 }
 
-// The faults of a step are two tests, because together they take minutes.
+// The faults of a step are split into two tests, because together they take minutes.
 TEST_CASE("the judge catches every planted fault of a step that any generator shows", "[agreement]") {
   check_caught({Stage::step}, Shown::by_any);
 }
@@ -85,7 +85,7 @@ TEST_CASE("the judge catches every planted fault of a step that needs a generato
   check_caught({Stage::step}, Shown::by_its_own);
 }
 
-// A guess that is changed alone makes the sweep behind it wrong, too.
+// A guess that is changed alone makes the sweep after it wrong, too.
 TEST_CASE("the judge says of a wrong rule for what contacts leave that it is the guess that is wrong", "[agreement]") {
   const Authority authority = reference::authority();
   int asked = 0;
@@ -163,7 +163,7 @@ TEST_CASE("of a mesh stage no thread begins more than one batch that nobody want
   options.threads = 6;
   options.generator = "soup";
   const StageReport report = judge_stage(Stage::bound, counting, authority, options);
-  constexpr std::uint64_t meshes = 4;  // of a batch
+  constexpr std::uint64_t meshes = 4;  // meshes of a batch
   CHECK(report.tally.total().cases >= options.cases);
   CHECK(asked <= report.tally.questions + meshes * options.threads);
 }
@@ -185,7 +185,7 @@ TEST_CASE(
   for (const StageReport& report : reports) {
     INFO(first_mismatch(report));
     CHECK(report.tally.mismatched == 0);
-    // of few cases the grey share says nothing
+    // a grey share of few cases means nothing
     CHECK((report.passed() || report.tally.total().cases < few_cases(report.tally.stage).cases));
   }
   CHECK(tests::loose_problems(reports) == std::vector<std::string>{});
@@ -300,7 +300,7 @@ TEST_CASE(
         CHECK(given.numbers.size() == exact.numbers.size());
         CHECK(given.words.size() == exact.words.size());
         for (std::size_t k = 0; k < exact.numbers.size(); ++k)
-          if (stage == Stage::ccd)  // an impact may be told early (compare/stages/ccd.hpp)
+          if (stage == Stage::ccd)  // an impact may be reported early (compare/stages/ccd.hpp)
             CHECK(given.numbers[k] <= exact.numbers[k]);
           else
             CHECK(given.numbers[k] == Approx(exact.numbers[k]).epsilon(1e-2).margin(1e-2));

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Frames by name, byte by byte.
+/// Returns the bytes of each frame by its name.
 std::map<std::string, std::string> frames_of(const fs::path& run) {
   std::map<std::string, std::string> frames;
   for (const auto& entry : fs::directory_iterator(run / "frames"))
@@ -25,14 +25,14 @@ std::map<std::string, std::string> frames_of(const fs::path& run) {
   return frames;
 }
 
-/// steps.csv without what a clock says.
+/// Returns steps.csv without times.
 std::string rows_of(const fs::path& run) {
   compare::StepTable table = compare::read_steps(run);
   for (compare::StepMetrics& row : table.rows) row.wall_ms = 0, row.stage_ms.clear();
   return compare::step_lines(table.rows, table.stage_names.size(), table.groups);
 }
 
-/// Of iterations.csv, all but the third column, a time.
+/// Returns iterations.csv without its third column, a time.
 std::string iterations_of(const fs::path& run) {
   std::ifstream file(run / "iterations.csv");
   std::string text;
@@ -43,8 +43,8 @@ std::string iterations_of(const fs::path& run) {
   return text;
 }
 
-/// What a run left when it was cut off: every frame is whole, every row up to the checkpoint is there, and so is each
-/// frame that the run said was written.
+/// Checks what a run left when it was cut off: every frame is whole, and every row up to the checkpoint and each frame
+/// that the run reported as written are there.
 void check_left(const fs::path& run, const std::string& said) {
   const compare::RunReader reader(run);
   std::int64_t last = -1;
@@ -81,18 +81,18 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
   Cuts cuts;
   std::string arguments = command + " --out " + run.string();
   for (int attempt = 0; attempt < 40; ++attempt) {
-    // In the foreground it waits for what it kills: else it ends by its own SIGKILL, maybe before the run's lock is
-    // given back.
+    // In the foreground, timeout waits for the process that it kills. Otherwise it ends by its own SIGKILL, maybe
+    // before the run's lock is released.
     const std::string before = cuts.in_time < 3 && cuts.killed < 20
                                    ? "timeout --foreground --preserve-status -s " + signal + " " +
                                          std::to_string(moment(random)) + " "
                                    : "";
     const ProgramResult result = run_ogc("run " + arguments, before);
-    // A signal may also meet a run whose last step is written, and leave the trajectory to `ogc export`.
+    // A signal may also reach a run whose last step is written, and leave the trajectory to `ogc export`.
     if (result.status == 0 || is_finished(run)) {
       if (result.status != 0) REQUIRE(run_ogc("export " + run.string()).status == 0);
       if (cuts.in_time > 0) break;
-      fs::remove_all(run);  // too early for a cut in time: once more
+      fs::remove_all(run);  // no cut came in time; try again
       continue;
     }
     INFO(result.err);

@@ -1,4 +1,4 @@
-// The exact contestant, the contestants of wrong forms, and the list of planted faults.
+// Makes the exact contestant, the contestants of wrong forms, and the list of planted faults.
 #include "tests/compare/judge/faults.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Quaternion single(const std::array<double, 4>& q) {
   return {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]), static_cast<float>(q[3])};
 }
 
-/// Force and block of each case; the first of several that are accepted.
+/// Returns force and block of each case; of several accepted ones the first.
 ForceOut rounded(const ForceTruth& truth) {
   ForceOut out;
   for (const auto& accepted : truth.accepted) {
@@ -53,7 +53,7 @@ bool obeys(const Vec3f& x, const Vec3f& p, float b) {
   return margin.sign() <= 0;
 }
 
-/// The exact position rounded, then stepped towards the previous one until the bound holds.
+/// Returns the exact position, rounded and then stepped towards the previous one until it obeys the bound.
 Vec3f stored(const Vec3& exact, const Vec3f& previous, float bound) {
   Vec3f x = single(exact);
   while (!obeys(x, previous, bound))
@@ -70,7 +70,7 @@ TruncateOut truncated(const TruncateIn& in, const TruncateTruth& truth) {
   return out;
 }
 
-/// The exact targets rounded; position and cut are those of the rounded ones.
+/// Returns the exact targets, rounded, with the positions and cuts of the rounded targets.
 InitialGuessOut guessed(const InitialGuessIn& in, const Authority& authority) {
   const InitialGuessTruth truth = authority.initial_guess(in);
   InitialGuessOut out;
@@ -83,7 +83,7 @@ InitialGuessOut guessed(const InitialGuessIn& in, const Authority& authority) {
   return out;
 }
 
-/// The exact contacts, rounded.
+/// Returns the exact contacts, rounded.
 VolumeDepthOut rounded(const VolumeDepthTruth& truth) {
   VolumeDepthOut out;
   const auto add = [&](const VolumeAnswer& a) {
@@ -166,7 +166,8 @@ Contestant exact_contestant(const Authority& authority) {
 
 Contestant contestant_of(const WrongForm& form, const Authority& authority) {
   Contestant wrong = exact_contestant(form.wrong(authority));
-  // The truth of a plane and of a sweep follows the answer. What the form makes of the question is answered.
+  // The truth of a plane and of a sweep depends on the answer. The contestant answers the question that the form makes
+  // of the given one.
   wrong.plane = [form, authority, right = wrong.plane](const PlaneIn& in) {
     PlaneOut out;
     Authority seen = authority;

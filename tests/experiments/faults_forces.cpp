@@ -1,4 +1,4 @@
-// Faults of forces on stencils: shares of 0.1 % and 0.01 %, and what few cases show.
+// Plants faults of forces on stencils: shares of 0.1 % and 0.01 %, and faults that few cases show.
 #include <cmath>
 
 #include "tests/compare/judge/faults.hpp"
@@ -9,7 +9,7 @@ using namespace compare;
 
 namespace {
 
-/// Between points: the slip is not projected onto the plane of contact.
+/// Skips the projection of the slip onto the plane of contact, between points.
 void keep_normal_motion(const FrictionForceCase& c, Vec3f& force, const std::array<float, 6>& block) {
   if (c.contact.sides != ContactSides::point_point) return;
   const float strength = (block[0] + block[3] + block[5]) / 2, sign = c.contact.own == 0 ? -strength : strength;
@@ -18,14 +18,14 @@ void keep_normal_motion(const FrictionForceCase& c, Vec3f& force, const std::arr
            sign * (x[0].z - s[0].z - x[1].z + s[1].z)};
 }
 
-/// Whether what is apart at a stitch is 0 in single precision.
+/// Returns whether the gap of a stitch is 0 in single precision.
 bool is_closed_by_rounding(const SpringCase& c) {
   const auto& [x, a, b] = c.vertex;
   const auto apart = [&](float Vec3f::*axis) { return x.*axis - a.*axis - c.ratio * (b.*axis - a.*axis); };
   return c.ratio > 0 && apart(&Vec3f::x) == 0 && apart(&Vec3f::y) == 0 && apart(&Vec3f::z) == 0;
 }
 
-/// The part along g turned round: what is left of the force is that of ‖F‖².
+/// Reverses the part along g; the rest of the force is that of ‖F‖².
 void flip_volume_gradient(const TetrahedronCase& c, Vec3f& force) {
   Vec3f stretch{};
   for (std::size_t k = 0; k < 3; ++k) {

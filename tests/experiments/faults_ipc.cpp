@@ -1,4 +1,4 @@
-// Faults of ccd and barrier: last bits, small shares, and what few cases show.
+// Plants faults of ccd and barrier: last bits, small shares, and faults that few cases show.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ Fault of_time(const std::string& name, Spoil spoil) {
   });
 }
 
-/// `time(impact)` in place of the time that is rounded down.
+/// Returns a fault that answers `time(impact)` in place of the time rounded down.
 Fault of_impact(const std::string& name, float (*time)(double)) {
   return {"ccd: " + name, Stage::ccd, [time](Contestant& contestant, const Authority& authority) {
             contestant.ccd = [ask = authority.ccd, time](const CcdIn& in) {

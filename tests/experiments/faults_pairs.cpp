@@ -1,4 +1,4 @@
-// Faults of closest_face and closest_points: a last bit, a feature alone, no number.
+// Plants faults of closest_face and closest_points: a last bit, a feature alone, NaN.
 #include <cmath>
 #include <limits>
 

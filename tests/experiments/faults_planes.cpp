@@ -1,4 +1,4 @@
-// Faults of the planes: what lets a pair pass, and what holds vertices that nothing holds.
+// Plants faults of the planes: faults that let a pair pass, and faults that hold vertices which nothing should hold.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,20 +38,20 @@ VertexPlanes planes_of(const Rows& rows) {
   return planes;
 }
 
-/// Whether v is on the pair's second side.
+/// Returns whether v is on the pair's second side.
 bool is_second(const PlaneIn& in, const PrimitivePair& pair, Index v) {
   if (pair.kind == Kind::vertex_triangle) return v != pair.first;
   return std::ranges::find(in.topology->edges[static_cast<std::size_t>(pair.first)], v) ==
          in.topology->edges[static_cast<std::size_t>(pair.first)].end();
 }
 
-/// The right answer, spoiled.
+/// Returns a fault that spoils the right answer.
 template <class Spoil>
 Fault ball_fault(const std::string& name, Spoil spoil) {
   return spoiled("plane: " + name, &Contestant::plane, spoil);
 }
 
-/// The same, all half-spaces.
+/// Returns a fault that spoils all half-spaces of the right answer.
 template <class Spoil>
 Fault row_fault(const std::string& name, Spoil spoil) {
   return ball_fault(name, [spoil](const PlaneIn& in, PlaneOut& out) {
@@ -61,7 +61,7 @@ Fault row_fault(const std::string& name, Spoil spoil) {
   });
 }
 
-/// The same, each half-space for itself.
+/// Returns a fault that spoils each half-space of the right answer by itself.
 template <class Spoil>
 Fault plane_fault(const std::string& name, Spoil spoil) {
   return row_fault(name, [spoil](const PlaneIn& in, Rows& rows) {
@@ -80,12 +80,13 @@ std::array<std::vector<Index>, 2> sides_of(const Topology& topology, const Primi
 
 double height(const Vec3f& n, const Vec3f& x) { return double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z; }
 
-/// n·w of the pair's first side and −n·w of its second, by vertex.
+/// n·w of the pair's first side and −n·w of its second, for each vertex; w is the displacement.
 struct Speeds {
   std::vector<double> first, second;
 };
 
-/// Offsets of all pairs that displacements divide, made anew with another share s of the first side.
+/// Returns a fault that computes the offsets of all pairs which displacements divide with another share s of the first
+/// side.
 Fault divided_otherwise(const std::string& name, const std::function<double(const Speeds&)>& share_of_first) {
   return plane_fault(name, [share_of_first](const PlaneIn& in, Index v, VertexPlane& plane) {
     if (in.displacement.empty()) return;
@@ -158,7 +159,8 @@ std::vector<Fault> division_faults() {
   };
 }
 
-/// The corners of a triangle that the closest point does not depend on bear no plane: "their approach does not matter".
+/// Removes the planes of a triangle's corners on which the closest point does not depend: "their approach does not
+/// matter".
 void weight_zero_ignored(const PlaneIn& in, Rows& rows) {
   const auto at = [&](Index v) { return in.positions[static_cast<std::size_t>(v)]; };
   for (std::size_t v = 0; v < rows.size(); ++v)
@@ -174,7 +176,7 @@ void weight_zero_ignored(const PlaneIn& in, Rows& rows) {
     });
 }
 
-/// Each vertex keeps the planes of its sixteen nearest pairs, whatever the pair's other vertices do.
+/// Keeps the planes of each vertex's sixteen nearest pairs, independent of the pair's other vertices.
 void asymmetric_cap(const PlaneIn&, Rows& rows) {
   for (auto& row : rows)
     if (row.size() == planes_of_vertex) row.pop_back();
@@ -196,7 +198,7 @@ std::vector<Fault> plane_by_plane() {
                   [](const PlaneIn&, Index, VertexPlane& plane) { plane.offset = static_cast<float>(plane.offset); }),
       plane_fault("one offset in the middle of a pair, which both sides may reach",
                   [](const PlaneIn& in, Index v, VertexPlane& plane) {
-                    // of a gap g each side had γ_p g, up to the middle g/2 are left
+                    // Of a gap g each side has γ_p g; up to the middle it is g/2.
                     const auto& x = in.positions[static_cast<std::size_t>(v)];
                     const Vec3f& n = plane.normal;
                     const double room = plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);
@@ -273,7 +275,7 @@ std::vector<Fault> ball_by_ball() {
   };
 }
 
-/// The balls of the paper: each vertex has that of its nearest pair.
+/// Returns the balls of the paper: each vertex has that of its nearest pair.
 std::vector<float> balls_of_all_pairs(const PlaneIn& in, const Authority& authority) {
   const DetectIn asked{in.topology, in.exclusions, in.positions, in.query_radius, in.query_radius};
   const DetectVertexFacetOut near = authority.detect_vertex_facet(asked).exact;
@@ -281,7 +283,7 @@ std::vector<float> balls_of_all_pairs(const PlaneIn& in, const Authority& author
   return authority.bound({in.topology, near.d_min_vertex, edges, near.d_min_triangle, in.bound_relaxation}).exact.bound;
 }
 
-/// Nothing has planes.
+/// Returns a fault without planes.
 Fault balls_alone() {
   return {"plane: balls in place of planes", Stage::plane, [](Contestant& contestant, const Authority& authority) {
             contestant.plane = [authority](const PlaneIn& in) {
@@ -290,7 +292,7 @@ Fault balls_alone() {
           }};
 }
 
-/// Planes that give nothing: the ball is as small as without them.
+/// Returns a fault whose planes give no room: balls are as small as without them.
 Fault balls_beside_planes() {
   return {"plane: balls of all pairs beside the planes", Stage::plane,
           [](Contestant& contestant, const Authority& authority) {
@@ -303,7 +305,7 @@ Fault balls_beside_planes() {
           }};
 }
 
-/// Fixed vertices taken for free ones: they bear planes, and leave the others γ_p alone.
+/// Returns a fault that takes fixed vertices for free ones: they have planes and leave the others γ_p alone.
 Fault fixed_as_free() {
   return {"plane: fixed vertices taken for free ones", Stage::plane, [](Contestant& contestant, const Authority&) {
             contestant.plane = [right = contestant.plane](const PlaneIn& in) {

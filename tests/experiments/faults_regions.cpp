@@ -1,4 +1,4 @@
-// Faults of truncation by half-spaces: what others' planar filters let go, and what they hold for nothing.
+// Plants faults of truncation by half-spaces: what other planar filters let pass, and what they hold for no reason.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ double size(const Vec3f& n, const Vec3f& x) {
   return std::abs(double{n.x} * x.x) + std::abs(double{n.y} * x.y) + std::abs(double{n.z} * x.z);
 }
 
-/// The right answer to a question that is changed first, where half-spaces hold anything.
+/// Returns a fault that answers a changed question correctly, where half-spaces hold anything.
 template <class Change>
 Fault region_asked(const std::string& name, Change change) {
   return asked_wrongly("truncate: " + name, &Contestant::truncate, [change](TruncateIn& in) {
@@ -26,7 +26,7 @@ Fault region_asked(const std::string& name, Change change) {
   });
 }
 
-/// Without the half-spaces of which `is_lost(in, case, number)` holds.
+/// Returns a fault without the half-spaces for which `is_lost(in, case, number)` holds.
 template <class Lost>
 Fault lost_half_spaces(const std::string& name, Lost is_lost) {
   return region_asked(name, [is_lost](TruncateIn& in) {
@@ -43,7 +43,7 @@ Fault lost_half_spaces(const std::string& name, Lost is_lost) {
   });
 }
 
-/// The right answer, spoiled where half-spaces hold the vertex.
+/// Returns a fault that spoils the right answer where half-spaces hold the vertex.
 template <class Spoil>
 Fault region_spoiled(const std::string& name, Spoil spoil) {
   return spoiled("truncate: " + name, &Contestant::truncate, [spoil](const TruncateIn& in, TruncateOut& out) {
@@ -52,7 +52,7 @@ Fault region_spoiled(const std::string& name, Spoil spoil) {
   });
 }
 
-/// n·x in single precision.
+/// Returns n·x in single precision.
 float single_height(const Vec3f& n, const Vec3f& x) { return n.x * x.x + n.y * x.y + n.z * x.z; }
 
 }  // namespace

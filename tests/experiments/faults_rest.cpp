@@ -1,4 +1,4 @@
-// Faults of rest_state, block and initial_guess: what a form of their truths does not reach.
+// Plants faults of rest_state, block and initial_guess that no form of their truths can express.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ Fault rest_fault(const std::string& name, Spoil spoil) {
                  [spoil](const RestStateIn& in, RestStateOut& out) { spoil(*in.scene, out); });
 }
 
-/// The right answer about the start instead of the rest shape.
+/// Returns a fault that answers about the start instead of the rest shape.
 Fault start_taken_for_rest() {
   return {"rest_state: rest shape taken from the start", Stage::rest_state,
           [](Contestant& contestant, const Authority&) {
@@ -87,7 +87,7 @@ CompressedRows without_last(const CompressedRows& rows) {
   return shorter;
 }
 
-/// The right answer about a complex that lacks the last neighbour of each row.
+/// Returns a fault that answers about a complex which lacks the last neighbour of each row.
 Fault forgotten(const std::string& name, CompressedRows Topology::*rows) {
   return {name, Stage::block, [rows](Contestant& contestant, const Authority&) {
             contestant.block = [right = contestant.block, rows](const BlockIn& in) {
@@ -112,7 +112,7 @@ void close_edge_ends(const BlockIn& in, const BlockQuestion& question, std::uint
   if (along(x, a, b) == 0 || along(x, b, a) == 0) inside = 1;
 }
 
-/// The first end of the edge stands for its closest point.
+/// Returns a fault that takes the first end of the edge for its closest point.
 Fault end_for_closest_point() {
   return {"block: first end taken for an edge's closest point", Stage::block,
           [](Contestant& contestant, const Authority&) {

@@ -1,4 +1,4 @@
-// Faults of bound and truncate: a share of 1 %, a last bit, and what forms of truncate say of an answer.
+// Plants faults of bound and truncate: a share of 1 %, a last bit, and answers that follow forms of truncate.
 #include <cmath>
 #include <limits>
 

@@ -1,4 +1,4 @@
-// Faults of the step: its parts are right, their order or what they are given is not.
+// Plants faults of the step: its parts are right, but their order or their inputs are wrong.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ using reference::operator+, reference::operator-, reference::operator*;
 
 namespace {
 
-/// The right step of a scene that is changed first.
+/// Returns a fault that makes the right step of a changed scene.
 Fault asked_wrongly(const std::string& name, const std::function<void(Scene&)>& change) {
   return {"step: " + name, Stage::step, [change](Contestant& contestant, const Authority&) {
             contestant.step = [right = contestant.step, change](const StepIn& in) {
@@ -28,7 +28,7 @@ Fault asked_wrongly(const std::string& name, const std::function<void(Scene&)>& 
           }};
 }
 
-/// The right step, spoiled.
+/// Returns a fault that spoils the right step.
 Fault spoiled(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
   return {"step: " + name, Stage::step, [spoil](Contestant& contestant, const Authority&) {
             contestant.step = [right = contestant.step, spoil](const StepIn& in) {
@@ -39,13 +39,13 @@ Fault spoiled(const std::string& name, const std::function<void(const StepIn&, S
           }};
 }
 
-/// Of all generators' cases too few could show it.
+/// Marks a fault that too few cases of all generators together could show.
 Fault shown_by(const std::string& generator, Fault fault) {
   fault.generator = generator;
   return fault;
 }
 
-/// max(1, ⌊γ_e K⌋) in place of ⌈γ_e K⌉: as γ_e a little above (⌊γ_e K⌋ − 1)/K.
+/// Uses max(1, ⌊γ_e K⌋) in place of ⌈γ_e K⌉, by a γ_e slightly above (⌊γ_e K⌋ − 1)/K.
 void round_threshold_down(Scene& scene) {
   const std::vector<Index> groups = rigid_groups(scene);
   const auto moving = static_cast<double>(
@@ -56,7 +56,7 @@ void round_threshold_down(Scene& scene) {
 
 bool is_detection(const StepEvent& event) { return event.kind == StepEventKind::detection; }
 
-/// Detections between iterations are left out, whatever was cut.
+/// Leaves out detections between iterations, however many vertices are cut.
 void detect_before_iterations_only(const StepIn&, StepOut& out) {
   const auto first_sweep = std::find_if(out.events.begin(), out.events.end(),
                                         [](const StepEvent& event) { return event.kind == StepEventKind::sweep; });
@@ -68,7 +68,8 @@ void keep_first_previous(const StepIn&, StepOut& out) {
     if (is_detection(event)) event.position = out.events.front().position;
 }
 
-/// `change(event, v)` of each vertex of a vertex–facet contact in the n-th round of the guess loop and later.
+/// Calls `change(guess, detection, v)` for each vertex v of a vertex–facet contact, from round `first` of the guess
+/// loop on.
 template <class Change>
 void change_rounds(StepOut& out, int first, Change change) {
   for (std::size_t i = 1, round = 0; i < out.events.size() && out.events[i].kind == StepEventKind::guess; i += 2)
@@ -77,14 +78,14 @@ void change_rounds(StepOut& out, int first, Change change) {
         change(out.events[i], out.events[i - 1], static_cast<std::size_t>(contact.vertex));
 }
 
-/// From the second round on vertices that touch something stay where they are.
+/// Keeps vertices in contact in place from the second round on.
 void hold_from_second_round(const StepIn&, StepOut& out) {
   change_rounds(out, 1, [](StepEvent& guess, const StepEvent& detection, std::size_t v) {
     guess.position[v] = detection.position[v];
   });
 }
 
-/// Contacts take nothing: what touches goes to y, truncated.
+/// Lets contacts take nothing: vertices in contact move to y, truncated.
 void fall_into_partners(const StepIn&, StepOut& out) {
   change_rounds(out, 0, [&](StepEvent& guess, const StepEvent& detection, std::size_t v) {
     const Vec3f &p = detection.position[v], &y = out.target[v];
@@ -93,7 +94,7 @@ void fall_into_partners(const StepIn&, StepOut& out) {
   });
 }
 
-/// Vertices that touch something stay in the first round, too.
+/// Keeps vertices in contact in place in the first round, too.
 void hold_in_first_round(const StepIn& in, StepOut& out) {
   const std::vector<VertexFacetContact>& contacts = out.events[0].vertex_facet.contacts;
   StepEvent& guess = out.events[1];
@@ -107,11 +108,11 @@ void hold_in_first_round(const StepIn& in, StepOut& out) {
 using Places = std::vector<reference::Triple<double>>;
 using GuessContacts = std::vector<reference::GuessContact>;
 
-/// A wrong rule for where contacts let vertex v go. It may change the contacts and the targets y.
+/// A wrong rule for the move that contacts leave to vertex v. It may change the contacts and the targets y.
 using Wrong = std::function<void(GuessContacts&, const Places& previous, Places& target, std::size_t v)>;
 
-/// What contacts leave of moves in the first round, by another rule; of balls alone, so that the rule is what is wrong.
-/// `sign` −1: what is left of the way back, backwards.
+/// Returns a fault that applies another rule to the moves of the first round, with bounds=ball alone, so that only the
+/// rule is wrong. With `sign` −1 it takes the remaining way back, reversed.
 Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1) {
   return spoiled(name, [wrong, sign](const StepIn& in, StepOut& out) {
     const Settings& settings = in.scene->settings;
@@ -141,7 +142,7 @@ Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1)
   });
 }
 
-/// Every contact has this friction.
+/// Returns a rule that gives every contact this friction.
 Wrong friction_of(double friction) {
   return [friction](GuessContacts& contacts, const Places&, Places&, std::size_t) {
     for (reference::GuessContact& contact : contacts) contact.friction = friction;
@@ -154,14 +155,14 @@ void ignore_partners(GuessContacts&, const Places& previous, Places& target, std
   target[v] = own;
 }
 
-/// Without friction and with partners that stand, the way back loses what leaves them.
+/// Reverses the way, without friction and with partners at rest, so that the way back loses what leaves the contacts.
 void take_leaving(GuessContacts& contacts, const Places& previous, Places& target, std::size_t v) {
   friction_of(0)(contacts, previous, target, v);
   ignore_partners(contacts, previous, target, v);
   target[v] = previous[v] - (target[v] - previous[v]);
 }
 
-/// Cut vertices of the first round slide, although bounds are those that scale.
+/// Lets cut vertices slide in the first round, although bounds=dat scales moves.
 void slide_with_dat(const StepIn& in, StepOut& out) {
   if (in.scene->settings.bounds != Bounds::dat) return;
   const StepEvent& detection = out.events[0];
@@ -176,7 +177,7 @@ void slide_with_dat(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Where half-spaces stop a vertex in an iteration it goes on beside its way, inside its region.
+/// Lets a vertex that half-spaces stop in an iteration continue beside its way, inside its region.
 void stop_beside_the_way(const StepIn& in, StepOut& out) {
   if (in.scene->settings.bounds != Bounds::dat) return;
   const StepEvent* detection = nullptr;
@@ -200,7 +201,7 @@ void stop_beside_the_way(const StepIn& in, StepOut& out) {
   }
 }
 
-/// y − x divides the gaps in detections between iterations, too.
+/// Divides the gaps by y − x in detections between iterations, too.
 void divide_by_prediction(const StepIn& in, StepOut& out) {
   const Settings& settings = in.scene->settings;
   if (settings.bounds != Bounds::dat) return;
@@ -216,7 +217,7 @@ void divide_by_prediction(const StepIn& in, StepOut& out) {
   }
 }
 
-/// The first corner takes the colour of the last.
+/// Gives the first corner the colour of the last.
 void share_a_colour(const StepIn&, StepOut& out) {
   for (const RestTetrahedron& t : out.rest.tetrahedra) {
     Index& first = out.colour[static_cast<std::size_t>(t.corner[0])];
@@ -232,7 +233,7 @@ void bound_what_is_inside(const StepIn& in, StepOut& out) {
       if (!in.topology->on_surface(static_cast<Index>(v))) event.bound[v] = ball;
 }
 
-/// Contacts with volumes are found where these are at the start of the step.
+/// Finds contacts with volumes as these are at the start of the step.
 void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   const reference::SceneVolumes volumes(*in.scene, *in.topology);
   const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
@@ -246,20 +247,20 @@ void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Contacts with volumes are those of where inertia would lead, in place of X_prev.
+/// Finds contacts with volumes at the inertial targets, in place of X_prev.
 void ask_volumes_at_targets(const StepIn& in, StepOut& out) {
   const reference::SceneVolumes volumes(*in.scene, *in.topology);
   for (StepEvent& event : out.events)
     if (is_detection(event)) event.volumes = volumes.contacts(out.target);
 }
 
-/// Each detection but the first keeps its contacts with volumes.
+/// Keeps the contacts with volumes of the first detection in all others.
 void keep_contacts_with_volumes(const StepIn&, StepOut& out) {
   for (StepEvent& event : out.events)
     if (is_detection(event)) event.volumes = out.events.front().volumes;
 }
 
-/// Volumes go where the others go: at their targets after the first round.
+/// Leaves volumes at the start in the first detection, so that they move with the other vertices, in the guess loop.
 void let_volumes_lag(const StepIn& in, StepOut& out) {
   const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
   const std::vector<bool> is_volume = volume_flags(*in.scene);
@@ -267,7 +268,7 @@ void let_volumes_lag(const StepIn& in, StepOut& out) {
     if (is_volume[v]) out.events.front().position[v] = start[v];
 }
 
-/// A vertex left inside asks nothing: no detection follows an iteration that left one.
+/// Removes the detection that follows an iteration which left a vertex inside.
 void ask_nothing_inside(const StepIn& in, StepOut& out) {
   const std::vector<VolumeContact>* contacts = nullptr;
   for (std::size_t i = 0; i + 1 < out.events.size(); ++i) {
@@ -280,17 +281,17 @@ void ask_nothing_inside(const StepIn& in, StepOut& out) {
   }
 }
 
-/// The right step, with what only volumes show.
+/// Returns a fault of the step that only volumes show.
 Fault about_volumes(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
   return shown_by("volume", spoiled(name, spoil));
 }
 
-/// The same of free volumes.
+/// Returns a fault of the step that only free volumes show.
 Fault about_free_volumes(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
   return shown_by("free_volume", spoiled(name, spoil));
 }
 
-/// Nobody but surfaces asks.
+/// Keeps contacts of surfaces with volumes only.
 void ask_from_surfaces_alone(const StepIn& in, StepOut& out) {
   const std::vector<bool> is_volume = volume_flags(*in.scene);
   for (StepEvent& event : out.events)
@@ -298,7 +299,7 @@ void ask_from_surfaces_alone(const StepIn& in, StepOut& out) {
                   [&](const VolumeContact& c) { return is_volume[static_cast<std::size_t>(c.point)]; });
 }
 
-/// Volumes are surfaces to contact and bounds.
+/// Returns a fault in which volumes are surfaces to contact and bounds.
 Fault bounded_volumes() {
   return shown_by("volume",
                   {"step: a volume that truncates", Stage::step, [](Contestant& contestant, const Authority&) {

@@ -1,5 +1,5 @@
-// Faults of the sweep: what published solvers get wrong in the order of reading and writing, or leave out of one
-// vertex.
+// Plants faults of the sweep: published solvers' mistakes in the order of reading and writing, and parts left out of
+// one vertex.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ using namespace compare;
 
 namespace {
 
-/// What a changed question points to.
+/// Holds the data to which a changed question points.
 struct SweepCopy {
   SweepIn in;
   Scene scene;
@@ -50,7 +50,7 @@ struct SweepCopy {
   SweepCopy& operator=(const SweepCopy&) = delete;
 };
 
-/// The right answer to a question that is changed first.
+/// Returns a fault that answers a changed question correctly.
 Fault asked_wrongly(const std::string& name, const std::function<void(SweepCopy&)>& change) {
   return {"sweep: " + name, Stage::sweep, [change](Contestant& contestant, const Authority&) {
             contestant.sweep = [right = contestant.sweep, change](const SweepIn& in) {
@@ -61,7 +61,7 @@ Fault asked_wrongly(const std::string& name, const std::function<void(SweepCopy&
           }};
 }
 
-/// The right sweep over stencils that are changed first.
+/// Returns a fault that sweeps correctly over changed stencils.
 Fault gathered_wrongly(const std::string& name, const std::function<void(reference::SweepStencils&)>& change) {
   return {"sweep: " + name, Stage::sweep, [change](Contestant& contestant, const Authority&) {
             contestant.sweep = [change](const SweepIn& in) {
@@ -72,7 +72,7 @@ Fault gathered_wrongly(const std::string& name, const std::function<void(referen
           }};
 }
 
-/// By colour, then number: inside a colour, too, each vertex sees those before it.
+/// Orders vertices by colour, then number, so that each sees those before it inside its colour, too.
 void order_within_colours(SweepCopy& copy) {
   std::vector<std::size_t> order(copy.colour.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -89,7 +89,7 @@ void forget_one_inertia(SweepCopy& copy) {
   copy.target[v] = copy.in.old[v];
 }
 
-/// As printed in Algorithm 3: positions are cut when the iteration is over.
+/// Returns a fault that cuts positions after the iteration, as printed in Algorithm 3.
 Fault truncated_late() {
   return {"sweep: truncation after the iteration", Stage::sweep, [](Contestant& contestant, const Authority&) {
             contestant.sweep = [right = contestant.sweep](const SweepIn& in) {
@@ -111,7 +111,7 @@ Fault truncated_late() {
           }};
 }
 
-/// Contacts that are beyond r before the sweep have no block.
+/// Removes the block of contacts that are beyond r before the sweep.
 void end_at_radius(SweepCopy& copy) {
   const reference::State x = reference::widened({copy.in.old.begin(), copy.in.old.end()});
   std::erase_if(copy.vertex_facet, [&](const VertexFacetContact& contact) {
@@ -124,7 +124,7 @@ void end_at_radius(SweepCopy& copy) {
   copy.in.vertex_facet = copy.vertex_facet;
 }
 
-/// Forces of vertex–facet contacts reach the vertex alone.
+/// Leaves forces of vertex–facet contacts out of all vertices but the contact's own.
 void forget_facets(reference::SweepStencils& stencils) {
   for (auto& contacts : stencils.vertex_facet)
     std::erase_if(contacts, [](const auto& contact) { return contact.second > 0; });
@@ -136,38 +136,38 @@ void forget_last_triangle(reference::SweepStencils& stencils) {
   if (row != rows.rend()) row->pop_back();
 }
 
-/// A fault of contacts with volumes, which the cases of their generator show.
+/// Returns a fault of contacts with volumes, which the cases of their generator show.
 Fault about_volumes(const std::string& name, const std::function<void(SweepCopy&)>& change) {
   Fault fault = asked_wrongly(name, change);
   fault.generator = "volume";
   return fault;
 }
 
-/// A fault of free volumes, likewise.
+/// Returns a fault of free volumes, which the cases of their generator show.
 Fault about_free_volumes(Fault fault) {
   fault.generator = "free_volume";
   return fault;
 }
 
-/// Corners of triangles are not pushed back.
+/// Leaves out the reaction on the triangles' corners.
 void forget_corners(reference::SweepStencils& stencils) {
   for (auto& own : stencils.volumes) std::erase_if(own, [](const auto& element) { return element.second > 0; });
 }
 
-/// Each corner is the point.
+/// Takes each corner for the point.
 void confuse_roles(reference::SweepStencils& stencils) {
   for (auto& own : stencils.volumes)
     for (auto& [contact, role] : own) role = 0;
 }
 
-/// Vertices of volumes are where they were at the start of the step.
+/// Puts vertices of volumes where they were at the start of the step.
 void forget_motion_of_volumes(SweepCopy& copy) {
   const std::vector<bool> is_volume = volume_flags(copy.scene);
   for (std::size_t v = 0; v < is_volume.size(); ++v)
     if (is_volume[v]) copy.start[v] = copy.in.old[v];
 }
 
-/// Who touches a volume may move by half of what is left of r.
+/// Limits a vertex that touches a volume to half of the rest of r.
 void truncate_by_volumes(SweepCopy& copy) {
   const auto r = static_cast<float>(copy.scene.settings.contact_radius);
   for (const VolumeContact& contact : copy.volumes) {

@@ -1,12 +1,11 @@
-// Newton, VBD in double and VBD in single precision, asked for the same step: procedural scenes in which a free sheet
-// is pressed onto another one, free or fixed, friction and damping included.
+// Compares Newton, VBD in double and VBD in single precision on the same step: procedural scenes press a free sheet
+// onto another one, free or fixed, with friction and damping.
 //
-// Where a step has one solution, x* with f(x*) = 0 and a Hessian of at least m/(2h²) between the two states, each
-// solver is within 2 h²/m ‖f(x)‖ of it, f(x) the force that is left where it stopped. For this both is checked: the
-// Hessian without half of the inertia has a Cholesky factorisation, and no decision about a contact is at an open
-// boundary, where OGC's force jumps: no decision of the exact detection is grey at either end, and both ends have the
-// same contacts (a VBD that steps back and forth over a boundary for ever ends with others). Elsewhere energies and
-// residuals are compared.
+// If a step has one solution, x* with f(x*) = 0 and a Hessian of at least m/(2h²) between the two states, each solver
+// is within 2 h²/m ‖f(x)‖ of it, where f(x) is the force left where it stopped. Two conditions are checked. The Hessian
+// without half of the inertia has a Cholesky factorisation. No decision about a contact is at an open boundary, where
+// OGC's force jumps: no decision of the exact detection is grey at either end, and both ends have the same contacts (a
+// VBD that alternates across a boundary for ever ends with others). In other steps energies and residuals are compared.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -25,7 +24,7 @@ using compare::Vec3f;
 
 namespace {
 
-/// A number in [−1, 1) that depends on the scene and on what it is for.
+/// Returns a number in [−1, 1) that depends on the scene and on its use.
 double draw(int scene, int use) {
   const double x = std::sin(12.9898 * (scene + 1) + 78.233 * (use + 1)) * 43758.5453;
   return 2 * (x - std::floor(x)) - 1;
@@ -68,7 +67,7 @@ std::vector<Vec3f> end_of_step(const compare::Contestant& contestant, const comp
   return simulation->snapshot().positions;
 }
 
-/// What is known about a state.
+/// Holds what is known about a state.
 struct End {
   std::vector<Vec3f> x;
   reference::Residual residual;
@@ -104,7 +103,7 @@ class Pair {
     return a.facets.exact.contacts == b.facets.exact.contacts && a.edges.exact.contacts == b.edges.exact.contacts;
   }
 
-  /// Of the Hessian at the state less m/(2h²).
+  /// Returns whether the Hessian at the state less m/(2h²) is positive definite.
   bool positive_definite(const End& end) {
     const reference::State x = reference::widened(end.x),
                            start = reference::widened(compare::to_single(scene_.mesh.positions));
@@ -125,7 +124,7 @@ class Pair {
 
   double start_energy() const { return start_energy_; }  ///< at xᵗ [J]
 
-  /// 2 h²/m Σ ‖f‖ of both, and what storing has moved each of them.
+  /// Returns 2 h²/m Σ ‖f‖ of both ends plus the distance by which storing has moved them.
   double farthest_apart(const End& a, const End& b) const {
     double lightest = std::numeric_limits<double>::infinity(), largest = 0;
     const auto free = static_cast<double>(potential_.free_count());
@@ -172,7 +171,7 @@ TEST_CASE(
     Pair pair(scene);
     const End newton = pair.end(end_of_step(reference::newton(), scene));
     CHECK(newton.residual.contacts > 10);
-    // What storing positions in single precision leaves of 10⁻⁹.
+    // Storing positions in single precision leaves this much of 10⁻⁹.
     CHECK(newton.residual.share < 1e-5);
     std::vector<End> settled;
     for (const compare::Contestant* vbd : {&single, &twice}) {
@@ -183,8 +182,8 @@ TEST_CASE(
         ++same[vbd->name];
         CHECK(other.residual.share < 1e-5);
         CHECK(largest_distance(newton, other) <= pair.farthest_apart(newton, other));
-        // The bound is far from tight: measured, single precision ends within 5 nm, a few roundings of coordinates of 3
-        // cm.
+        // The bound is far from tight: single precision was measured to end within 5 nm, a few roundings of coordinates
+        // of 3 cm.
         CHECK(largest_distance(newton, other) <= 16 * compare::unit_roundoff * 0.03);
         settled.push_back(other);
       } else {

@@ -1,4 +1,4 @@
-// Runs the built program as a user would, in a folder of its own.
+// Runs the built program as a user does, in a separate folder.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace ogc::tests {
 
-/// A fresh folder that is removed with its content.
+/// Makes a new folder, and removes it with its content at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -22,17 +22,17 @@ class TemporaryFolder {
 };
 
 struct ProgramResult {
-  int status = -1;  ///< exit status; 128 + signal where one ended it
+  int status = -1;  ///< exit status; 128 + signal if a signal ended it
   std::string out, err;
 };
 
-/// `ogc ARGUMENTS` through the shell; `before` is shell text put in front ("ulimit -f 8; ").
+/// Runs `ogc ARGUMENTS` through the shell, after the shell text `before` ("ulimit -f 8; ").
 ProgramResult run_ogc(const std::string& arguments, const std::string& before = "");
 
-/// Whether all of `parts` stand in `text`, in any order.
+/// Returns whether `text` contains all of `parts`, in any order.
 bool contains(const std::string& text, std::initializer_list<std::string> parts);
 
-/// Two triangles that cross: edges of the second pass through the first.
+/// Two crossing triangles: edges of the second pass through the first.
 extern const char* const crossing_triangles_obj;
 /// Two parallel triangles, 1 mm apart.
 extern const char* const parallel_triangles_obj;

@@ -1,4 +1,4 @@
-// Stacks of identical sheets, run with the settings that `ogc suggest` has for them: they come to rest, and stay there.
+// Tests stacks of identical sheets, run with the settings of `ogc suggest`: they come to rest and stay there.
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +14,11 @@ using namespace ogc::tests;
 namespace {
 
 constexpr double edge = 0.02, gap = 0.004;  ///< [m]
-/// Steps until a stack has come to rest, and steps that are looked at.
+/// Steps until a stack is at rest, and steps that are checked then.
 constexpr std::size_t settling = 80, resting = 100;
 
-/// `count` sheets of n × n vertices, the lowest at y = 0; each shifted in its plane by up to `shift` [m], by a pattern.
+/// Returns `count` sheets of n × n vertices, the lowest at y = 0; a pattern shifts each in its plane by up to `shift`
+/// [m].
 compare::Mesh stack(int count, compare::Index n, double shift) {
   compare::Scene scene;
   for (int k = 0; k < count; ++k) {
@@ -46,7 +47,7 @@ TEST_CASE("stacks of 3, 10 and 50 identical sheets, aligned or shifted, rest wit
       for (std::size_t i = settling; i < rows.size(); ++i) {
         INFO("step " << rows[i].step);
         CHECK(rows[i].vertices_cut == 0);
-        // Nothing moves far enough to ask for another one, and no gap is squeezed shut.
+        // Nothing moves far enough for a second detection, and no gap closes.
         CHECK(rows[i].discrete_detections == 1);
         CHECK(rows[i].smallest_distance > gap / 4);
       }

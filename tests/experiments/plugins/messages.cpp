@@ -1,5 +1,5 @@
-// What a worker sends, damaged in many ways: the judge's side either gets an answer of the right shape or says that
-// there is none.
+// Damages a worker's messages in many ways. The judge's side must either get an answer of the right shape or report
+// that there is none.
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -18,14 +18,14 @@ using Stream = std::vector<std::byte>;
 
 struct NothingCame {};
 
-/// Both ends of a socket.
+/// Returns both ends of a socket.
 std::array<Channel, 2> socket_ends() {
   int ends[2];
   REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0);
   return {Channel(ends[0]), Channel(ends[1])};
 }
 
-/// Blocks with their heads, as a worker sends them.
+/// Returns blocks with their heads, in the form in which a worker sends them.
 Stream stream_of(const std::vector<Stream>& blocks) {
   Stream stream;
   for (const Stream& block : blocks) {
@@ -42,7 +42,7 @@ Stream block_of(const Item& item) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// `read` of a stream behind which the socket is closed. Throws NothingCame where the stream ends too early.
+/// Applies `read` to a stream after which the socket is closed. Throws NothingCame if the stream ends too early.
 template <class Read>
 auto read_stream(const Stream& stream, Read read) {
   std::array<Channel, 2> ends = socket_ends();
@@ -61,7 +61,7 @@ struct Question {
   ListSizes counts;
 };
 
-/// A step of a small scene: it has lists of all kinds.
+/// Returns a step of a small scene, which has lists of all kinds.
 Question step_question() {
   QuestionSizes sizes;
   sizes.vertices = 7, sizes.edges = 12, sizes.triangles = 6, sizes.hinges = 5, sizes.bodies = 2, sizes.tetrahedra = 3;
@@ -89,7 +89,7 @@ WorkerAnswer read_answer_of(const Question& question, const Stream& stream) {
   return read_stream(stream, [&](const NextBlock& next) { return read_answer(next, *question.stage, question.sizes); });
 }
 
-/// Whether the lengths are those that the answer's own counts and the question ask for, and the counts possible.
+/// Returns whether the lengths follow from the answer's own counts and the question, and the counts are possible.
 bool fits(const WorkerAnswer& answer, const Question& question) {
   if (answer.result.status > CallResult::Status::broken || !(answer.result.seconds >= 0)) return false;
   if (answer.result.status != CallResult::Status::answered) return answer.outputs.empty();
@@ -108,7 +108,7 @@ using Generator = std::mt19937;
 
 std::size_t below(std::size_t count, Generator& random) { return random() % std::max<std::size_t>(1, count); }
 
-/// Eight bytes at a multiple of four become a number that lengths and counts break at.
+/// Replaces eight bytes at a multiple of four by a number at which lengths and counts break.
 void put_number(Stream& stream, Generator& random) {
   const std::array<std::uint64_t, 8> numbers{0,
                                              1,
@@ -170,7 +170,7 @@ TEST_CASE("20,000 damaged answers: each is one of the right shape, or is refused
       }
     }
   }
-  // Damage inside an output goes unnoticed here, and is the judge's affair.
+  // Damage inside an output is not noticed here; the judge checks outputs.
   for (const std::size_t count : ends) CHECK(count > 1000);
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("memory for a block follows what was sent, not what was announced", "[
 }
 
 TEST_CASE("a side that has ended is noticed where others hold its socket, after what it had sent", "[unit]") {
-  std::array<Channel, 2> ends = socket_ends();  // this process holds the other end all the time
+  std::array<Channel, 2> ends = socket_ends();  // this process keeps the other end open
   const Patience patience{.seconds = 60, .other_runs = [] { return false; }};
   Stream block;
   const Stream last(5, std::byte{1});
@@ -225,7 +225,7 @@ TEST_CASE("a side that has ended is noticed where others hold its socket, after 
   CHECK(ends[0].receive(block, {}, patience) == Transfer::whole);
   CHECK(block == last);
   CHECK(ends[0].receive(block, {}, patience) == Transfer::end);
-  // More than a socket holds: nobody reads it.
+  // This is more than a socket holds, and nothing reads it.
   CHECK(ends[0].send(Stream(64u << 20), patience) == Transfer::end);
   CHECK(ends[0].send(Stream(64u << 20), {.seconds = 0.01}) == Transfer::timeout);
 }

@@ -1,5 +1,5 @@
-// Our own kernels of volumes behind the C interface: right, so that what the structures carry is
-// known to be enough, and wrong where the environment variable OGC_BROKEN says.
+// Puts our own kernels of volumes behind the C interface. Right answers show that the structures carry enough; the
+// environment variable OGC_BROKEN makes them wrong.
 #include <algorithm>
 
 #include "compare/stages/volume_depth.hpp"
@@ -35,7 +35,7 @@ int ogc_volume_depth(const ogc_volume_depth_in* in, ogc_volume_depth_out* out) {
   std::transform(in->points, in->points + in->n, std::back_inserter(points), point);
   std::vector<VolumeContact> contacts =
       ours().volume_depth({&topology, positions, in->contact_radius, points}).contacts;
-  std::ranges::reverse(contacts);  // in any order
+  std::ranges::reverse(contacts);  // any order is legal
   out->count = static_cast<std::int64_t>(contacts.size());
   if (out->count > out->capacity) return 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {

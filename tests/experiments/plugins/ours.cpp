@@ -1,6 +1,6 @@
-// Our own kernels behind the C interface, in the stages that are asked about a whole scene, and in those of planes: a
-// right plug-in, so that what the structures carry is known to be enough, and wrong where the environment variable
-// OGC_BROKEN says. The step is put together here, from detection, truncation and sweeps.
+// Puts our own kernels behind the C interface, in the stages about a whole scene and those of planes. Right answers
+// show that the structures carry enough; the environment variable OGC_BROKEN makes them wrong. The step is built here
+// from detection, truncation and sweeps.
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ std::vector<std::array<Index, 2>> pairs_of_rows(const ogc_rows& partners, Index 
   return pairs;
 }
 
-/// Motions are known by their vertices alone; where they lead stands in targets.
+/// Makes the scene. Motions have their vertices alone; targets hold where they lead.
 Scene scene_of(const ogc_scene& in) {
   Scene scene;
   const ogc_topology& t = in.topology;
@@ -162,7 +162,7 @@ RestStateOut rest_of(const ogc_sweep_in& in) {
   return rest;
 }
 
-/// Any colouring in which the vertices of a stencil differ.
+/// Returns some colouring in which the vertices of a stencil differ.
 std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& springs,
                            const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> others(groups.size());
@@ -194,7 +194,7 @@ std::vector<fast::Vec> vectors(const std::vector<Vec3f>& all) {
   return result;
 }
 
-/// Algorithm 3, recorded.
+/// Makes the step of Algorithm 3 and records its events.
 class Step {
  public:
   explicit Step(const ogc_step_in& in)
@@ -275,7 +275,7 @@ class Step {
     events.push_back(detected_);
   }
 
-  /// The contacts of the last detection by vertex, as the kernel of the guess reads them.
+  /// Returns the contacts of the last detection for each vertex, in the form of the guess kernel.
   std::vector<std::vector<fast::ContactIncidence>> incidences() const {
     std::vector<std::vector<fast::ContactIncidence>> rows(count_);
     const std::vector<Index> body = body_of_vertex(scene_);
@@ -285,7 +285,7 @@ class Step {
       std::copy(vertex.begin(), vertex.end(), contact.index);
       contact.friction = rest.meetings[body[vertex[0]] * scene_.bodies.size() + body[vertex[other]]].friction;
       for (std::uint8_t k = 0; k < 4; ++k) {
-        // Slots that the contact lacks repeat the first vertex.
+        // Places that the contact lacks repeat the first vertex.
         if (groups_[vertex[k]] == 0 || (k > 0 && vertex[k] == vertex[0])) continue;
         contact.own = k;
         rows[vertex[k]].push_back(contact);
@@ -318,7 +318,7 @@ class Step {
     return rows;
   }
 
-  /// Where contacts let each vertex go.
+  /// Returns the position to which contacts let each vertex move.
   std::vector<Vec3f> proposals() {
     const std::vector<std::vector<fast::ContactIncidence>> rows = incidences();
     const std::vector<fast::Vec> position = vectors(x_), wanted = vectors(target), before = taken_;
@@ -367,12 +367,12 @@ class Step {
   std::vector<Index> groups_;
   Exclusions left_out_;
   std::vector<Vec3f> start_, velocity_, x_;
-  std::vector<fast::Vec> taken_;  // from moves, in the round before
+  std::vector<fast::Vec> taken_;  // what contacts took in the round before
   std::vector<bool> touches_;
   StepEvent detected_;
 };
 
-/// Writes the events, or, where a list lacks room, their counts alone.
+/// Writes the events or, if a list lacks room, their counts alone.
 class Trace {
  public:
   explicit Trace(ogc_step_out& out) : out_(out) {}
@@ -451,7 +451,7 @@ int ogc_plane(const ogc_plane_in* in, ogc_plane_out* out) {
   out->count = static_cast<std::int64_t>(answer.planes.items.size());
   if (out->count > out->capacity) return 0;
   std::size_t i = 0;
-  for (Index v = in->topology.vertex_count - 1; v >= 0; --v)  // in any order
+  for (Index v = in->topology.vertex_count - 1; v >= 0; --v)  // any order is legal
     for (const VertexPlane& plane : answer.planes.of(v)) {
       const bool is_turned = breaks("normals turned") && i == 0;
       const Vec3f n_of_first = is_turned ? Vec3f{-plane.normal.x, -plane.normal.y, -plane.normal.z} : plane.normal;

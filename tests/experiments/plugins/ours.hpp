@@ -1,5 +1,5 @@
-// What our own kernels need behind the C interface: the contestant that answers, and what the environment variable
-// OGC_BROKEN says is wrong with it.
+// Declares what our own kernels need behind the C interface: the contestant that answers, and the fault that the
+// environment variable OGC_BROKEN names.
 #pragma once
 
 #include <cstdlib>

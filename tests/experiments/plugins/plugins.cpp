@@ -1,5 +1,5 @@
-// Plug-ins that break, before the judge: each is reported as what it is, the judge goes on or ends cleanly, and
-// standard output holds results alone.
+// Judges plug-ins that break: each is reported as what it is, the judge continues or ends cleanly, and standard output
+// holds results alone.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -17,13 +17,13 @@ namespace {
 
 const std::string broken = OGC_TEST_PLUGINS "/libplugin_broken.so";
 
-/// Where the broken plug-in runs; failing cases are saved below it.
+/// Returns the folder in which the broken plug-in runs; failing cases are saved below it.
 const TemporaryFolder& broken_folder() {
   static const TemporaryFolder folder;
   return folder;
 }
 
-/// `ogc compare` with the broken plug-in; `how` it breaks.
+/// Runs `ogc compare` with the broken plug-in; `how` names its fault.
 ProgramResult compare_broken(const std::string& how, const std::string& arguments) {
   const std::string folder = (broken_folder() / "").string();
   return run_ogc(
@@ -31,7 +31,7 @@ ProgramResult compare_broken(const std::string& how, const std::string& argument
       "cd '" + folder + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
-/// The same with our own kernels behind the C interface.
+/// Runs `ogc compare` with our own kernels behind the C interface.
 ProgramResult compare_ours(const std::string& how, const std::string& arguments, const std::string& name = "ours") {
   static const TemporaryFolder scratch;
   return run_ogc("compare " + arguments + " --plugin " OGC_TEST_PLUGINS "/libplugin_" + name + ".so",
@@ -39,8 +39,8 @@ ProgramResult compare_ours(const std::string& how, const std::string& arguments,
                      "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
-/// Whether the process whose number stands in the file ends within a second (but for an entry that nobody has asked
-/// for), or there is no such file.
+/// Returns whether the process whose number stands in the file ends within a second, or there is no such file. A zombie
+/// counts as ended.
 bool has_ended(const std::filesystem::path& file) {
   std::ifstream number(file);
   std::string id, name, state;
@@ -53,7 +53,7 @@ bool has_ended(const std::filesystem::path& file) {
   return false;
 }
 
-/// A case with d = r, at which it breaks, and one with d < r.
+/// The plug-in breaks at a case with d = r, but not at one with d < r.
 const std::string breaking = "--problem 'stage=activation gen=ladder.radius seed=1 index=1'",
                   harmless = "--problem 'stage=activation gen=ladder.radius seed=1 index=0'";
 
@@ -143,7 +143,7 @@ TEST_CASE("the case at which a plug-in crashes is found in its batch, and the ca
   REQUIRE(result.status == 1);
   const auto json = nlohmann::json::parse(result.out);
   const auto& stage = json.at("stages").at(0);
-  REQUIRE(stage.at("listed").size() == 3);  // failures_allowed; no case but those with d = r
+  REQUIRE(stage.at("listed").size() == 3);  // failures_allowed; only cases with d = r
   CHECK(stage.at("mismatches") == 3);
   CHECK(stage.at("listed").at(0).at("problem") == "stage=activation gen=ladder.radius seed=1 index=1");
   CHECK(stage.at("cases") > 3);

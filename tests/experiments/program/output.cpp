@@ -4,7 +4,7 @@
 
 using namespace ogc;
 
-// FNV-1a, 64 bits: the offset basis for no byte at all; for twelve zero bytes it is the basis times prime^12 modulo
+// FNV-1a of 64 bits: without bytes it is the offset basis; for twelve zero bytes it is the basis times prime^12 modulo
 // 2^64.
 TEST_CASE("the state's hash is FNV-1a of the positions' bits", "[unit]") {
   CHECK(experiments::state_hash({}) == "cbf29ce484222325");

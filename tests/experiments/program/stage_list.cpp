@@ -1,4 +1,4 @@
-// The list of stages against the tree and compare/README.md, and the determinism that it states.
+// Compares the list of stages with the tree and compare/README.md, and tests the determinism that it claims.
 #include "experiments/program/stage_list.hpp"
 #include "compare/stages/bound.hpp"
 
@@ -22,7 +22,7 @@ const std::filesystem::path tree = OGC_SOURCE_DIR;
 
 std::string read(const std::string& file) { return read_bytes(tree / file); }
 
-/// Whether some file of the tree's folders has this stem.
+/// Returns whether a file in these folders of the tree has this stem.
 bool has_stem(std::initializer_list<const char*> folders, const std::string& stem) {
   for (const char* folder : folders)
     for (const auto& entry : std::filesystem::directory_iterator(tree / folder))
@@ -42,7 +42,7 @@ TEST_CASE("every stage has a contract, a reference, and a CPU and a CUDA impleme
     CHECK(std::filesystem::exists(tree / "compare/stages" / (name + ".hpp")));
     CHECK(std::filesystem::exists(tree / std::string(info.reference)));
     const bool is_ours = can_judge(stage, host, authority);
-    // tests/experiments/plugins/build_plugins.sh puts each example before the judge
+    // tests/experiments/plugins/build_plugins.sh judges each example.
     CHECK(is_ours != (stage == Stage::ccd || stage == Stage::barrier));
     if (!is_ours) CHECK(has_stem({"experiments/plugins/examples"}, name));
     CHECK((!is_ours || has_stem({"fast/kernels", "fast/kernels/models", "fast/stages"}, name) ||
@@ -50,7 +50,7 @@ TEST_CASE("every stage has a contract, a reference, and a CPU and a CUDA impleme
     if (fast::backend_info(fast::Backend::cuda).usable)
       CHECK(can_judge(stage, fast::contestant(fast::Backend::cuda), authority) == is_ours);
   }
-  // Both backends instantiate one list of probes: what the CPU has, CUDA has.
+  // Both backends instantiate one list of probes, so CUDA has every stage that the CPU has.
   for (const char* file : {"fast/cpu/instantiate.cpp", "fast/cuda/instantiate.cu"})
     CHECK(read(file).find("= probe_contestant(\"") != std::string::npos);
 }
@@ -76,7 +76,7 @@ TEST_CASE("the table of stages in compare/README.md is the one that ogc compare 
   CHECK(printed.out == table);
 }
 
-// Each form's contestant and each planted fault is caught in a test (tests/experiments/diagnose.cpp, compare.cpp).
+// Tests catch each form's contestant and each planted fault (tests/experiments/diagnose.cpp, compare.cpp).
 TEST_CASE("every stage can be wrong in at least three ways that the judge is shown to catch", "[unit]") {
   std::map<Stage, std::size_t> by_stage;
   for (const tests::Fault& fault : tests::faults()) ++by_stage[fault.stage];
@@ -143,7 +143,7 @@ TEST_CASE("at least half of a stage's cases lie within 1024 ulp of a decision bo
   for (const Stage stage : all_stages) {
     if (!stage_info(stage).has_boundary) continue;
     JudgeOptions options;
-    // so many that whole meshes and batches change the generators' shares little
+    // With this many cases, whole meshes and batches change the generators' shares little.
     options.cases = is_mesh_stage(stage) ? 30000 : 5000;
     const StageReport report = judge_stage(stage, exact, authority, options);
     INFO(stage_name(stage));

@@ -1,5 +1,5 @@
-// The T-shirt of Fig. 14: the paper's counts, a start that touches itself at the shoulders' stitches alone, grippers
-// that bounds can follow.
+// Tests the T-shirt of Fig. 14: the paper's counts, a start that touches itself only at the shoulders' stitches, and
+// grippers that bounds can follow.
 #include "experiments/scenes/robot_shirt.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Lower side of the upper jaw over the upper side of the lower one at time `t` [m].
+/// Returns the distance of the upper jaw's lower side from the lower jaw's upper side at time `t` [m].
 double opening(const Scene& scene, const PrescribedMotion& motion, double t) {
   const std::vector<Vec3f> jaws = prescribed_targets(scene, motion, t);
   const auto half = static_cast<std::ptrdiff_t>(jaws.size() / 2);
@@ -52,8 +52,8 @@ TEST_CASE("robot_shirt: a tube with sleeves, whose shoulders are stitched", "[un
     const Topology topology = build_topology(
         shirt.vertex_count, {scene.mesh.triangles.data(), static_cast<std::size_t>(shirt.triangle_count)});
     CHECK(topology.non_manifold_edges.empty());
-    // A ball's surface with three holes: hem, two sleeves and neck, to which the open shoulders join the sleeves' tops:
-    // hem, two sleeve ends, neck.
+    // The shirt is a ball's surface with four holes. Three are the hem and the two sleeve ends; the fourth is the neck,
+    // which the open shoulders join to the sleeves' tops.
     const auto euler = static_cast<int>(shirt.vertex_count) - static_cast<int>(topology.edges.size()) +
                        static_cast<int>(shirt.triangle_count);
     CHECK(euler == 2 - 4);
@@ -72,7 +72,7 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
     const Scene scene = make_scene("robot_shirt", scale);
     const Settings& s = scene.settings;
     CHECK(largest_step(scene) < s.bound_relaxation * s.query_radius_cap * s.contact_radius);
-    // withdrawn, open, at 0.47 m/s; at 0.85 r lower jaws stayed behind (experiments/scenes/robot_shirt.hpp)
+    // The jaws withdraw, open, at 0.47 m/s; at 0.85 r lower jaws stayed behind (experiments/scenes/robot_shirt.hpp).
     CHECK(largest_step(scene) < 0.4 * s.contact_radius);
     for (const PrescribedMotion& motion : scene.motions) {
       CHECK(opening(scene, motion, 0) > 0.03);
@@ -89,7 +89,7 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
 }
 
 TEST_CASE("robot_shirt: nothing but stitched shoulders is nearer than the contact radius at the start", "[unit]") {
-  // The shoulders' primitives set aside by lifting them to the front's height: nothing else can hide behind them.
+  // Lifting the shoulders' primitives to the front's height sets them aside; nothing else can hide behind them.
   Scene scene = make_scene("robot_shirt", Scale::small);
   const double r = scene.settings.contact_radius;
   for (const Spring& s : scene.springs) {

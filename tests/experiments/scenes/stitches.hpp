@@ -1,4 +1,4 @@
-// What tests of stitched scenes ask about their start and their motions.
+// Measures the start and the motions of stitched scenes for their tests.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline double distance_of(const compare::Vec3& a, const compare::Vec3& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-/// Of a spring from its vertex to its point [m].
+/// Returns the largest distance of a spring's vertex from its point [m].
 inline double largest_gap(const compare::Scene& scene) {
   double largest = 0;
   for (const compare::Spring& s : scene.springs) {
@@ -29,8 +29,7 @@ inline double largest_gap(const compare::Scene& scene) {
   return largest;
 }
 
-/// Intersections at the start outside rigid groups, and those of them that the scene does not exclude, as the oracle
-/// counts them.
+/// Counts of intersections at the start outside rigid groups: those that the scene excludes, and others, by the oracle.
 struct StitchedStart {
   std::size_t between_partners = 0, others = 0;
 };
@@ -42,7 +41,7 @@ inline StitchedStart stitched_start(const compare::Scene& scene) {
   return {all - others, others};
 }
 
-/// By how much an edge of the body differs from its rest length at the start, at most [1].
+/// Returns the largest strain of the body's edges at the start [1].
 inline double largest_edge_strain(const compare::Scene& scene, const compare::Body& body) {
   double largest = 0;
   for (compare::Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
@@ -57,7 +56,7 @@ inline double largest_edge_strain(const compare::Scene& scene, const compare::Bo
   return largest;
 }
 
-/// The farthest that a prescribed vertex is asked to go in one step [m].
+/// Returns the largest way of a prescribed vertex in one step [m].
 inline double largest_step(const compare::Scene& scene) {
   double largest = 0;
   for (const compare::PrescribedMotion& motion : scene.motions) {

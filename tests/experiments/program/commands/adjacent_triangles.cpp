@@ -1,4 +1,4 @@
-// Two triangles that share an edge and cross in their plane: audits find them, and no run begins from them.
+// Tests two triangles that share an edge and cross in their plane: audits find them, and no run begins from them.
 #include "compare/files/bytes.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"

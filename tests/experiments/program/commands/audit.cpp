@@ -32,8 +32,8 @@ TEST_CASE("ogc audit of separate triangles exits 0", "[unit]") {
   CHECK(nlohmann::json::parse(result.out).at("clean") == true);
 }
 
-// Two equal right triangles, 1 mm apart: every vertex is 1 mm from the other triangle, every edge from its twin; the
-// lowest numbers are named.
+// Of two equal right triangles, 1 mm apart, every vertex is 1 mm from the other triangle and every edge 1 mm from its
+// twin; the lowest numbers are named.
 TEST_CASE("ogc audit gives the smallest distances with their primitives, in words and as JSON", "[unit]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("parallel.obj", parallel_triangles_obj).string();
@@ -78,7 +78,7 @@ TEST_CASE("ogc audit refuses what is neither a mesh nor a run with exit status 2
 
 namespace {
 
-/// Names of the states that intersect.
+/// Returns the names of the states that intersect.
 std::vector<std::string> intersecting(const nlohmann::json& verdict) {
   std::vector<std::string> names;
   for (const nlohmann::json& state : verdict.at("states"))
@@ -86,7 +86,7 @@ std::vector<std::string> intersecting(const nlohmann::json& verdict) {
   return names;
 }
 
-/// Frames 0 to 11 of a folder; those from 10 on cross.
+/// Writes frames 0 to 11 of a folder; those from 10 on cross.
 void write_frames(const TemporaryFolder& folder) {
   for (int k = 0; k < 12; ++k)
     folder.write("frame_" + std::to_string(k) + ".obj", k < 10 ? parallel_triangles_obj : crossing_triangles_obj);
@@ -174,7 +174,7 @@ TEST_CASE("an audit of curves says that states say nothing about them, not that 
   CHECK(nlohmann::json::parse(run_ogc("audit --json " + mixed).out).at("clean") == true);
 }
 
-// The two triangles that cross are all of the mesh, the two edges that pierce too.
+// The two triangles that cross are the whole mesh, and so are the two edges that pierce.
 TEST_CASE("the option --show writes what intersects as a mesh that can be audited itself", "[unit]") {
   const TemporaryFolder folder;
   write_frames(folder);
@@ -194,7 +194,7 @@ TEST_CASE("the option --show writes what intersects as a mesh that can be audite
 TEST_CASE("a run of an intersecting start says where, and --show writes it", "[unit]") {
   const TemporaryFolder folder;
   REQUIRE(run_ogc("scenes cloth_on_sphere --scale smoke --write " + (folder / "scene").string()).status == 0);
-  // The cloth becomes a second sphere, which touches the first one everywhere.
+  // The cloth becomes a second sphere that touches the first one everywhere.
   std::filesystem::copy_file(folder / "scene/cloth_on_sphere_sphere.ply", folder / "scene/cloth_on_sphere_cloth.ply",
                              std::filesystem::copy_options::overwrite_existing);
   const std::string scene = (folder / "scene/cloth_on_sphere.json").string(),

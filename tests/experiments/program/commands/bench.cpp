@@ -13,7 +13,7 @@ namespace {
 
 using Verdict = BenchChange::Verdict;
 
-/// A file of one benchmark; a time [ms] a process.
+/// Writes a file of one benchmark with one time [ms] for each process.
 std::filesystem::path results_file(const TemporaryFolder& folder, const std::string& name,
                                    const std::vector<double>& times, const std::string& device = "d") {
   Json json{{"context", {{"device_cpu", device}, {"num_cpus", 2}}}, {"benchmarks", Json::array()}};

@@ -1,4 +1,4 @@
-// What `ogc audit` says of the ways between frames: that it did not look, or with --between what meets on them.
+// Tests `ogc audit` on the ways between frames: it reports that it did not look, or with --between what meets on them.
 #include <nlohmann/json.hpp>
 
 #include "compare/files/bytes.hpp"
@@ -10,13 +10,13 @@ using namespace ogc::tests;
 
 namespace {
 
-/// A triangle at this height over one that lies at 0.
+/// Returns a triangle at this height over one at height 0.
 std::string two_triangles(const std::string& height) {
   return "v 0 0 0\nv 4 0 0\nv 0 0 4\nv 0.5 " + height + " 0.5\nv 2 " + height + " 0.5\nv 0.5 " + height +
          " 2\nf 1 2 3\nf 4 5 6\n";
 }
 
-/// Frames in which the upper triangle has these heights.
+/// Writes frames in which the upper triangle has these heights.
 std::string frames(const TemporaryFolder& folder, const std::vector<std::string>& heights) {
   std::string files;
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -29,7 +29,7 @@ std::string frames(const TemporaryFolder& folder, const std::vector<std::string>
 
 }  // namespace
 
-// From 1 to −1 it is at 0 half way on: three vertices of the upper triangle meet the lower one, and no edge an edge.
+// From 1 to −1 the upper triangle is at 0 half way: its three vertices meet the lower one, and no edge meets an edge.
 TEST_CASE("two sheets that change places between two frames meet, where the straight ways are asked", "[unit]") {
   const TemporaryFolder folder;
   const std::string files = frames(folder, {"2", "1", "-1"});
@@ -67,7 +67,7 @@ TEST_CASE("no way leads to a frame of another mesh: its name, and what came befo
   const std::string other = (folder / "frame_2.obj").string();
   compare::write_bytes(other, "v 0 0 0\nv 4 0 0\nv 0 0 4\nf 1 2 3\n");
   const ProgramResult result = run_ogc("audit --between" + files + " " + other);
-  CHECK(result.status == 1);  // the meetings before it
+  CHECK(result.status == 1);  // because of the meetings before it
   CHECK(contains(result.err, {"frame_2.obj has other triangles than", "frame_1.obj", "leave --between out"}));
   CHECK(contains(result.out, {"1 straight way between them asked exactly, 3 meetings"}));
 }

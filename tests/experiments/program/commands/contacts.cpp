@@ -18,7 +18,7 @@ nlohmann::json contacts(const TemporaryFolder& folder, const std::string& engine
 
 }  // namespace
 
-// Two equal right triangles, 1 mm apart: each corner is above the other triangle's corner (3 ordered pairs from either
+// In two equal right triangles, 1 mm apart, each corner is above a corner of the other one (3 ordered pairs from either
 // side), and near nothing else.
 TEST_CASE("ogc contacts finds the corners of parallel triangles, with distances and bounds", "[unit]") {
   const TemporaryFolder folder;
@@ -49,7 +49,7 @@ TEST_CASE("ogc contacts lists its sets by primitive, with margins, layers and ki
   CHECK(sets.at("vertices_near_facet") == nlohmann::json{{3, 4, 5}, {0, 1, 2}});
   for (const auto& contact : json.at("vertex_facet")) {
     CHECK(contact.at("penetration").get<double>() == Approx(0.009));
-    // the sphere and the planes across the corner's two edges, on which the vertex lies
+    // The margins are the sphere's and those of the planes across the corner's two edges, on which the vertex lies.
     CHECK(contact.at("margins").size() == 3);
     CHECK(contact.at("margins").at(1).at("sign") == 0);
     CHECK(contact.at("margins").at(1).at("closed") == true);
@@ -95,7 +95,7 @@ TEST_CASE("ogc contacts says how many predicates intervals decided", "[unit]") {
   const TemporaryFolder folder;
   const nlohmann::json json = contacts(folder, "exact");
   const auto& filters = json.at("filters");
-  // Each corner asks about the other triangle, each edge about three others.
+  // Each corner is tested against the other triangle, each edge against three others.
   CHECK(filters.at("distance_below").at("calls") >= 6);
   for (const auto& [predicate, count] : filters.items())
     CHECK(count.at("undecided").get<int>() <= count.at("calls").get<int>());

@@ -40,8 +40,8 @@ TEST_CASE("what ogc export writes reads back to the same bits, in every format",
       const compare::Frame frame = reader.frame(i);
       const std::string file = out + "/" + compare::frame_name(frame.step) + "." + format;
       INFO(file);
-      CHECK_FALSE(compare::printed_digits(file));  // they print all that a double holds
-      if (format == "vtu") {                       // its array of points is stored raw
+      CHECK_FALSE(compare::printed_digits(file));  // files print all digits of a double
+      if (format == "vtu") {                       // this format stores its points raw
         std::string bytes(frame.positions.size() * sizeof(compare::Vec3f), '\0');
         std::memcpy(bytes.data(), frame.positions.data(), bytes.size());
         CHECK(compare::read_bytes(file).find(bytes) != std::string::npos);

@@ -1,5 +1,5 @@
-// Other people's meshes load, with a word for what was taken otherwise than it stands, and `ogc audit` and `ogc
-// contacts` answer for them.
+// Tests meshes of other programs: they load, each change to them is reported, and `ogc audit` and `ogc contacts` accept
+// them.
 #include <nlohmann/json.hpp>
 
 #include <set>

@@ -17,7 +17,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Two free triangles, each a body; crossing or 1 mm apart.
+/// Returns two free triangles, each a body, that cross or are 1 mm apart.
 compare::Scene two_triangles(bool crossing) {
   compare::Scene scene;
   scene.name = "two_triangles";
@@ -71,7 +71,7 @@ TEST_CASE("the smoke runs of all scenes keep the guarantee and leave a readable 
     CHECK(last.step == reader.scene().settings.steps);
     CHECK(experiments::state_hash(last.positions) == json.at("final_hash"));
     CHECK(reader.frame(0).positions == compare::to_single(reader.scene().mesh.positions));
-    // A scene about contact that has none shows nothing; one is about frames of rods.
+    // A scene about contact without any contact tests nothing; one scene is about frames of rods instead.
     CHECK((name == "turning_rod" || std::ranges::any_of(compare::read_steps(folder / "run").rows, [](const auto& row) {
              return row.vertex_facet_contacts + row.edge_edge_contacts + row.volume_contacts > 0;
            })));
@@ -231,7 +231,7 @@ TEST_CASE("IPC runs a scene into the same kind of folder, without an intersectio
     CHECK(row.discrete_detections >= row.iterations);
   }
   CHECK(table.rows.back().vertex_facet_contacts > 0);
-  // From a state of another solver, as windows of long runs are timed.
+  // The run starts from a stored state, as timed windows of long runs do.
   const ProgramResult window = run_ogc("run cloth_on_sphere --scale smoke --solver ipc --steps 13 --from-state " + run +
                                        "/frames/frame_000012.h5 --out " + run + "_window");
   INFO(window.err);
@@ -246,7 +246,7 @@ TEST_CASE("rows an iteration end where the step ends, in scenes with prescribed 
       "/frames/frame_000030.h5 --out " + out);
   const compare::StepTable table = compare::read_steps(out);
   REQUIRE(table.rows.size() == 1);
-  // or those of the end are others
+  // With contacts, those of the end would differ.
   REQUIRE(table.rows[0].vertex_facet_contacts + table.rows[0].edge_edge_contacts == 0);
   std::ifstream file(folder / "run" / "iterations.csv");
   std::string line, last;
@@ -309,7 +309,7 @@ TEST_CASE("a run says where its time went, in its summary and in run.json", "[un
     CHECK(seconds.at(part) > 0);
     sum += seconds.at(part).get<double>();
   }
-  // Parts of one thread's time that do not overlap, but for what the run waited for the disk before its first step.
+  // The parts are times of one thread and do not overlap, except the wait for the disk before the first step.
   CHECK(sum - seconds.at("start").get<double>() < seconds.at("whole"));
   double rows = 0;
   for (const compare::StepMetrics& row : compare::read_steps(folder / "run").rows) rows += row.wall_ms / 1000;
@@ -370,7 +370,7 @@ TEST_CASE("without a usable device --backend cuda exits 3 and says why", "[unit]
   CHECK(!std::filesystem::exists(folder / "run"));
 }
 
-// A limit on the size of files (blocks of 512 bytes) stands in for a full disk.
+// A limit on the size of files (blocks of 512 bytes) imitates a full disk.
 TEST_CASE("a run whose disk is full exits 3 and names the file", "[unit]") {
   const TemporaryFolder folder;
   const ProgramResult result = run_ogc(

@@ -1,4 +1,4 @@
-// What `ogc suggest` promises is kept by the run that it prints.
+// Tests that the run which `ogc suggest` prints keeps its promises.
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -32,7 +32,7 @@ compare::Mesh scaled(compare::Mesh mesh, double factor) {
   return mesh;
 }
 
-/// Two sheets, `gap` [m] apart.
+/// Returns two sheets, `gap` [m] apart.
 compare::Mesh layers(double gap) {
   compare::Scene scene;
   append_body(scene, {.name = "lower", .material = {}}, experiments::grid(8, 0.4, 0));
@@ -63,8 +63,8 @@ TEST_CASE("the run that ogc suggest prints lands, keeps distances above 0 on the
   }
 }
 
-// Lengths are said with two digits, rounded down. v² ∝ the fall, so that h, a way over v, grows as the root; it is
-// rounded by up to a factor of 2.5.
+// Lengths are printed with two digits, rounded down. v² is proportional to the fall, so h, a length over v, grows as
+// its root; it is rounded by up to a factor of 2.5.
 TEST_CASE("suggested lengths scale with the mesh, the step with its root", "[property]") {
   const TemporaryFolder folder;
   compare::write_mesh(folder / "one.obj", experiments::grid(20, 1, 0));

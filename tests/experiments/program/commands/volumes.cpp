@@ -1,4 +1,4 @@
-// Scenes with volumes: who refuses them, and what a run says of them.
+// Tests scenes with volumes: which solvers refuse them, and what a run reports of them.
 #include <string>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Eq. 29 where the run is, against the reference's own measure of the same states with the same sets.
+// Compares Eq. 29 as the run computes it with the reference's own measure of the same states with the same sets.
 #include <cmath>
 
 #include "compare/laws/measures.hpp"
@@ -20,9 +20,9 @@ std::vector<compare::StepMetrics> rows_of(const compare::Contestant& contestant,
 }  // namespace
 
 // The reference has forces in double, its own guess loop for f*, and contacts of the contestant's last detection. Both
-// have the same positions at the end; f* and the arithmetic differ by no more than rounded positions make of a force,
-// which the row bounds. The scenes are so stiff, and sweeps so few, that they leave ten times that: a tenth of the
-// force too much or too little shows. Yarn has no contacts: the reference finds those of its guess anew. No bound holds
+// have the same positions at the end; f* and the arithmetic differ by no more than the force of rounded positions,
+// which the row bounds. The scenes are so stiff, and their sweeps so few, that they leave ten times that, so an error
+// of a tenth of the force shows. Yarn has no contacts, so the reference finds new ones in its guess. No bound holds
 // anything.
 TEST_CASE("what a step leaves of forces is what the reference finds, but for rounding", "[figure]") {
   struct Case {
@@ -58,7 +58,7 @@ TEST_CASE("vertices that a bound holds are counted apart from those that sweeps 
   compare::Scene scene = make_scene("cloth_on_sphere", Scale::smoke);
   scene.settings.iterations = 300;
   round_to_single(scene);
-  const auto free = static_cast<double>(scene.bodies.front().vertex_count);  // the cloth's
+  const auto free = static_cast<double>(scene.bodies.front().vertex_count);  // vertices of the cloth
   std::size_t apart = 0;
   for (const compare::StepMetrics& row :
        rows_of(measured(fast::contestant(fast::Backend::cpu), {.iterations = true}), scene)) {
@@ -71,8 +71,8 @@ TEST_CASE("vertices that a bound holds are counted apart from those that sweeps 
   CHECK(apart >= 3);
 }
 
-// Nothing touches, so that a run with s − 1 iterations ends where one with s is before its last sweep. Velocities bend
-// the cloth, so that sweeps have something to do.
+// Nothing touches, so a run with s − 1 iterations ends where one with s is before its last sweep. Velocities bend the
+// cloth, so that sweeps have something to do.
 TEST_CASE("the last sweep's motion is that of a run with one sweep more", "[unit]") {
   compare::Scene scene = make_scene("cloth_on_sphere", Scale::smoke);
   scene.settings.steps = 1;
@@ -101,7 +101,7 @@ TEST_CASE("the last sweep's motion is that of a run with one sweep more", "[unit
       };
       swept += squared(last[i], before[i]), moved += squared(last[i], start[i]);
     }
-    // fast's masses are single: their shares differ by 2u
+    // Masses of `fast` are in single precision, so shares differ by 2u.
     CHECK(rows.front().last_motion == Approx(std::sqrt(swept / moved)).epsilon(2 * 0x1p-24));
     CHECK(rows.front().last_motion > 0);
   }

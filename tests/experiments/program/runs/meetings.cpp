@@ -1,4 +1,5 @@
-// Meetings of real runs: asking changes no bit, bounds have none, and without bounds they are counted.
+// Tests meetings of real runs: counting them changes no bit, runs with bounds have none, and runs without bounds count
+// them.
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -15,8 +16,8 @@ using namespace ogc::tests;
 
 namespace {
 
-/// A straight curve of four edges along x that sinks through one along z, which is fixed; both are driven, so that
-/// nothing but bounds holds them.
+/// Returns a straight curve of four edges along x that sinks through a fixed one along z. Both are driven, so only
+/// bounds hold them.
 compare::Scene curve_through_curve(compare::Bounds bounds) {
   compare::Scene scene;
   scene.name = "curves";
@@ -83,7 +84,7 @@ TEST_CASE("a curve that is driven through a curve meets it once without bounds a
     if (bounds == compare::Bounds::off) CHECK(contains(result.err, {"meets edge", "of the motion"}));
     return nlohmann::json::parse(result.out);
   };
-  // Of a scene with loose edges an audit of every step asks by itself.
+  // In a scene with loose edges an audit of every step counts meetings without an option.
   const auto off = run("off", compare::Bounds::off, " --audit every");
   CHECK(off.at("audit").at("meetings") == 1);
   CHECK(off.at("audit").at("first_meeting") == 6);

@@ -1,4 +1,4 @@
-// What a guess loop lost, against values by hand: a share of what was to move, also where directions cancel.
+// Compares the loss of a guess loop with values by hand: a share of what was to move, also if directions cancel.
 #include "experiments/program/runs/momentum_share.hpp"
 
 #include "experiments/scenes/shapes.hpp"
@@ -9,7 +9,7 @@ using namespace ogc::experiments;
 
 namespace {
 
-/// Two equal sheets of 3 × 3 vertices, far apart, without gravity.
+/// Returns two equal sheets of 3 × 3 vertices, far apart, without gravity.
 compare::Scene two_sheets() {
   compare::Scene scene;
   scene.name = "two_sheets";
@@ -26,7 +26,7 @@ std::vector<compare::Vec3f> velocities(float left, float right) {
   return all;
 }
 
-/// A row of which a solver did all rounds and lost so much of the step's own momentum.
+/// Returns a row in which a solver made all rounds and lost the share `lost` of the step's own momentum.
 compare::StepMetrics row_of(std::int64_t step, double lost) {
   compare::StepMetrics row;
   row.step = step;
@@ -37,8 +37,8 @@ compare::StepMetrics row_of(std::int64_t step, double lost) {
 
 }  // namespace
 
-// Of what flies up at 1 m/s and down at 0.9 m/s a twentieth is left in the sum, (1 − 0.9)/(1 + 0.9); where all of the
-// way down is lost that is 0.9/0.1 of the sum, and 0.9/1.9 of what was to move.
+// Of a motion up at 1 m/s and down at 0.9 m/s the sum keeps a nineteenth, (1 − 0.9)/(1 + 0.9). If all of the motion
+// down is lost, that is 0.9/0.1 of the sum, and 0.9/1.9 of what was to move.
 TEST_CASE("what is lost is a share of what was to move, whatever cancels in the sum", "[unit]") {
   MomentumShare share(two_sheets());
   share.begin_after(4, velocities(1, -0.9f));
@@ -60,7 +60,7 @@ TEST_CASE("nothing is said of steps whose start is not known, whose guess ended 
   CHECK(share.lost(row_of(6, 0)) == 0.0);
 }
 
-// What gravity adds in h = 10 ms counts: 98.1 mm/s down beside 98.1 mm/s up is nothing.
+// The velocity that gravity adds in h = 10 ms counts: 98.1 mm/s down cancels 98.1 mm/s up.
 TEST_CASE("what gravity changes in the step is part of what was to move, and fixed bodies are not", "[unit]") {
   compare::Scene scene = two_sheets();
   scene.gravity = {0, -9.81, 0};

@@ -1,4 +1,5 @@
-// Long runs react: however far the next frame is, a run looks up within a second, or after each step that is longer.
+// Tests that long runs react: however far the next frame is, a run checks for signals within a second, or after each
+// step that is longer.
 #include "experiments/program/runs/pace.hpp"
 
 #include <chrono>
@@ -33,7 +34,7 @@ struct Call {
   std::int64_t saved = 0;  ///< step of the checkpoint
 };
 
-/// One triangle that stays where it is, and takes its time.
+/// Simulates one triangle that stays in place, with steps that take a given time.
 class SlowSimulation : public compare::Simulation {
  public:
   SlowSimulation(const compare::Scene& scene, std::filesystem::path folder, std::chrono::milliseconds step,
@@ -98,7 +99,7 @@ std::vector<Call> run_slowly(const std::filesystem::path& folder, std::int64_t s
   return calls;
 }
 
-/// Rows as steps.csv has them, but for times.
+/// Returns rows in the form of steps.csv, without times.
 std::string rows_text(std::vector<compare::StepMetrics> rows) {
   for (compare::StepMetrics& row : rows) row.wall_ms = 0;
   return compare::step_lines(rows, 0);
@@ -172,7 +173,7 @@ TEST_CASE(
       "timeout --foreground --preserve-status -k 20 -s INT 2 ");
   INFO(solver << "\n" << result.err);
   CHECK(result.status == 130);
-  CHECK(seconds_since(begin) < 10);  // 2 until the signal, 1 to act; the rest for a machine with other work
+  CHECK(seconds_since(begin) < 10);  // 2 s until the signal, 1 s to act; the rest for a machine with other work
   CHECK(contains(result.err, {"stops after step"}));
   const compare::RunReader reader(run);
   CHECK(reader.provenance().status == "interrupted");

@@ -1,5 +1,5 @@
-// What a suggestion promises is an inequality between its numbers and the mesh; each is checked on meshes that differ
-// in one respect.
+// Tests the promises of a suggestion, which are inequalities between its numbers and the mesh, on meshes that differ in
+// one respect each.
 #include "experiments/program/runs/suggestion.hpp"
 
 #include <algorithm>
@@ -21,10 +21,10 @@ constexpr double gravity = 9.81;
 
 double speed_after(double fall) { return std::sqrt(2 * gravity * fall); }
 
-/// Edges of 1/19 m, and of √2 times that.
+/// Returns a sheet with edges of 1/19 m and √2/19 m.
 compare::Mesh sheet() { return grid(20, 1, 0.5); }
 
-/// Two sheets, `gap` [m] apart.
+/// Returns two sheets, `gap` [m] apart.
 compare::Mesh layers(double gap) {
   compare::Scene scene;
   append_body(scene, {.name = "lower", .material = {}}, grid(20, 1, 0.5));
@@ -91,7 +91,7 @@ TEST_CASE("suggested numbers scale with the mesh, and are legal for the smallest
 
 namespace {
 
-/// 17 × 5 vertices along x and z.
+/// Returns 17 × 5 vertices along x and z.
 compare::Mesh strip(double edge) {
   compare::Mesh mesh;
   for (compare::Index i = 0; i < 17; ++i)
@@ -104,8 +104,8 @@ compare::Mesh strip(double edge) {
   return mesh;
 }
 
-/// How far the mesh, hung by its vertices of the least x, sinks along x on average [m], with suggested settings but so
-/// many iterations, once it is at rest.
+/// Returns how far the mesh, hung by its vertices of least x, sinks along x on average [m], with suggested settings but
+/// this many iterations, once it is at rest.
 double sunk(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found,
             std::int64_t iterations) {
   compare::Scene scene;
@@ -129,7 +129,7 @@ double sunk(const compare::Mesh& mesh, const compare::Material& material, const 
   return sum / static_cast<double>(mesh.positions.size());
 }
 
-/// By which share more it sinks than with ten times as many sweeps, whose own share is that to the tenth power.
+/// Returns by which share it sinks further than with ten times as many sweeps, whose own share is its tenth power.
 double measured_excess(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found) {
   const auto iterations = static_cast<std::int64_t>(found.iterations.value);
   return sunk(mesh, material, found, iterations) / sunk(mesh, material, found, 10 * iterations) - 1;
@@ -137,8 +137,8 @@ double measured_excess(const compare::Mesh& mesh, const compare::Material& mater
 
 }  // namespace
 
-// Strips of 4 × 16 cells, hung by a short side; edges of 6 cm need fewer sweeps than the limit for 1 %, those of 2 cm
-// more. What the number stands on is the exponent of method.md §7.7, about ln(1 + 1/number).
+// Strips of 4 × 16 cells hang by a short side. Edges of 6 cm need fewer sweeps than the limit for 1 %, those of 2 cm
+// need more. The number derives from the exponent of method.md §7.7, about ln(1 + 1/number).
 TEST_CASE("suggested iterations leave what hangs at most 1 % longer, or as much longer as is said", "[property]") {
   const auto hung = [](double edge) {
     const compare::Mesh mesh = strip(edge);

@@ -1,4 +1,5 @@
-// What can hardly be meant is said once, with its number and what to do; what is right is not.
+// Tests warnings: a scene that is probably a mistake is reported once, with its number and a remedy; a right scene is
+// not.
 #include "experiments/program/runs/warnings.hpp"
 
 #include <fstream>
@@ -19,7 +20,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A square sheet of 2 × 2 cells far from everything, with r = 10 mm.
+/// Returns a square sheet of 2 × 2 cells far from everything, with r = 10 mm.
 compare::Scene sheet(double side = 1) {
   compare::Scene scene;
   scene.name = "sheet";
@@ -39,7 +40,7 @@ compare::StepMetrics numbered(std::int64_t step) {
   return row;
 }
 
-/// What a run of the scene says at its end: of its JSON, and of run.json the same.
+/// Returns the warnings at the end of a run of the scene, which its JSON and run.json both have.
 std::vector<std::string> warnings_of(compare::Scene scene) {
   const TemporaryFolder folder;
   round_to_single(scene);
@@ -53,7 +54,7 @@ std::vector<std::string> warnings_of(compare::Scene scene) {
         warnings);
   const std::string last = words.out.substr(words.out.rfind('\n', words.out.size() - 2) + 1);
   for (const std::string& warning : warnings) CHECK_THAT(last, Contains(warning));
-  // Said while it runs, once each kind.
+  // Each kind is printed once while it runs.
   std::size_t said = 0;
   for (std::size_t at = words.err.find("warning: "); at != std::string::npos; at = words.err.find("warning: ", at + 1))
     ++said;
@@ -78,7 +79,7 @@ TEST_CASE("a step that loses more than half of its momentum to truncation is war
 TEST_CASE("ten steps in a row in which bounds cut every free vertex are warned of, and the longest row is told",
           "[unit]") {
   compare::Scene scene = sheet();
-  scene.motions = {{.name = "held", .vertices = {0}, .keyframes = {}}};  // of 9 vertices 8 are free
+  scene.motions = {{.name = "held", .vertices = {0}, .keyframes = {}}};  // 8 of 9 vertices are free
   Warnings warnings(scene);
   const auto look_at = [&](int steps, std::int64_t cut) {
     std::size_t said = 0;
@@ -119,14 +120,14 @@ TEST_CASE("steps that leave a tenth of the free vertices' force are warned of at
   REQUIRE(warnings.list().size() == 1);
   CHECK(warnings.list() == warnings.look_back());
   CHECK_THAT(warnings.list()[0], Contains("30 %") && Contains("3 steps") && Contains("iterations"));
-  for (int k = 0; k < 3; ++k) look_at(0.9, 1, 0);  // of free fall
+  for (int k = 0; k < 3; ++k) look_at(0.9, 1, 0);  // steps of free fall
   CHECK(warnings.forces_left().steps() == 3);
   for (int k = 0; k < 2; ++k) look_at(0.01, 0.001, 0);
   CHECK(warnings.forces_left().median_residual() == 0.05);
   CHECK(warnings.list().empty());
 }
 
-// The sheet's diagonal is √2 m; h = 10 ms, in which gravity changes speeds by 98.1 mm/s.
+// The sheet's diagonal is √2 m; gravity changes speeds by 98.1 mm/s in h = 10 ms.
 TEST_CASE("a tolerance of IPC above what gravity changes in a step is warned of, by its number and another one",
           "[unit]") {
   compare::Scene scene = sheet();
@@ -156,8 +157,8 @@ TEST_CASE("a run without bounds says at its first and last line that nothing is 
   CHECK_THAT(warnings[0], Contains("bounds=off") && Contains("guarantees nothing"));
 }
 
-// γ_p r_q = 0.45 · 40 mm a round, 16 rounds: 0.29 m a step at most; in h = 10 ms, 29 m/s. In free flight nothing but
-// truncation takes momentum.
+// Bounds allow γ_p r_q = 0.45 · 40 mm a round in 16 rounds, at most 0.29 m a step, or 29 m/s with h = 10 ms. In free
+// flight only truncation takes momentum.
 TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as fast as they allow it does not",
           "[property]") {
   compare::Scene scene = sheet();
@@ -169,7 +170,7 @@ TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as f
   CHECK(warnings_of(scene).empty());
 }
 
-// As above: 29 m/s is what a handle can follow; it asks for 100.
+// By the same numbers a handle can follow at 29 m/s; this one moves at 100 m/s.
 TEST_CASE("a run whose handles fall behind by more than r warns with the lag", "[property]") {
   compare::Scene scene = sheet();
   compare::PrescribedMotion motion;

@@ -1,4 +1,5 @@
-// What yarn must not do, and what a penalty method does: curves that are hooked, knotted, or shorter than their radius.
+// Tests what yarn must not do, and what a penalty method does: curves that are hooked, knotted, or shorter than their
+// radius.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +23,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Curves as one rod each, in free space: the yarn of yarn_stretch, with this k_c [N/m].
+/// Returns curves as one rod each, in free space: the yarn of yarn_stretch with this k_c [N/m].
 compare::Scene yarn_of(const std::vector<Vec3>& positions, const std::vector<Edge>& loose, double stiffness) {
   compare::Scene scene;
   scene.name = "yarn";
@@ -43,7 +44,7 @@ compare::Scene yarn_of(const std::vector<Vec3>& positions, const std::vector<Edg
 
 constexpr Index ring_size = 24;
 
-/// Two hooked rings whose far sides are pulled apart, the tension far above what k_c r bears.
+/// Returns two hooked rings whose far sides are pulled apart, with a tension far above k_c r.
 compare::Scene hooked_rings(compare::Bounds bounds) {
   std::vector<Vec3> positions;
   std::vector<Edge> loose;
@@ -68,7 +69,7 @@ compare::Scene hooked_rings(compare::Bounds bounds) {
   return scene;
 }
 
-/// By how much the second ring passes the first in this motion, counted over its meetings.
+/// Returns how often the second ring passes the first in this motion, with signs, summed over its meetings.
 int signed_count(const compare::Topology& topology, const std::vector<Vec3>& from, const std::vector<Vec3>& to,
                  std::size_t& count) {
   const auto place = [&](double t) {
@@ -81,7 +82,7 @@ int signed_count(const compare::Topology& topology, const std::vector<Vec3>& fro
   int sum = 0;
   for (const compare::Meeting& m : compare::meetings(topology, from, to).meetings) {
     ++count;
-    const auto along = [&](Index e) {  // as the rings run, not as edges are sorted
+    const auto along = [&](Index e) {  // along the ring, not as edges are sorted
       const Edge& edge = topology.edges[static_cast<std::size_t>(e)];
       return edge[1] - edge[0] == 1 ? edge : Edge{edge[1], edge[0]};
     };
@@ -106,7 +107,7 @@ TEST_CASE("yarn: hooked rings that are pulled apart stay hooked with bounds", "[
   const auto run = audited(folder, "run", hooked_rings(compare::Bounds::ball));
   CHECK(run.at("audit").at("meetings") == 0);
   CHECK(run.at("guarantee_kept") == true);
-  // A tension far above k_c r, the most that a quadratic contact carries.
+  // The tension is far above k_c r, the most that a quadratic contact carries.
   CHECK(0.1 * compare::read_steps(folder / "run").rows.back().mean_stretch > 10 * 2 * 1e-3);
 }
 
@@ -153,8 +154,8 @@ TEST_CASE("yarn: a figure-eight knot that is pulled tight has no meeting", "[pro
   const auto run = audited(folder, "run", scene);
   CHECK(run.at("audit").at("meetings") == 0);
   CHECK(run.at("guarantee_kept") == true);
-  // Tight: shorter than at the start, where its stretch was 3, and pressed against itself at its four crossings. It
-  // swings on the springs of its contacts, which are half of r deep where it comes in.
+  // The knot is tight: shorter than at the start, where its stretch is 3, and pressed against itself at its four
+  // crossings. It oscillates on the springs of its contacts, which are half of r deep at the smallest distance.
   const std::vector<compare::StepMetrics> rows = compare::read_steps(folder / "run").rows;
   const compare::StepMetrics& last = rows.back();
   CHECK(last.mean_stretch < 2);
@@ -168,7 +169,7 @@ TEST_CASE("yarn: a figure-eight knot that is pulled tight has no meeting", "[pro
 
 TEST_CASE("yarn: of a smooth curve with segments of a tenth of r neighbours are no contact", "[property]") {
   constexpr double r = 3e-3, segment = r / 10;
-  // Curves that bend and wind no narrower than 1.2 r, and come back no nearer than r.
+  // The curves bend and wind no narrower than 1.2 r, and return no nearer than r.
   const auto helix = [](double t) { return Vec3{1.2 * r * std::cos(t), 1.2 * r * std::sin(t), 0.4 * r * t}; };
   const auto ring = [](double t) { return Vec3{1.2 * r * std::cos(t), 1.2 * r * std::sin(t), 0}; };
   const auto line = [](double t) { return Vec3{r * t, 0.3 * r * t, 0.2 * r * t}; };
@@ -191,13 +192,13 @@ TEST_CASE("yarn: of a smooth curve with segments of a tenth of r neighbours are 
   CHECK(count_of(line, 10 * r, false) == 0);
   CHECK(count_of(ring, 2 * pi * 1.2 * r, true) == 0);
   CHECK(count_of(helix, 30 * r, false) == 0);
-  // Wound closer than r it is in contact with its next turn.
+  // Wound more closely than r, the curve is in contact with its next turn.
   const auto narrow = [](double t) { return Vec3{1.2 * r * std::cos(t), 1.2 * r * std::sin(t), 0.1 * r * t}; };
   CHECK(count_of(narrow, 30 * r, false) > 0);
 }
 
-// From the fifth step on strands that touch, nearly parallel, jump between pairs of closest points; rounds of
-// detections that lead nowhere end a step then, which takes less than the 50 iterations that it has.
+// From the fifth step on, touching strands that are nearly parallel jump between pairs of closest points. Rounds of
+// detections without progress then end a step, in fewer than its 50 iterations.
 TEST_CASE("yarn: Newton's steps of a knit that is stretched end, and the run says that states were audited",
           "[property]") {
   const TemporaryFolder folder;
