@@ -102,7 +102,7 @@ Authority remembering(const Authority& a, std::size_t parts) {
   return r;
 }
 
-/// Holds cases of one stage: those of the corpus or, if there are none, generated ones.
+/// Holds cases of one stage: the corpus' cases or, if there are none, generated ones.
 struct Part {
   Stage stage{};
   std::vector<TestCase> corpus;

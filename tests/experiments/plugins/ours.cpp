@@ -1,4 +1,4 @@
-// Puts our own kernels behind the C interface, in the stages about a whole scene and those of planes. Right answers
+// Puts our own kernels behind the C interface, in the stages about a whole scene and about planes. Right answers
 // show that the structures carry enough; the environment variable OGC_BROKEN makes them wrong. The step is built here
 // from detection, truncation and sweeps.
 #include <unistd.h>

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t frames = 6;
 
-/// Returns whether the stage has cases of these states; those of rest_state do not come from a frame.
+/// Returns whether the stage has cases of these states; cases of rest_state do not come from a frame.
 bool is_asked(Stage stage, const States& states) { return stage != Stage::rest_state && states.missing(stage).empty(); }
 
 }  // namespace

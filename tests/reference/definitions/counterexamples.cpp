@@ -183,7 +183,7 @@ TEST_CASE(
 }
 
 TEST_CASE("two vertices in each other's blocks are two contacts, (v, a) and (a, v)", "[unit]") {
-  // Two tips that point at each other.
+  // Two tips point at each other.
   const Surface tips{
       {{0, 0, 0.25f}, {1, 0, 2}, {0, 1, 2}, {0, 0, -0.25f}, {-1, 0, -2}, {0, -1, -2}}, {{0, 1, 2}, {3, 4, 5}}, {}, {}};
   const auto topology = tips.topology();

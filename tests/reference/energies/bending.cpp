@@ -174,7 +174,7 @@ TEST_CASE(
     "the isometric model agrees with the hinge for small angles of a shape that keeps its lengths, and is 2 sin(θ/2) "
     "for large ones",
     "[property]") {
-  // x0 and x1 lie on the edge, o0 above it and o1 below and turned. The weights are those of this rest shape.
+  // x0 and x1 lie on the edge, o0 above it and o1 below and turned. The weights belong to this rest shape.
   const double length = 2, foot_a = 0.5, foot_b = 1.25, height_a = 1, height_b = 0.5;
   for (const double theta : {0.0, 1e-3, 0.7, 2.5}) {
     BendingCase c;

@@ -27,7 +27,7 @@ inline double nearest(const Point& p, const Point& a, const Point& b) {
   return std::clamp(inner(minus(p, a), e) / inner(e, e), 0.0, 1.0);
 }
 
-/// Signed weights of the closest points: those of the first side add up to 1, those of the second to −1.
+/// Signed weights of the closest points: they add up to 1 on the first side and to −1 on the second.
 using Weights = std::array<double, 4>;
 
 inline Weights weights_of_edges(const std::array<Point, 4>& x) {

@@ -89,8 +89,8 @@ TEST_CASE("the reference's membrane force is minus the slope of the energy", "[p
     const MembraneCase c = i % 2 == 0 ? random_case(draw) : neo_hookean(random_case(draw));
     const compare::ForceAnswer answer = exact(c);
     const Point fallen = slope([&](const Point& x) { return energy(x, c); }, point(c.corner[0]), 1e-5);
-    // Energies up to 10⁵ J: rounding 10⁵ · 2⁻⁵³ / 10⁻⁵ ≈ 10⁻⁶; a quartic with third derivatives of that size leaves
-    // 10⁻¹⁰ · 10⁵.
+    // Energies reach 10⁵ J, so rounding is 10⁵ · 2⁻⁵³ / 10⁻⁵ ≈ 10⁻⁶. The truncation error of a quartic with third
+    // derivatives of that size is 10⁻¹⁰ · 10⁵.
     const double accepted = 1e-4 + 1e-8 * answer.force_scale;
     CHECK(std::abs(answer.force.x + fallen[0]) < accepted);
     CHECK(std::abs(answer.force.y + fallen[1]) < accepted);

@@ -48,7 +48,7 @@ TEST_CASE("stiffness: only a pair that was close and comes closer counts", "[uni
     return guard.came_closer(set);
   };
   CHECK_FALSE(at(1e-5, 1e-5));
-  CHECK_FALSE(at(0.9e-9, 1e-6));  // just came close
+  CHECK_FALSE(at(0.9e-9, 1e-6));  // has just come close
   CHECK_FALSE(at(0.95e-9, 0.8e-9));
   CHECK(at(0.99e-9, 0.7e-9) == b);
   CHECK(at(0.98e-9, 1e-5) == a);

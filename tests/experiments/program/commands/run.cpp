@@ -246,7 +246,7 @@ TEST_CASE("rows an iteration end where the step ends, in scenes with prescribed 
       "/frames/frame_000030.h5 --out " + out);
   const compare::StepTable table = compare::read_steps(out);
   REQUIRE(table.rows.size() == 1);
-  // With contacts, those of the end would differ.
+  // With contacts, the end's contacts would differ.
   REQUIRE(table.rows[0].vertex_facet_contacts + table.rows[0].edge_edge_contacts == 0);
   std::ifstream file(folder / "run" / "iterations.csv");
   std::string line, last;

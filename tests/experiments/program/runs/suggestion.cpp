@@ -137,7 +137,7 @@ double measured_excess(const compare::Mesh& mesh, const compare::Material& mater
 
 }  // namespace
 
-// Strips of 4 × 16 cells hang by a short side. Edges of 6 cm need fewer sweeps than the limit for 1 %, those of 2 cm
+// Strips of 4 × 16 cells hang by a short side. Edges of 6 cm need fewer sweeps than the limit for 1 %, edges of 2 cm
 // need more. The number derives from the exponent of method.md §7.7, about ln(1 + 1/number).
 TEST_CASE("suggested iterations leave what hangs at most 1 % longer, or as much longer as is said", "[property]") {
   const auto hung = [](double edge) {

@@ -184,7 +184,7 @@ TEST_CASE(
     const Corners<4> x{
         {{0, 0, 0.4 * r}, {side, 0, 0.4 * r}, {0.2 * side, -0.5 * sine * side, 0}, {1.2 * side, 0.5 * sine * side, 0}}};
     const ContactTerm term{ContactSides::edge_edge, {}, r, 10, 1, 0, compare::ContactActivation::ipc_log};
-    // At parallel edges the weights are those of the middle of the overlap.
+    // At parallel edges the weights belong to the middle of the overlap.
     const ClosestForm form = closest_form(term.sides, x);
     const auto energy = [&](const auto& at) {
       using T = std::decay_t<decltype(at[0][0])>;
