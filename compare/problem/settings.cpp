@@ -18,7 +18,7 @@ namespace {
 constexpr double most_count = 1 << 30, most_seed = 0x1p53;
 constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
-/// The last number of a choice.
+/// Number of the last enumerator of a choice.
 template <class Choice>
 constexpr double last = choice_count<Choice> - 1;
 
@@ -68,7 +68,7 @@ constexpr auto problem_table = std::to_array<SettingInfo>({
      last<StartFrames>, &Settings::start_frames, choice_names<StartFrames>},
 });
 
-/// The problem's settings, and those that contestants have declared.
+/// Holds the problem's settings, and those that contestants have declared.
 struct Table {
   std::map<std::string_view, std::span<const SettingInfo>> declared;  ///< by contestant
   std::vector<SettingInfo> rows;
@@ -80,7 +80,8 @@ struct Table {
   }
 };
 
-/// Made at its first use, as declarations of other files may be constructed before the objects of this one.
+/// The table is made at its first use, as declarations of other files may be constructed before the objects of this
+/// one.
 Table& known() {
   static Table table;
   return table;
