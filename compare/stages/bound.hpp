@@ -18,8 +18,8 @@ struct BoundIn {
 
 /// The answer.
 struct BoundOut {
-  /// b_v [m], by vertex; never above γ_p · min(…). Of a vertex inside a solid (Topology::on_surface), which nothing
-  /// bounds, the largest finite number.
+  /// b_v [m], by vertex; never above γ_p · min(…). The largest finite number for a vertex inside a solid
+  /// (Topology::on_surface), which nothing bounds.
   std::vector<float> bound;
 };
 
