@@ -1,5 +1,5 @@
-// Numbers keep JSON's own distinction: 40 is a whole number, 40.0 is not, so that a fractional count is a wrong type
-// rather than cut off.
+// Keeps JSON's own distinction of numbers: 40 is a whole number, 40.0 is not, so that a fractional count is a wrong
+// type and is not truncated.
 #include "compare/files/json_reader.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Json parse_json(std::string_view text, const std::string& file) {
   try {
     return Json::parse(text, refuse_repeated_keys);
   } catch (const Json::exception& error) {
-    constexpr std::size_t most_shown = 200;  // the library repeats a number of any length
+    constexpr std::size_t most_shown = 200;  // the library's message repeats a number of any length
     throw InputError(file + ": no valid JSON: " + shown(error.what(), most_shown));
   }
 }

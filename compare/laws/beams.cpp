@@ -64,7 +64,7 @@ using namespace law_shapes;
 constexpr Vec3 down{0, -standard_gravity, 0};
 constexpr double flap_side = 0.1, flap_bending = 2e-3;
 
-/// Where (1) has it.
+/// Returns the angle of (1).
 double hinge_angle(const Scene& scene) {
   // e² over both areas is 1, as both triangles are as high as they are long.
   const double load = masses(scene)[3] * standard_gravity * flap_side / (3 * flap_bending);
@@ -73,7 +73,7 @@ double hinge_angle(const Scene& scene) {
   return angle;
 }
 
-/// Two right triangles about an edge along z, the first level and held, the second as (1) has it.
+/// Returns two right triangles about an edge along z, the first level and held, the second at the angle of (1).
 std::vector<Scene> hinge_scenes(LawSize) {
   Scene scene = empty_scene("cantilever_hinge", 0.005, 200, 40);
   scene.gravity = down;
@@ -106,7 +106,7 @@ std::vector<Reading> read_hinge(std::span<const Trajectory> runs) {
 
 constexpr double tetrahedron_side = 0.1, tetrahedron_mu = 2e4, tetrahedron_lambda = 3e4;
 
-/// One corner of a cube, its three neighbours in the plane x = 0 held but for the one along x.
+/// Returns one corner of a cube with its three neighbours; those in the plane x = 0 are held, the one along x is free.
 std::vector<Scene> tetrahedron_scenes(LawSize) {
   Scene scene = empty_scene("cantilever_tetrahedron", 0.005, 100, 40);
   scene.gravity = {1, -standard_gravity, 2};
@@ -125,7 +125,7 @@ std::vector<Scene> tetrahedron_scenes(LawSize) {
   return {scene};
 }
 
-/// The corner is a above the plane x = 0 of the others: ∇N = (1/a, 0, 0), so H is diagonal.
+/// Reads the corner, which is a above the plane x = 0 of the others: ∇N = (1/a, 0, 0), so H is diagonal.
 std::vector<Reading> read_tetrahedron(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const double a = tetrahedron_side, volume = a * a * a / 6, m = masses(run.scene)[1];
@@ -205,13 +205,13 @@ std::vector<Scene> swing_scenes(LawSize) {
   return {scene};
 }
 
-/// The angle of the two lower corners' middle from straight down.
+/// Returns the angle of the two lower corners' middle from straight down.
 double swing_angle(const LawState& state) {
   const Vec3 x = plus(state.positions[1], state.positions[2]);
   return std::atan2(x.x, -x.y);
 }
 
-/// (4), from the angle and the rest shape; x + i y, turned so that straight down is 0.
+/// Returns the angles of (4), from the start angle and the rest shape; x + i y, turned so that straight down is 0.
 std::vector<double> swings(const Trajectory& run) {
   using Complex = std::complex<double>;
   const double h = run.scene.settings.time_step;
@@ -238,7 +238,7 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
   const std::vector<double> law = swings(run);
   double most = 0;
   for (std::size_t n = 0; n < law.size(); ++n) most = std::max(most, std::abs(swing_angle(run.states[n]) - law[n]));
-  // E of plane stress is 8 μ/3 with λ = μ; the strip is swing_side/2 wide in the mean. Speed adds as much as weight.
+  // E of plane stress is 8 μ/3 with λ = μ; the mean width of the strip is swing_side/2. Speed adds as much as weight.
   const double weight = mass_of(run.scene, 0) * standard_gravity;
   const double strain = 2 * weight / (8. / 3 * run.scene.bodies[0].material.lame_mu * swing_side / 2);
   const double phase = std::sqrt(standard_gravity / swing_side) * run.scene.settings.time_step *
@@ -253,21 +253,22 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
 
 constexpr double arc_cell = 0.03, arc_density = 0.3, arc_lame = 500, arc_bending = 0.005;
 
-/// N of (5).
+/// Returns N of (5).
 double solving_sweeps(double time_step) {
   const double trace = 16 * arc_lame + 84 * arc_bending / (arc_cell * arc_cell);
   const double mass = arc_density * arc_cell * arc_cell;
   return (1 + time_step * time_step * trace / (3 * mass)) * std::log(101) / 2;
 }
 
-/// A sheet that is curved at rest, 11 × 11 vertices of a cylinder of 0.2 m, held at one corner. Nothing touches.
+/// Returns a sheet that is curved at rest, 11 × 11 vertices of a cylinder of 0.2 m, held at one corner. Nothing
+/// touches.
 Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) {
   Scene scene = empty_scene("pinned_sheet", time_step, steps, iterations);
   scene.gravity = down;
   scene.settings.contact_radius = 0.002;
   Material material = cloth(0);
   material.density = arc_density;
-  material.membrane = MembraneModel::st_venant_kirchhoff;  // N of (5) is that of its block
+  material.membrane = MembraneModel::st_venant_kirchhoff;  // N of (5) is derived from its block
   material.lame_mu = material.lame_lambda = arc_lame;
   material.bending = BendingModel::discrete_hinge;
   material.bending_stiffness = arc_bending;
@@ -282,7 +283,7 @@ Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) 
   return scene;
 }
 
-/// With few sweeps, and with N of a shorter step, until the sheet has swung down.
+/// Returns runs with few sweeps, and with N of a shorter step, until the sheet has swung down.
 std::vector<Scene> pinned_scenes(LawSize size) {
   constexpr double brief = 1. / 480;
   const Scene solved = pinned_arc(brief, 240, std::lround(std::ceil(solving_sweeps(brief))));
@@ -290,7 +291,7 @@ std::vector<Scene> pinned_scenes(LawSize size) {
   return {pinned_arc(1. / 120, 240, 20), pinned_arc(1. / 120, 240, 5), pinned_arc(brief, 480, 20), solved};
 }
 
-/// −f·Δ − ‖v' − v‖²_M/2 of (5) in the step that ends in state n.
+/// Returns −f·Δ − ‖v' − v‖²_M/2 of (5) in the step that ends in state n.
 double work_left(const Trajectory& run, std::size_t n) {
   const LawState &before = run.states[n - 1], &now = run.states[n];
   const std::vector<double> m = masses(run.scene);

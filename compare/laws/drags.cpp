@@ -69,7 +69,7 @@ std::vector<Reading> read_conveyor(std::span<const Trajectory> runs) {
     relative = slid(relative, 0, mu * standard_gravity, run.scene.settings.friction_velocity, h);
     way += h * (relative + belt);
   }
-  // Lag of one step and what sweeps leave of λ, as in slopes.cpp, of what the belt is ahead by.
+  // Lag of one step and the error of λ that sweeps leave, as in slopes.cpp, times the lead of the belt.
   const double ahead = belt * h * static_cast<double>(run.rows.size()) - way;
   const double dragged = belt / (mu * standard_gravity), share = 2 * lagged_steps(run) * h / dragged + force_left(run);
   return {{.what = "way",

@@ -33,7 +33,8 @@ Vec3 discrete_flight(const Scene& scene, const Vec3& start, const Vec3& velocity
   return plus(plus(start, velocity, t), scene.gravity, (t * t + t * h) / 2);
 }
 
-/// The largest distance of any vertex from the discrete law at any step, in units of what rounding may do until then.
+/// Returns the largest distance of any vertex from the discrete law at any step, in units of the rounding error up to
+/// then.
 double largest_miss(const Trajectory& run) {
   const double largest = largest_coordinate(run);
   double most = 0;
@@ -53,7 +54,7 @@ std::vector<Scene> fall_scenes(LawSize size) {
 }
 
 std::vector<Reading> read_fall(std::span<const Trajectory> runs) {
-  // √3: of three coordinates each may be off by that much.
+  // √3: each of three coordinates may be off by that much.
   return {{.what = "distance from the discrete law",
            .unit = "roundings",
            .measured = largest_miss(runs[0]),
@@ -66,7 +67,7 @@ std::vector<Scene> order_scenes(LawSize) {
   return {thrown_sheet(10, 0.2), thrown_sheet(20, 0.2), thrown_sheet(40, 0.2)};
 }
 
-/// How far the end is below the parabola [m].
+/// Returns how far the end is below the parabola [m].
 double error_of_fall(const Trajectory& run) {
   const double t = run.scene.settings.time_step * static_cast<double>(run.scene.settings.steps);
   const double start = centre(run.scene, 0, run.states.front()).y, v = run.scene.velocities[0].y;

@@ -29,7 +29,7 @@ using namespace law_shapes;
 
 double left_over(const Trajectory& run) { return run.by.is_solved ? 1e-4 : 1e-2; }
 
-/// Σ over steps and vertices of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖: what inner forces exchange; `n` steps.
+/// Σ over steps and vertices of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖, which inner forces exchange.
 struct Exchange {
   double impulse = 0, turn = 0;
 };
@@ -45,8 +45,8 @@ Exchange exchanged(const Trajectory& run) {
   return sum;
 }
 
-/// Rounding of velocities (x' − x)/h by 2 u |x|/h in each of n steps, all of one sign: of Σ m v, and with the lever
-/// |x| of Σ m x × v.
+/// Returns the rounding error of Σ m v: velocities (x' − x)/h are off by 2 u |x|/h in each of n steps, all of one sign;
+/// with the lever |x| it is that of Σ m x × v.
 double momentum_rounding(const Trajectory& run) {
   const double x = largest_coordinate(run), steps = static_cast<double>(run.rows.size());
   double mass = 0;
@@ -54,7 +54,7 @@ double momentum_rounding(const Trajectory& run) {
   return steps * mass * 2 * unit_roundoff * x / run.scene.settings.time_step;
 }
 
-/// A sheet that tumbles, stretches and goes away.
+/// Returns a sheet that tumbles, stretches and flies away.
 std::vector<Scene> tumbling_scenes(LawSize size) {
   Scene scene = empty_scene("momentum", 0.005, size == LawSize::least ? 40 : 200, 100);
   append_body(scene, {.name = "sheet", .material = cloth(0)}, sheet(5, 5, 0.05, 0));
@@ -66,7 +66,7 @@ std::vector<Scene> tumbling_scenes(LawSize size) {
   return {scene};
 }
 
-/// Σ over the steps of h Σ m vᵗ⁺¹ × vᵗ, as (1) has it.
+/// Returns Σ over the steps of h Σ m vᵗ⁺¹ × vᵗ of (1).
 Vec3 lost_turn(const Trajectory& run) {
   const std::vector<double> m = masses(run.scene);
   Vec3 sum{};
