@@ -62,7 +62,7 @@ struct StepLedger {
   double motion_proposed = 0, motion_taken = 0;                  ///< by sweeps; the part that truncation took
   double motion_taken_tangential = 0, motion_taken_leaving = 0;  ///< parts along and away from the nearest pair
   double motion_taken_unpaired = 0;                              ///< part of vertices without a pair within r_q
-  /// that end where they began; those of them that truncation held there
+  /// number of vertices that end where they began; of those that truncation held there
   double vertices_still = 0, vertices_held = 0;
 };
 

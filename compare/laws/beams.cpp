@@ -1,11 +1,11 @@
-// Beams and what swings about a pin.
+// Tests clamped beams, a pendulum, and the energy of a swinging sheet.
 //
 // Hinge. Two triangles share an edge of length e; one is held level, and the other turns about the edge under the
 // weight m g of its free corner, which is b away from it and carries a third of its mass. The edge is a torsion spring,
 //
 //     c θ = m g b cos θ,   c = 3 k_b e²/(A₀ + A₁),                                                            (1)
 //
-// at any angle: what the membranes draw of it is m g over E e/2.
+// at any angle, except for the stretch of the membranes, m g over E e/2.
 //
 // Tetrahedron. Three corners are held, and the fourth hangs from them. J is affine in one corner and ‖F‖² is quadratic,
 // so the force on it is linear (method.md §8.1): it goes down by exactly
@@ -19,25 +19,24 @@
 //
 //     w = q L⁴/(20 E I) + q L²/(3 (5/6) G A) = ρ g L⁴ 12/(20 E t²) + ρ g L²/(2.5 G).                          (3)
 //
-// The work of the weight is twice the energy of what deforms least at that work, and linear tetrahedra are some of all
-// displacements: their mean deflection is less, and more with cells half as large, which have the large ones' among
-// them.
+// The deflection minimises energy minus work, and linear tetrahedra allow only some of all displacements: their mean
+// deflection is less, and it is more with cells half as large, whose displacements include those of large cells.
 //
 // Pendulum. A triangle hung by a corner is rigid but for its strain. Implicit Euler takes the rotation nearest, in the
 // norm of masses, to y = 2 x_n − x_{n−1} + h² g. In the plane, with x = r e^{iθ},
 //
 //     θ_{n+1} = arg(I (2 e^{iθ_n} − e^{iθ_{n−1}}) + h² γ Σ m r̄),   γ = −i g,                                   (4)
 //
-// for any swing. It gets longer by its weight's strain ε, which makes its phase ω t late by ε/2 of itself.
+// for any swing. The weight's strain ε makes the pendulum longer, so its phase ω t is late by ε/2 of itself.
 //
 // Energy. With f the force that a step leaves, inertia's included, Δ = x' − x and E the sum of kinetic energy, elastic
 // energy U and gravity's (method.md §7.8),
 //
 //     E' − E = −f·Δ − ‖v' − v‖²_M/2 − c,   c = U(x) − U(x') + ∇U(x')·Δ,   −f·Δ = (M (v' − v)/h − M a + ∇U(x'))·Δ. (5)
 //
-// c ≥ 0 where U is convex. U is not: where a hinge turns or a triangle shrinks c may be less than 0. The law claims all
-// the same that E gains no more than what (5) has without c. Its limit is that sum, read off the states; so a wrong U,
-// or a wrong energy in a row, breaks it.
+// c ≥ 0 where U is convex. U is not: where a hinge turns or a triangle shrinks c may be below 0. The law still claims
+// that E gains no more than (5) without c. Its limit is that sum, computed from the states; so a wrong U, or a wrong
+// energy in a row, breaks it.
 //
 // A solved step has f = 0, and no step gains. Few sweeps leave f, and may gain up to the limit. N = D ln(101)/2 sweeps
 // leave a hundredth of a stretch (method.md §7.7), so that f is a hundredth of the elastic force; on its way f takes

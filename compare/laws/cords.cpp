@@ -10,10 +10,10 @@
 //     Σ_j l (1 + ‖n_j‖/k_s) H/‖n_j‖ = span,                                                                   (2)
 //
 // the discrete catenary. A cord in a groove of two planes that stand at a right angle rests on both, its nodes' springs
-// bearing m g/√2 on each side, and without friction keeps its speed along the groove: nothing acts there. (Of a solver
-// whose contacts are barriers the rest is read, and no spring.)
+// bearing m g/√2 on each side, and without friction keeps its speed along the groove: nothing acts there. (For solvers
+// whose contacts are barriers the rest is read, but no spring.)
 //
-// Tolerances: law_measures::force_left of the weight. A sum over nodes is exact as it stands, not for many nodes only.
+// Tolerances are law_measures::force_left of the weight. Sums over nodes are exact for any number of nodes.
 #include <algorithm>
 #include <cmath>
 

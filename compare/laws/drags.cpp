@@ -1,11 +1,11 @@
-// What holds, and what drags. Between two plates at the depth δ on either side a sheet of n vertices creeps under its
-// weight as slopes.cpp has it,
+// Tests what friction holds or drags. Between two plates at the depth δ on either side a sheet of n vertices creeps
+// under its weight as derived in slopes.cpp,
 //
 //     f₁(v/ε_v) = M g/(2 n μ k_c δ),
 //
 // and a floor that moves with u drags: w = v − u obeys w' = w − h μ g f₁(|w'|/ε_v) sign w'.
 //
-// Tolerances: those of slopes.cpp. The depth is rounded as r is.
+// Tolerances are those of slopes.cpp. The depth is rounded as r is.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"

@@ -1,10 +1,10 @@
-// Free flight. Implicit Euler has v_n = v_0 + n h g and x_n = x_{n−1} + h v_n, so
+// Tests free flight. Implicit Euler has v_n = v_0 + n h g and x_n = x_{n−1} + h v_n, so
 //
 //     x_n = x_0 + n h v_0 + h² g n (n + 1)/2,
 //
-// which is the parabola of Galilei and g h t/2 more: an error of first order, halved where h is. No vertex moves
-// against another one, so that no energy acts, and what is left is rounding (flight_rounding). Newton's method ends
-// where it begins, as y has no force.
+// which is the parabola of Galilei and g h t/2 more: an error of first order, which halves with h. No vertex moves
+// against another one, so that no energy acts, and only rounding remains (flight_rounding). Newton's method ends where
+// it begins, as y has no force.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"

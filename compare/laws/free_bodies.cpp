@@ -1,11 +1,11 @@
-// Bodies on which nothing acts from outside. With the forces f of a step at xᵗ⁺¹, m (vᵗ⁺¹ − vᵗ) = h f. Inner forces
-// come from energies that neither translation nor rotation changes: Σ f = 0 and Σ x × f = 0 at xᵗ⁺¹. So
+// Tests bodies on which nothing acts from outside. With the forces f of a step at xᵗ⁺¹, m (vᵗ⁺¹ − vᵗ) = h f. Inner
+// forces come from energies that neither translation nor rotation changes: Σ f = 0 and Σ x × f = 0 at xᵗ⁺¹. So
 //
 //     Σ m vᵗ⁺¹ = Σ m vᵗ,      Lᵗ⁺¹ = Σ m xᵗ⁺¹ × vᵗ = Lᵗ + h Σ m vᵗ⁺¹ × vᵗ                                   (1)
 //
-// whatever the body does. A rigid body that turns by φ_n in step n about an axis through its centre has at radius R
-// v_n = (x_n − x_{n−1})/h, and y = 2 x_n − x_{n−1} lies at the angle atan(sin φ_n/(2 − cos φ_n)) ahead of x_n. The
-// rotation nearest to y in the norm of the masses is that one:
+// whatever the body does. A rigid body that turns by φ_n in step n about an axis through its centre has at radius R v_n
+// = (x_n − x_{n−1})/h, and y = 2 x_n − x_{n−1} lies at the angle atan(sin φ_n/(2 − cos φ_n)) ahead of x_n. The rotation
+// nearest to y in the norm of the masses is that one:
 //
 //     tan φ_{n+1} = sin φ_n/(2 − cos φ_n),   φ_1 = atan(h ω),   L_n = I sin φ_n/h                            (2)
 //
@@ -13,8 +13,8 @@
 // twice.
 //
 // A step that is not solved leaves a force. Newton leaves newton_tolerance of the mean |f*|, the force after the guess,
-// and sweeps what they have not yet taken away: the tolerances below are shares of the impulses that inner forces
-// exchange, Σ ‖m Δv‖, 10⁻⁴ (newton_tolerance) and 10⁻² (what a sweep of a stiff body is asked to leave at most).
+// and sweeps leave what they have not yet removed: the tolerances below are shares of the impulses that inner forces
+// exchange, Σ ‖m Δv‖, 10⁻⁴ (newton_tolerance) and 10⁻² (the most that sweeps of a stiff body may leave).
 #include <cmath>
 
 #include "compare/laws/groups.hpp"

@@ -1,14 +1,14 @@
-// What must not change a motion.
+// Tests changes that must not change a motion.
 //
-// Another body, farther away than any contact, exchanges nothing, but its speed sets the query radius of all and it
-// counts in means that end a solve. (IPC's barriers are as stiff as the whole scene makes them, unless κ is given.) So
-// a resting sheet stays where it is but for rounding (flight_rounding) and for what a step leaves,
+// Another body, farther away than any contact, exchanges nothing, but its speed sets the query radius of all vertices,
+// and it counts in means that end a solve. (IPC's barriers are as stiff as the whole scene makes them, unless κ is
+// given.) So a resting sheet stays in place except for rounding (flight_rounding) and the force that a step leaves,
 // law_measures::force_left of h² g.
 //
-// Lengths in units of 2ᵏ m, masses and times as they are: lengths, velocities, gravity, radii and ε_v times 2ᵏ, density
-// a square metre over 4ᵏ, energies of bending times 4ᵏ; stiffness a metre [N/m] has no length. Every number of a step
-// is multiplied by a power of two, which rounds nothing, and every decision is one about a sign or a ratio: the motion
-// is the same to the bit, times 2ᵏ.
+// Lengths are scaled by 2ᵏ, masses and times are not: lengths, velocities, gravity, radii and ε_v are multiplied by 2ᵏ,
+// densities per square metre by 4⁻ᵏ, energies of bending by 4ᵏ; stiffnesses [N/m] stay. Every number of a step is
+// multiplied by a power of two, which rounds nothing, and every decision is about a sign or a ratio: the motion is the
+// same to the bit, times 2ᵏ.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// Leaving a contact. What lies at d = r has no force, and no force may come: whatever leaves moves freely (falls.cpp),
-// or as it would without the floor, also where its contact is listed before it acts, as `contact_margin` has it.
+// Tests leaving a contact. At d = r there is no force, and none may appear: a body that leaves moves freely
+// (falls.cpp), or as it would without the floor, also if `contact_margin` lists its contact before it acts.
 //
 // A triangle of three equal vertices that falls flat on a floor of one triangle stays flat: each vertex is a mass on a
 // spring of its own, and implicit Euler's step is the minimiser of ‖x − y‖²/(2h²) + (k_c/m)/2 max(0, r − x)² with
@@ -7,10 +7,11 @@
 //
 //     x' = y where y ≥ r, otherwise (y + κ r)/(1 + κ), κ = h² k_c/m                 (law_measures::bounced).   (1)
 //
-// Of a convex potential U implicit Euler loses (v' − v)²/2 and more a step, so that m v²/2 + m g x + U never rises.
-// That takes a contact which is listed in the step that brings it below r. A detection lists what is below r where the
-// step begins: then the impact's step goes as deep as h v without paying k_c (h v)²/2 for it, and the bounce is richer
-// by up to that. With v² = 2 g H of a fall of H it is κ of the fall's energy, a limit that `contact_margin` moves.
+// With a convex potential U implicit Euler loses at least (v' − v)²/2 in each step, so that m v²/2 + m g x + U never
+// rises. That needs a contact that is listed in the step that brings it below r. A detection lists contacts below r at
+// the start of the step: then the step of the impact goes as deep as h v without paying k_c (h v)²/2 for it, and the
+// bounce gains up to that. With v² = 2 g H after a fall of H it is κ of the fall's energy, a limit that
+// `contact_margin` changes.
 #include <algorithm>
 #include <cmath>
 #include <limits>

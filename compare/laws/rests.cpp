@@ -1,13 +1,14 @@
-// Rest. A floor of one triangle has no edge and no vertex near a body, so that each vertex of a sheet above it has one
+// Tests rest. A floor of one triangle has no edge and no vertex near a body, so that each vertex of a sheet above it has one
 // contact with it, a spring k_c (r − d) along the normal with d its height. At rest these bear the weight,
 //
 //     Σ k_c (r − d_v) = M g,
 //
-// whatever lies on what, and nothing moves along the normal; along the floor what sticks may creep (slopes.cpp). A
-// sheet that is dropped by a fifth of r comes to rest, too: implicit Euler takes (v' − v)²/2 a step from it at least.
+// whatever lies on top of what, and nothing moves along the normal; along the floor sticking vertices may creep
+// (slopes.cpp). A sheet that is dropped by a fifth of r also comes to rest: implicit Euler takes at least (v' − v)²/2
+// from it in each step.
 //
-// Tolerances: law_measures::force_left of the weight. So little force moves a vertex by that share of g h in a step,
-// and its energy is the square of it.
+// Tolerances are law_measures::force_left of the weight. That force changes a vertex's velocity by that share of g h in
+// a step, and its energy is the square of it.
 #include <algorithm>
 #include <cmath>
 

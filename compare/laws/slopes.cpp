@@ -1,7 +1,7 @@
-// Slopes: gravity is tilted by α over a level floor, so that x runs down the slope. A body in contact has the normal
-// force m g cos α, all of it, at rest as in the mean of every motion along the floor: what it does along the normal is
-// a change of momentum that stays bounded. So along the slope its centre obeys Coulomb's law as method.md §4.4 smooths
-// it, and implicit Euler makes of it one equation a step (law_measures::slid):
+// Tests slopes: gravity is tilted by α over a level floor, so that x runs down the slope. A body in contact has the
+// normal force m g cos α, at rest, and in the mean of every motion along the floor, since its momentum along the normal
+// stays bounded. So along the slope its centre obeys Coulomb's law as method.md §4.4 smooths it, and implicit Euler
+// turns it into one equation for each step (law_measures::slid):
 //
 //     v' = v + h (g sin α − μ g cos α f₁(v'/ε_v)),   x' = x + h v',   f₁(y) = 2 y − y² for y < 1, else 1.
 //

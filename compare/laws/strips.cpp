@@ -1,5 +1,5 @@
-// What hangs. A strip of membrane with λ = 0 does not get narrower as it is drawn (St. Venant–Kirchhoff, method.md
-// §4.6): with a stretch s along gravity ψ = μ (s² − 1)²/4, so the force across a width w is
+// Tests hanging strips and bars. A strip of membrane with λ = 0 does not get narrower as it is drawn (St.
+// Venant–Kirchhoff, method.md §4.6): with a stretch s along gravity ψ = μ (s² − 1)²/4, so the force across a width w is
 //
 //     T = μ w s (s² − 1).
 //

@@ -1,4 +1,4 @@
-// Run folders: run.json, steps.csv, frames/, trajectory.vtkhdf.
+// Writes and reads run folders: run.json, steps.csv, frames/, trajectory.vtkhdf.
 //
 //   run.json            written last when a run begins, again when it ends: "status" says which
 //   scene/NAME.json     the scene, meshes beside it (compare/files/scenes/scene_files.hpp)
@@ -8,18 +8,18 @@
 //   trajectory.vtkhdf   all frames, for viewers (compare/record/trajectory.hpp); while the run goes on it grows as
 //                       trajectory.vtkhdf.growing
 //
-// Frames and checkpoints are packed and written by threads of their own (compare/record/writing_queue.hpp). What holds:
+// Frames and checkpoints are packed and written by threads of their own (compare/record/writing_queue.hpp). Guarantees:
 //
 //   - A file that has its name is whole, whatever ends the program or the machine: it is written under another name,
-//     synced, renamed. steps.csv grows by lines; readers leave out a last one that is cut.
+//     synced, renamed. steps.csv grows by lines; readers ignore an incomplete last line.
 //   - No later than a second after something was written, and at the end, all of it is synced by one call; then frames
 //     get their names. So a power cut loses the last second, and what waited for a disk that is slower than that.
 //   - kill -9 loses nothing that `written()` counts: frames that have their names. Rows are in the file when add_steps
-//     returns; for kill -9 that is enough.
-//   - A checkpoint is written after all frames and rows up to its step are synced, so what goes on from it misses none.
-//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are worked at; then add_frame and save wait.
-//   - What fails on another thread (a full disk) is thrown by the next call here; what was written before is kept.
-//   - A growing trajectory that a kill left behind is worth nothing; a run that goes on makes it anew from the frames.
+//     returns, which is enough for kill -9.
+//   - A checkpoint is written after all frames and rows up to its step are synced, so a run continued from it has them.
+//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are in progress; then add_frame and save wait.
+//   - A failure on another thread (a full disk) is thrown by the next call; everything written before is kept.
+//   - A growing trajectory that a kill left behind is useless; a continued run makes it anew from the frames.
 #pragma once
 
 #include <atomic>

@@ -155,7 +155,7 @@ void WritingQueue::write_front(std::unique_lock<std::mutex>& lock) {
   }
   lock.lock();
   busy_ = false;
-  // If a prepared job has failed the queue is empty.
+  // The queue is empty if the preparation of another job has failed meanwhile.
   if (!jobs_.empty() && jobs_.front() == job) jobs_.pop_front(), bytes_ -= job->bytes;
   if (failure) fail(failure);
   changed_.notify_all();

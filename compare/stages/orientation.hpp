@@ -68,7 +68,7 @@ struct OrientationTruth {
 };
 
 /// A product of quaternions errs by 8 u of both lengths: four roundings of each component, whose moduli add up to 1 at
-/// most, so 4 each, and 8 for all four. t·q: such a product, or two of them (a twin), and a scalar product (4): 20.
+/// most, so 4 each, and 8 for all four. t·q: such a product, or two of them (in tᵗ), and a scalar product (4): 20.
 inline constexpr double orientation_sign_grey = 20;
 /// Largest error in units of u · scale, for the factor of each ∂q/∂…. b: tᵗ (16), its weight (2), sums (3): 21; the
 /// part of b in each eigenspace of M: two products and half a sum (17); the answer: two quotients and a sum, its length

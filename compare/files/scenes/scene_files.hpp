@@ -27,13 +27,13 @@ Scene read_scene(const std::filesystem::path& file);
 
 /// Holds a scene and what its file says beyond it.
 struct SceneFile {
-  Scene scene;                     ///< as read, valid or not
+  Scene scene;                     ///< the valid scene, rounded to single precision
   MeshSources sources;             ///< places of the bodies' elements in their files
   std::vector<std::string> notes;  ///< a sentence for each change against the file
   Vec3 origin{};                   ///< point that positions are relative to, in the coordinates of a mesh's file [m]
 };
 
-/// Reads a scene file with all of that, without validating the scene.
+/// Reads and validates a scene file in the same way, and returns all of that.
 SceneFile load_scene_file(const std::filesystem::path& file);
 
 /// Writes `folder`/NAME.json and for each body one PLY, or one MSH for a solid (positions and, if they differ, rest
