@@ -56,7 +56,7 @@ struct IterationMetrics {
 struct StepLedger {
   double energy_start = 0;                         ///< E at xᵗ with vᵗ
   double energy_guess = 0, energy_detection = 0;   ///< changes by guess rounds; by new contacts
-  double energy_sweep = 0, energy_truncation = 0;  ///< changes from x to proposals; from proposals to x
+  double energy_sweep = 0, energy_truncation = 0;  ///< changes from x to proposals; from these to the new x
   double energy_commit = 0;                        ///< change to the start of the next step
   Vec3 momentum_start, momentum_guess, momentum_sweep, momentum_truncation;  ///< Σ m v, and changes of it
   double motion_proposed = 0, motion_taken = 0;                  ///< by sweeps; the part that truncation took

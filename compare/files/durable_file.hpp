@@ -29,9 +29,9 @@ void reserve(const std::filesystem::path& path, std::size_t from, std::size_t to
 /// remain.
 void write_partial(const std::filesystem::path& path, std::string_view bytes);
 
-/// Syncs the file system of `folder` once, with everything that any program wrote there; then gives the files with
-/// partial names in that folder their names, and syncs the folder. A hundred files cost as much as one. Throws
-/// ResourceError.
+/// Syncs the file system of `folder` once, with everything that any program wrote there; then gives `files` of that
+/// folder, whose partial names were written, their names, and syncs the folder. A hundred files cost as much as one.
+/// Throws ResourceError.
 void commit_group(const std::filesystem::path& folder, std::span<const std::filesystem::path> files);
 
 /// Syncs `from`, renames it to `to` in the same folder, and syncs the folder. Throws ResourceError.

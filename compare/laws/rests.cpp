@@ -1,5 +1,5 @@
-// Tests rest. A floor of one triangle has no edge and no vertex near a body, so that each vertex of a sheet above it has one
-// contact with it, a spring k_c (r − d) along the normal with d its height. At rest these bear the weight,
+// Tests rest. A floor of one triangle has no edge and no vertex near a body, so that each vertex of a sheet above it
+// has one contact with it, a spring k_c (r − d) along the normal with d its height. At rest these bear the weight,
 //
 //     Σ k_c (r − d_v) = M g,
 //

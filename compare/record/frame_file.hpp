@@ -32,7 +32,7 @@ struct Frame {
 struct PackedFrame {
   std::int64_t step = 0;                      ///< defined as in Frame
   double time = 0;                            ///< [s]
-  std::int64_t checksum = 0;                  ///< CRC-32 of the file's comment above
+  std::int64_t checksum = 0;                  ///< CRC-32, defined in the head of this file
   PackedArray positions, velocities, bounds;  ///< arrays of Frame
   PackedArray orientations{};                 ///< without rows if there are none
 };

@@ -49,9 +49,9 @@ void expect_new_run_folder(const std::filesystem::path& folder);
 class RunWriter {
  public:
   /// Makes the folder and everything that a run has before its first step; status "running". An empty `started` is set
-  /// to now. Columns of steps.csv depend on the stage names, empty for a run without profile, and on the extra entries
-  /// "ledger", "yes", and "meetings". Throws InputError if the folder already holds a run, or files that a run would
-  /// overwrite.
+  /// to now. steps.csv gets columns for each stage name (none for a run without profile), for the extra entry "ledger"
+  /// if it is "yes", and for the extra entry "meetings". Throws InputError if the folder already holds a run, or files
+  /// that a run would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance,
             std::vector<std::string> stage_names);
   /// Continues the run of the folder after `step` of a checkpoint: rows of later steps are cut off, as they are written

@@ -15,7 +15,7 @@
 namespace ogc::compare {
 namespace {
 
-/// Nearly all numbers of 16 digits differ from a double's neighbours.
+/// Numbers with 16 digits distinguish nearly all doubles, so they are not rounded.
 constexpr std::size_t all_digits = 16;
 /// Numbers with fewer digits are typed by people, or exact: a rounded number has all digits of its format.
 constexpr std::size_t least_significant = 6, least_decimals = 4;
