@@ -1,5 +1,5 @@
-// Projects points of a plane along a coordinate axis on which the plane does not become a line, and points of a line
-// along two such axes: both are one-to-one, and dropping coordinates rounds nothing.
+// Projects points of a plane along a coordinate axis on which the plane does not become a line, which is one-to-one,
+// and compares points of a line coordinate by coordinate. Dropping coordinates rounds nothing.
 #include "compare/oracle/exact_intersection.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -9,8 +9,8 @@
 
 namespace ogc::compare {
 
-/// Asks whether x is in U_a, apart from its distance: the distance is a decision of its own (d < r, Alg. 1 line 7). A
-/// question names a face a of the mesh and the point x.
+/// The question whether x is in U_a, apart from its distance: the distance is a decision of its own (d < r, Alg. 1 line
+/// 7). It names a face a of the mesh and the point x.
 struct BlockQuestion {
   /// The kind of x, and the manifold of the blocks.
   enum class Kind : std::uint8_t {

@@ -9,8 +9,9 @@ namespace ogc::compare {
 /// D = x₁ − x₀; a quaternion q = (u, w) turns by R(q) v = v + 2 w (u × v) + 2 u × (u × v), and its director is R(q) e₃.
 ///
 /// E = k_s l/2 (‖D/l − R(q) e₃‖² + k ‖R(q)ᵀ D/l − R(qᵗ)ᵀ Dᵗ/l‖²), where q and qᵗ are given. With c = e₃ + k R(qᵗ)ᵀ
-/// Dᵗ/l: force −k_s ((1 + k) D/l − R(q) c) on x₁ and the opposite on x₀, the slope of E for unit quaternions and the
-/// exact answer for rounded ones, too; block k_s (1 + k)/l I, the exact second derivative. The question is about `own`.
+/// Dᵗ/l: force −k_s ((1 + k) D/l − R(q) c) on x₁ and the opposite on x₀, the slope of E for unit quaternions and, by
+/// definition, the answer for rounded ones; block k_s (1 + k)/l I, the exact second derivative. The question is about
+/// `own`.
 ///
 /// With `per_vertex` damping the energy is the elastic term alone. With its block B and moved = x − xᵗ of `own`, k B
 /// moved is subtracted from the force, and the block is (1 + k) B.

@@ -39,8 +39,8 @@ inline constexpr double spring_force_tolerance = 12;
 inline constexpr double spring_block_tolerance = 22;
 
 /// The same for a stitch, s > 0. The vector between its ends is a difference (1), another (1) times s (1), and theirs
-/// (1): 4, where it was 1; a length 7 (a square: 8 + 3, halved by the root, the root: 1; 6.5 together), where it was 3;
-/// and w with its product 2 more. The force: 12 + 3 + 4, 4 of the second length, 2: 25.
+/// (1): 4 instead of 1; a length 7 (a square: 8 + 3, halved by the root, the root: 1; 6.5 together) instead of 3; and w
+/// with its product 2 more. The force: 12 + 3 + 4, 4 of the second length, 2: 25.
 inline constexpr double stitch_force_tolerance = 25;
 /// Complement (6 + 4), k_s and its difference (2), n by both of its factors (2 · (4 + 7 + 1)), an outer product (2),
 /// two sums, w² (3) and its product: 44.
