@@ -39,7 +39,7 @@ class VertexSystems {
  public:
   /// The potential must outlive this.
   explicit VertexSystems(const Potential& potential, ContactBlocks blocks = ContactBlocks::majorised);
-  /// Lists the potential's contacts again. Must be called when they have changed.
+  /// Lists the potential's contacts again. To be called after they have changed.
   void read_contacts();
   /// Returns the system of a free vertex. Friction takes λ, n and w from the positions that are read.
   VertexSystem at(compare::Index vertex, const SweepView& x) const;

@@ -4,9 +4,10 @@
 //   ‖dx‖ ≤ (‖dx*‖ + φ/λ)/(1 − η/λ), λ the smallest λᵢ.
 //
 // Storing moves the proposal by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no farther
-// apart. Its effect on single directions depends on where the points lie, so for a vertex that may be cut the largest of
-// the three errors counts. A vertex that half-spaces cut, or may cut, must lie in its region, which the judge checks, and
-// where it does not slide, on the way from X_prev to its proposal: a point of a way is no farther off than the way's end.
+// apart. Its effect on single directions depends on where the points lie, so for a vertex that may be cut the largest
+// of the three errors counts. A vertex that half-spaces cut, or may cut, must lie in its region, which the judge
+// checks, and where it does not slide, on the way from X_prev to its proposal: a point of a way is no farther off than
+// the way's end.
 #include "reference/solvers/vertex_update.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Bounds are numbers that single precision holds exactly, so that rounding a setting can't take it out of its range.
+// Limits of settings are numbers that single precision holds exactly, so that rounding can't take a setting out of its
+// range.
 #include "reference/solvers/newton/settings.hpp"
 
 #include <array>
@@ -10,7 +11,7 @@ using enum compare::SettingKind;
 
 constexpr double most_count = 1 << 30;
 constexpr std::array<std::string_view, 3> projection_names{"none", "clamp", "absolute"};
-constexpr std::array<std::string_view, 2> truncation_names{"vertex", "pair"};  // by Truncation
+constexpr std::array<std::string_view, 2> truncation_names{"vertex", "pair"};  // in the order of Truncation
 
 constexpr std::array<compare::SettingInfo, 6> rows{{
     {"newton_iterations", "1", "Newton's iterations in a step at most", 1, most_count,
