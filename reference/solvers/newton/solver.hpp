@@ -119,7 +119,8 @@ class NewtonSolver : public StepSolver, private ContactStep {
   /// Factorises the matrix; with projected stencils where it is not positive definite without.
   bool factorized_definite();
   bool factorized();
-  /// Of the matrix at hand, which is factorised, and of what is left of it without friction and without contact.
+  /// Fills the condition numbers of the present matrix, which is factorised, and of its parts without friction and
+  /// without contact.
   void measure_condition(compare::IterationMetrics& row);
   void detect_with_planes();
   /// Moves prescribed vertices towards their targets, as far as planes allow; returns how many lag.
