@@ -1,4 +1,4 @@
-// A distance rounded down times γ_p is exact in double and decides nearly always; exact numbers are asked only where
+// A distance rounded down times γ_p is exact in double and decides nearly always; exact numbers are needed only where
 // b_v lies above that product.
 #include "reference/definitions/bound_check.hpp"
 
@@ -13,7 +13,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Not b ≤ γ d. A bound that is not a number is above, and so is an infinite one.
+/// Returns whether b ≤ γ d does not hold; true for a bound that is not a number or infinite.
 bool is_above(float b, const Margin& distance, float relaxation) {
   if (static_cast<double>(b) <= static_cast<double>(relaxation) * distance_below(distance)) return false;
   return !std::isfinite(b) || scaled_distance_less(distance, relaxation, b);
