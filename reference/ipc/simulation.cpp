@@ -58,7 +58,7 @@ class IpcSimulation : public compare::Simulation {
     return rows;
   }
 
-  /// Without bounds: IPC has none, so that its certificate says nothing.
+  /// Returns the state without bounds: IPC has none, so a certificate means nothing for it.
   compare::Snapshot snapshot() override {
     const std::vector<compare::Vec3f> position = rounded(position_);
     return {number_,
@@ -74,7 +74,7 @@ class IpcSimulation : public compare::Simulation {
             orientations_};
   }
 
-  /// To the last bit where the snapshot is one of ours; a frame holds what was rounded.
+  /// Restores to the last bit a snapshot that this solver made; a stored frame has rounded numbers.
   void restore(const compare::Snapshot& snapshot) override {
     if (snapshot.exact_positions.empty())
       return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities), snapshot.orientations);
