@@ -13,7 +13,7 @@ using compare::DampingForm;
 using compare::ForceAnswer;
 using compare::MembraneModel;
 
-/// The question in Input numbers. Corners are relative to the one asked about, the first.
+/// The question in Input numbers. Corners are relative to the own one, the first.
 struct Question {
   Inputs inputs;
   std::array<Triple<Input>, 3> corner, start;

@@ -11,7 +11,7 @@
 namespace ogc::reference {
 namespace {
 
-/// The elastic part in Input numbers; the corner asked about is the origin.
+/// The elastic part in Input numbers; the own corner is the origin.
 struct Elastic {
   Inputs inputs;
   std::array<Triple<Input>, 4> corner;

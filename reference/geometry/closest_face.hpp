@@ -22,8 +22,8 @@ TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point);
 /// Returns whether a feature is the closest one, or could be after a flip of grey conditions.
 Membership is_closest(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
-/// Sets bit k where feature k is, or could be, the closest one. Where the closest one is certain, no other region can
-/// begin: only its bit is set.
+/// Returns a mask: bit k is set where feature k is, or could be, the closest one. Where the closest one is certain, no
+/// other region can begin: only its bit is set.
 std::uint8_t possible_features(const Corners& triangle, const Vec3f& point);
 
 /// Returns whether the point lies near the boundary of a feature's region (compare::near_factor).

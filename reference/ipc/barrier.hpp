@@ -78,7 +78,7 @@ struct BarrierTermOf {
     return value;
   }
 
-  /// As for the terms of energies/stencil_terms.hpp.
+  /// Constants and shared kinds; see the head of energies/stencil_terms.hpp.
   auto numbers() { return std::tie(weight, rest_squared); }
   auto numbers() const { return std::tie(weight, rest_squared); }
   auto kinds() { return std::tie(form.kind, form.at); }

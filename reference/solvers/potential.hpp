@@ -104,7 +104,7 @@ class Potential {
   const RodSystem& rods() const { return elements<SegmentKind>(); }
   const State& target() const { return target_; }                                       ///< y of the step [m]
   double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
-  /// By unknown: m/h² of a vertex [N/m], the regularisation of a segment, which makes its twist definite [N m].
+  /// Returns by unknown: m/h² of a vertex [N/m], the regularisation of a segment, which makes its twist definite [N m].
   std::vector<double> inertias() const;
   /// Returns the number of free vertices.
   std::size_t free_count() const { return free_count_; }

@@ -131,7 +131,7 @@ class ReferenceStep {
     volume_contacts_ = event.volumes.contacts;
   }
 
-  /// For the guess loop, where x is X_prev.
+  /// Returns whether v is scaled instead of sliding; for the guess loop, where x is X_prev.
   bool does_not_slide(std::size_t v) const { return exclusions_.groups[v] > 0 || !traits_of(settings_.bounds).slides; }
 
   /// Returns where v ends on its way to the proposal; adds a truncation to `cut`.

@@ -191,7 +191,7 @@ VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const
   for (const Term& term : terms.terms)
     combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
   if (combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
-  // Where the bound hides which of them an answer has chosen, the cut may be that of any.
+  // Where the bound hides which combination an answer has chosen, the cut may be that of any of them.
   bool cuts_differ = false;
   while (advance(choice, terms)) {
     const VertexUpdate other = update_with(system_of(terms, vertex, choice), vertex, answer);

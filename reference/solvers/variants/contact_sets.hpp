@@ -12,8 +12,8 @@ namespace ogc::reference {
 
 /// The contacts of a set.
 struct ListedContacts {
-  std::vector<compare::VertexFacetContact> vertex_facet;  ///< by vertex and triangle
-  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< by the edges that generate them
+  std::vector<compare::VertexFacetContact> vertex_facet;  ///< sorted by vertex and triangle
+  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< sorted by the edges that generate them
 };
 
 /// Returns the contacts nearer than in.contact_radius; in.query_radius is not read. `body`: by vertex. Throws
