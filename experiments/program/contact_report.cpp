@@ -19,7 +19,7 @@ using compare::FaceKind;
 using compare::Topology;
 using compare::Vec3f;
 
-/// The cases of closest_face whose distances belong to the contacts.
+/// Returns the cases of closest_face whose distances are those of the contacts.
 compare::ClosestFaceIn vertex_facet_cases(const ContactReport& report, const std::vector<Vec3f>& positions) {
   compare::ClosestFaceIn cases;
   for (const compare::VertexFacetContact& contact : report.vertex_facet.contacts) {
@@ -98,7 +98,7 @@ std::string name(const Face& face, const Topology& topology, const compare::Elem
   return {};
 }
 
-/// How many distances lie in each tenth of r_q, and how many primitives have nothing within it.
+/// Returns a histogram of the distances in tenths of r_q, with the number of primitives that have nothing within it.
 std::string distribution(const std::vector<float>& distances, float query_radius) {
   constexpr std::size_t parts = 10;
   std::array<std::size_t, parts + 1> counts{};
@@ -117,7 +117,7 @@ std::string distribution(const std::vector<float>& distances, float query_radius
   return table(rows, 2);
 }
 
-/// The closest pairs first, at most `limit`.
+/// Returns the closest pairs, at most `limit`.
 template <class Contacts, class Line>
 std::string closest(const Contacts& contacts, const std::vector<double>& distances, Line line, std::size_t limit = 5) {
   std::vector<std::size_t> order(contacts.size());

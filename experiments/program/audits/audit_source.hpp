@@ -60,9 +60,9 @@ class AuditSource {
 /// Says what is audited and how.
 struct AuditRequest {
   std::vector<std::string>
-      paths;  ///< a run folder, a folder of meshes, meshes, patterns of them, or one .npz, .npy or .pc2
-  std::string topology;         ///< mesh with the triangles of files that hold positions alone; may be empty
-  compare::MeshOptions meshes;  ///< how mesh files are read
+      paths;             ///< a run folder, a folder of meshes, meshes, patterns of them, or one .npz, .npy or .pc2
+  std::string topology;  ///< mesh with the triangles of files that hold positions alone; may be empty
+  compare::MeshOptions meshes;                        ///< how mesh files are read
   std::size_t limit = compare::AuditOptions{}.limit;  ///< intersections listed for each state
 };
 

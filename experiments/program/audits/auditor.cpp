@@ -13,8 +13,8 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Two states wait while a third is judged: the simulation is never idle for want of a buffer, and memory stays a few
-/// states.
+/// Two states wait while a third is judged. So the simulation never waits for a buffer without need, and memory holds a
+/// few states only.
 constexpr std::size_t most_waiting = 2;
 
 constexpr std::array<std::string_view, 4> audit_names{"every", "frame", "end", "off"};  // by AuditMode

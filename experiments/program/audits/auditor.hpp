@@ -66,7 +66,7 @@ class StateJudge {
   bool has_volumes() const { return volumes_.has_volumes(); }
   /// Returns in words how many vertices are inside volumes, the deepest one, and how many edges meet a surface.
   std::string describe(const compare::VolumePenetration& penetration) const;
-  /// A state with the certificate of the last detection before it.
+  /// Judges a state together with the certificate since its last detection.
   Verdict judge(const compare::Snapshot& snapshot) const;
   /// Returns one line for each violation, which names the primitives; empty if there is none.
   std::string describe(const Verdict& verdict) const;
