@@ -1,5 +1,5 @@
-// Contact sets and conservative bounds for your own solver: two triangles, one 3 mm above the other, positions in,
-// everything for one step out.
+// Computes contact sets and conservative bounds for a solver of your own. The input is two triangles, one 3 mm above
+// the other; the output is everything that one step needs.
 #include <cstdio>
 #include <vector>
 
