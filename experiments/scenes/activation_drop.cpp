@@ -1,5 +1,5 @@
-// Numbers: the paper's Table 1, a radius as in cloth_on_sphere. Iterations: as many as a step may need, since each ends
-// at its tolerance.
+// Numbers are the paper's Table 1, with the radius of cloth_on_sphere. Iterations: as many as a step may need, because
+// each step ends at its tolerance.
 #include "experiments/scenes/activation_drop.hpp"
 
 #include "experiments/scenes/cloth_on_sphere.hpp"
