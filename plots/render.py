@@ -35,7 +35,7 @@ def picture(bodies, camera, size=(640, 480)):
                   else {"scalars": front, "rgb": True})
         plotter.add_mesh(mesh, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1, **colour)
     extent = np.linalg.norm(np.ptp(np.concatenate([points for points, *_ in bodies]), axis=0))
-    # a near camera sees a part of the scene; the depth of corners is limited to what it sees
+    # a near camera sees a part of the scene; the scale of ambient occlusion is limited to that part
     extent = min(extent, 2 * np.linalg.norm(np.subtract(camera[0], camera[1])))
     plotter.enable_ssao(radius=0.05 * extent, bias=0.001 * extent, kernel_size=64, blur=True)
     plotter.enable_anti_aliasing("ssaa")

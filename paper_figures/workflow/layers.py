@@ -32,12 +32,12 @@ MARGIN = 0.05  # [m] that the ground reaches beyond the sheets
 
 
 def vertices(side):
-    """Of all sheets."""
+    """Returns the number of vertices of all sheets."""
     return LAYERS * side * side
 
 
 def positions(side, spacing, height, shift=(0, 0)):
-    """x, y, z of a square grid of side × side vertices about the origin, row by row."""
+    """Returns x, y, z of a square grid of side × side vertices about the origin, row by row."""
     at = [(i - (side - 1) / 2) * spacing for i in range(side)]
     result = array("d")
     for x in at:
@@ -47,12 +47,12 @@ def positions(side, spacing, height, shift=(0, 0)):
 
 
 def face(a, b, c):
-    """As binary PLY has it."""
+    """Returns a face in binary PLY."""
     return struct.pack("<Biii", 3, a, b, c)
 
 
 def triangles(side):
-    """Two a cell, with diagonals that alternate, as the faces of a binary PLY file."""
+    """Returns two triangles a cell, with alternating diagonals, as the faces of a binary PLY file."""
     result = []
     for i in range(side - 1):
         for j in range(side - 1):
@@ -70,13 +70,13 @@ def write_mesh(path, points, faces):
 
 
 def shift_of(layer):
-    """x, z [m] from the layer's number alone: normal deviates, as sums of twelve uniforms."""
+    """Returns x, z [m] from the layer's number alone: normal deviates, as sums of twelve uniforms."""
     uniform = random.Random(layer).random
     return [SHIFT * (sum(uniform() for _ in range(12)) - 6) for _ in range(2)]
 
 
 def template(program, folder):
-    """The scene file of fifty_layers, as the program writes it."""
+    """Returns the scene file of fifty_layers, as the program writes it."""
     subprocess.run([str(program), "scenes", "fifty_layers", "--scale", "smoke", "--write", str(folder)], check=True,
                    stdout=subprocess.DEVNULL)
     return json.loads((folder / "fifty_layers.json").read_text())
@@ -107,7 +107,7 @@ def write(program, folder, side, steps):
 
 @dataclass(frozen=True)
 class Stack:
-    """The scene of so many steps as a file below the folder of the runs (jobs.Job)."""
+    """Holds the scene of so many steps, written to a file below the folder of the runs (jobs.Job)."""
 
     side: int
     steps: int
@@ -117,7 +117,7 @@ class Stack:
         return f"scenes/{self.side}/scene.json"
 
     def write(self, program, root):
-        """Where it is missing."""
+        """Writes the scene if it is missing."""
         path = root / self.path
         if not path.is_file():
             write(program, path.parent, self.side, self.steps)
