@@ -18,7 +18,7 @@ DISTANCES = {"largest_distance [m]": "largest distance of a vertex", "rms_distan
 
 
 def row_of(folder, scene):
-    """The table's row of two finished runs of one step."""
+    """Returns the table's row of two finished runs of one step."""
     by_vbd, by_newton = (Run(folder / f"{scene}_{solver}") for solver in ("vbd", "newton"))
     ends = [run.frame(run.frames[-1]).positions.astype(float) for run in (by_vbd, by_newton)]
     apart = np.linalg.norm(ends[0] - ends[1], axis=1)

@@ -56,7 +56,7 @@ def options_of_figure(description, scales):
 
 
 class Limit:
-    """Is a moment on the clock, not after that of `within`; without seconds it never comes."""
+    """Holds a moment on the clock, not after that of `within`; without seconds it never comes."""
 
     def __init__(self, seconds=None, within=None):
         self.end = time.monotonic() + seconds if seconds is not None else math.inf

@@ -200,8 +200,8 @@ def _sweep(recipe, scale, backend, ogc, python, plots):
 
 
 def _table(recipe, scale, backend, ogc, python):
-    """Returns the step of a row of Table 1. Its output is the row's last run: the others continue where they were
-    interrupted."""
+    """Returns the steps of Table 1. The output of a row's step is the row's last run: the others continue where they
+    were interrupted."""
     here, scripts = recipe.folder(scale, backend), tuple(str(HERE / name) for name in RUNS)
     runner = (python, "-m", "paper_figures.workflow.runner", "--program", ogc, "--out", ".", "--scale", scale)
     rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100/run.json", (PROGRAM, *scripts),
@@ -304,7 +304,7 @@ def arguments():
 
 
 def asked(options):
-    """Returns lines for the options that main only prints. Throws RecipeError."""
+    """Carries out the options that end main before any step, and returns the lines to print. Throws RecipeError."""
     book, scale, backend = load(), options.scale, options.backend
     if options.stamp:
         program_stamp(options.runs, options.stamp)

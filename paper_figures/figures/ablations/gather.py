@@ -18,7 +18,7 @@ NUMBERS = ("median", "smallest", "largest")
 
 
 def told(rows):
-    """Rows of one study's scene whose metric differs between any two runs."""
+    """Returns the rows of one study's scene whose metric differs between any two runs."""
     values = {}
     for row in rows:
         values.setdefault(row["metric"], set()).update(row[name] for name in NUMBERS if row[name] not in ("", "nan"))
@@ -26,7 +26,7 @@ def told(rows):
 
 
 def by_scene(path):
-    """(study, scene) -> rows of a table, compressed or not."""
+    """Returns (study, scene) -> rows of a table, compressed or not."""
     data, scenes = path.read_bytes(), {}
     for row in csv.DictReader(io.StringIO((gzip.decompress(data) if path.suffix == ".gz" else data).decode())):
         scenes.setdefault((row["study"], row["scene"]), []).append(row)

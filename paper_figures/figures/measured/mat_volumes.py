@@ -22,13 +22,13 @@ from plots.scene_figure import bodies_of
 NAME = "mat_volumes"
 ROWS = {commands.MAT_VOLUMES: "volume", commands.MAT: "balls", commands.MAT_PLANES: "planes"}
 SHARES = (25, 50, 75, 100)  # of the run [%]
-EARLY = 2.75  # [s]: until then few vertices are inside
+EARLY = 2.75  # [s]: before that few vertices are inside
 FROM_AUDIT = {"most vertices inside [1]": "most_vertices_inside", "deepest [m]": "deepest_m",
               "most edges through [1]": "most_edges_meeting_volumes"}
 
 
 def runs_of(options):
-    """row -> Run. Throws RunError."""
+    """Returns row -> Run. Throws RunError."""
     try:
         for job in () if options.made else commands.mat_as_volume(options.scale, options.backend):
             job.make(options.ogc, options.folder, Limit(), True)
@@ -57,7 +57,7 @@ def row_of(kind, run):
 
 
 def frame_at(run, share):
-    """The stored state that is nearest to so many hundredths of the run's steps."""
+    """Returns the stored state that is nearest to so many hundredths of the run's steps."""
     wanted = share * int(run.column("step")[-1]) / 100
     return min(run.frames, key=lambda path: abs(int(path.stem.removeprefix("frame_")) - wanted))
 
