@@ -1,5 +1,6 @@
-"""Draws what `ogc ablate` came to: a panel a metric, a row a setting with the median of its runs and their range.
-Usage: python3 -m plots.ablation FOLDER [OUT.png]; the folder holds ablation_medians.csv, the picture goes there."""
+"""Draws the results of `ogc ablate`: a panel for each metric, a row for each setting with the median of its runs and
+their range. Usage: python3 -m plots.ablation FOLDER [OUT.png]; the folder holds ablation_medians.csv, the picture is
+written there."""
 
 import csv
 import math

@@ -3,18 +3,18 @@
 
 Every comparison, sum, product, sign, index, coordinate, number and condition of the given files is rewritten to one
 that can be switched (tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same
-cases, whose exact answers are found once; what the judge lets through meets the unit tests of these files. Each stage
-and each test may take ten times what it takes without a mutant; one on which something takes longer, while all else is
-right, counts as ten times slower.
+cases, whose exact answers are computed once; mutants that the judge does not find go through the unit tests of these
+files. Each stage and each test may take ten times as long as without a mutant; a mutant on which something takes
+longer, while all else is right, counts as ten times slower.
 
     tests/mutants.py BUILD [--of kernels|stages] [--files a,b,…] [--stages a,b,…] [--cases N] [--limit N]
                      [--minutes M] [--jobs J] [--only IDS] [--since COMMIT] [--flags F] [--out FILE]
     tests/mutants.py BUILD --keep DIR …, and later --answers FILE …
 
 BUILD is a folder in which `ogc` was built by ninja. `--of kernels` are fast/kernels, `--of stages` fast/stages and
-fast/cpu. With --keep the program is left in DIR, with a command for a machine with more cores, whose output --answers
-takes. Not a part of tests/run: it takes minutes. FILE gets one line a mutant; to standard output go those that survive,
-are slow or not decided.
+fast/cpu. With --keep the program is left in DIR, with a command for a machine with more cores; --answers reads its
+output. It is not a part of tests/run, because it takes minutes. FILE gets one line for each mutant; standard output
+gets those that survive, are slow or not decided.
 """
 
 import argparse

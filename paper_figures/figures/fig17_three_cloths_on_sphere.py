@@ -1,14 +1,14 @@
 """Fig. 17: the residual of Eq. 29 over iterations and over time, one step of three cloths on a sphere, by VBD in single
 and in double precision and by Newton.
 
-All start from the same state, that of VBD in single precision after the step before, whose steps were all solved to
-convergence (γ_e = 0); curves that name another step start from the state before that one. Contacts are detected again
-when one vertex in a hundred was cut (γ_e of the paper), or as soon as a single one was (γ_e = 0). With γ_e = 0 one
-curve has a hundredth of the printed ε_v, which may be in cm/s. Curves have the contacts of the solver's last detection
-(stale), as in the paper; the table adds the residual with contacts detected at the end (fresh). Newton's curve has the
-friction of its solve, too: it jumps where friction is lagged anew. --start-iterations gives the steps before fewer
-iterations. Curves can be left out (--without); picture and table name them, and `accept` takes them with --incomplete
-only.
+All start from the same state, that of VBD in single precision after the step before. Every step up to that state was
+solved to convergence (γ_e = 0); curves that name another step start from the state before that one. Contacts are
+detected again after one vertex in a hundred was cut (γ_e of the paper), or after a single one (γ_e = 0). With γ_e = 0
+one curve has a hundredth of the printed ε_v, which may be in cm/s. Curves have the contacts of the solver's last
+detection (stale), as in the paper; the table adds the residual with contacts detected at the end (fresh). Newton's
+curve also has the friction of its solve: it jumps where friction is lagged anew. --start-iterations gives the steps
+before fewer iterations. Curves can be left out (--without); picture and table name them, and `accept` takes them only
+with --incomplete.
 """
 
 import argparse

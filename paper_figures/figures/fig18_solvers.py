@@ -1,6 +1,6 @@
 """Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames
-of the first run, and the ratios beside the paper's, each with the threads and devices that it is of. VBD-OGC on CUDA is
-a fourth curve where its run lies in the folder (or with --cuda).
+of the first run, and the ratios beside the paper's, each with its threads and devices. VBD-OGC on CUDA is a fourth
+curve if its run lies in the folder (or with --cuda).
 """
 
 import json

@@ -2,8 +2,8 @@
 over the same steps; windows on the CPU beside IPC's; how far one step ends from Newton's converged one; lag of the
 ends.
 
-GIPC's times were measured on one H200, settings as far as they were kept (paper_figures/results/h200/README.md), and
-end after 2,303 steps: no curve and no average goes beyond them, and below the paper's size there are none.
+GIPC's times were measured on one H200; its known settings are in paper_figures/results/h200/README.md. They end after
+2,303 steps: no curve and no average extends beyond them, and below the paper's size there are none.
 """
 
 import csv

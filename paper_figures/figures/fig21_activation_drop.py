@@ -1,16 +1,16 @@
 """Fig. 21 and the ablation that the paper does not have: a cloth falls onto a sphere and the ground, 40 steps solved to
 convergence with each contact energy.
 
-All five energies are solved with Newton's method; one that does not converge (Eq. 19 as printed has a force that
-jumps at τ) keeps its row. Step 40 is then taken again from each energy's own state 39: by Newton with the condition
-number of each matrix, of it without friction and without contact, and, for the paper's two energies, by VBD in double
-and single precision, whose convergence is the paper's panel c. Both energies' states are compared vertex by vertex.
+Newton's method solves all five energies; one that does not converge (Eq. 19 as printed has a force that jumps at τ)
+keeps its row. Step 40 is then repeated from each energy's own state 39: by Newton with the condition number of each
+matrix, of it without friction and without contact, and, for the paper's two energies, by VBD in double and single
+precision, whose convergence is the paper's panel c. The states of both energies are compared vertex by vertex.
 
-Two choices are varied that the paper leaves open. κ: IPC's energy is −κ k_c (d − r)² ln(d/r). Weak contact: k_c so
-small that about half of OGC's contacts push with more than k_c r/2, where IPC's energy is the stiffest beside OGC's
-at equal force. How hard contacts push, and at how many IPC's is the softer energy there, is counted at each last
-state. With --without all but the paper's two at κ = 1 can be left out; picture and table then name what was not run,
-and `accept` takes them with --incomplete only.
+Two choices that the paper leaves open are varied. κ: IPC's energy is −κ k_c (d − r)² ln(d/r). Weak contact: k_c so
+small that about half of OGC's contacts push with more than k_c r/2, where IPC's energy is the stiffest beside OGC's at
+equal force. Each last state gives the forces of contacts, and the number of contacts at which IPC's is the softer
+energy. With --without all but the paper's two at κ = 1 can be left out; picture and table then name what was not run,
+and `accept` takes them only with --incomplete.
 """
 
 import argparse

@@ -1,9 +1,9 @@
 """Table 1, rows of cloth, of the mat and of yarn: ours beside the paper's, as CSV, Markdown and HTML, from the runs
 that the runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
 
-Average and maximum are of whole steps as steps.csv times them. A step that was repeated because a list grew is in the
-average, not in the maximum, and counted. The CPU's average is that of its windows, each with the same weight. With
-several whole runs each number is the median of theirs. The standard library is enough.
+Average and maximum are those of whole steps as timed in steps.csv. A step that was repeated because a list grew counts
+in the average, not in the maximum, and is listed. The CPU's average is that of its windows with equal weights. With
+several whole runs each number is their median. The standard library is enough.
 """
 
 import argparse

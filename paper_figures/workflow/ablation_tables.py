@@ -1,9 +1,9 @@
 """The tables of ablations.md, one a study, from the accepted medians and ranges: a row a scene and point, of the
-largest size that the scene was run at. A number that is bold lies apart from the first point's: every run of one is
+largest size at which the scene was run. A bold number lies apart from that of the first point: every run of one is
 above, or below, every run of the other.
 
-Usage: python3 -m paper_figures.workflow.ablation_tables [--write]: says whether the document's tables are those of the
-files, exit status 1 where they are not, or writes them. The standard library is enough.
+Usage: python3 -m paper_figures.workflow.ablation_tables [--write]: checks whether the document's tables are those of
+the files, with exit status 1 if they are not, or writes them. The standard library is enough.
 """
 
 import argparse

@@ -1,10 +1,10 @@
 """Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with
-a row in provenance.csv (command, program, device, digest) and the time it took in durations.csv. `experiments/reproduce
-… --accept MACHINE` calls it.
+a row in provenance.csv (command, program, device, digest) and its duration in durations.csv. `experiments/reproduce …
+--accept MACHINE` calls it.
 
-What is kept is small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
+The kept files are small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
 
-Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of
 runs of several commits.
 """
 

@@ -1,10 +1,10 @@
 """Audits the stored states of a finished run exactly, after the run: what the audit takes is no part of the run's time.
-It goes through them in rounds, so that what is known at any time is spread evenly over the run, and keeps what each
-round found. Where time runs out it stops, and goes on with the others when it is called again.
+It audits them in rounds, so that the audited states are spread evenly over the run at any time, and keeps the findings
+of each round. If time runs out it stops, and continues when it is called again.
 
-Usage: python3 -m paper_figures.workflow.audited PROGRAM RUN [--seconds N]; RUN/audit.json says what was found. Exit
-status 0: no state has an intersection, 1: one has, 2: the run can't be audited, 75: time ran out. Python's own library
-is enough.
+Usage: python3 -m paper_figures.workflow.audited PROGRAM RUN [--seconds N]; RUN/audit.json has the findings. Exit status
+0: no state has an intersection, 1: one has, 2: the run can't be audited, 75: time ran out. Needs only Python's own
+library.
 """
 
 import argparse

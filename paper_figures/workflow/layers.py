@@ -1,16 +1,16 @@
-"""Scenes of any size at one contact density, as scene files: LAYERS square sheets of `fifty_layers` (its spacing,
-radius and materials), pressed together between a fixed ground and a fixed lid, each sheet as large as the number of its
-vertices asks for.
+"""Writes scenes of any size at one contact density as scene files: LAYERS square sheets of `fifty_layers` (its spacing,
+radius and materials), pressed together between a fixed ground and a fixed lid. The number of vertices determines the
+size of the sheets.
 
-Why the density is the same: two sheets differ in size by rows and columns added at the rim, of the same cells. Each
-layer's shift in the plane is drawn with the layer's number alone, so that an inner vertex meets the same neighbours at
-the same distances whatever the size, in the first step and, because a step's forces are local, in later ones. Only the
-rim has fewer contacts: 4 / side of the vertices. The measured density stands in growth.py's table.
+The density is the same for all sizes: two sheets differ in size by rows and columns of the same cells added at the rim.
+Each layer's shift in the plane is drawn with the layer's number alone, so that an inner vertex meets the same
+neighbours at the same distances whatever the size, in the first step and, because a step's forces are local, in later
+ones. Only the rim has fewer contacts: 4 / side of the vertices. The measured density stands in growth.py's table.
 
 Sheets lie 0.9 r apart, so that all touch their neighbours from the first step on; ground and lid keep them there. With
-the scene's own time step of 1/1200 s such a stack cuts one vertex in a hundred in every iteration (k_c exceeds m/h²,
-fast/PERFORMANCE.md) and detects 41 times a step; with 1/5000 s it detects once and keeps its contacts, which is what a
-growth over the number of vertices alone needs. Python's own library is enough.
+the scene's own time step of 1/1200 s a stack like that cuts one vertex in a hundred in every iteration (k_c exceeds
+m/h², fast/PERFORMANCE.md) and detects 41 times a step; with 1/5000 s it detects once and keeps its contacts, which is
+sufficient for the growth over the number of vertices. Needs only Python's own library.
 """
 
 import json

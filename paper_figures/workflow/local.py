@@ -1,16 +1,16 @@
 """Does the steps of figures that are due, on this machine, and says in our own words how far it is: which figure, which
-step of how many, how long yet. Figures go on side by side as far as there are cores; a step that uses all of them is
-alone.
+step of how many, and the time left. Figures run at the same time as far as there are cores; a step that uses all of
+them runs alone.
 
-A step is due if its output is missing, if it was interrupted, if its command is another than the one that made the
-output, or if an input is newer or made anew. Interrupted and called again, what is finished is kept. A figure whose
-step fails stops there; the others go on.
+A step is due if its output is missing, if it was interrupted, if its command is not the one that made the output, or if
+an input is newer or made again. When it is interrupted and called again, finished steps are kept. A figure whose step
+fails stops there; the others continue.
 
 Usage: python3 -m paper_figures.workflow.local RUNS OGC SCALE BACKEND [FIGURE …] [--jobs N] [--dry-run]. Exit status: 0
 all is done, 1 a step failed, 130 it was interrupted.
 
-Times are those that a step took here before, or the figure's on another machine (results/*/durations.csv), or follow
-from how far the running program says it is in its log.
+A time is that of the step here before, or of the figure on another machine (results/*/durations.csv), or an estimate
+from the progress in the log of the running program.
 """
 
 import argparse

@@ -1,9 +1,9 @@
 """The report: index.html with every figure, table and claim, a page a scene with its curves, and one of the ablations;
-each file holds its pictures and style itself and needs no network.
+each file contains its pictures and style and needs no network.
 
-It is made of claims, accepted results and recipes, and never edited: the verdicts in it are those of verdicts.py, which
-a test holds it to. Runs that were just made stand beside the accepted ones: their numbers, judged where they are of the
-size that the claim needs, their pictures and their curves.
+It is generated from claims, accepted results and recipes, and never edited: its verdicts are those of verdicts.py,
+which a test checks. New runs are shown beside the accepted ones: their numbers, judged if they have the size that the
+claim needs, their pictures and their curves.
 """
 
 import argparse

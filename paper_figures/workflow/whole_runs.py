@@ -2,8 +2,8 @@
 time of a step goes, how a run's first quarter differs from its last, how many states were audited.
 
 Usage: python3 -m paper_figures.workflow.whole_runs MACHINE [--write]. `--write` keeps results/MACHINE/whole_runs.csv;
-the standard library is enough. What a detection and contacts cost stands in the manifests of thinned runs (`accept`
-computes it); of a run whose rows are all kept it needs numpy.
+the standard library is enough. The costs of a detection and of contacts are in the manifests of thinned runs (`accept`
+computes them); for a run with all rows they need numpy.
 """
 
 import argparse

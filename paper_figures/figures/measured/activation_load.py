@@ -1,13 +1,13 @@
 """§5.5.3's two energies held side by side in three ways: at one k_c, at one curvature, at one smallest distance; under
 three loads. Runs, tables and picture.
 
-Fig. 21's cloth falls with each energy; its last step is solved again from its own state before it by VBD in double,
-and the iterations to three residuals are counted. IPC's energy is −κ k_c (d − r)² ln(d/r) with κ from 0.1 to 40. The
-load of a row is the median force of OGC's contacts at the end, in units of k_c r. From OGC's row and those of IPC's
+Fig. 21's cloth falls with each energy. VBD in double then solves its last step again from the energy's own state before
+it, and the iterations to three residuals are counted. IPC's energy is −κ k_c (d − r)² ln(d/r) with κ from 0.1 to 40.
+The load of a row is the median force of OGC's contacts at the end, in units of k_c r. From OGC's row and those of IPC's
 energy follow, by interpolation over ln κ, the κ at which both keep the same smallest distance, and the κ at which the
 logarithm's curvature at the force of the load is that of OGC's, which is k_c in the quadratic stage and f²/(k_c r²/4)
-in the other; under a high load there is no such κ, and the table then says by how much the logarithm is the stiffer at
-least.
+in the other. Under a high load this κ does not exist, and the table then gives the least ratio of the logarithm's
+curvature to OGC's.
 """
 
 import math

@@ -1,11 +1,11 @@
 """A sheet on a slope for ten seconds, with friction below, at and above the tangent of the slope's angle, for three
-ε_v: how far it comes, and how fast it creeps; and what few iterations and a stiff contact make of it. Runs, table and
+ε_v: how far it slides, and how fast it creeps; and the effect of few iterations and of a stiff contact. Runs, table and
 picture.
 
 Friction grows over speeds up to ε_v, so nothing ever sticks: a sheet that static friction would hold creeps at the
 speed at which friction carries it. With f(x) = 2x − x² of Eq. 24 that is v = ε_v (1 − √(1 − tan α/μ)) for μ ≥ tan α;
-below it the sheet falls with g (sin α − μ cos α). What is measured is the mean speed of the sheet's centre over the
-second half of the time.
+below it the sheet accelerates by g (sin α − μ cos α). The measured number is the mean speed of the sheet's centre over
+the second half of the time.
 """
 
 import json

@@ -1,9 +1,9 @@
 """What falls fast beside something near (Fig. 22b): two triangles side by side, 10 mm apart, and a sheet beside a
-sheet, with each kind of bounds and by IPC. How far they come in 0.2 s, over the way of a free fall, and how many
-detections a step takes. Runs, table and picture.
+sheet, with each kind of bounds and by IPC. How far they fall in 0.2 s, relative to a free fall, and how many detections
+a step takes. Runs, table and picture.
 
-Nothing ever touches, so what lacks of the way is what truncation took. A sheet is limited by its own mesh, too: a
-vertex's nearest facets that do not hold it are an edge away.
+Nothing ever touches, so the missing distance is what truncation took. A sheet is limited by its own mesh, too: the
+nearest facets without a vertex are an edge away from it.
 """
 
 import json

@@ -1,7 +1,7 @@
 """Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads
 of the CPU: runs, table and picture. Not in the paper.
 
-Timed are the steps from FIRST on; those before let lists grow and contacts settle. The exponent is the slope of a
+The steps from FIRST on are timed; during those before, lists grow and contacts settle. The exponent is the slope of a
 straight line through the logarithms of the medians, by least squares, over all sizes and over the larger half.
 """
 

@@ -3,7 +3,7 @@ still: `twist`, `fifty_layers` and a sheet that slides without friction, by ball
 picture; reference/ledger.md defines every column. The first two begin with a state of a plain run, where truncation
 takes most. Not in the paper.
 
-Runs and table need Python's own library alone; the picture needs matplotlib and is left out with --no-picture.
+Runs and table need only Python's own library; the picture needs matplotlib and is left out with --no-picture.
 """
 
 import csv

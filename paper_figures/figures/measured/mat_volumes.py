@@ -1,8 +1,10 @@
 """The twisted mat as a volume (§3.9's faster variant: what enters is pushed out again) beside the mat that bounds keep
-from entering itself: time a step, who is inside and how deep, and the mat at four times. Runs, table and picture.
+from entering itself: time a step, the vertices inside and their depth, and the mat at four times. Runs, table and
+picture.
 
-The mat is one body of tetrahedra: as a surface its boundary has balls or planes, as a volume it has no bound, and its
-boundary vertices ask its own tetrahedra. What is inside is the audit's, of states every sixth of a second at `paper`.
+The mat is one body of tetrahedra. As a surface its boundary has balls or planes; as a volume it has no bound, and its
+boundary vertices are tested against its own tetrahedra. The audit counts what is inside, in states every sixth of a
+second at `paper`.
 """
 
 import sys

@@ -1,9 +1,9 @@
 """Time to quality: how long a step takes until its residual (Eq. 29) has fallen to a tenth and to a hundredth of the
-step's start, with the paper's bounds and with planes, from states of Table 1's whole runs. A step of many times the
-scene's iterations is watched; the time up to the k-th of n iterations is k/n of the median of five such steps, so that
-the guess loop and detections are spread over all of them. Not in the paper.
+step's start, with the paper's bounds and with planes, from states of Table 1's whole runs. The residual of a step with
+many times the scene's iterations is measured after each iteration. The time up to the k-th of n iterations is k/n of
+the median of five such steps, so that the guess loop and detections are spread over all of them. Not in the paper.
 
-Runs and table need Python's own library alone; the picture needs matplotlib and is left out with --no-picture.
+Runs and table need only Python's own library; the picture needs matplotlib and is left out with --no-picture.
 """
 
 import csv

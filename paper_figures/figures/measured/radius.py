@@ -1,13 +1,14 @@
 """Three contact sets at five radii (§2.2, Fig. 2): a level sheet that its weight presses on a level plate with other
-vertices, for a hundred steps. How much of the force goes sideways, how rough the sheet becomes, how the force swings
-and how many contacts it takes. Runs, table and picture.
+vertices, for a hundred steps. How much of the force is tangential, how rough the sheet becomes, how the force
+oscillates and how many contacts there are. Runs, table and picture.
 
 All sets have one activation and one k_c, with which a vertex that bears its own weight by one contact rests at 0.9 r.
 Tangential share: Σ‖f_t‖ / Σ‖f‖ over the sheet's vertices at the start, 0.95 r above the plate, of the sum of the
-contact forces on each, computed here of closest points; the method's contacts are those of `ogc contacts`. At the
-sheet's rim the method pushes outwards what lies beside it, so that the share is said of inner vertices, too.
+contact forces on each, computed here from closest points; the method's contacts are those of `ogc contacts`. At the
+sheet's rim the method pushes outwards what lies beside it, so that the share is also given for inner vertices.
 Roughness: the root mean square of the Laplacian of heights (four neighbours) over r at the end. Oscillation: standard
-deviation over mean of the force on the sheet in the last twenty steps, which follows from its centre's acceleration.
+deviation over mean of the force on the sheet in the last twenty steps, which follows from the acceleration of its
+centre.
 """
 
 import json

@@ -1,10 +1,10 @@
 """Fig. 15 and 16: a knitted cloth of one yarn is pulled apart, or twisted and let go, by OGC and by the same sweep with
-a quadratic force and without bounds (the baseline, the paper's "Newton"). Pictures at four moments, meetings of
-threads and mean tension over time; runs, table, picture and movie.
+a quadratic force and without bounds (the baseline, the paper's "Newton"). Pictures at four moments, meetings of threads
+and mean tension over time; runs, table, picture and movie.
 
-Fig. 15's number is the tension at the first meeting over k_c r, the most that a contact of the quadratic force
-carries. Fig. 16's are the meetings, how far each vertex of the twisted cloth is from its start, and how far that of the
-released cloth is from the cloth that hangs as it is. A step whose way was not asked for meetings counts for nothing.
+Fig. 15's number is the tension at the first meeting over k_c r, the largest force of a contact with the quadratic
+energy. Fig. 16's are the meetings, the distance of each vertex of the twisted cloth from its start, and that of the
+released cloth from the cloth that hangs untwisted. Steps whose meetings were not counted do not enter any number.
 """
 
 import argparse

@@ -1,14 +1,15 @@
 """Fig. 16's last claim: how far each vertex of the cloth that was twisted and let go is from the cloth that hangs as it
 is, both at rest. Runs, table and picture.
 
-A cloth is at rest where in the last second half of its vertices have come no farther than ε_v takes them: friction of
-two threads grows with their speed up to ε_v and holds them below it, so that what still moves creeps. Speeds of one
-step do not tell: contacts that come and go every few steps shake threads by micrometres. No damping decides where a
-cloth rests, but friction does: it holds threads that slip along each other, and the way there decides where. So both
-cloths go on without friction, and their distance then is that of two states that sweeps leave as they are.
+A cloth is at rest if in the last second half of its vertices moved no farther than ε_v allows: friction of two threads
+grows with their speed up to ε_v and holds them below it, so that what still moves creeps. Speeds of one step are no
+criterion: contacts that open and close every few steps shake threads by micrometres. Damping does not affect where a
+cloth rests, but friction does: it holds threads that slip along each other, so that the place of rest depends on the
+path. So both cloths continue without friction, and their distance then is that of two states that sweeps leave
+unchanged.
 
-A cloth that hangs folded is far from one that hangs flat, and is the same knit. So it is counted, too, how many of the
-vertices that touch another thread in the cloth that hangs as it is have that thread near in the other.
+A cloth that hangs folded is far from one that hangs flat, and is the same knit. So the table also counts, of the
+vertices that touch another thread in the untwisted cloth, those that have the same thread near them in the other cloth.
 """
 
 import sys

@@ -1,10 +1,11 @@
 """Whether a knit that is twisted returns, with all varied that the paper leaves open: how far and how fast it is
-turned, how stiff the yarn is, how well the twist is solved, whether threads rub while it is turned, whether it swings
-before it is braked. `python3 -m paper_figures.figures.measured.yarn_return FOLDER --scale paper --backend cuda`.
+turned, how stiff the yarn is, how well the twist is solved, whether threads have friction while it is turned, whether
+it swings before it is braked. `python3 -m paper_figures.figures.measured.yarn_return FOLDER --scale paper --backend
+cuda`.
 
-In the end all cloths are braked without friction until they hang still (yarn_rest.py says why), each held against one
-of the same yarn that was never twisted. Twisted ones of stiffer yarn are braked longer, as half of their vertices still
-come more than a millimetre a second where the others rest.
+In the end all cloths are braked without friction until they hang still (yarn_rest.py gives the reason), and each is
+compared with one of the same yarn that was never twisted. Twisted ones of stiffer yarn are braked longer, because half
+of their vertices still move more than a millimetre a second when the others rest.
 """
 
 import sys
