@@ -1,4 +1,4 @@
-// Makes the traits of stage rest_state.
+// Makes the traits of stage rest_state. It folds over the kinds of elements; each has one struct here, RestJudge.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,35 +7,315 @@
 #include "compare/judge/cases/mutate.hpp"
 #include "compare/judge/cases/rest_cases.hpp"
 #include "compare/judge/engine/numbers_json.hpp"
-#include "compare/judge/engine/rods/rest_segments.hpp"
 #include "compare/judge/engine/units.hpp"
 #include "compare/judge/report/form_tools.hpp"
 #include "compare/judge/stages/stage_of.hpp"
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/names.hpp"
 #include "compare/problem/rods.hpp"
+#include "compare/stages/kinds.hpp"
 
 namespace ogc::compare {
 
 namespace {
 
-/// Numbers of the metrics, in the order of RestState::metrics.
-enum Metric : std::size_t {
-  of_mass,
-  of_area,
-  of_gradient,
-  of_edge_length_squared,
-  of_rest_angle,
-  of_stiffness,
-  of_weight,
-  of_meeting,
-  of_tetrahedron,
-  of_rod
+/// An angle that may be turned by 2π where it cannot be told from ±π.
+struct Angle {
+  double exact;
 };
 
 /// Checks whether θ₀ cannot be told from θ₀ turned by 2π.
 bool is_folded(double angle, double scale) {
   return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi;
+}
+
+/// Returns ‖x‖ of two or three numbers.
+template <class Vector>
+double length(const Vector& x) {
+  return std::apply([](auto... number) { return std::hypot(double{number}...); }, x);
+}
+
+/// Returns ‖a − b‖ for the nearer sign of a; 1 where the stored one is no unit quaternion.
+double apart(const Quaternion& stored, const std::array<double, 4>& exact) {
+  double same = 0, other = 0, squared = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double q = stored[k];
+    same += (q - exact[k]) * (q - exact[k]);
+    other += (q + exact[k]) * (q + exact[k]);
+    squared += q * q;
+  }
+  if (!(std::abs(squared - 1) <= unit_quaternion_slack)) return 1;
+  return std::sqrt(std::min(same, other));
+}
+
+/// What the stage asks of the rest data of a kind: its metrics, its numbers, which may have errors and are rounded, the
+/// answer for people and the known ways to get it wrong.
+template <class Kind>
+struct RestJudge;
+
+void round_exact(RestStateTruth& truth);
+
+/// Makes a form: `change` changes the truth, which is then rounded.
+template <class Change>
+WrongForm rest_told(std::string name, std::string meaning, Change change) {
+  return told(std::move(name), std::move(meaning), &Authority::rest_state,
+              [change](const RestStateIn&, RestStateTruth& truth) {
+                change(truth);
+                round_exact(truth);
+              });
+}
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& x : values) x *= factor;
+}
+
+template <>
+struct RestJudge<TriangleKind> {
+  static constexpr std::array metrics{MetricInfo{"area", "u cond", rest_state_tolerance},
+                                      MetricInfo{"gradient", "u cond", rest_state_tolerance}};
+
+  template <class Element, class Visit>
+  static void each_number(Element& rest, const RestStateTruth& truth, std::size_t i, Visit visit) {
+    visit(0, "triangle", i, rest.area, truth.area[i], truth.area_scale[i]);
+    for (std::size_t k = 0; k < 2; ++k)
+      visit(1, k == 0 ? "first gradient of triangle" : "second gradient of triangle", i, rest.gradient[k],
+            truth.gradient[i][k], truth.gradient_scale[i][k]);
+  }
+
+  static std::vector<Quantity> quantities(const RestStateOut& out) {
+    std::vector<std::array<float, 4>> gradients;
+    for (const RestTriangle& t : out.triangles)
+      gradients.push_back({t.gradient[0][0], t.gradient[0][1], t.gradient[1][0], t.gradient[1][1]});
+    return {each("area", "m²", out.triangles, [](const RestTriangle& t) { return t.area; }),
+            rows("gradient", "1/m", gradients)};
+  }
+
+  static std::vector<WrongForm> forms() {
+    return {
+        rest_told("area_not_halved", "twice the area of each triangle: the cross product itself",
+                  [](RestStateTruth& truth) { scale(truth.area, 2), scale(truth.area_scale, 2); }),
+        rest_told("gradients_exchanged", "∇N₁ and ∇N₂ exchanged",
+                  [](RestStateTruth& truth) {
+                    for (auto& gradient : truth.gradient) std::swap(gradient[0], gradient[1]);
+                    for (auto& scales : truth.gradient_scale) std::swap(scales[0], scales[1]);
+                  }),
+        rest_told("axes_exchanged", "the two axes of a triangle exchanged in its gradients",
+                  [](RestStateTruth& truth) {
+                    for (auto& gradient : truth.gradient)
+                      for (auto& g : gradient) std::swap(g[0], g[1]);
+                  }),
+        rest_told("second_axis_flipped", "the third corner below the first axis, not above", [](RestStateTruth& truth) {
+          for (auto& gradient : truth.gradient)
+            for (auto& g : gradient) g[1] = -g[1];
+        })};
+  }
+};
+
+template <>
+struct RestJudge<HingeKind> {
+  static constexpr std::array metrics{MetricInfo{"rest_angle", "u cond", rest_state_angle_tolerance},
+                                      MetricInfo{"stiffness", "u cond", rest_state_tolerance},
+                                      MetricInfo{"weight", "u cond", rest_state_tolerance}};
+
+  template <class Element, class Visit>
+  static void each_number(Element& rest, const RestStateTruth& truth, std::size_t i, Visit visit) {
+    visit(0, "hinge", i, rest.rest_angle, Angle{truth.rest_angle[i]}, truth.rest_angle_scale[i]);
+    visit(1, "hinge", i, rest.stiffness, truth.stiffness[i], truth.stiffness_scale[i]);
+    visit(2, "weights of hinge", i, rest.weight, truth.weight[i], truth.weight_scale[i]);
+  }
+
+  static std::vector<Quantity> quantities(const RestStateOut& out) {
+    std::vector<std::array<float, 3>> weights;
+    for (const RestHinge& h : out.hinges) weights.push_back(h.weight);
+    return {each("rest_angle", "rad", out.hinges, [](const RestHinge& h) { return h.rest_angle; }),
+            each("hinge_stiffness", "J", out.hinges, [](const RestHinge& h) { return h.stiffness; }),
+            rows("weight", "1/m", weights)};
+  }
+
+  static std::vector<WrongForm> forms() {
+    return {rest_told("rest_angle_flipped", "θ₀ with the other sign",
+                      [](RestStateTruth& truth) { scale(truth.rest_angle, -1); }),
+            rest_told("rest_angle_missing", "θ₀ is 0", [](RestStateTruth& truth) { scale(truth.rest_angle, 0); }),
+            rest_told("hinge_stiffness_third", "k_b ‖e‖²/(A₀ + A₁) without the factor 3", [](RestStateTruth& truth) {
+              scale(truth.stiffness, 1.0 / 3), scale(truth.stiffness_scale, 1.0 / 3);
+            })};
+  }
+};
+
+template <>
+struct RestJudge<TetrahedronKind> {
+  static constexpr std::array metrics{MetricInfo{"tetrahedron", "u cond", rest_state_tolerance}};
+
+  template <class Element, class Visit>
+  static void each_number(Element& rest, const RestStateTruth& truth, std::size_t i, Visit visit) {
+    visit(0, "volume of tetrahedron", i, rest.volume, truth.volume[i], truth.volume_scale[i]);
+    visit(0, "inverse of tetrahedron", i, rest.inverse, truth.inverse[i], truth.inverse_scale[i]);
+    for (std::size_t k = 0; k < 6; ++k)
+      visit(0, "a weight of tetrahedron", i, rest.weight[k], truth.tetrahedron_weight[i][k],
+            truth.tetrahedron_weight_scale[i]);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        visit(0, "a gradient of tetrahedron", i, rest.gradient[k][axis], truth.tetrahedron_gradient[i][k][axis],
+              truth.tetrahedron_gradient_scale[i]);
+  }
+
+  static std::vector<Quantity> quantities(const RestStateOut& out) {
+    std::vector<std::array<float, 6>> weights;
+    for (const RestTetrahedron& t : out.tetrahedra) weights.push_back(t.weight);
+    return {each("volume", "m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.volume; }),
+            each("inverse", "1/m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.inverse; }),
+            rows("tetrahedron_weight", "m", weights)};
+  }
+
+  static std::vector<WrongForm> forms() {
+    return {rest_told("volume_six_times", "6V in place of V",
+                      [](RestStateTruth& truth) {
+                        scale(truth.volume, 6), scale(truth.volume_scale, 6);
+                        scale(truth.inverse, 1.0 / 6), scale(truth.inverse_scale, 1.0 / 6);
+                        for (auto& weights : truth.tetrahedron_weight)
+                          for (double& w : weights) w *= 6;
+                        scale(truth.tetrahedron_weight_scale, 6);
+                      }),
+            rest_told("inverse_of_volume", "1/V for 1/(6V)",
+                      [](RestStateTruth& truth) { scale(truth.inverse, 6), scale(truth.inverse_scale, 6); }),
+            rest_told("opposite_weights_exchanged", "the weights of a tetrahedron's opposite edges exchanged",
+                      [](RestStateTruth& truth) {
+                        for (auto& weights : truth.tetrahedron_weight) std::swap(weights[0], weights[5]);
+                      }),
+            rest_told("tetrahedron_gradients_transposed", "the matrix of a tetrahedron's ∇N transposed",
+                      [](RestStateTruth& truth) {
+                        for (auto& gradient : truth.tetrahedron_gradient)
+                          for (std::size_t k = 0; k < 3; ++k)
+                            for (std::size_t axis = 0; axis < k; ++axis)
+                              std::swap(gradient[k][axis], gradient[axis][k]);
+                      }),
+            rest_told("tetrahedron_gradients_flipped", "−∇N for ∇N of a tetrahedron", [](RestStateTruth& truth) {
+              for (auto& gradient : truth.tetrahedron_gradient)
+                for (auto& row : gradient)
+                  for (double& g : row) g = -g;
+            })};
+  }
+};
+
+template <>
+struct RestJudge<SegmentKind> {
+  static constexpr std::array metrics{MetricInfo{"rod", "u cond", rest_state_tolerance}};
+
+  template <class Element, class Visit>
+  static void each_number(Element& rest, const RestStateTruth& truth, std::size_t i, Visit visit) {
+    const std::vector<double>& frame_scale = truth.segment_frame_scale;
+    visit(0, "length of segment", i, rest.length, truth.segment_length[i], truth.segment_length_scale[i]);
+    visit(0, "frame of segment", i, rest.orientation, truth.segment_orientation[i], frame_scale[i]);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Index f = rest.neighbour[end];
+      if (f < 0 && rest.weight[end] == 0) continue;
+      visit(0, "weight of segment", i, rest.weight[end], truth.segment_weight[i][end],
+            truth.segment_weight_scale[i][end]);
+      if (f >= 0)
+        visit(0, "relative rotation of segment", i, rest.relative[end], truth.segment_relative[i][end],
+              std::max(frame_scale[i], frame_scale[static_cast<std::size_t>(f)]));
+    }
+  }
+
+  static std::vector<Quantity> quantities(const RestStateOut& out) {
+    std::vector<std::array<float, 2>> weights;
+    std::vector<Quaternion> relatives;
+    for (const RestSegment& s : out.segments) {
+      weights.push_back(s.weight);
+      relatives.insert(relatives.end(), s.relative.begin(), s.relative.end());
+    }
+    return {each("segment_length", "m", out.segments, [](const RestSegment& s) { return s.length; }),
+            rows("segment_weight", "N m", weights), rows("segment_relative", "1", relatives)};
+  }
+
+  static std::vector<WrongForm> forms() {
+    return {rest_told("rod_weight_of_one_segment", "4 k_b/l, or twice the mean length, for 4 k_b/l̄",
+                      [](RestStateTruth& truth) {
+                        for (auto* weights : {&truth.segment_weight, &truth.segment_weight_scale})
+                          for (auto& weight : *weights) weight[0] /= 2, weight[1] /= 2;
+                      }),
+            rest_told("rod_relative_transposed", "p̄° for p°", [](RestStateTruth& truth) {
+              for (auto& relative : truth.segment_relative)
+                for (auto& p : relative)
+                  for (std::size_t k = 0; k < 3; ++k) p[k] = -p[k];
+            })};
+  }
+};
+
+/// Visits all numbers of a kind: visit(metric, what, element, value, exact value, scale).
+template <class Kind, class Visit>
+void each_number(auto& elements, const RestStateTruth& truth, const Visit& visit) {
+  for (std::size_t i = 0; i < elements.size(); ++i) RestJudge<Kind>::each_number(elements[i], truth, i, visit);
+}
+
+/// Notes the errors of an answer. Metrics are numbered from the first one of the kind.
+class RestErrors {
+ public:
+  RestErrors(Tally& tally, std::size_t first) : tally_(tally), first_(first) {}
+
+  void operator()(std::size_t metric, const char* what, std::size_t i, double value, double exact, double scale) const {
+    note(metric, what, i, std::abs(value - exact), scale, value, exact);
+  }
+  void operator()(std::size_t metric, const char* what, std::size_t i, double value, Angle angle, double scale) const {
+    const double exact = angle.exact, turned = exact - std::copysign(2 * std::numbers::pi, exact);
+    const bool is_turned = is_folded(exact, scale) && std::abs(value - turned) < std::abs(value - exact);
+    if (is_turned && in_units(std::abs(value - turned), scale) <= rest_state_angle_tolerance)
+      tally_.answered_not_exactly();
+    (*this)(metric, what, i, value, is_turned ? turned : exact, scale);
+  }
+  template <std::size_t n>
+  void operator()(std::size_t metric, const char* what, std::size_t i, const std::array<float, n>& value,
+                  const std::array<double, n>& exact, double scale) const {
+    std::array<double, n> off;
+    for (std::size_t k = 0; k < n; ++k) off[k] = value[k] - exact[k];
+    note(metric, what, i, length(off), scale, length(value), length(exact));
+  }
+  void operator()(std::size_t metric, const char* what, std::size_t i, const Quaternion& value,
+                  const std::array<double, 4>& exact, double scale) const {
+    const double off = apart(value, exact);
+    const bool any = std::isinf(scale);  // unit quaternion is right
+    note(metric, what, i, any ? (off == 1 ? 1 : 0) : off, any ? 1 : scale, double{value[3]}, exact[3]);
+  }
+
+ private:
+  void note(std::size_t metric, const char* what, std::size_t i, double off, double scale, double value,
+            double exact) const {
+    tally_.error(first_ + metric, in_units(off, scale), [&] {
+      return std::string(what) + " " + std::to_string(i) + text(": %.9g, exact %.17g", value, exact);
+    });
+  }
+
+  Tally& tally_;
+  std::size_t first_;
+};
+
+/// Rounds exact values.
+struct Rounding {
+  void operator()(std::size_t, const char*, std::size_t, float& value, double exact, double) const {
+    value = static_cast<float>(exact);
+  }
+  void operator()(std::size_t, const char*, std::size_t, float& value, Angle angle, double) const {
+    value = static_cast<float>(angle.exact);
+  }
+  template <std::size_t n>
+  void operator()(std::size_t, const char*, std::size_t, std::array<float, n>& value,
+                  const std::array<double, n>& exact, double) const {
+    for (std::size_t k = 0; k < n; ++k) value[k] = static_cast<float>(exact[k]);
+  }
+};
+
+/// Numbers of the metrics that belong to no kind, and of the first one of the kinds.
+enum Metric : std::size_t { of_mass, of_edge_length_squared, of_meeting, of_kinds };
+
+constexpr std::array common_metrics{MetricInfo{"mass", "u cond", rest_state_tolerance},
+                                    MetricInfo{"edge_length_squared", "u cond", rest_state_tolerance},
+                                    MetricInfo{"meeting", "u value", rest_state_tolerance}};
+
+/// Joins the common metrics and those of the kinds, in their order.
+template <class... Kinds>
+constexpr auto metrics_of(std::tuple<Kinds...>) {
+  return std::apply([](auto... all) { return std::array{all...}; },
+                    std::tuple_cat(common_metrics, RestJudge<Kinds>::metrics...));
 }
 
 class RestVerdict {
@@ -45,34 +325,26 @@ class RestVerdict {
 
   void judge() {
     if (!has_right_lengths() || !names_right_vertices()) return;
+    const RestErrors note(tally_, 0);
     for (std::size_t v = 0; v < out_.mass.size(); ++v)
-      one(of_mass, "vertex", v, out_.mass[v], truth_.mass[v], truth_.mass_scale[v]);
-    for (std::size_t t = 0; t < out_.triangles.size(); ++t) judge_triangle(t);
+      note(of_mass, "vertex", v, out_.mass[v], truth_.mass[v], truth_.mass_scale[v]);
     for (std::size_t e = 0; e < out_.edge_length_squared.size(); ++e)
-      one(of_edge_length_squared, "edge", e, out_.edge_length_squared[e], truth_.edge_length_squared[e],
-          truth_.edge_length_squared_scale[e]);
-    for (std::size_t i = 0; i < out_.hinges.size(); ++i) judge_hinge(i);
-    for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) judge_tetrahedron(t);
-    judge_segments();
+      note(of_edge_length_squared, "edge", e, out_.edge_length_squared[e], truth_.edge_length_squared[e],
+           truth_.edge_length_squared_scale[e]);
     for (std::size_t i = 0; i < out_.meetings.size(); ++i) {
-      one(of_meeting, "stiffness of meeting", i, out_.meetings[i].stiffness, truth_.meeting_stiffness[i],
-          truth_.meeting_stiffness[i]);
-      one(of_meeting, "friction of meeting", i, out_.meetings[i].friction, truth_.meeting_friction[i],
-          truth_.meeting_friction[i]);
+      note(of_meeting, "stiffness of meeting", i, out_.meetings[i].stiffness, truth_.meeting_stiffness[i],
+           truth_.meeting_stiffness[i]);
+      note(of_meeting, "friction of meeting", i, out_.meetings[i].friction, truth_.meeting_friction[i],
+           truth_.meeting_friction[i]);
     }
-  }
-
- private:
-  void one(Metric metric, const char* what, std::size_t i, double value, double exact, double scale) {
-    error(metric, what, i, std::abs(value - exact), scale, value, exact);
-  }
-
-  void error(Metric metric, const char* what, std::size_t i, double off, double scale, double value, double exact) {
-    tally_.error(metric, in_units(off, scale), [&] {
-      return std::string(what) + " " + std::to_string(i) + text(": %.9g, exact %.17g", value, exact);
+    std::size_t first = of_kinds;
+    for_each_of<RestKinds>([&]<class Kind, std::size_t>() {
+      each_number<Kind>(out_.*Kind::rest, truth_, RestErrors(tally_, first));
+      first += RestJudge<Kind>::metrics.size();
     });
   }
 
+ private:
   bool has_length(const char* what, std::size_t length, std::size_t wanted) {
     if (length == wanted) return true;
     tally_.mismatch(std::string(what) + ": " + std::to_string(length) + " entries instead of " +
@@ -81,83 +353,29 @@ class RestVerdict {
   }
 
   bool has_right_lengths() {
-    return has_length("mass", out_.mass.size(), exact_.mass.size()) &&
-           has_length("triangles", out_.triangles.size(), exact_.triangles.size()) &&
-           has_length("hinges", out_.hinges.size(), exact_.hinges.size()) &&
-           has_length("tetrahedra", out_.tetrahedra.size(), exact_.tetrahedra.size()) &&
-           has_length("segments", out_.segments.size(), exact_.segments.size()) &&
-           has_length("edge_length_squared", out_.edge_length_squared.size(), exact_.edge_length_squared.size()) &&
-           has_length("meetings", out_.meetings.size(), exact_.meetings.size());
+    bool right = has_length("mass", out_.mass.size(), exact_.mass.size()) &&
+                 has_length("edge_length_squared", out_.edge_length_squared.size(),
+                            exact_.edge_length_squared.size()) &&
+                 has_length("meetings", out_.meetings.size(), exact_.meetings.size());
+    for_each_of<RestKinds>([&]<class Kind, std::size_t>() {
+      right = right && has_length(Kind::plural, (out_.*Kind::rest).size(), (exact_.*Kind::rest).size());
+    });
+    return right;
   }
 
   bool names_right_vertices() {
-    for (std::size_t t = 0; t < out_.triangles.size(); ++t) {
-      const RestTriangle &a = out_.triangles[t], &b = exact_.triangles[t];
-      if (a.corner != b.corner || a.body != b.body) return wrong_name("triangle", t);
-    }
-    for (std::size_t i = 0; i < out_.hinges.size(); ++i) {
-      const RestHinge &a = out_.hinges[i], &b = exact_.hinges[i];
-      if (a.vertex != b.vertex || a.body != b.body) return wrong_name("hinge", i);
-    }
-    for (std::size_t t = 0; t < out_.tetrahedra.size(); ++t) {
-      const RestTetrahedron &a = out_.tetrahedra[t], &b = exact_.tetrahedra[t];
-      if (a.corner != b.corner || a.body != b.body) return wrong_name("tetrahedron", t);
-    }
-    return true;
-  }
-
-  bool wrong_name(const char* what, std::size_t i) {
-    tally_.mismatch(std::string(what) + " " + std::to_string(i) +
-                    " has other vertices, or another body, than the one that stands there");
-    return false;
-  }
-
-  void judge_triangle(std::size_t t) {
-    one(of_area, "triangle", t, out_.triangles[t].area, truth_.area[t], truth_.area_scale[t]);
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto& value = out_.triangles[t].gradient[k];
-      const auto& exact = truth_.gradient[t][k];
-      error(of_gradient, k == 0 ? "first gradient of triangle" : "second gradient of triangle", t,
-            std::hypot(value[0] - exact[0], value[1] - exact[1]), truth_.gradient_scale[t][k],
-            std::hypot(value[0], value[1]), std::hypot(exact[0], exact[1]));
-    }
-  }
-
-  void judge_hinge(std::size_t i) {
-    const double angle = out_.hinges[i].rest_angle, exact = truth_.rest_angle[i], scale = truth_.rest_angle_scale[i];
-    const double turned = exact - std::copysign(2 * std::numbers::pi, exact);
-    const bool is_turned = is_folded(exact, scale) && std::abs(angle - turned) < std::abs(angle - exact);
-    if (is_turned && in_units(std::abs(angle - turned), scale) <= rest_state_angle_tolerance)
-      tally_.answered_not_exactly();
-    one(of_rest_angle, "hinge", i, angle, is_turned ? turned : exact, scale);
-    one(of_stiffness, "hinge", i, out_.hinges[i].stiffness, truth_.stiffness[i], truth_.stiffness_scale[i]);
-    const auto& weight = out_.hinges[i].weight;
-    const auto& right = truth_.weight[i];
-    error(of_weight, "weights of hinge", i,
-          std::hypot(weight[0] - right[0], weight[1] - right[1], weight[2] - right[2]), truth_.weight_scale[i],
-          std::hypot(weight[0], weight[1], weight[2]), std::hypot(right[0], right[1], right[2]));
-  }
-
-  void judge_tetrahedron(std::size_t t) {
-    const RestTetrahedron& rest = out_.tetrahedra[t];
-    one(of_tetrahedron, "volume of tetrahedron", t, rest.volume, truth_.volume[t], truth_.volume_scale[t]);
-    one(of_tetrahedron, "inverse of tetrahedron", t, rest.inverse, truth_.inverse[t], truth_.inverse_scale[t]);
-    for (std::size_t k = 0; k < 6; ++k)
-      one(of_tetrahedron, "a weight of tetrahedron", t, rest.weight[k], truth_.tetrahedron_weight[t][k],
-          truth_.tetrahedron_weight_scale[t]);
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        one(of_tetrahedron, "a gradient of tetrahedron", t, rest.gradient[k][axis],
-            truth_.tetrahedron_gradient[t][k][axis], truth_.tetrahedron_gradient_scale[t]);
-  }
-
-  void judge_segments() {
-    const SegmentVerdict verdict{
-        [this](const char* what, std::size_t e, double off, double scale, double value, double exact) {
-          error(of_rod, what, e, off, scale, value, exact);
-        },
-        [this](const char* what, std::size_t e) { tally_.mismatch(std::string(what) + ": " + std::to_string(e)); }};
-    verdict.judge(truth_, out_);
+    bool right = true;
+    for_each_of<RestKinds>([&]<class Kind, std::size_t>() {
+      for (std::size_t i = 0; i < (out_.*Kind::rest).size() && right; ++i) {
+        const auto &a = (out_.*Kind::rest)[i], &b = (exact_.*Kind::rest)[i];
+        right = Kind::vertices(a) == Kind::vertices(b) && a.body == b.body;
+        if constexpr (requires { a.neighbour; }) right = right && a.neighbour == b.neighbour;
+        if (!right)
+          tally_.mismatch(std::string(Kind::name) + " " + std::to_string(i) +
+                          " has other vertices or neighbours, or another body, than the one that stands there");
+      }
+    });
+    return right;
   }
 
   const RestStateTruth& truth_;
@@ -178,115 +396,26 @@ void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const R
 
 namespace {
 
-void scale(std::vector<double>& values, double factor) {
-  for (double& x : values) x *= factor;
-}
-
 /// Sets the rounded answer from the values.
 void round_exact(RestStateTruth& truth) {
-  RestStateOut& exact = truth.exact;
-  exact.mass.assign(truth.mass.begin(), truth.mass.end());
-  exact.edge_length_squared.assign(truth.edge_length_squared.begin(), truth.edge_length_squared.end());
-  for (std::size_t t = 0; t < exact.triangles.size(); ++t) {
-    exact.triangles[t].area = static_cast<float>(truth.area[t]);
-    for (std::size_t k = 0; k < 2; ++k)
-      exact.triangles[t].gradient[k] = {static_cast<float>(truth.gradient[t][k][0]),
-                                        static_cast<float>(truth.gradient[t][k][1])};
-  }
-  for (std::size_t i = 0; i < exact.hinges.size(); ++i) {
-    exact.hinges[i].rest_angle = static_cast<float>(truth.rest_angle[i]);
-    exact.hinges[i].stiffness = static_cast<float>(truth.stiffness[i]);
-  }
-  for (std::size_t i = 0; i < exact.tetrahedra.size(); ++i) {
-    RestTetrahedron& t = exact.tetrahedra[i];
-    t.volume = static_cast<float>(truth.volume[i]), t.inverse = static_cast<float>(truth.inverse[i]);
-    std::ranges::copy(truth.tetrahedron_weight[i], t.weight.begin());
-    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(truth.tetrahedron_gradient[i][k], t.gradient[k].begin());
-  }
-  for (std::size_t e = 0; e < exact.segments.size(); ++e)
-    for (std::size_t end = 0; end < 2; ++end) {
-      exact.segments[e].weight[end] = static_cast<float>(truth.segment_weight[e][end]);
-      for (std::size_t k = 0; k < 4; ++k)
-        exact.segments[e].relative[end][k] = static_cast<float>(truth.segment_relative[e][end][k]);
-    }
-}
-
-template <class Change>
-WrongForm rest_told(std::string name, std::string meaning, Change change) {
-  return told(std::move(name), std::move(meaning), &Authority::rest_state,
-              [change](const RestStateIn&, RestStateTruth& truth) {
-                change(truth);
-                round_exact(truth);
-              });
+  truth.exact.mass.assign(truth.mass.begin(), truth.mass.end());
+  truth.exact.edge_length_squared.assign(truth.edge_length_squared.begin(), truth.edge_length_squared.end());
+  for_each_of<RestKinds>(
+      [&]<class Kind, std::size_t>() { each_number<Kind>(truth.exact.*Kind::rest, truth, Rounding()); });
 }
 
 std::vector<WrongForm> rest_state_forms() {
-  return {
-      rest_told("area_not_halved", "twice the area of each triangle: the cross product itself",
-                [](RestStateTruth& truth) { scale(truth.area, 2), scale(truth.area_scale, 2); }),
+  std::vector<WrongForm> forms{
       rest_told("mass_of_whole_triangles", "ρ A in place of ρ A/3 for each corner",
                 [](RestStateTruth& truth) { scale(truth.mass, 3), scale(truth.mass_scale, 3); }),
-      rest_told("rest_angle_flipped", "θ₀ with the other sign",
-                [](RestStateTruth& truth) { scale(truth.rest_angle, -1); }),
-      rest_told("rest_angle_missing", "θ₀ is 0", [](RestStateTruth& truth) { scale(truth.rest_angle, 0); }),
-      rest_told("hinge_stiffness_third", "k_b ‖e‖²/(A₀ + A₁) without the factor 3",
-                [](RestStateTruth& truth) { scale(truth.stiffness, 1.0 / 3), scale(truth.stiffness_scale, 1.0 / 3); }),
-      rest_told("lengths_not_squared", "lengths of edges in place of their squares",
-                [](RestStateTruth& truth) {
-                  for (double& x : truth.edge_length_squared) x = std::sqrt(x);
-                  for (double& x : truth.edge_length_squared_scale) x = std::sqrt(x);
-                }),
-      rest_told("rod_weight_of_one_segment", "4 k_b/l, or twice the mean length, for 4 k_b/l̄",
-                [](RestStateTruth& truth) {
-                  for (auto* weights : {&truth.segment_weight, &truth.segment_weight_scale})
-                    for (auto& weight : *weights) weight[0] /= 2, weight[1] /= 2;
-                }),
-      rest_told("rod_relative_transposed", "p̄° for p°",
-                [](RestStateTruth& truth) {
-                  for (auto& relative : truth.segment_relative)
-                    for (auto& p : relative)
-                      for (std::size_t k = 0; k < 3; ++k) p[k] = -p[k];
-                }),
-      rest_told("gradients_exchanged", "∇N₁ and ∇N₂ exchanged",
-                [](RestStateTruth& truth) {
-                  for (auto& gradient : truth.gradient) std::swap(gradient[0], gradient[1]);
-                  for (auto& scales : truth.gradient_scale) std::swap(scales[0], scales[1]);
-                }),
-      rest_told("axes_exchanged", "the two axes of a triangle exchanged in its gradients",
-                [](RestStateTruth& truth) {
-                  for (auto& gradient : truth.gradient)
-                    for (auto& g : gradient) std::swap(g[0], g[1]);
-                }),
-      rest_told("second_axis_flipped", "the third corner below the first axis, not above",
-                [](RestStateTruth& truth) {
-                  for (auto& gradient : truth.gradient)
-                    for (auto& g : gradient) g[1] = -g[1];
-                }),
-      rest_told("volume_six_times", "6V in place of V",
-                [](RestStateTruth& truth) {
-                  scale(truth.volume, 6), scale(truth.volume_scale, 6);
-                  scale(truth.inverse, 1.0 / 6), scale(truth.inverse_scale, 1.0 / 6);
-                  for (auto& weights : truth.tetrahedron_weight)
-                    for (double& w : weights) w *= 6;
-                  scale(truth.tetrahedron_weight_scale, 6);
-                }),
-      rest_told("inverse_of_volume", "1/V for 1/(6V)",
-                [](RestStateTruth& truth) { scale(truth.inverse, 6), scale(truth.inverse_scale, 6); }),
-      rest_told("opposite_weights_exchanged", "the weights of a tetrahedron's opposite edges exchanged",
-                [](RestStateTruth& truth) {
-                  for (auto& weights : truth.tetrahedron_weight) std::swap(weights[0], weights[5]);
-                }),
-      rest_told("tetrahedron_gradients_transposed", "the matrix of a tetrahedron's ∇N transposed",
-                [](RestStateTruth& truth) {
-                  for (auto& gradient : truth.tetrahedron_gradient)
-                    for (std::size_t k = 0; k < 3; ++k)
-                      for (std::size_t axis = 0; axis < k; ++axis) std::swap(gradient[k][axis], gradient[axis][k]);
-                }),
-      rest_told("tetrahedron_gradients_flipped", "−∇N for ∇N of a tetrahedron", [](RestStateTruth& truth) {
-        for (auto& gradient : truth.tetrahedron_gradient)
-          for (auto& row : gradient)
-            for (double& g : row) g = -g;
+      rest_told("lengths_not_squared", "lengths of edges in place of their squares", [](RestStateTruth& truth) {
+        for (double& x : truth.edge_length_squared) x = std::sqrt(x);
+        for (double& x : truth.edge_length_squared_scale) x = std::sqrt(x);
       })};
+  for_each_of<RestKinds>([&]<class Kind, std::size_t>() {
+    for (WrongForm& form : RestJudge<Kind>::forms()) forms.push_back(std::move(form));
+  });
+  return forms;
 }
 
 Json wide_points_to_json(const std::vector<Vec3>& points) { return points_to_json(to_single(points)); }
@@ -350,16 +479,7 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
                                   .kind = CaseKind::mesh,
                                   .has_boundary = false,
                                   .determinism = Determinism::cpu_to_gpu};
-  static constexpr std::array metrics{MetricInfo{"mass", "u cond", rest_state_tolerance},
-                                      MetricInfo{"area", "u cond", rest_state_tolerance},
-                                      MetricInfo{"gradient", "u cond", rest_state_tolerance},
-                                      MetricInfo{"edge_length_squared", "u cond", rest_state_tolerance},
-                                      MetricInfo{"rest_angle", "u cond", rest_state_angle_tolerance},
-                                      MetricInfo{"stiffness", "u cond", rest_state_tolerance},
-                                      MetricInfo{"weight", "u cond", rest_state_tolerance},
-                                      MetricInfo{"meeting", "u value", rest_state_tolerance},
-                                      MetricInfo{"tetrahedron", "u cond", rest_state_tolerance},
-                                      MetricInfo{"rod", "u cond", rest_state_tolerance}};
+  static constexpr auto metrics = metrics_of(RestKinds());
 
   static std::span<const Generator> generators() { return rest_state_generators(); }
 
@@ -438,34 +558,13 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
   static constexpr auto judge = judge_rest_state;
   static void add(Bits& bits, const Out& out) { bits.add(out); }
   static std::vector<Quantity> outputs(const In&, const Out& out) {
-    std::vector<std::array<float, 4>> gradients;
-    std::vector<std::array<float, 3>> weights;
-    for (const RestTriangle& t : out.triangles)
-      gradients.push_back({t.gradient[0][0], t.gradient[0][1], t.gradient[1][0], t.gradient[1][1]});
-    for (const RestHinge& h : out.hinges) weights.push_back(h.weight);
-    std::vector<std::array<float, 6>> tetrahedron_weights;
-    for (const RestTetrahedron& t : out.tetrahedra) tetrahedron_weights.push_back(t.weight);
-    std::vector<std::array<float, 2>> segment_weights;
-    std::vector<Quaternion> segment_relatives;
-    for (const RestSegment& s : out.segments) {
-      segment_weights.push_back(s.weight);
-      segment_relatives.insert(segment_relatives.end(), s.relative.begin(), s.relative.end());
-    }
-    return {compare::numbers("mass", "kg", out.mass),
-            each("area", "m²", out.triangles, [](const RestTriangle& t) { return t.area; }),
-            rows("gradient", "1/m", gradients),
-            each("rest_angle", "rad", out.hinges, [](const RestHinge& h) { return h.rest_angle; }),
-            each("hinge_stiffness", "J", out.hinges, [](const RestHinge& h) { return h.stiffness; }),
-            rows("weight", "1/m", weights),
-            each("volume", "m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.volume; }),
-            each("inverse", "1/m³", out.tetrahedra, [](const RestTetrahedron& t) { return t.inverse; }),
-            rows("tetrahedron_weight", "m", tetrahedron_weights),
-            each("segment_length", "m", out.segments, [](const RestSegment& s) { return s.length; }),
-            rows("segment_weight", "N m", segment_weights),
-            rows("segment_relative", "1", segment_relatives),
-            compare::numbers("edge_length_squared", "m²", out.edge_length_squared),
-            each("meeting_stiffness", "N/m", out.meetings, [](const MeetingMaterial& m) { return m.stiffness; }),
-            each("meeting_friction", "1", out.meetings, [](const MeetingMaterial& m) { return m.friction; })};
+    std::vector<Quantity> all{compare::numbers("mass", "kg", out.mass)};
+    for_each_of<RestKinds>([&]<class Kind, std::size_t>() { all = joined(all, RestJudge<Kind>::quantities(out)); });
+    return joined(
+        all, std::vector{
+                 compare::numbers("edge_length_squared", "m²", out.edge_length_squared),
+                 each("meeting_stiffness", "N/m", out.meetings, [](const MeetingMaterial& m) { return m.stiffness; }),
+                 each("meeting_friction", "1", out.meetings, [](const MeetingMaterial& m) { return m.friction; })});
   }
   static std::vector<Quantity> outputs(const In& in, const Truth& truth) { return outputs(in, truth.exact); }
   static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return rest_state_forms(); }

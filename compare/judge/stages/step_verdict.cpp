@@ -11,6 +11,7 @@
 #include "compare/judge/engine/volume_question.hpp"
 #include "compare/judge/stages/mesh_case.hpp"
 #include "compare/judge/stages/verdict.hpp"
+#include "compare/stages/kinds.hpp"
 
 namespace ogc::compare {
 
@@ -94,15 +95,15 @@ class StepVerdict {
     const auto apart = [&](const auto& vertices) {
       for (std::size_t i = 0; i < vertices.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
-          if (colour[vertices[i]] >= 0 && colour[vertices[i]] == colour[vertices[k]])
+          if (vertices[i] >= 0 && vertices[k] >= 0 && colour[vertices[i]] >= 0 &&
+              colour[vertices[i]] == colour[vertices[k]])
             tally_.mismatch("colour" + vertex(static_cast<std::size_t>(vertices[i])) + " shares that of vertex " +
                             std::to_string(vertices[k]));
     };
     if (!right()) return;
-    for (const RestTriangle& t : out_.rest.triangles) apart(t.corner);
-    for (const RestHinge& h : out_.rest.hinges) apart(h.vertex);
-    for (const RestTetrahedron& t : out_.rest.tetrahedra) apart(t.corner);
-    for (const RestSegment& s : out_.rest.segments) apart(s.end);
+    for_each_of<ElementKinds>([&]<class Kind, std::size_t>() {
+      for (const auto& element : Kind::elements(*in_.scene, out_.rest)) apart(Kind::vertices(element));
+    });
     if (const std::string wrong = wrong_segment_colour(*in_.scene, out_); !wrong.empty()) tally_.mismatch(wrong);
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/judge/cases/colours.hpp"
 #include "compare/judge/cases/dust.hpp"
 #include "compare/judge/cases/mutate.hpp"
 #include "compare/judge/cases/rods/quaternions.hpp"
@@ -19,6 +20,7 @@
 #include "compare/judge/stages/stage_of.hpp"
 #include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
+#include "compare/stages/kinds.hpp"
 
 namespace ogc::compare {
 
@@ -56,8 +58,10 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
 /// of that stencil's jumps it lies.
 std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
-  std::uint64_t count = in.old.size() + 3 * in.rest->triangles.size() + 4 * in.rest->hinges.size() +
-                        4 * in.rest->tetrahedra.size();
+  std::uint64_t count = in.old.size();
+  for_each_of<ElementKinds>([&]<class Kind, std::size_t>() {
+    for (const auto& element : Kind::elements(*in.scene, *in.rest)) count += Kind::vertices(element).size();
+  });
   for (const VertexFacetContact& c : in.vertex_facet) count += 1 + corners[static_cast<std::size_t>(c.face.kind)];
   for (const EdgeEdgeContact& c : in.edge_edge)
     count += corners[static_cast<std::size_t>(c.first.kind)] + corners[static_cast<std::size_t>(c.second.kind)];
@@ -188,9 +192,6 @@ std::vector<WrongForm> sweep_forms() {
       sweep_asked("edge_edge_missing", "contacts of edges do not act", [](Read& read) { read.in.edge_edge = {}; }),
       sweep_asked("contacts_twice_as_stiff", "2 k_c for k_c", meetings([](MeetingMaterial& m) { m.stiffness *= 2; })),
       sweep_asked("friction_missing", "no friction", meetings([](MeetingMaterial& m) { m.friction = 0; })),
-      sweep_asked("membranes_missing", "no membrane acts", [](Read& read) { read.rest.triangles.clear(); }),
-      sweep_asked("bending_missing", "no hinge acts", [](Read& read) { read.rest.hinges.clear(); }),
-      sweep_asked("tetrahedra_missing", "no tetrahedron acts", [](Read& read) { read.rest.tetrahedra.clear(); }),
       sweep_asked("rods_without_bend", "neighbours of a segment do not act",
                   [](Read& read) {
                     for (RestSegment& segment : read.rest.segments) segment.weight = {};
@@ -206,7 +207,6 @@ std::vector<WrongForm> sweep_forms() {
                     for (Index& colour : read.segment_colour)
                       if (colour > 0) colour = 0;
                   }),
-      sweep_asked("springs_missing", "no spring acts", [](Read& read) { read.scene.springs.clear(); }),
       sweep_asked("mollifier_missing", "e_k is 1: nearly parallel edges act in full",
                   [](Read& read) { read.rest.edge_length_squared.assign(read.rest.edge_length_squared.size(), -1); }),
       sweep_asked("damping_missing", "membranes, hinges and springs without damping",
@@ -232,6 +232,11 @@ std::vector<WrongForm> sweep_forms() {
       sweep_asked("start_of_iteration", "slip and damping since the last iteration, not since the start of the step",
                   [](Read& read) { read.in.start = read.in.old; }),
       sweep_asked("prescribed_stay", "prescribed vertices stay", [](Read& read) { read.scene.motions.clear(); })};
+  for_each_of<ElementKinds>([&]<class Kind, std::size_t>() {
+    if constexpr (!std::is_same_v<Kind, SegmentKind>)  // there is a quaternion for each
+      forms.push_back(sweep_asked(std::string(Kind::plural) + "_missing", std::string("no ") + Kind::name + " acts",
+                                  [](Read& read) { Kind::elements(read.scene, read.rest).clear(); }));
+  });
   for (const auto& [kind, name, meaning] : other_activations)
     forms.push_back(sweep_asked(name, std::string(meaning) + ", where `ogc` is asked for", [to = kind](Read& read) {
       if (read.scene.settings.activation == ContactActivation::ogc) read.scene.settings.activation = to;
@@ -239,36 +244,21 @@ std::vector<WrongForm> sweep_forms() {
   return forms;
 }
 
-/// Checks that no two vertices of an element or a spring share a colour, and that exactly the free vertices have one.
-bool is_coloured(const SweepCase& c) {
-  const Topology topology = build_topology(*c.scene);
-  const std::vector<Index> groups = rigid_groups(*c.scene);
-  const auto apart = [&](Index a, Index b) {
-    return c.colour[static_cast<std::size_t>(a)] < 0 ||
-           c.colour[static_cast<std::size_t>(a)] != c.colour[static_cast<std::size_t>(b)];
-  };
-  bool legal = c.colour.size() == groups.size();
-  for (std::size_t v = 0; v < groups.size() && legal; ++v) legal = (c.colour[v] >= 0) == (groups[v] < 0);
-  for (const Edge& e : topology.edges) legal = legal && apart(e[0], e[1]);
-  for (const Hinge& hinge : topology.hinges) legal = legal && apart(hinge.opposite[0], hinge.opposite[1]);
-  for (const Spring& spring : c.scene->springs) {
-    legal = legal && apart(spring.first, spring.second);
-    if (spring.third >= 0) legal = legal && apart(spring.first, spring.third) && apart(spring.second, spring.third);
-  }
-  const std::vector<Index> numbers = rod_segments(*c.scene), held = segment_groups(*c.scene, numbers);
-  legal = legal && c.segment_colour.size() == numbers.size();
-  std::vector<Index> count(groups.size());
-  for (const Index e : numbers)
-    for (const Index v : c.scene->mesh.loose_edges[static_cast<std::size_t>(e)]) ++count[static_cast<std::size_t>(v)];
-  for (std::size_t e = 0; e < numbers.size() && legal; ++e) {
-    legal = (c.segment_colour[e] >= 0) == (held[e] < 0);
-    const Edge& own = c.scene->mesh.loose_edges[static_cast<std::size_t>(numbers[e])];
-    for (std::size_t f = 0; f < e && legal; ++f)
-      for (const Index v : c.scene->mesh.loose_edges[static_cast<std::size_t>(numbers[f])])
-        legal = legal && !((v == own[0] || v == own[1]) && count[static_cast<std::size_t>(v)] == 2 &&
-                           c.segment_colour[e] >= 0 && c.segment_colour[e] == c.segment_colour[f]);
+/// Checks that exactly the free ones have a colour, which no neighbour has.
+bool are_coloured(std::span<const Index> colour, std::span<const Index> groups, const Neighbours& near) {
+  bool legal = colour.size() == groups.size();
+  for (std::size_t i = 0; i < groups.size() && legal; ++i) {
+    legal = (colour[i] >= 0) == (groups[i] < 0);
+    for (const Index other : near[i])
+      legal = legal && (colour[i] < 0 || colour[i] != colour[static_cast<std::size_t>(other)]);
   }
   return legal;
+}
+
+bool is_coloured(const SweepCase& c) {
+  const std::vector<Index> held = segment_groups(*c.scene, rod_segments(*c.scene));
+  return are_coloured(c.colour, rigid_groups(*c.scene), element_neighbours(*c.scene, build_topology(*c.scene))) &&
+         are_coloured(c.segment_colour, held, segment_neighbours(*c.scene));
 }
 
 struct Sweep : TakenWhole, Numbered, OwnCases {
