@@ -70,7 +70,7 @@ std::vector<std::vector<Index>> neighbours_of(const compare::Scene& scene, const
         if (a != b && is_free(a) && is_free(b)) near[static_cast<std::size_t>(a)].push_back(b);
   };
   for_each_kind([&]<class Kind, std::size_t>() {
-    for (std::size_t i = 0; i < Kind::count(scene, rest); ++i) meet(Kind::vertices(scene, rest, i));
+    for (const auto& element : Kind::elements(scene, rest)) meet(Kind::vertices(element));
   });
   return near;
 }

@@ -21,12 +21,12 @@ void add_element(ElementsOfVertex& rows, std::size_t element, const Vertices& ve
 }
 
 /// Returns the vertices on which an element acts, by place.
-template <class Kind>
-auto acting(const compare::Scene& scene, const compare::RestStateOut& rest, std::size_t element) {
-  if constexpr (requires { Kind::pulled(scene, rest, element); })
-    return Kind::pulled(scene, rest, element);
+template <class Kind, class Element>
+auto acting(const Element& element) {
+  if constexpr (requires { Kind::pulled(element); })
+    return Kind::pulled(element);
   else
-    return Kind::vertices(scene, rest, element);
+    return Kind::vertices(element);
 }
 
 }  // namespace
@@ -36,8 +36,8 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
   for (ElementsOfVertex& rows : elements) rows.resize(count);
   for (ElementsOfVertex* rows : {&vertex_facet, &edge_edge, &volumes}) rows->resize(count);
   for_each_kind([&]<class Kind, std::size_t number>() {
-    for (std::size_t i = 0; i < Kind::count(*in.scene, *in.rest); ++i)
-      add_element(elements[number], i, acting<Kind>(*in.scene, *in.rest, i));
+    for (std::size_t i = 0; const auto& element : Kind::elements(*in.scene, *in.rest))
+      add_element(elements[number], i++, acting<Kind>(element));
   });
   for (std::size_t i = 0; i < in.vertex_facet.size(); ++i)
     add_element(vertex_facet, i, stencil_of(*in.topology, in.vertex_facet[i]).vertex);

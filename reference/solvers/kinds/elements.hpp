@@ -33,7 +33,7 @@ class Elements {
 
   /// Of a rounded scene, by its rest state.
   Elements(const compare::Scene& scene, const compare::RestStateOut& rest) {
-    for (std::size_t i = 0; i < Kind::count(scene, rest); ++i) terms_.push_back(Kind::term(scene, rest, i));
+    for (std::size_t i = 0; i < Kind::elements(scene, rest).size(); ++i) terms_.push_back(Kind::term(scene, rest, i));
   }
 
   /// The elements in the order of the rest state, each with its vertices.

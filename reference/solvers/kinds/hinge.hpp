@@ -1,6 +1,7 @@
 // Hinges with a bending energy.
 #pragma once
 
+#include "compare/stages/kinds.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/bending.hpp"
 #include "reference/solvers/kinds/elements.hpp"
@@ -8,7 +9,7 @@
 namespace ogc::reference {
 
 /// See kinds.hpp.
-struct HingeKind {
+struct HingeKind : compare::HingeKind {
   /// One element, in double.
   using Term = HingeTerm;
   /// All elements of a scene.
@@ -18,14 +19,6 @@ struct HingeKind {
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::bending_force_tolerance,
                           block_tolerance = compare::bending_block_tolerance;
-
-  /// How many a scene has.
-  static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.hinges.size(); }
-  /// The vertices that it joins; −1 for one that it lacks.
-  static std::array<compare::Index, 4> vertices(const compare::Scene&, const compare::RestStateOut& rest,
-                                                std::size_t i) {
-    return rest.hinges[i].vertex;
-  }
 
   /// As the rest state has it.
   static Term term(const compare::Scene& scene, const compare::RestStateOut& from, std::size_t i) {

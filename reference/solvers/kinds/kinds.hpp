@@ -2,7 +2,7 @@
 // colours fold over it; what a kind is to each of them its header says:
 //
 //     List                    all elements in double, Elements<Kind> or what has its members
-//     count, vertices         how many there are, and whom each joins; `pulled`, where that is not all whom it moves
+//     elements, vertices      of compare::Kind, its base; `pulled`, where an element does not move all of its vertices
 //     term, begin, corners,   of Elements: a term of the rest state, its start of a step, the positions that it reads,
 //     kernel                  and its batched derivatives
 //     add                     force and block of one vertex, in double
@@ -11,7 +11,7 @@
 #pragma once
 
 #include <tuple>
-#include <utility>
+#include <type_traits>
 
 #include "reference/solvers/kinds/hinge.hpp"
 #include "reference/solvers/kinds/segment.hpp"
@@ -25,14 +25,12 @@ namespace ogc::reference {
 using ElementKinds = std::tuple<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
 /// How many there are.
 inline constexpr std::size_t kind_count = std::tuple_size_v<ElementKinds>;
+static_assert(std::is_convertible_v<ElementKinds, compare::ElementKinds>, "the kinds of compare, in their order");
 
 /// Calls `visit` with each kind and its number as a constant: visit.operator()<Kind, number>().
 template <class Visit>
 void for_each_kind(Visit visit) {
-  [&]<std::size_t... number>(std::index_sequence<number...>) {
-    (visit.template operator()<std::tuple_element_t<number, ElementKinds>, number>(), ...);
-  }
-  (std::make_index_sequence<kind_count>{});
+  compare::for_each_of<ElementKinds>(visit);
 }
 
 /// The elements of a scene, by kind.

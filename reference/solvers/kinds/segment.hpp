@@ -1,6 +1,7 @@
 // Segments of rods, whose list has frames beside vertices (solvers/rods/rod_system.hpp).
 #pragma once
 
+#include "compare/stages/kinds.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/rods/rod.hpp"
 #include "reference/solvers/rods/rod_system.hpp"
@@ -9,19 +10,12 @@
 namespace ogc::reference {
 
 /// See kinds.hpp.
-struct SegmentKind {
+struct SegmentKind : compare::SegmentKind {
   /// All elements of a scene.
   using List = RodSystem;
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::rod_force_tolerance,
                           block_tolerance = compare::rod_block_tolerance;
-
-  /// How many a scene has.
-  static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.segments.size(); }
-  /// The vertices that it joins; −1 for one that it lacks.
-  static compare::Edge vertices(const compare::Scene&, const compare::RestStateOut& rest, std::size_t i) {
-    return rest.segments[i].end;
-  }
 
   /// Adds force and block of the vertex at a place.
   static void add(const List& list, std::size_t i, std::size_t end, const std::array<Triple<double>, 2>& ends,

@@ -1,6 +1,7 @@
 // Springs between two vertices, or a vertex and a point between two others.
 #pragma once
 
+#include "compare/stages/kinds.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/solvers/kinds/elements.hpp"
@@ -8,7 +9,7 @@
 namespace ogc::reference {
 
 /// See kinds.hpp.
-struct SpringKind {
+struct SpringKind : compare::SpringKind {
   /// One element, in double.
   using Term = SpringTerm;
   /// All elements of a scene.
@@ -19,18 +20,8 @@ struct SpringKind {
   static constexpr double force_tolerance = compare::spring_force_tolerance,
                           block_tolerance = compare::spring_block_tolerance;
 
-  /// How many a scene has.
-  static std::size_t count(const compare::Scene& scene, const compare::RestStateOut&) { return scene.springs.size(); }
-  /// The vertices that it joins; −1 for one that it lacks.
-  static std::array<compare::Index, 3> vertices(const compare::Scene& scene, const compare::RestStateOut&,
-                                                std::size_t i) {
-    const compare::Spring& spring = scene.springs[i];
-    return {spring.first, spring.second, spring.third};
-  }
   /// The vertices that it pulls. A third vertex whose weight is 0 is not pulled: −1 stands in its place.
-  static std::array<compare::Index, 3> pulled(const compare::Scene& scene, const compare::RestStateOut&,
-                                              std::size_t i) {
-    const compare::Spring& spring = scene.springs[i];
+  static std::array<compare::Index, 3> pulled(const compare::Spring& spring) {
     if (spring.ratio > 0) return ends_of(spring);
     return {spring.first, spring.second, -1};
   }

@@ -1,6 +1,7 @@
 // Tetrahedra of solids.
 #pragma once
 
+#include "compare/stages/kinds.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/tetrahedron.hpp"
 #include "reference/solvers/kinds/elements.hpp"
@@ -8,7 +9,7 @@
 namespace ogc::reference {
 
 /// See kinds.hpp.
-struct TetrahedronKind {
+struct TetrahedronKind : compare::TetrahedronKind {
   /// One element, in double.
   using Term = TetrahedronTerm;
   /// All elements of a scene.
@@ -18,13 +19,6 @@ struct TetrahedronKind {
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::tetrahedron_force_tolerance,
                           block_tolerance = compare::tetrahedron_block_tolerance;
-
-  /// How many a scene has.
-  static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.tetrahedra.size(); }
-  /// The vertices that it joins; −1 for one that it lacks.
-  static compare::Tetrahedron vertices(const compare::Scene&, const compare::RestStateOut& rest, std::size_t i) {
-    return rest.tetrahedra[i].corner;
-  }
 
   /// As the rest state has it.
   static Term term(const compare::Scene& scene, const compare::RestStateOut& from, std::size_t i) {

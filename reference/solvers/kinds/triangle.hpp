@@ -1,6 +1,7 @@
 // Triangles with a membrane.
 #pragma once
 
+#include "compare/stages/kinds.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/membrane.hpp"
 #include "reference/solvers/kinds/elements.hpp"
@@ -8,7 +9,7 @@
 namespace ogc::reference {
 
 /// See kinds.hpp.
-struct TriangleKind {
+struct TriangleKind : compare::TriangleKind {
   /// One element, in double.
   using Term = MembraneTerm;
   /// All elements of a scene.
@@ -18,13 +19,6 @@ struct TriangleKind {
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::membrane_force_tolerance,
                           block_tolerance = compare::membrane_block_tolerance;
-
-  /// How many a scene has.
-  static std::size_t count(const compare::Scene&, const compare::RestStateOut& rest) { return rest.triangles.size(); }
-  /// The vertices that it joins; −1 for one that it lacks.
-  static compare::Triangle vertices(const compare::Scene&, const compare::RestStateOut& rest, std::size_t i) {
-    return rest.triangles[i].corner;
-  }
 
   /// As the rest state has it.
   static Term term(const compare::Scene& scene, const compare::RestStateOut& from, std::size_t i) {

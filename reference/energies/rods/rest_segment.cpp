@@ -1,13 +1,10 @@
 // Computes directions from exact differences, and everything else in extended precision, 2⁻⁶⁴. A rod of 10⁵ segments
 // loses at most 17 bits of it, which is far from single precision.
-#include <CGAL/Mpzf.h>
-
 #include <cmath>
 #include <limits>
 
 #include "compare/problem/rods.hpp"
-#include "reference/energies/inputs.hpp"
-#include "reference/energies/rest_state.hpp"
+#include "reference/energies/rest_builder.hpp"
 #include "reference/energies/rods/rod_terms.hpp"
 
 namespace ogc::reference {
@@ -19,16 +16,6 @@ using Direction = Triple<Wide>;
 using Frame = FourOf<Wide>;
 
 constexpr double largest_scale = 0x1p20;
-
-Wide exact_difference(double a, double b) {
-  const CGAL::Mpzf difference = CGAL::Mpzf(a) - CGAL::Mpzf(b);
-  const double high = difference.to_double();
-  return static_cast<Wide>(high) + static_cast<Wide>((difference - CGAL::Mpzf(high)).to_double());
-}
-
-compare::Vec3f single(const compare::Vec3& p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
 
 Frame normalised(const Frame& q) {
   const Wide length = std::sqrt(inner(q, q));
@@ -64,52 +51,44 @@ const Frame half_turn{1, 0, 0, 0};  // about the first axis
 
 class Rods {
  public:
-  Rods(const compare::RestStateIn& in, compare::RestStateTruth& truth)
-      : scene_(*in.scene), numbers_(compare::rod_segments(scene_)), truth_(truth), frame_(numbers_.size()) {}
+  explicit Rods(RestBuilder& to)
+      : to_(to), scene_(to.scene), numbers_(compare::rod_segments(scene_)), truth_(to.truth), frame_(numbers_.size()) {}
 
-  void add(std::vector<long double>& mass, std::vector<double>& mass_scale) {
-    add_lengths(mass, mass_scale);
+  void add() {
+    add_lengths();
     find_neighbours();
     walk();
     for (std::size_t e = 0; e < numbers_.size(); ++e) add_neighbours(e);
   }
 
  private:
-  const compare::Vec3& at(Index v) const { return scene_.rest_positions[static_cast<std::size_t>(v)]; }
   compare::RestSegment& segment(std::size_t e) { return truth_.exact.segments[e]; }
   const compare::RodMaterial& material(std::size_t e) {
     return *scene_.bodies[static_cast<std::size_t>(segment(e).body)].material.rod;
   }
 
   Triple<Input> reacting(Inputs& inputs, std::size_t e) {
-    return inputs.vector(single(at(segment(e).end[1])), single(at(segment(e).end[0])));
+    return inputs.vector(single(to_.at(segment(e).end[1])), single(to_.at(segment(e).end[0])));
   }
 
-  void add_lengths(std::vector<long double>& mass, std::vector<double>& mass_scale) {
-    const std::vector<Index> body = compare::body_of_vertex(scene_);
-    for (const Index number : numbers_) {
+  void add_lengths() {
+    for (const Index edge : numbers_) {
       compare::RestSegment rest;
-      rest.end = scene_.mesh.loose_edges[static_cast<std::size_t>(number)];
-      rest.body = body[static_cast<std::size_t>(rest.end[0])];
-      const compare::Vec3 &a = at(rest.end[0]), &b = at(rest.end[1]);
-      direction_.push_back({exact_difference(b.x, a.x), exact_difference(b.y, a.y), exact_difference(b.z, a.z)});
+      rest.end = scene_.mesh.loose_edges[static_cast<std::size_t>(edge)];
+      rest.body = to_.body_of_vertex[static_cast<std::size_t>(rest.end[0])];
+      const Point<Exact> along = exact(to_.at(rest.end[1])) - exact(to_.at(rest.end[0]));
+      direction_.push_back({number(along.x), number(along.y), number(along.z)});
       const Wide length = std::sqrt(dot(direction_.back(), direction_.back()));
       rest.length = static_cast<float>(length);
       truth_.exact.segments.push_back(rest);
       Inputs inputs;
-      const Triple<Input> along = reacting(inputs, truth_.exact.segments.size() - 1);
-      const Input size = sqrt(dot(along, along));
-      const double scale = inputs.condition({&size, 1});
+      const Triple<Input> own = reacting(inputs, truth_.exact.segments.size() - 1);
+      const double scale = unit_of(inputs, sqrt(dot(own, own)));
       length_.push_back(length);
       truth_.segment_length.push_back(static_cast<double>(length));
       truth_.segment_length_scale.push_back(scale);
-      const compare::Body& owner = scene_.bodies[static_cast<std::size_t>(rest.body)];
-      if (owner.fixed) continue;
-      for (const Index end : rest.end) {
-        const auto v = static_cast<std::size_t>(end);
-        mass[v] += owner.material.rod->density * length / 2;
-        mass_scale[v] += owner.material.rod->density * (scale + static_cast<double>(length)) / 2;
-      }
+      const compare::Body& owner = to_.body(rest.body);
+      if (!owner.fixed) to_.add_mass(rest.end, owner.material.rod->density, length, scale);
     }
   }
 
@@ -183,7 +162,7 @@ class Rods {
       const Triple<Input> own = reacting(inputs, e), other = reacting(inputs, f);
       const Input mean = Input(0.5) * (sqrt(dot(own, own)) + sqrt(dot(other, other)));
       const Input answer = Input(4.0) * inputs.number(material(e).bend) / mean;
-      scale[end] = inputs.condition({&answer, 1});
+      scale[end] = unit_of(inputs, answer);
       const Wide exact = 4 * static_cast<Wide>(material(e).bend) / ((length_[e] + length_[f]) / 2);
       weight[end] = static_cast<double>(exact);
       segment(e).weight[end] = static_cast<float>(exact);
@@ -197,6 +176,7 @@ class Rods {
     truth_.segment_relative.push_back(relative);
   }
 
+  RestBuilder& to_;
   const compare::Scene& scene_;
   std::vector<Index> numbers_;
   compare::RestStateTruth& truth_;
@@ -207,9 +187,6 @@ class Rods {
 
 }  // namespace
 
-void add_segments(const compare::RestStateIn& in, compare::RestStateTruth& truth, std::vector<long double>& mass,
-                  std::vector<double>& mass_scale) {
-  Rods(in, truth).add(mass, mass_scale);
-}
+void add_rest(compare::SegmentKind, RestBuilder& to) { Rods(to).add(); }
 
 }  // namespace ogc::reference
