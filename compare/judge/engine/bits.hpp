@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
+#include "compare/stages/kinds.hpp"
 #include "compare/stages/step.hpp"
 
 namespace ogc::compare {
@@ -75,11 +76,9 @@ class Bits {
   }
   void add(const RestStateOut& out) {
     add(out.mass);
-    add(out.triangles);
-    add(out.hinges);
+    for_each_of<RestKinds>([&]<class Kind, std::size_t>() { add(out.*Kind::rest); });
     add(out.edge_length_squared);
     add(out.meetings);
-    add(out.segments);
   }
   void add(const SweepOut& out) {
     add(out.position);
