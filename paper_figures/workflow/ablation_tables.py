@@ -1,6 +1,6 @@
 """The table of an ablation, from the accepted medians and ranges: a row a scene and point, of the largest size at which
-the scene was run, with the columns of which the study's sentences speak. A bold number lies apart from that of the first
-point: every run of one is above, or below, every run of the other. `page_tables.py` writes it into ablations.md.
+the scene was run, and a column a metric of which the study's text speaks. A bold number lies apart from that of the
+first point: every run of one is above, or below, every run of the other. `page_tables.py` writes it into ablations.md.
 """
 
 import csv
