@@ -186,6 +186,12 @@ class Parts(unittest.TestCase):
         self.assertEqual(numbers("0: 15.81; 2400: 88.3; a 5e-07"),
                          [Decimal(x) for x in ("0", "15.81", "2400", "88.3", "5e-07")])
 
+    def test_cells_of_generated_tables(self):
+        for texts, printed_as in ((["0.0012345"], "0.00123"), (["2", "10", "nan", ""], "2 to 10"), (["3", "3.0"], "3"),
+                                  (["yes", "no", "yes"], "yes or no"), (["inf"], "–")):
+            self.assertEqual(page_tables.cell(texts), printed_as)
+        self.assertEqual(page_tables.name_of({"a": "vbd", "b": "20.0", "c": "1921", "d": ""}, "abcd"), "vbd, 20, 1921")
+
 
 if __name__ == "__main__":
     unittest.main()
