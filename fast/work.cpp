@@ -21,21 +21,6 @@ namespace {
 
 // Parts that recur: a difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3, add_outer 15.
 
-/// fast/kernels/models/st_venant_kirchhoff.hpp: differences 6, F 18, ∇N_a 2, G 20, S 10, its rate 3 + 10, pulls 14,
-/// force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
-constexpr double membrane_flop = 174;
-/// fast/kernels/models/discrete_hinge.hpp: differences 9, normals 18, squares 25, their limits 4, length 1, projections
-/// 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block 17.
-constexpr double hinge_flop = 141;
-/// fast/kernels/models/tetrahedron.hpp, elastic: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces
-/// 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
-constexpr double tetrahedron_flop = 85;
-/// Its damping: F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks
-/// 2 + 15 + 45.
-constexpr double solid_damping_flop = 238;
-/// fast/kernels/models/rod.hpp, at one end: difference 3, over its length 5, turned director 30, strain 3, force 6,
-/// block 4.
-constexpr double rod_flop = 51;
 /// fast/kernels/models/orientation.hpp: difference 3, two neighbours 2 · (28 + 7 + 4 + 4), lengths 12, σ 3, ‖b‖ 8,
 /// frame 8, parts of b 128 + 4, their lengths 16, one step to the root 26, sum 16, unit 26.
 constexpr double orientation_flop = 336;
@@ -120,38 +105,46 @@ SearchWork work_of(const SearchCount& count, double distance_flop, double candid
   return work;
 }
 
-/// Adds what tetrahedra cost, each for every free corner of it.
-void add_tetrahedra(const RestState& rest, SweepWork& work) {
-  const auto is_free = [&](int v) { return rest.mobility[static_cast<std::size_t>(v)] == Mobility::free; };
-  double all = 0, damped = 0;
-  for (const TetrahedronRest& tetrahedron : rest.tetrahedra) {
-    const auto corners = static_cast<double>(std::ranges::count_if(tetrahedron.corner, is_free));
-    all += corners;
-    if (rest.solids[static_cast<std::size_t>(tetrahedron.body)].damping > 0) damped += corners;
+/// Adds what the elements of a kind cost, each for every free vertex of it.
+template <class Kind>
+void add_elements(const RestState& rest, SweepWork& work) {
+  const AtRest<Kind>& all = at_rest<Kind>(rest);
+  double incidences = 0, damped = 0;
+  bool has_start = false;
+  for (int i = 0; i < static_cast<int>(all.elements().size()); ++i) {
+    const auto& element = all.elements()[as_index(i)];
+    double free = 0;
+    for (int k = 0; k < Kind::count(element); ++k)
+      free += rest.mobility[as_index(Kind::vertices(element)[k])] == Mobility::free ? 1 : 0;
+    incidences += free;
+    if (!all.damps(rest, i)) continue;
+    damped += free;
+    has_start = true;
   }
-  if (all == 0) return;
-  work.flop += all * tetrahedron_flop + damped * solid_damping_flop;
-  work.bytes += all * sizeof(TetrahedronIncidence) + damped * sizeof(TetrahedronGradients) +
-                static_cast<double>(work.vertices) * sizeof(TetrahedronRow);
-  if (damped > 0) work.bytes += static_cast<double>(rest.tetrahedra.size() * sizeof(SolidStrain));
+  if (incidences == 0) return;
+  work.flop += incidences * Kind::flop + damped * Kind::damping_flop;
+  work.bytes += incidences * sizeof(typename Kind::Incidence);
+  if (Kind::row_in_vertex < 0) work.bytes += static_cast<double>(work.vertices) * sizeof(Row);
+  if constexpr (!std::is_same_v<typename Kind::Beside, NoData>) {
+    if (all.reads_beside(rest)) work.bytes += damped * sizeof(typename Kind::Beside);
+  }
+  if constexpr (!std::is_same_v<typename Kind::Start, NoData>) {
+    if (has_start) work.bytes += static_cast<double>(all.elements().size() * sizeof(typename Kind::Start));
+  }
 }
 
-/// Adds what rods cost: each segment once and for each of its free ends, and a launch for each colour of segments.
-void add_rods(const RestState& rest, SweepWork& work) {
+/// Adds what the quaternions of segments cost: each of them once, and a launch for each of their colours.
+void add_quaternions(const RestState& rest, SweepWork& work) {
   const Colouring colouring = colour_segments(rest.rods);
-  double ends = 0, damped = 0;
-  for (const SegmentRest& segment : rest.rods.segments)
-    ends += static_cast<double>(std::ranges::count_if(
-        segment.end, [&](int v) { return rest.mobility[static_cast<std::size_t>(v)] == Mobility::free; }));
+  double damped = 0;
   for (const int e : colouring.order)
     if (rest.rods.segments[static_cast<std::size_t>(e)].damping > 0) ++damped;
   const auto segments = static_cast<double>(colouring.order.size());
-  if (ends + segments == 0) return;
+  if (segments == 0) return;
   work.colours += colouring.count;
-  work.flop += ends * rod_flop + segments * orientation_flop + damped * orientation_damping_flop;
+  work.flop += segments * orientation_flop + damped * orientation_damping_flop;
   // q read and written; qᵗ and c where damped
-  work.bytes += ends * sizeof(RodIncidence) + static_cast<double>(work.vertices) * sizeof(RodRow) +
-                segments * (sizeof(SegmentSlot) + 2 * sizeof(Quat)) + damped * (sizeof(Quat) + sizeof(Vec));
+  work.bytes += segments * (sizeof(SegmentSlot) + 2 * sizeof(Quat)) + damped * (sizeof(Quat) + sizeof(Vec));
 }
 
 }  // namespace
@@ -159,27 +152,16 @@ void add_rods(const RestState& rest, SweepWork& work) {
 SweepWork sweep_work(const compare::Scene& scene) {
   const compare::Topology topology = compare::build_topology(scene);
   const RestState rest = build_rest_state(scene, topology);
-  const auto is_free = [&](int v) { return rest.mobility[static_cast<std::size_t>(v)] == Mobility::free; };
-  double triangles = 0, hinges = 0;
-  for (const TriangleRest& triangle : rest.triangles)
-    triangles += static_cast<double>(std::ranges::count_if(triangle.corner, is_free));
-  for (const HingeRest& hinge : rest.hinges)
-    hinges += static_cast<double>(std::ranges::count_if(hinge.vertex, is_free));
-  const bool damped = std::ranges::any_of(
-      rest.materials, [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
   SweepWork work;
   work.vertices = static_cast<int>(std::ranges::count(rest.mobility, Mobility::free));
   work.colours = colour_vertices(rest).count;
   const double vertices = work.vertices;
-  work.flop = vertices * vertex_flop + triangles * membrane_flop + hinges * hinge_flop;
+  work.flop = vertices * vertex_flop;
   // x padded, y, X_prev, b_v read; x written padded, and tight.
-  work.bytes = vertices * (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(PaddedVec) + 3 * sizeof(Vec) +
-                           sizeof(float)) +
-               triangles * sizeof(MembraneIncidence) + hinges * sizeof(HingeIncidence);
-  if (damped)
-    work.bytes += static_cast<double>(rest.triangles.size() * sizeof(Symmetric2) + rest.hinges.size() * sizeof(float));
-  add_tetrahedra(rest, work);
-  add_rods(rest, work);
+  work.bytes = vertices *
+               (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(PaddedVec) + 3 * sizeof(Vec) + sizeof(float));
+  Kinds::for_each([&]<class Kind>(Kind) { add_elements<Kind>(rest, work); });
+  add_quaternions(rest, work);
   work.flop_vertex_facet = contact_vertices * (contact_flop + on_triangle_flop);
   work.flop_edge_edge = contact_vertices * (contact_flop + on_segments_flop);
   work.bytes_contact = contact_vertices * sizeof(ContactIncidence);

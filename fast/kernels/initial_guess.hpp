@@ -6,10 +6,8 @@
 
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/control.hpp"
+#include "fast/kernels/held.hpp"
 #include "fast/kernels/inertia.hpp"
-#include "fast/kernels/models/hinge.hpp"
-#include "fast/kernels/models/membrane.hpp"
-#include "fast/kernels/models/tetrahedron.hpp"
 #include "fast/kernels/plane_lists.hpp"
 #include "fast/kernels/touching_move.hpp"
 
@@ -48,49 +46,6 @@ struct BeginVertex {
       return;
     }
     raise_together(&control->largest_move, float_bits(length));
-  }
-};
-
-/// for_each over triangles: Gᵗ, for the damping.
-struct BeginTriangle {
-  const TriangleRest* triangles;  ///< by triangle
-  const Vec* start;               ///< xᵗ by vertex [m]
-  Symmetric2* strain_start;       ///< Gᵗ by triangle, written
-
-  OGC_HD void operator()(int t) const {
-    const TriangleRest& rest = triangles[t];
-    const Vec a = start[rest.corner[0]];
-    strain_start[t] = green_strain(
-        deformation_gradient(start[rest.corner[1]] - a, start[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]));
-  }
-};
-
-/// for_each over hinges: θᵗ, for the damping.
-struct BeginHinge {
-  const HingeRest* hinges;  ///< by hinge
-  const Vec* start;         ///< xᵗ by vertex [m]
-  float* angle_start;       ///< θᵗ by hinge [rad], written; 0 where the hinge has collapsed
-
-  OGC_HD void operator()(int i) const {
-    const int* v = hinges[i].vertex;
-    const Vec base = start[v[0]];
-    angle_start[i] = hinge_shape(start[v[1]] - base, start[v[2]] - base, start[v[3]] - base).angle;
-  }
-};
-
-/// for_each over tetrahedra: Gᵗ, for the damping.
-struct BeginTetrahedron {
-  const TetrahedronRest* tetrahedra;  ///< by tetrahedron
-  const Vec* start;                   ///< xᵗ by vertex [m]
-  SolidStrain* strain_start;          ///< Gᵗ by tetrahedron, written
-
-  OGC_HD void operator()(int t) const {
-    const TetrahedronRest& rest = tetrahedra[t];
-    TetrahedronGradients gradients;
-    for (int k = 0; k < 3; ++k) gradients.other[k] = {rest.gradient[k][0], rest.gradient[k][1], rest.gradient[k][2]};
-    const Vec own = start[rest.corner[0]];
-    strain_start[t] = solid_strain(solid_deformation(gradients, start[rest.corner[1]] - own,
-                                                     start[rest.corner[2]] - own, start[rest.corner[3]] - own));
   }
 };
 

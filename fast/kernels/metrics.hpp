@@ -8,42 +8,9 @@
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
-#include "fast/kernels/models/bending_models.hpp"
-#include "fast/kernels/models/membrane_models.hpp"
-#include "fast/kernels/models/spring.hpp"
-#include "fast/kernels/models/tetrahedron.hpp"
+#include "fast/kernels/sum_columns.hpp"
 
 namespace ogc::fast {
-
-/// Sums over the mesh that a row needs, in this order.
-enum SumColumn : int {
-  sum_kinetic = 0,  ///< Σ m/2 ‖v‖² [J]
-  sum_gravity = 1,  ///< −Σ m a·x [J]
-  sum_lost = 2,     ///< Σ m (x − y), three columns [kg m]
-  sum_moved = 5,    ///< Σ m (y − xᵗ), three columns [kg m]
-  sum_last = 8,     ///< Σ m ‖x − x before the last sweep‖² [kg m²]
-  sum_way = 9,      ///< Σ m ‖x − xᵗ‖² [kg m²]
-  sum_membrane = 10,
-  sum_bending = 11 /* springs included */,
-  sum_vertex_facet = 12,  ///< and of contacts with volumes [J]
-  sum_edge_edge = 13,     ///< [J]
-  sum_solid = 14,         ///< [J]
-  sum_inverted = 15,      ///< tetrahedra with J ≤ 0
-  sum_rod = 16,           ///< stretch, shear, bend and twist of rods [J]
-  sum_stretch = 17,       ///< Σ ‖D‖/l − 1 over segments [1]
-  sum_columns = 18
-};
-/// After the guess loop: the columns of vertices alone.
-inline constexpr int guess_columns = sum_membrane;
-
-/// Sums over free vertices of what a step leaves of forces, in this order.
-enum LeftColumn : int {
-  left_reference = 0,  ///< Σ ‖f*‖ [N]
-  left_force = 1,      ///< Σ ‖f‖ over those that no bound holds [N]
-  left_rounding = 2,   ///< how much of that rounded positions may make [N]
-  left_held = 3,       ///< those that a bound holds
-  left_columns = 4
-};
 
 /// One row of the device's ring; the host makes a compare::StepMetrics of it.
 struct StepRow {
@@ -155,91 +122,6 @@ struct VertexTerm {
                             static_cast<double>(x.z) - b.z};
     sum[sum_last] += m * (last[0] * last[0] + last[1] * last[1] + last[2] * last[2]);
     sum[sum_way] += m * (moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]);
-  }
-};
-
-/// Energy of a triangle, given the functor of its model.
-struct MembraneEnergy {
-  const TriangleRest& rest;
-  const SurfaceMaterial& material;
-  Vec to_b, to_c;  ///< edges from corner 0 to corners 1 and 2 [m]
-
-  template <class Model>
-  OGC_HD double operator()(Model) const {
-    return Model::energy(rest, material, to_b, to_c);
-  }
-};
-
-/// Term of a triangle.
-struct TriangleTerm {
-  const TriangleRest* triangles;     ///< by triangle
-  const SurfaceMaterial* materials;  ///< by body
-  const SurfaceModels* models;       ///< by body
-  const Vec* position;               ///< x by vertex [m]
-
-  OGC_HD void operator()(int t, double* sum) const {
-    const TriangleRest& rest = triangles[t];
-    const Vec a = position[rest.corner[0]], to_b = position[rest.corner[1]] - a, to_c = position[rest.corner[2]] - a;
-    sum[sum_membrane] += with_membrane(models[rest.body].membrane,
-                                       MembraneEnergy{rest, materials[rest.body], to_b, to_c});
-  }
-};
-
-/// Energy of hinge i, given the functor of its model.
-struct HingeEnergy {
-  const HingeRest& rest;
-  const HingeWeights* weights;  ///< read where the model reads them
-  int i;
-  const Vec* to;  ///< from x0 to x1, o0 and o1 [m]
-
-  template <class Model>
-  OGC_HD double operator()(Model) const {
-    HingeWeights own;
-    if constexpr (Model::reads_weights) own = weights[i];
-    return Model::energy(rest, own, to);
-  }
-};
-
-/// Term of a hinge.
-struct HingeTerm {
-  const HingeRest* hinges;      ///< by hinge
-  const HingeWeights* weights;  ///< read where a body bends isometrically
-  const SurfaceModels* models;  ///< by body
-  const Vec* position;          ///< x by vertex [m]
-
-  OGC_HD void operator()(int i, double* sum) const {
-    const HingeRest& rest = hinges[i];
-    const Vec base = position[rest.vertex[0]];
-    const Vec to[3] = {position[rest.vertex[1]] - base, position[rest.vertex[2]] - base,
-                       position[rest.vertex[3]] - base};
-    sum[sum_bending] += with_bending(models[rest.body].bending, HingeEnergy{rest, weights, i, to});
-  }
-};
-
-/// Term of a spring.
-struct SpringTerm {
-  const SpringRest* springs;  ///< by spring
-  const Vec* position;        ///< x by vertex [m]
-
-  OGC_HD void operator()(int i, double* sum) const {
-    const SpringRest& rest = springs[i];
-    const Vec end[3] = {position[rest.end[0]], position[rest.end[1]], position[rest.end[2]]};
-    sum[sum_bending] += spring_energy(rest, spring_length(spring_apart(rest, end)));
-  }
-};
-
-/// A tetrahedron: its energy, and whether it is inverted.
-struct TetrahedronTerm {
-  const TetrahedronRest* tetrahedra;  ///< by tetrahedron
-  const SolidMaterial* materials;     ///< by body
-  const Vec* position;                ///< x by vertex [m]
-
-  OGC_HD void operator()(int t, double* sum) const {
-    const TetrahedronRest& rest = tetrahedra[t];
-    const Vec own = position[rest.corner[0]], a = position[rest.corner[1]] - own, b = position[rest.corner[2]] - own,
-              c = position[rest.corner[3]] - own;
-    sum[sum_solid] += solid_energy(rest, materials[rest.body], a, b, c);
-    if (!(volume_ratio(rest, a, b, c) > 0)) sum[sum_inverted] += 1;
   }
 };
 

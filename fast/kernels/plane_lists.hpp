@@ -19,17 +19,6 @@
 
 namespace ogc::fast {
 
-/// Counts a prescribed vertex that did not reach its target.
-OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, const Vec& previous,
-                                const FeasibleRegions& regions) {
-  if (!kept.cut) return;
-  const Vec &x = kept.position, &p = previous;
-  if (!regions.has_planes())
-    control.count_cut();
-  else
-    control.count_lag(x.x != p.x || x.y != p.y || x.z != p.z);
-}
-
 /// The places of a pair in the rows of its vertices.
 struct RowPlaces {
   int at[4];

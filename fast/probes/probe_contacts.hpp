@@ -58,14 +58,13 @@ struct ProbeContact {
       if (k != role[i] && (together[i] >> k & 1) != 0) incidence.together |= static_cast<std::uint8_t>(1 << slot);
     }
     ForceAndBlock sum;
-    const ContactReads reads = read_contact(here, incidence);
-    const ContactAt at = contact_at(incidence, reads, here.contact_radius);
+    const auto at = contacts_at<PairKind::any>(here, OneItem<ContactIncidence>{incidence});
     if (at.acts()) {
       ForceAndBlock normal;
       const float normal_force = add_contact(activation[i], at.shape, at.weight, at.majorant, here.contact_radius,
                                              incidence.stiffness, normal);
       if (friction)
-        add_contact_friction(incidence, reads, at, normal_force, here.friction_limit, sum);
+        add_contact_friction(at, normal_force, here.friction_limit, sum);
       else
         sum = normal;
     }

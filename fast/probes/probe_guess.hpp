@@ -10,7 +10,7 @@
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/rods/turn.hpp"
 #include "fast/probes/probe_memory.hpp"
-#include "fast/stages/rods_at_rest.hpp"
+#include "fast/stages/kinds/segment.hpp"
 
 namespace ogc::fast {
 

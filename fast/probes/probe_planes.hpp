@@ -6,7 +6,7 @@
 
 #include "compare/stages/plane.hpp"
 #include "compare/stages/truncate.hpp"
-#include "fast/kernels/plane.hpp"
+#include "fast/kernels/held.hpp"
 #include "fast/probes/download.hpp"
 #include "fast/probes/probe_memory.hpp"
 

@@ -9,7 +9,7 @@
 #include "fast/kernels/models/orientation.hpp"
 #include "fast/kernels/models/rod.hpp"
 #include "fast/probes/probe_forces.hpp"
-#include "fast/stages/rods_at_rest.hpp"
+#include "fast/stages/kinds/segment.hpp"
 
 namespace ogc::fast {
 

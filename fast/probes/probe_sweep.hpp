@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "compare/stages/sweep.hpp"
-#include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/rods/turn.hpp"
 #include "fast/probes/probe_memory.hpp"
@@ -82,36 +81,6 @@ class ProbeContacts {
   Buffer<Incidence> incidences_;
 };
 
-/// Gᵗ and θᵗ as the start of a step leaves them.
-template <class Backend>
-class ProbeStart {
- public:
-  ProbeStart(Backend& backend, const RestState& rest, const Vec* start) {
-    triangles_.upload(rest.triangles.data(), rest.triangles.size());
-    hinges_.upload(rest.hinges.data(), rest.hinges.size());
-    strain_.resize(rest.triangles.size());
-    angle_.resize(rest.hinges.size());
-    backend.for_each(static_cast<int>(rest.triangles.size()), BeginTriangle{triangles_.data(), start, strain_.data()});
-    backend.for_each(static_cast<int>(rest.hinges.size()), BeginHinge{hinges_.data(), start, angle_.data()});
-    tetrahedra_.upload(rest.tetrahedra.data(), rest.tetrahedra.size());
-    solid_.resize(rest.tetrahedra.size());
-    backend.for_each(static_cast<int>(rest.tetrahedra.size()),
-                     BeginTetrahedron{tetrahedra_.data(), start, solid_.data()});
-  }
-  /// On the backend: Gᵗ by triangle, θᵗ by hinge [rad], Gᵗ by tetrahedron.
-  const Symmetric2* strain() const { return strain_.data(); }
-  const float* angle() const { return angle_.data(); }
-  const SolidStrain* solid() const { return solid_.data(); }
-
- private:
-  typename Backend::template Buffer<TriangleRest> triangles_;
-  typename Backend::template Buffer<HingeRest> hinges_;
-  typename Backend::template Buffer<Symmetric2> strain_;
-  typename Backend::template Buffer<float> angle_;
-  typename Backend::template Buffer<TetrahedronRest> tetrahedra_;
-  typename Backend::template Buffer<SolidStrain> solid_;
-};
-
 /// Quaternions of a question, and c as the start of a step leaves it.
 template <class Backend>
 class ProbeRods {
@@ -121,7 +90,7 @@ class ProbeRods {
     const std::vector<Quat> now = quats(in.orientation), before = quats(in.orientation_start);
     orientation_.upload(now.data(), now.size());
     start_.upload(before.data(), before.size());
-    if (rod_damping(rest).empty() || !damps_strain(in.scene->settings.damping)) return;
+    if (at_rest<SegmentKind>(rest).by_body(rest).empty() || !damps_strain(in.scene->settings.damping)) return;
     typename Backend::template Buffer<SegmentRest> segments;
     segments.upload(rest.rods.segments.data(), count_);
     typename Backend::template Buffer<Vec> positions;
@@ -182,10 +151,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   view.control = control_buffer.data();
   view.contact_radius = settings.contact_radius;
   view.friction_limit = settings.friction_limit;
-  const ProbeStart<Backend> start(backend, rest, vectors(in.start));
-  view.strain_start = start.strain();
-  view.angle_start = start.angle();
-  view.solid_start = start.solid();
+  sweep.begin(vectors(in.start));
   const ProbeContacts<Backend> contacts(backend, contact_records(in), static_cast<int>(in.old.size()));
   sweep.reserve_contacts(contacts.capacity());
   sweep.resolve_contacts(contacts.view(), previous);

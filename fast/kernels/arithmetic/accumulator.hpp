@@ -57,4 +57,10 @@ struct ForceAndBlockOf {
 };
 using ForceAndBlock = ForceAndBlockOf<float>;
 
+/// Calls add(sum) where the condition holds.
+template <class Add>
+OGC_HD void add_where(bool condition, ForceAndBlock& sum, Add add) {
+  if (condition) add(sum);
+}
+
 }  // namespace ogc::fast

@@ -26,6 +26,12 @@ template <class T>
 OGC_HD QuatOf<T> operator*(T s, const QuatOf<T>& a) {
   return {s * a.x, s * a.y, s * a.z, s * a.w};
 }
+/// a where the condition holds, else b, component by component.
+template <class T, class M>
+OGC_HD QuatOf<T> select(const M& condition, const QuatOf<T>& a, const QuatOf<T>& b) {
+  return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z),
+          select(condition, a.w, b.w)};
+}
 /// a b, the product of quaternions.
 template <class T>
 OGC_HD QuatOf<T> operator*(const QuatOf<T>& a, const QuatOf<T>& b) {

@@ -7,6 +7,7 @@
 #include "compare/problem/settings.hpp"
 #include "fast/kernels/arithmetic/logarithm.hpp"
 #include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
 
 namespace ogc::fast {
 
@@ -36,10 +37,12 @@ struct ActivationOf {
 template <class Stage>
 struct TwoStages : ActivationOf<TwoStages<Stage>> {
   /// g' and g'' for 0 < d ≤ r.
-  OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
-    if (d >= 0.5F * r) return {-k * (r - d), k};
-    const float slope = Stage::logarithmic_stiffness(r, k) / d;
-    return {-slope, slope / d};
+  template <class T>
+  OGC_HD static ActivationSlopeOf<T> slope_within(const T& d, float r, const T& k) {
+    const Mask<T> is_logarithmic = d < T(0.5F * r);
+    if (is_false(is_logarithmic)) return {-k * (r - d), k};
+    const T slope = Stage::logarithmic_stiffness(r, k) / d;
+    return {select(is_logarithmic, -slope, -k * (r - d)), select(is_logarithmic, slope / d, k)};
   }
   /// g for 0 < d < r.
   OGC_HD static float energy_within(float d, float r, float k) {

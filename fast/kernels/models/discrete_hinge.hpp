@@ -21,11 +21,16 @@ struct DiscreteHinge {
     sum.add_outer(stencil.stiffness * (1.0f + damping), gradient);
   }
 
-  /// The same of a hinge whose shape is not known yet; nothing where it is not defined.
+  /// Adds hinges whose shape is not known yet, seen from a vertex at `own`; nothing where it is not defined.
+  template <class T>
+  OGC_HD static void add(const HingeReadsOf<T>& hinge, float damping, const Vector<T>& own, ForceAndBlockOf<T>& sum) {
+    const HingeShapeOf<T> shape = hinge_shape_seen<T>(hinge.opposite, hinge.p, own);
+    add_where(shape.defined, sum, [&](ForceAndBlockOf<T>& to) {
+      add(hinge.stencil, damping, shape.angle, hinge.angle_start, hinge_gradient(shape, hinge.opposite), to);
+    });
+  }
   OGC_HD static void add(const HingeSeen& hinge, float damping, ForceAndBlock& sum) {
-    const HingeShape shape = hinge_shape_seen<float>(hinge.opposite, hinge.p, hinge.own);
-    if (!shape.defined) return;
-    add(hinge.stencil, damping, shape.angle, hinge.angle_start, hinge_gradient(shape, hinge.opposite), sum);
+    add(hinge, damping, hinge.own, sum);
   }
 
   /// `add` leaves nothing out.

@@ -108,13 +108,19 @@ struct IsometricStencil {
   float own = 0, other[3] = {};
 };
 
-/// All that a bending model reads of a hinge, seen from the vertex that is solved.
-struct HingeSeen {
-  HingeStencil stencil;        ///< c and θ₀
+/// What the discrete model reads of hinges, seen from the vertex that is solved.
+template <class N>
+struct HingeReadsOf {
+  HingeStencilOf<N> stencil;  ///< c and θ₀
+  Mask<N> opposite;           ///< the vertex is none of the edge
+  Vector<N> p[3];             ///< positions of the others, as in hinge_shape_seen [m]
+  N angle_start{};            ///< θᵗ [rad]; 0 without damping
+};
+
+/// All that a bending model reads of a hinge.
+struct HingeSeen : HingeReadsOf<float> {
+  Vec own;                     ///< position of the vertex that is solved [m]
   IsometricStencil isometric;  ///< where the body bends so
-  bool opposite;               ///< the vertex is none of the edge
-  Vec own, p[3];               ///< positions; p as in hinge_shape_seen
-  float angle_start;           ///< θᵗ
 };
 
 }  // namespace ogc::fast

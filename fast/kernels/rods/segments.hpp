@@ -31,9 +31,4 @@ struct alignas(16) RodIncidence {
   float length = 0, stretch = 0;  ///< l [m], k_s [N]
 };
 
-/// The segments of a vertex in their stream.
-struct RodRow {
-  int begin = 0, count = 0;  ///< first place in RodStream::incidences, and how many
-};
-
 }  // namespace ogc::fast

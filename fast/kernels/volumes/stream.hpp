@@ -56,7 +56,7 @@ struct LoadVolumeContact {
 };
 /// Adds a contact.
 struct AddVolumeContact {
-  const SweepView& view;
+  const SweepShared& view;
   Vec own, own_start;  ///< x and xᵗ of the vertex [m]
 
   OGC_HD void operator()(const SeenVolumeContact& seen, ForceAndBlock& sum) const {
@@ -73,7 +73,7 @@ struct AddVolumeContact {
 struct VolumeContacts {
   static constexpr unsigned gives = asks_volumes | asks_any_model;
 
-  OGC_HD static Part<LoadVolumeContact, AddVolumeContact> part_of(const SweepView& view, int slot,
+  OGC_HD static Part<LoadVolumeContact, AddVolumeContact> part_of(const SweepShared& view, int slot,
                                                                   const SweepVertex& vertex, const OwnVertex& own) {
     const VolumeStream& volumes = view.volumes;
     const int points = volumes.counts != nullptr ? volumes.counts[slot] : 0,
@@ -92,7 +92,7 @@ OGC_HD inline bool is_deep(const VolumeContact& contact, const Vec* x, float con
 
 /// Whether x, of the vertex of a slot, lies deep inside a driven volume, whose corners stand still while others are
 /// solved. Where volumes are free, CountDeepInside asks after the iteration.
-OGC_HD inline bool lies_deep_in_volume(const SweepView& view, int slot, const Vec& x) {
+OGC_HD inline bool lies_deep_in_volume(const SweepShared& view, int slot, const Vec& x) {
   const VolumeStream& volumes = view.volumes;
   if (volumes.counts == nullptr || volumes.colour != nullptr) return false;
   for (int k = 0; k < volumes.counts[slot]; ++k) {

@@ -1,4 +1,4 @@
-#include "fast/kernels/plane.hpp"
+#include "fast/kernels/held.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -36,8 +36,6 @@ struct Fixture {
   std::vector<Vec> x, start, target, fresh, previous;
   std::vector<PaddedVec> padded, padded_start;  // of x, twice, and of start
   std::vector<float> bound;
-  std::vector<Symmetric2> strain;
-  std::vector<float> angle;
   StepControl control;
   std::unique_ptr<Detection<CpuBackend>> detection;
   std::unique_ptr<Sweep<CpuBackend>> sweep;
@@ -67,14 +65,6 @@ struct Fixture {
     }
     fresh = previous = x;
     bound.assign(x.size(), 1.0f);
-    for (const TriangleRest& t : rest.triangles) {
-      const auto at = [&](int k) { return start[static_cast<std::size_t>(t.corner[k])]; };
-      strain.push_back(green_strain(deformation_gradient(at(1) - at(0), at(2) - at(0), t.gradient[1], t.gradient[2])));
-    }
-    for (const HingeRest& h : rest.hinges) {
-      const auto at = [&](int k) { return start[static_cast<std::size_t>(h.vertex[k])]; };
-      angle.push_back(hinge_shape(at(1) - at(0), at(2) - at(0), at(3) - at(0)).angle);
-    }
     control.active = 1;
     control.query_radius = 0.03f;
     detection = std::make_unique<Detection<CpuBackend>>(backend, topology, compare::rigid_groups(scene));
@@ -93,9 +83,8 @@ struct Fixture {
     padded = padded_of(x, 2);
     padded_start = padded_of(start);
     SweepView v;
+    sweep->begin(start.data());
     sweep->complete(v);
-    v.strain_start = strain.data();
-    v.angle_start = angle.data();
     v.start = {padded_start.data()};
     v.target = target.data();
     v.regions = {previous.data(), bound.data()};
@@ -439,13 +428,13 @@ TEST_CASE("a stencil that only one free vertex has is not forgotten", "[unit]") 
   const Sweep<CpuBackend> sweep(backend, rest, colour_vertices(rest), topology, scene);
   SweepView view;
   sweep.complete(view);
-  CHECK(view.isometric != nullptr);
-  CHECK(view.spring_rows != nullptr);
+  CHECK(view.hinges.beside != nullptr);
+  CHECK(view.springs.rows != nullptr);
   scene.springs.clear();
   scene.bodies[0].material.bending = compare::BendingModel::discrete_hinge;
   const RestState plain = build_rest_state(scene, topology);
   const Sweep<CpuBackend> other(backend, plain, colour_vertices(plain), topology, scene);
   other.complete(view);
-  CHECK(view.isometric == nullptr);
-  CHECK(view.spring_rows == nullptr);
+  CHECK(view.hinges.beside == nullptr);
+  CHECK(view.springs.rows == nullptr);
 }

@@ -3,7 +3,6 @@
 #include <random>
 
 #include "fast/cpu/backend.hpp"
-#include "fast/kernels/initial_guess.hpp"
 #include "fast/stages/sweep.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/problem/solid_scene.hpp"
@@ -23,7 +22,6 @@ struct Fixture {
   CpuBackend backend;
   std::vector<PaddedVec> padded, padded_start;
   std::vector<Vec> start;
-  std::vector<SolidStrain> strain;
   std::unique_ptr<Sweep<CpuBackend>> sweep;
 
   Fixture(double damping, compare::DampingForm form) {
@@ -45,15 +43,12 @@ struct Fixture {
       start.push_back({p.x, p.y, p.z + normal(random)});
       padded_start.emplace_back(start.back());
     }
-    strain.resize(rest.tetrahedra.size());
-    const BeginTetrahedron begin{rest.tetrahedra.data(), start.data(), strain.data()};
-    for (int t = 0; t < static_cast<int>(strain.size()); ++t) begin(t);
+    sweep->begin(start.data());
   }
 
   SweepView view() {
     SweepView view;
     sweep->complete(view);
-    view.solid_start = strain.data();
     view.start = {padded_start.data()};
     view.old = padded.data();
     view.to_fresh = static_cast<int>(start.size());

@@ -96,7 +96,7 @@ class WatchedBackend : public CpuBackend {
   template <class F>
   void for_each(int n, F f) {
     note_launch<F>();
-    if constexpr (std::is_same_v<F, BeginTriangle>) ++strains_begun;
+    if constexpr (std::is_same_v<F, BeginElement<TriangleKind>>) ++strains_begun;
     if constexpr (is_check<F>) {
       if (before_check_) before_check_(const_cast<Vec*>(f.g.position));
     }
