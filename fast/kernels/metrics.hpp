@@ -1,4 +1,4 @@
-// The end of a step: last certificate, commit, and the terms of what a row reports. Terms are in double and only
+// Ends a step: last certificate, commit, and the terms of the row that reports it. Terms are in double and only
 // reported; nothing here feeds a position.
 #pragma once
 
@@ -16,35 +16,35 @@ namespace ogc::fast {
 struct StepRow {
   int status = 0;                                         ///< compare::StepStatus bits; 0: the step was committed
   int vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< records of the last detection
-  /// of the step; cut_last: vertices that its last iteration cut
+  /// counts of the step; cut_last: vertices that its last iteration cut
   int detections = 0, rounds = 0, iterations = 0, cut_last = 0;
-  /// r_q, the largest lag, the smallest b_v or, with planes, distance [m]
+  /// r_q, the largest lag, the smallest b_v or, with planes, the smallest distance [m]
   float query_radius = 0, largest_lag = 0, smallest_bound = 0;
   double lost_guess = 0, lost_end = 0;  ///< ‖Σ m (x − y)‖/‖Σ m (y − xᵗ)‖ after the guess loop and at the end [1]
-  /// at the end [J]; without StepSettings::energies elastic is that of tetrahedra alone, and contact is 0
+  /// at the end [J]; without StepSettings::energies elastic is the energy of tetrahedra alone, and contact is 0
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
   int inverted = 0;  ///< tetrahedra with J ≤ 0
-  /// at the last detection: contacts with volumes, vertices inside, sheets without any way, the deepest vertex [m]
+  /// at the last detection: contacts with volumes, vertices inside, sheets without any way out, largest depth [m]
   int volume_contacts = 0, vertices_inside = 0, depth_unresolved = 0;
   float deepest = 0;
   /// with rods: smallest distance of contacts that act [m], mean and largest ‖D‖/l − 1 of segments
   float smallest_contact = 0, largest_stretch = 0;
   double mean_stretch = 0;
   double last_motion = 0;  ///< way of the last sweep over that of the step, by mass [1]
-  /// where forces were measured: Eq. 29 and what of it may be rounding [1]; vertices that a bound holds
+  /// if forces were measured: Eq. 29 and the part of it that may be rounding [1]; vertices that a bound holds
   double left_residual = 0, left_rounding = 0;
   int left_held = 0;
 };
 
-/// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
-/// smallest distance).
+/// Checks a vertex at the end of a step: certificate, largest lag, smallest bound (with half-spaces: smallest
+/// distance). Index over all vertices.
 struct CheckVertex {
   const Vec* position;             ///< x by vertex [m]
   FeasibleRegions regions;         ///< of the last detection
   const Vec* target;               ///< y by vertex [m]
   const int* prescribed_number;    ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
-  StepControl* control;            ///< on the backend: counts and extremes are written
-  const float* nearest = nullptr;  ///< smallest distances [m], where there are half-spaces
+  StepControl* control;            ///< on the backend; counts and extremes are written
+  const float* nearest = nullptr;  ///< smallest distances [m], if there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
@@ -58,19 +58,19 @@ struct CheckVertex {
   }
 };
 
-/// After the certificate: nothing that failed is committed.
+/// Stops the step after the certificate if it failed; nothing of it is committed.
 struct EndCheck {
   StepControl* control;  ///< on the backend
 
   OGC_HD void operator()(int) const { stop_if_failed(*control); }
 };
 
-/// for_each over all vertices of a step that is clean: v = (x − xᵗ)/h, xᵗ = x.
+/// Commits a vertex of a step that did not fail: v = (x − xᵗ)/h, xᵗ = x. Index over all vertices.
 struct CommitVertex {
   const Vec* position;         ///< x by vertex [m]
   float step;                  ///< h [s]
-  const StepControl* control;  ///< on the backend; not active: the step failed, and nothing is written
-  Vec* start;                  ///< xᵗ by vertex [m], becomes x
+  const StepControl* control;  ///< on the backend; if not active the step failed, and nothing is written
+  Vec* start;                  ///< xᵗ by vertex [m]; becomes x
   Vec* velocity;               ///< by vertex [m/s], written
 
   OGC_HD void operator()(int v) const {
@@ -81,7 +81,7 @@ struct CommitVertex {
   }
 };
 
-/// for_each over all vertices, for a snapshot.
+/// Copies bounds for a snapshot. Index over all vertices.
 struct CopyBound {
   const float* from;  ///< b_v by vertex [m]
   float* to;
@@ -89,15 +89,15 @@ struct CopyBound {
   OGC_HD void operator()(int v) const { to[v] = from[v]; }
 };
 
-/// Term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not yet
-/// committed).
+/// Adds the term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not
+/// yet committed).
 struct VertexTerm {
   const Vec* position;           ///< x by vertex [m]
-  const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null: there was none
+  const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null if there was none
   const Vec* start;              ///< xᵗ by vertex [m]
   const Vec* target;             ///< y by vertex [m]
   const float* mass;             ///< by vertex [kg]; 0 on fixed bodies
-  const int* prescribed_number;  ///< as in CheckVertex; momenta are those of free vertices
+  const int* prescribed_number;  ///< as in CheckVertex; only free vertices add to the momenta
   Vec acceleration;              ///< a [m/s²]
   double step;                   ///< h [s]
 
@@ -134,18 +134,18 @@ OGC_HD inline double momentum_lost(const double* sums) {
   return moved > 0 ? sqrt(lost / moved) : 0.0;
 }
 
-/// Share of a sum in another, 0 where that is 0.
+/// Returns the quotient of two sums; 0 if `whole` is 0.
 OGC_HD inline double share_of(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
 
-/// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is
-/// repeated).
+/// Writes the row of a step in its last kernel, also if the step failed. A step that a full list stopped has no row: it
+/// is repeated.
 struct FinishStep {
   StepControl* control;  ///< on the backend
-  ContactView contacts;  ///< whose counts are reported
-  const double* sums;    ///< the first guess_columns after the guess loop, then by SumColumn at the end
+  ContactView contacts;  ///< their counts are reported
+  const double* sums;    ///< the first guess_columns after the guess loop, then SumColumn at the end
   StepRow* rows;         ///< by step of the frame, on the backend
-  int segments = 0;      ///< of rods
-  /// by LeftColumn, on the backend; null where forces were not measured
+  int segments = 0;      ///< segments of rods
+  /// by LeftColumn, on the backend; null if forces were not measured
   const double* left = nullptr;
   int free_vertices = 0;
 
@@ -188,7 +188,7 @@ struct FinishStep {
   }
 
  private:
-  /// Means of Eq. 29: of f over vertices that nothing holds, of f* over all.
+  /// Writes the means of Eq. 29: of f over vertices that no bound holds, of f* over all free ones.
   OGC_HD void add_left(StepRow& row) const {
     const double reference = share_of(left[left_reference], free_vertices), unheld = free_vertices - left[left_held];
     row.left_residual = share_of(share_of(left[left_force], unheld), reference);

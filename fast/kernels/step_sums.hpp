@@ -1,4 +1,4 @@
-// What a step sums up for its row: one functor for each launch of fast/stages/reduce.hpp, kind after kind.
+// Adds what a step sums up for its row: one functor for each launch of fast/stages/reduce.hpp, kind after kind.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -13,21 +13,21 @@ OGC_HD void add_terms(const Term& term, int count, int chunk, int chunks, double
   for (int i = chunk; i < count; i += chunks) term(i, sums);
 }
 
-/// Momenta, kinetic and gravity energy.
+/// Sums momenta, kinetic and gravity energy.
 struct VertexSums {
   VertexTerm term;
   int count;  ///< vertices
 
-  /// Those of one chunk.
+  /// Adds the terms of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
 };
 
-/// What is left of forces, over free vertices.
+/// Sums the forces that a step leaves, over free vertices.
 struct LeftSums {
   const LeftForce* left;  ///< by slot
   int count;              ///< slots
 
-  /// Those of one chunk, by LeftColumn.
+  /// Adds the terms of one chunk, by LeftColumn.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     for (int i = chunk; i < count; i += chunks) {
       const LeftForce own = left[i];
@@ -60,12 +60,12 @@ struct AllElements<KindList<All...>> : ElementsView<All>... {
   }
 };
 
-/// What each step reports.
+/// Sums what each step reports.
 struct StateSums {
   VertexSums vertices;
   AllElements<Kinds> elements;
 
-  /// Those of one chunk.
+  /// Adds the terms of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     vertices.add(chunk, chunks, sums);
     elements.add<false>(chunk, chunks, sums);
@@ -78,7 +78,7 @@ struct EnergySums {
   VertexFacetTerm vertex_facet;  ///< as many as its view says, which only the device knows
   EdgeEdgeTerm edge_edge;        ///< as many as its view says
 
-  /// Those of one chunk.
+  /// Adds the terms of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     state.vertices.add(chunk, chunks, sums);
     state.elements.add<true>(chunk, chunks, sums);
