@@ -1,4 +1,4 @@
-// The public way to contact sets: checks at the edge, then the engine of the backend.
+// Implements the public way to contact sets: checks the input, then calls the engine of the backend.
 #include "fast/contact_sets.hpp"
 
 #include <algorithm>

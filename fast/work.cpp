@@ -1,8 +1,8 @@
-// The work of an iteration, counted from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path
-// of default models counts one, comparisons, negations and the additions that join team lanes count none; of branches
-// the longest that generic input takes. Bytes: the sizes of the very structs that are read, each once an iteration,
-// however often a cache serves them: what no order of work can avoid. Searches of the trees depend on the state: there
-// nodes, candidates and distances are counted while a detection runs.
+// Counts the work of an iteration from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path of
+// default models counts one; comparisons, negations and the additions that join team lanes count none; of several
+// branches the longest one that generic input takes is counted. Bytes: the sizes of the structs that are read, each
+// once an iteration, however often a cache serves them: no order of work can avoid these. Searches of the trees depend
+// on the state: their nodes, candidates and distances are counted while a detection runs.
 #include "fast/contestant.hpp"
 
 #include <algorithm>
@@ -19,36 +19,37 @@ namespace ogc::fast {
 
 namespace {
 
-// Parts that recur: a difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3, add_outer 15.
+// Recurring parts: a difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3, add_outer 15.
 
 /// fast/kernels/models/orientation.hpp: difference 3, two neighbours 2 · (28 + 7 + 4 + 4), lengths 12, σ 3, ‖b‖ 8,
 /// frame 8, parts of b 128 + 4, their lengths 16, one step to the root 26, sum 16, unit 26.
 constexpr double orientation_flop = 336;
-/// Its damping: two neighbours 2 · (28 + 1 + 43).
+/// fast/kernels/models/orientation.hpp, damping: two neighbours 2 · (28 + 1 + 43).
 constexpr double orientation_damping_flop = 144;
-/// fast/kernels/contact_force.hpp and friction_force.hpp, what every kind does: separation 24, normal and distance 10,
-/// activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11, force 7, blocks 22.
+/// fast/kernels/contact_force.hpp and friction_force.hpp, the part that all kinds share: separation 24, normal and
+/// distance 10, activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11, force 7,
+/// blocks 22.
 constexpr double contact_flop = 145;
 /// closest_on_triangle, inside: differences 9, normal 9, its square 5, two weights 28, the third 2, quotients 3.
 constexpr double on_triangle_flop = 56;
 /// closest_on_segments, not parallel: differences 9, three dots 15, cross 9, its square 5, projection 5, limit 2, first
 /// parameter 15, second 8, weights 2.
 constexpr double on_segments_flop = 70;
-/// inertia 12, its inverse 1, solve 28, new position 3, truncation that is not needed 10.
+/// Inertia 12, its inverse 1, solve 28, new position 3, truncation that changes nothing 10.
 constexpr double vertex_flop = 54;
 
-/// Vertices of a contact of each kind, where its points lie inside: each updates itself from it.
+/// Vertices of a contact of each kind whose points lie inside the faces: each updates itself from it.
 constexpr double contact_vertices = 4;
 
-/// squared_gaps of four children: six differences, three products and two sums each.
+/// squared_gaps of four children: six differences, three products and two sums for each.
 constexpr double node_flop = 44;
-/// separation of two edges 96 in single precision; their distance: differences 9, normal 9, squares 16, size 8, limits
-/// 3, dots 15, feet 6, from four ends 95; what is_pair and meet add 6.
+/// Separation of two edges 96 in single precision; their distance: differences 9, normal 9, squares 16, size 8, limits
+/// 3, dots 15, feet 6, from four ends 95; is_pair and meet add 6.
 constexpr double edge_distance_flop = 96 + 161 + 6;
-/// separation of point and triangle 158; their distance: differences 15, normal 9, squares 21, size 8, limits 3, sides
-/// 69, from three edges 67; 6 more.
+/// Separation of point and triangle 158; their distance: differences 15, normal 9, squares 21, size 8, limits 3, sides
+/// 69, from three edges 67; is_pair and meet add 6.
 constexpr double facet_distance_flop = 158 + 192 + 6;
-/// Ends of a candidate edge, and its two positions where the distance is taken; likewise of a facet.
+/// Bytes read of a candidate edge: its ends, and its two positions if the distance is taken; the same for a facet.
 constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(PaddedVec);
 constexpr double facet_bytes = sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(PaddedVec);
 
@@ -56,7 +57,7 @@ struct SearchCount {
   std::int64_t nodes = 0, candidates = 0, distances = 0;
 };
 
-/// A tree for for_each_near, which asks for a node once, when it opens it.
+/// A tree for for_each_near, which calls node() once for each node that it opens.
 struct CountedTree {
   const TreeView& tree;
   std::int64_t& opened;
@@ -84,8 +85,7 @@ SearchCount count_searches(const Searches<Query>& searches) {
   return count;
 }
 
-/// The CPU's backend, whose searches are counted; of a detection that is repeated because a list grew the last one
-/// counts.
+/// The CPU's backend with counted searches; if a detection is repeated because a list grew the last one counts.
 class CountingBackend : public CpuBackend {
  public:
   SearchCount edges, facets;

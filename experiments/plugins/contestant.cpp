@@ -1,4 +1,4 @@
-// The judge's questions as arrays, in the order of stages.cpp, and the arrays that come back as answers.
+// Turns the judge's questions into arrays, in the order of stages.cpp, and the arrays that come back into answers.
 #include "experiments/plugins/contestant.hpp"
 
 #include <algorithm>
@@ -108,7 +108,7 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
   return out;
 }
 
-/// One after another as the plug-in wrote them, put into rows.
+/// Sorts the planes that the plug-in wrote one after another into rows.
 VertexPlanes planes_of(const std::vector<ogc_vertex_plane>& all, const std::vector<double>& offsets, Index vertices) {
   std::vector<std::pair<Index, VertexPlane>> planes;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -163,7 +163,7 @@ ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
   return out;
 }
 
-/// One entry a case, also where no case has half-spaces.
+/// Returns one entry a case, also if no case has half-spaces.
 HalfSpacesIn half_spaces_by_case(const TruncateIn& in) {
   if (!in.half_spaces.offsets.empty()) return in.half_spaces;
   const std::size_t n = in.bound.size();

@@ -43,7 +43,7 @@ struct PlaneListsView {
   float* unplaned = nullptr;               ///< by vertex: the same for its nearest pair without a plane
   HalfSpace* placed = nullptr;             ///< n·x ≤ o of vertex v from v · most_planes on, in any order
   NotedPair* placed_pairs = nullptr;       ///< the pair of each of them
-  HalfSpace* rows = nullptr;               ///< the half-spaces in ascending order of pair
+  HalfSpace* rows = nullptr;               ///< the half-spaces in ascending order of pair; `pairs`: the pair of each
   NotedPair* pairs = nullptr;
   int* counts = nullptr;   ///< half-spaces by vertex, at most most_planes
   float* bound = nullptr;  ///< b_v by vertex [m]: γ_p times `unplaned`

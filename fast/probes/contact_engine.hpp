@@ -1,4 +1,4 @@
-// A detection that grows its lists until nothing is missing: what the judge's probes and ContactFinder run. The
+// Runs a detection and grows its lists until nothing is missing, for the judge's probes and ContactFinder. The
 // simulation does the same with whole steps.
 #pragma once
 
@@ -29,7 +29,7 @@ class BackendContactEngine : public ContactEngine {
     return detection_.view();
   }
 
-  /// What it runs.
+  /// Returns the detection that it runs.
   const Detection<Backend>& detection() const { return detection_; }
 
  private:

@@ -1,4 +1,4 @@
-// The judge's way in to the energies: each case becomes one incidence of the sweep's streams, made and added by the
+// Lets the judge test the energies: each case becomes one incidence of the sweep's streams, made and added by the
 // functions that the sweep uses.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace ogc::fast {
 
-/// The points of a batch of stencils in one array.
+/// Returns the points of a batch of stencils in one array.
 template <class Case, std::size_t count>
 std::vector<compare::Vec3f> points_of(const std::vector<Case>& cases, std::array<compare::Vec3f, count> Case::*points) {
   std::vector<compare::Vec3f> all;
@@ -23,19 +23,19 @@ std::vector<compare::Vec3f> points_of(const std::vector<Case>& cases, std::array
   return all;
 }
 
-/// Where a probe leaves force and block of each case, on the backend.
+/// Receives force and block of each case, on the backend.
 struct ForceArrays {
   Vec* force;         ///< by case: −∂E/∂x [N]
   Symmetric3* block;  ///< by case [N/m]
 
-  /// The sum of case i.
+  /// Stores the sum of case i.
   OGC_HD void store(int i, const ForceAndBlock& sum) const {
     force[i] = sum.force;
     block[i] = sum.block;
   }
 };
 
-/// Room on the backend for n cases; ProbeMemory::fetch copies it to `out`.
+/// Makes room on the backend for n cases; ProbeMemory::fetch copies it to `out`.
 template <class Backend>
 ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, std::size_t n) {
   return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};
@@ -128,7 +128,7 @@ struct ElementBatch {
   }
 };
 
-/// The stage `membrane`.
+/// Answers the stage `membrane`.
 template <class Backend>
 compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in) {
   ElementBatch<TriangleKind> batch;
@@ -186,7 +186,7 @@ inline TetrahedronRest tetrahedron_rest(const compare::TetrahedronCase& c, int n
   return rest;
 }
 
-/// The stage `tetrahedron`.
+/// Answers the stage `tetrahedron`.
 template <class Backend>
 compare::ForceOut probe_tetrahedron(Backend& backend, const compare::TetrahedronIn& in) {
   ElementBatch<TetrahedronKind> batch;

@@ -1,6 +1,6 @@
-// The judge's way in to the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of
-// the question in place of its own. Incidences are filled and ordered by the functors of the detection (FillIncidences,
-// RankIncidences), so the sums have the order that they have in a step.
+// Lets the judge test the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of
+// the question in place of its own. The functors of the detection (FillIncidences, RankIncidences) fill and order the
+// incidences, so the sums have the order that they have in a step.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@
 
 namespace ogc::fast {
 
-/// Records on the backend with their incidences.
+/// Holds records on the backend with their incidences.
 template <class Backend>
 class ProbeContacts {
  public:
@@ -38,12 +38,12 @@ class ProbeContacts {
     fill(facets, edges);
   }
 
-  /// Room that they need, in contacts: one has two incidences at least, four at most.
+  /// Returns the room that the contacts need: the number of incidences, as each contact has two at least, four at most.
   int capacity() const { return count_; }
-  /// How many contacts there are; on the backend.
+  /// Returns the number of contacts, on the backend.
   const int* count() const { return counts_.data() + 1; }
 
-  /// As a detection's.
+  /// Returns the contacts as a detection leaves them.
   ContactView view() const {
     ContactView view;
     view.vertex_facet = vertex_facet_.data();
@@ -58,7 +58,7 @@ class ProbeContacts {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// Of the lists of a detection, what its last two kernels read.
+  /// Sets only those lists of a detection that its last two kernels read, and runs them.
   void fill(int facets, int edges) {
     ListsView lists;
     lists.overflow = overflow_.data();
@@ -101,13 +101,13 @@ class ProbeRods {
     backend.synchronize();
   }
 
-  /// What a sweep reads beside its streams.
+  /// Sets what a sweep reads beside its streams.
   void complete(RodStream& rods) {
     rods.orientation = orientation_.data();
     rods.orientation_start = start_.data();
     rods.direction = direction_.data();
   }
-  /// As they are now.
+  /// Returns the present orientations.
   std::vector<compare::Quaternion> orientations() const {
     std::vector<Quat> now(count_);
     if (count_ > 0) orientation_.download(now.data(), count_);
@@ -120,7 +120,7 @@ class ProbeRods {
   typename Backend::template Buffer<Vec> direction_;
 };
 
-/// One iteration of the resident sweep.
+/// Runs one iteration of the resident sweep.
 template <class Backend>
 compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   ProbeMemory<Backend> memory(backend);

@@ -1,5 +1,5 @@
-// The exact update of a segment's quaternion between its neighbours (compare/rods.md). Its root is sought as ν = μ − σ:
-// μ would lose what the neighbours say beside a stiff stretch.
+// Computes the exact update of a segment's quaternion between its neighbours (compare/rods.md). Its root is sought as ν
+// = μ − σ: beside a stiff stretch rounding of μ would lose the neighbours' part.
 #pragma once
 
 #include <cmath>
@@ -11,16 +11,16 @@ namespace ogc::fast {
 /// A neighbour across one end.
 struct NeighbourRest {
   float weight = 0;  ///< w = 4 k_b/l̄ [N m]; 0: there is none
-  Quat rest;         ///< p° = q̄° q°_f of one ahead, q̄°_f q° of one behind
+  Quat rest;         ///< p° = q̄° q°_f for a neighbour ahead, q̄°_f q° for one behind
 };
 
-/// What a neighbour that holds `q` asks for, given the relative rotation p: q p̄ ahead, q p behind.
+/// Returns the orientation t that a neighbour with `q` asks for, given the relative rotation p: q p̄ ahead, q p behind.
 template <class T>
 OGC_HD QuatOf<T> asked_orientation(bool is_ahead, const QuatOf<T>& q, const QuatOf<T>& relative) {
   return q * (is_ahead ? conjugate(relative) : relative);
 }
 
-/// w s t with the sign that brings t nearer to the old q.
+/// Returns w s t with the sign s that brings t nearer to the old q.
 template <class T>
 OGC_HD QuatOf<T> pull_towards(const T& weight, const QuatOf<T>& asked, const QuatOf<T>& old) {
   return select(dot(asked, old) < T(0.0f), -weight, weight) * asked;
@@ -63,14 +63,14 @@ OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   return nu;
 }
 
-/// M/σ: q ↦ −D q c of unit vectors, its own inverse.
+/// Applies M/σ: q ↦ −D q c of unit vectors, its own inverse.
 template <class T>
 struct ReflectedFrameOf {
   QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
 
   OGC_HD QuatOf<T> operator()(const QuatOf<T>& q) const { return T(-1.0f) * (apart * q * direction); }
-  /// The part of q in the eigenspace of 1, of directors along D. Projected twice: once leaves a rounding of all of q
-  /// outside, which a small part would not bear.
+  /// Returns the part of q in the eigenspace of 1, whose directors are along D. Projected twice: once leaves a rounding
+  /// of all of q outside, which would spoil a small part.
   OGC_HD QuatOf<T> upper(const QuatOf<T>& q) const {
     const QuatOf<T> once = T(0.5f) * (q + (*this)(q));
     return T(0.5f) * (once + (*this)(once));
@@ -82,8 +82,8 @@ using ReflectedFrame = ReflectedFrameOf<float>;
 /// quaternions and half a sum err by 17 u (compare/stages/orientation.hpp), and twice that leaves room.
 inline constexpr float lost_part = 0x1p-19f;
 
-/// The unit vector of the upper eigenspace nearest to the old q; where the old q has no part in it, to 1, i or j: where
-/// 1 has none, c is antiparallel to D, and the eigenspace holds what is across D.
+/// Returns the unit vector of the upper eigenspace nearest to the old q; if the old q has no part in it, nearest to 1,
+/// i or j. If 1 has none, c is antiparallel to D, and the eigenspace holds the pure quaternions across D.
 OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   constexpr float lost = lost_part * lost_part;
   Quat part = frame.upper(old);
