@@ -75,8 +75,7 @@ bool ended_by_itself(pid_t process) {
   return !runs(process);
 }
 
-/// Ends what is left of the process and of those that it has started, unless they have left its group; returns its
-/// status.
+/// Ends the rest of the process and those that it has started, unless they have left its group; returns its status.
 int end_group(pid_t process) {
   // Before waitpid, after which the number might be another process's.
   kill(-process, SIGKILL);

@@ -19,7 +19,7 @@ tests::TestMesh two_sheets() {
   return mesh;
 }
 
-/// What the input error of an action says; empty where there is none.
+/// Returns the message of an action's input error; empty if there is none.
 template <class Action>
 std::string error_of(Action action) {
   try {

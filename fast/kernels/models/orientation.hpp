@@ -14,7 +14,8 @@ struct NeighbourRest {
   Quat rest;         ///< p° = q̄° q°_f for a neighbour ahead, q̄°_f q° for one behind
 };
 
-/// Returns the orientation t that a neighbour with `q` asks for, given the relative rotation p: q p̄ ahead, q p behind.
+/// Returns the orientation t towards which a neighbour with `q` pulls, given the relative rotation p: q p̄ ahead, q p
+/// behind.
 template <class T>
 OGC_HD QuatOf<T> asked_orientation(bool is_ahead, const QuatOf<T>& q, const QuatOf<T>& relative) {
   return q * (is_ahead ? conjugate(relative) : relative);

@@ -1,4 +1,4 @@
-// The sums of a solid's vertices: in packs and in turn, alone and beside surfaces, to the same bits.
+// Tests that the sums of a solid's vertices have the same bits in packs and in turn, alone and beside surfaces.
 #include <cstring>
 #include <random>
 
@@ -14,7 +14,7 @@ using namespace ogc::fast::test;
 
 namespace {
 
-/// A crumpled block, none of whose contacts are known; start positions a little elsewhere, so that damping acts.
+/// Holds a crumpled block without known contacts; start positions are a little elsewhere, so that damping acts.
 struct Fixture {
   compare::Scene scene = empty_scene();
   RestState rest;
@@ -70,7 +70,7 @@ std::vector<const PackKernels*> all_kernels() {
   return {&pack_kernels_baseline};
 }
 
-/// Vertices whose two sums have other bits.
+/// Returns the number of vertices whose two sums have other bits.
 template <int W, class A, class B>
 int other_bits(Fixture& f, const A& a, const B& b) {
   int count = 0;
