@@ -13,7 +13,7 @@ struct SegmentRest {
   float stretch = 0, damping = 0;  ///< k_s [N], k_d/h [1]
 };
 
-/// Returns c = e₃ + k R(qᵗ)ᵀ Dᵗ/l, the direction of D/(1 + k) in the segment's frame at which the segment is free of
+/// Returns c = e₃ + k R(qᵗ)ᵀ Dᵗ/l: the value of (1 + k) D/l, in the segment's frame, at which the segment is free of
 /// force. `apart`: Dᵗ [m].
 OGC_HD inline Vec rod_rest_direction(const SegmentRest& segment, float damping, const Quat& start, const Vec& apart) {
   const Vec axis{0.0f, 0.0f, 1.0f};

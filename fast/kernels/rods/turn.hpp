@@ -36,7 +36,7 @@ struct SetDirection {
   }
 };
 
-/// Turns q to the start of the sweeps, after the guess loop. Index over segments.
+/// Turns each frame after the guess loop, which gives q for the step. Index over segments.
 struct TurnSegment {
   const SegmentRest* segments;    ///< by segment
   const int* motion;              ///< by segment: what holds it, as in segments.hpp
