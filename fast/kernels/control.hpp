@@ -74,8 +74,7 @@ struct StepControl {
   /// and whether one has requested a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
   int not_finite = 0, violations = 0;
-  /// with volumes: rows of contacts without room; apart from the lists' overflow flag, which a detection may set
-  /// meanwhile
+  /// with volumes, 1: a row of contacts had no room; set beside a detection, whose lists have their own flag
   int short_rows = 0;
   /// With volumes, at the end: contacts, vertices inside, bits of the largest depth at the last detection [m], sheets
   /// without any way out.
