@@ -23,7 +23,7 @@ namespace ogc::fast {
 struct ContactQuery {
   float contact_radius = 0;        ///< r > 0
   float query_radius = 0;          ///< r_q ≥ r: nothing is searched beyond it, so no bound exceeds γ_p r_q
-  float bound_relaxation = 0.45F;  ///< γ_p of Eq. 21, in (0, 0.5)
+  float bounds_relaxation = 0.45F;  ///< γ_p of Eq. 21, in (0, 0.5)
 };
 
 /// Holds the results on the host, in canonical order (compare/stages); distances and bounds are never above the exact

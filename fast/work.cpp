@@ -175,7 +175,7 @@ SearchWork search_work(const compare::Scene& scene, std::span<const compare::Vec
   CountingBackend backend;
   BackendContactEngine<CountingBackend> engine(backend, topology, compare::exclusions(scene));
   engine.find(positions, {static_cast<float>(scene.settings.contact_radius), query_radius,
-                          static_cast<float>(scene.settings.bound_relaxation)});
+                          static_cast<float>(scene.settings.bounds_relaxation)});
   const SearchWork edges = work_of(backend.edges, edge_distance_flop, edge_bytes, edge_position_bytes);
   const SearchWork facets = work_of(backend.facets, facet_distance_flop, facet_bytes, facet_position_bytes);
   return {edges.nodes + facets.nodes, edges.candidates + facets.candidates, edges.distances + facets.distances,

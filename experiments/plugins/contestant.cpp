@@ -101,7 +101,7 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
   const std::vector<std::uint8_t> inside = inside_solid(*in.topology);
   inputs.push_back(bytes_of(inside));
   QuestionSizes sizes = sizes_of(*in.topology);
-  sizes.first = in.bound_relaxation;
+  sizes.first = in.bounds_relaxation;
   const auto answer = plugin.ask("bound", sizes, inputs);
   BoundOut out;
   Outputs(answer).to(out.bound);
@@ -144,7 +144,7 @@ PlaneOut ask_plane(PluginProcess& plugin, const PlaneIn& in) {
   inputs.push_back(bytes_of(inside));
   QuestionSizes sizes = sizes_of(*in.topology);
   sizes.first = in.query_radius;
-  sizes.second = in.bound_relaxation;
+  sizes.second = in.bounds_relaxation;
   const auto answer = plugin.ask("plane", sizes, inputs);
   PlaneOut out;
   std::vector<ogc_vertex_plane> planes;

@@ -19,15 +19,15 @@ float single(double x) { return static_cast<float>(x); }
 ogc_settings settings_of(const Settings& s) {
   return {single(s.time_step),
           single(s.contact_radius),
-          single(s.query_radius_cap),
-          single(s.bound_relaxation),
-          single(s.redetect_fraction),
+          single(s.detection_radius_cap),
+          single(s.bounds_relaxation),
+          single(s.detection_fraction),
           single(s.friction_velocity),
           s.iterations,
-          s.redetect_every,
+          s.detection_every,
           s.guess_rounds,
           s.lanes,
-          static_cast<std::int64_t>(s.activation),
+          static_cast<std::int64_t>(s.contact_activation),
           static_cast<std::int64_t>(s.damping)};
 }
 

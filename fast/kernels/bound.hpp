@@ -30,7 +30,7 @@ struct ConservativeBound {
   SurfaceView surface;
   /// by vertex, edge and triangle [m]: Eq. 22, 24, 26, at most r_q
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;
-  float bound_relaxation;  ///< γ_p of Eq. 21 [1]
+  float bounds_relaxation;  ///< γ_p of Eq. 21 [1]
   const int* overflow;     ///< as in ResetDistances
   float* bound;            ///< b_v by vertex [m], at most γ_p r_q; largest_float inside solids
 
@@ -48,7 +48,7 @@ struct ConservativeBound {
       d = smaller(d, d_min_edge[vertex_edges.items[k]]);
     for (int k = vertex_triangles.offsets[v]; k < vertex_triangles.offsets[v + 1]; ++k)
       d = smaller(d, d_min_triangle[vertex_triangles.items[k]]);
-    bound[v] = round_down(mul(static_cast<double>(bound_relaxation), static_cast<double>(d)));
+    bound[v] = round_down(mul(static_cast<double>(bounds_relaxation), static_cast<double>(d)));
   }
 };
 

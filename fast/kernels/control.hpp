@@ -36,7 +36,7 @@ OGC_HD inline float float_from_bits(int bits) {
 /// Holds the settings of the control, the same in each step.
 struct ControlSettings {
   double redetect_vertices = 1;    ///< γ_e K
-  int redetect_every = 0;          ///< iterations after which a detection is due in any case; 0: none ever is
+  int detection_every = 0;         ///< iterations after which a detection is due in any case; 0: none ever is
   int iterations = 1 << 30;        ///< iterations of a step; after the last no detection is made
   int guess_rounds = 16;           ///< rounds of a step's guess loop, at most
   int sort_every = 1;              ///< steps between two sorts of the trees
@@ -181,7 +181,7 @@ struct EndRound {
   }
 };
 
-/// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) or `redetect_every` iterations
+/// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) or `detection_every` iterations
 /// have passed. `number`: of this iteration, which counts only if it is its turn; −1: it always counts.
 struct EndIteration {
   StepControl* control;  ///< on the backend
@@ -194,7 +194,7 @@ struct EndIteration {
     ++c.iterations;
     ++c.since_detection;
     const bool asked = take_request(c, settings.least_cut());
-    const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
+    const bool due = settings.detection_every > 0 && c.since_detection >= settings.detection_every;
     c.detect = c.active != 0 && c.iterations < settings.iterations && (due || asked) ? 1 : 0;
     stop_if_failed(c);
     c.turn = c.detect != 0 ? -1 : c.iterations;

@@ -37,7 +37,7 @@ class BackendContactEngine : public ContactEngine {
     query_radius_.upload(&query.query_radius, 1);
     detection_.rebuild(positions);
     do {
-      detection_.detect(positions, query.contact_radius, query_radius_.data(), query.bound_relaxation);
+      detection_.detect(positions, query.contact_radius, query_radius_.data(), query.bounds_relaxation);
       backend_.synchronize();
     } while (detection_.grow());
   }

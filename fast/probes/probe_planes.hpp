@@ -26,7 +26,7 @@ compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int 
   detection.rebuild(positions);
   do {
     // Which of the pairs are contacts does not matter here, so the query radius stands for r.
-    detection.detect(positions, in.query_radius, query_radius, in.bound_relaxation);
+    detection.detect(positions, in.query_radius, query_radius, in.bounds_relaxation);
     backend.synchronize();
   } while (detection.grow());
   return {detection.download_planes(), download_items(backend, detection.view().bound, in.positions.size())};

@@ -132,7 +132,7 @@ compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
                                      .d_min_vertex = distances(in.d_min_vertex),
                                      .d_min_edge = distances(in.d_min_edge),
                                      .d_min_triangle = distances(in.d_min_triangle),
-                                     .bound_relaxation = in.bound_relaxation,
+                                     .bounds_relaxation = in.bounds_relaxation,
                                      .overflow = memory.template in<int>(no_overflow),
                                      .bound = memory.template out<float>(out.bound, in.d_min_vertex.size())});
   memory.fetch();

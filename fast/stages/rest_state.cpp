@@ -25,7 +25,7 @@ RestState without_shape(const compare::Scene& scene) {
                               static_cast<float>(body.material.bending_damping / h)});
     rest.models.push_back({body.material.membrane, body.material.bending, scene.settings.damping});
   }
-  rest.activation = scene.settings.activation;
+  rest.activation = scene.settings.contact_activation;
   for (const compare::PrescribedMotion& motion : scene.motions) {
     for (const int v : motion.vertices) rest.mobility[as_index(v)] = Mobility::prescribed;
   }

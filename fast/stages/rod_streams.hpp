@@ -33,7 +33,7 @@ class RodSweep {
            const compare::Settings& settings)
       : colour_begin_(segments.begin),
         is_damped_by_vertex_(!damps_strain(settings.damping)),
-        as_published_(!minimises(settings.orientation)) {
+        as_published_(!minimises(settings.rod_orientation)) {
     const std::vector<SegmentSlot> slots = segment_slots(rest.rods, vertices, segments);
     slots_.upload(slots.data(), slots.size());
   }

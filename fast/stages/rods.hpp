@@ -30,7 +30,7 @@ class Rods {
       : scene_(scene),
         count_(static_cast<int>(rest.rods.segments.size())),
         motions_(static_cast<int>(scene.motions.size())),
-        turns_(turns(scene.settings.start_frames)) {
+        turns_(turns(scene.settings.rod_start)) {
     if (!is_used()) return;
     segments_.upload(rest.rods.segments.data(), rest.rods.segments.size());
     neighbours_.upload(rest.rods.neighbours.data(), rest.rods.neighbours.size());

@@ -323,7 +323,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     result.depth_unresolved = row.depth_unresolved;
     result.smallest_distance = traits_of(scene_.settings.bounds).has_planes
                                    ? row.smallest_bound
-                                   : row.smallest_bound / scene_.settings.bound_relaxation;
+                                   : row.smallest_bound / scene_.settings.bounds_relaxation;
     if (rods_.is_used()) {
       const bool is_any = static_cast<double>(row.smallest_contact) < scene_.settings.contact_radius;
       result.smallest_contact_distance = is_any ? row.smallest_contact : not_asked;

@@ -193,7 +193,7 @@ class Step {
     const int* overflow = detection_.overflow();
     clock_.time(StepStage::detection, [&] {
       detection_.detect(
-          state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
+          state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bounds_relaxation,
           StepLaunches{begin_regions(target),
                        {control(), overflow},
                        sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),

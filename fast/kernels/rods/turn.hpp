@@ -47,7 +47,7 @@ struct TurnSegment {
   const Vec* position;            ///< x by vertex [m], after the guess
   const Quat* orientation_start;  ///< qᵗ by segment
   Quat* orientation;              ///< q by segment, written
-  bool turns;                     ///< false: free frames keep qᵗ (start_frames=kept)
+  bool turns;                     ///< false: free frames keep qᵗ (rod_start=kept)
   const StepControl* control;     ///< on the backend; `steps_done` is read
 
   OGC_HD void operator()(int e) const {

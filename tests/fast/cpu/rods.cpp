@@ -74,7 +74,7 @@ double spin(const compare::Scene& scene, const compare::Snapshot& state) {
 
 /// Returns the share of its angular momentum that a straight rod keeps: 100 segments of 1 mm that turn at 10 rad/s for
 /// 0.2 s.
-double kept_spin(compare::StartFrames frames) {
+double kept_spin(compare::RodStart frames) {
   compare::Scene scene = rod_scene(straight(100, 1e-3));
   for (std::size_t v = 0; v < scene.velocities.size(); ++v) {
     Vec3& x = scene.mesh.positions[v];
@@ -82,7 +82,7 @@ double kept_spin(compare::StartFrames frames) {
     scene.rest_positions[v] = x;
     scene.velocities[v] = {0, 10 * x.x, 0};
   }
-  scene.settings.start_frames = frames;
+  scene.settings.rod_start = frames;
   compare::round_to_single(scene);
   const auto simulation = start_cpu(scene, {});
   const double before = spin(scene, simulation->snapshot());
@@ -111,8 +111,8 @@ double twist_between(const compare::Quaternion& a, const compare::Quaternion& b)
 TEST_CASE("a free rod keeps its angular momentum but for what backward Euler loses; without turned frames it does not",
           "[property]") {
   // Backward Euler takes (ω h)² of it a step: 500 · (10 · 4·10⁻⁴)² = 0.8 %.
-  CHECK(kept_spin(compare::StartFrames::turned) == Approx(0.992).margin(0.002));
-  CHECK(kept_spin(compare::StartFrames::kept) < 0.6);
+  CHECK(kept_spin(compare::RodStart::turned) == Approx(0.992).margin(0.002));
+  CHECK(kept_spin(compare::RodStart::kept) < 0.6);
 }
 
 TEST_CASE("a bent and twisted rod at rest stays, wherever it is turned to, and drifts without a force", "[property]") {

@@ -109,7 +109,7 @@ TEST_CASE("a cloth laid on a fixed plane rests just below a radius where sets ar
   material.contact_stiffness = 10;
   add_sheet(scene, 8, 0.06, 0.00499, false, material);
   add_sheet(scene, 6, 0.10, 0, true, material);
-  scene.settings.redetect_every = 1;
+  scene.settings.detection_every = 1;
   const Outcome outcome = run(scene, 60);
   REQUIRE(outcome.rows.size() == 60);
   for (std::size_t v = 0; v < 64; ++v) {
@@ -152,7 +152,7 @@ TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g 
     add_sheet(scene, 8, 0.2, 0, true, material);
     scene.gravity = {9.81 * std::sin(tilt), -9.81 * std::cos(tilt), 0};
     scene.settings.iterations = 40;
-    scene.settings.redetect_every = 1;
+    scene.settings.detection_every = 1;
     const Outcome outcome = run(scene, 6);
     return mean(outcome.end.velocities, 0, 36, &compare::Vec3f::x);
   };
@@ -166,7 +166,7 @@ TEST_CASE("the smallest distance of a row is that of the last detection, whateve
   for (const double share : {0.45, 0.3, 0.1}) {
     compare::Scene scene = empty_scene();
     scene.gravity = {};
-    scene.settings.bound_relaxation = share;
+    scene.settings.bounds_relaxation = share;
     compare::Material soft;
     soft.contact_stiffness = 1e-3;
     const double gap = 0.003;  // below r, and far below the sheets' spacing of 20 mm
@@ -213,11 +213,11 @@ TEST_CASE(
 TEST_CASE("whether iterations are asked one by one or in groups whether a detection is due changes no bit",
           "[property]") {
   for (const std::int64_t every : {0, 1, 2, 3}) {
-    INFO("redetect_every " << every);
+    INFO("detection_every " << every);
     compare::Scene scene = drop_scene();
     scene.settings.iterations = 13;  // two groups and a shorter one
-    scene.settings.redetect_fraction = every == 0 ? 1e-3 : 1;
-    scene.settings.redetect_every = every;
+    scene.settings.detection_fraction = every == 0 ? 1e-3 : 1;
+    scene.settings.detection_every = every;
     const Outcome grouped = run(scene, 12);  // the first frame has groups, whatever it will find
     compare::SimulationOptions options;
     options.profile = true;  // one by one
@@ -282,7 +282,7 @@ TEST_CASE("energy only falls while a cloth drops, touches and slides", "[propert
   compare::Scene scene = drop_scene();
   for (auto& body : scene.bodies) body.material.contact_stiffness = 10;
   scene.settings.iterations = 60;
-  scene.settings.redetect_every = 1;
+  scene.settings.detection_every = 1;
   const Outcome outcome = run(scene, 15);
   double before = INFINITY, start = 0;
   for (const auto& row : outcome.rows) {
@@ -419,7 +419,7 @@ TEST_CASE("scenes in which nothing is free, odd numbers of iterations and every 
 TEST_CASE("re-detection after a set number of iterations is counted", "[unit]") {
   compare::Scene scene = drop_scene();
   const std::int64_t few = run(scene, 1).rows[0].discrete_detections;
-  scene.settings.redetect_every = 2;
+  scene.settings.detection_every = 2;
   const compare::StepMetrics row = run(scene, 1).rows[0];
   CHECK(row.discrete_detections >= 1 + 4);
   CHECK(row.discrete_detections > few);
@@ -430,7 +430,7 @@ TEST_CASE("each activation, model and form of damping changes the result of a ru
   std::vector<compare::Scene> scenes(1, drop_scene());
   for (int kind = 1; kind < 5; ++kind) {
     scenes.push_back(drop_scene());
-    scenes.back().settings.activation = static_cast<compare::ContactActivation>(kind);
+    scenes.back().settings.contact_activation = static_cast<compare::ContactActivation>(kind);
   }
   const auto add = [&](auto change) {
     scenes.push_back(drop_scene());

@@ -192,7 +192,7 @@ TEST_CASE("a scene asks of its sum what it has: kinds, volumes, other models, an
   compare::Scene other = drop_scene(false);
   other.settings.damping = compare::DampingForm::per_vertex;
   CHECK(asked(other) == (asks_tetrahedra | asks_any_model));
-  other.settings.activation = compare::ContactActivation::quadratic;
+  other.settings.contact_activation = compare::ContactActivation::quadratic;
   CHECK(asked(other) == (asks_tetrahedra | asks_any_model | asks_any_activation));
 }
 

@@ -61,7 +61,7 @@ Scene sheet_over_box(double height, double friction = 0.5) {
   add_sheet(scene, 8, 0.1, height, false, material);
   add_box(scene, {-0.3, -0.1, -0.3}, {0.3, 0, 0.3}, friction);
   scene.settings.iterations = 20;
-  scene.settings.redetect_fraction = 1;
+  scene.settings.detection_fraction = 1;
   compare::round_to_single(scene);
   return scene;
 }
@@ -135,7 +135,7 @@ TEST_CASE("a cloth in the void of a volume falls on its floor and stays in the v
   const Vec3 velocity{0.1, 0.05, -0.2};
   if (is_driven) drive(scene, velocity);
   scene.settings.iterations = 20;
-  scene.settings.redetect_fraction = 1;
+  scene.settings.detection_fraction = 1;
   compare::round_to_single(scene);
   REQUIRE(describe(validate(scene)) == "");
   const auto simulation = start_cpu(scene, {});
@@ -223,7 +223,7 @@ TEST_CASE("layers that nearly touch are not left deep inside a volume that rises
   add_box(scene, {-0.3, -0.1, -0.3}, {0.3, 0, 0.3});
   drive(scene, {0, 0.5, 0});
   scene.settings.iterations = 20;
-  scene.settings.redetect_fraction = 1;
+  scene.settings.detection_fraction = 1;
   compare::round_to_single(scene);
   const auto simulation = start_cpu(scene, {});
   const double radius = scene.settings.contact_radius;

@@ -124,7 +124,7 @@ compare::Scene beside_a_wall(double apart) {
   }
   scene.rest_positions = scene.mesh.positions;
   scene.settings.contact_radius = 0x1p-18;
-  scene.settings.query_radius_cap = 1024;
+  scene.settings.detection_radius_cap = 1024;
   scene.settings.bounds = compare::Bounds::planes;
   return scene;
 }

@@ -276,13 +276,13 @@ TEST_CASE("iterations are asked in groups whether a detection is due until a fra
   CHECK(still.front() != still[1]);
   CHECK(kinds(still) == 2);
   compare::Scene few = thrown_sheet();
-  few.settings.redetect_fraction = 1;
+  few.settings.detection_fraction = 1;
   const WatchedBackend::Replayed grown = replayed(few, frames, 1);
   REQUIRE(grown.size() > frames);
   CHECK(std::count(grown.begin(), grown.end(), grown.front()) > 1);
   CHECK(kinds(grown) == 2);
   compare::Scene many = thrown_sheet();
-  many.settings.redetect_every = 1;
+  many.settings.detection_every = 1;
   const WatchedBackend::Replayed changed = replayed(many, frames);
   REQUIRE(changed.size() == frames);
   CHECK(kinds({changed.begin() + 1, changed.end() - 1}) == 1);

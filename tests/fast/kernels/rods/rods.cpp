@@ -106,7 +106,7 @@ TEST_CASE("at the start of a step a segment turns as what holds it does", "[unit
   CHECK(size(one.turned(segment_free, true) - one.along()) == 0);
   CHECK(length(turned_by(one.after, {0, 0, 1}) - rotated({0, 0, 1}, {0, 1, 0}, turned_by(one.before, {0, 0, 1}))) <=
         100 * u);
-  CHECK(size(one.turned(segment_free, false) - one.before) == 0);  // start_frames=kept
+  CHECK(size(one.turned(segment_free, false) - one.before) == 0);  // rod_start=kept
   CHECK(size(one.turned(segment_fixed, true) - one.before) == 0);
   for (const bool turns_free : {false, true}) {
     CHECK(size(one.turned(0, turns_free) - one.turns[2] * one.before) <= 20 * u);
