@@ -26,7 +26,7 @@ ForceAndBlockOf<P> together(const ForceAndBlock* a) {
 template <int W, class P>
 struct TeamLanes {
   static_assert(W >= P::width);
-  using Position = Vector<P>;  ///< of the vertex, the same in each lane
+  using Position = Vector<P>;              ///< of the vertex, the same in each lane
   ForceAndBlockOf<P> packs[W / P::width];  ///< team lane l in lane l mod P::width of pack l / P::width
 
   /// Adds a part of `count` items; add(items, sum) adds P::width of them at a time.

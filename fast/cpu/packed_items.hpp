@@ -59,8 +59,7 @@ Vector<P> everywhere(const Vec& a) {
 
 /// a where the condition holds, else b.
 template <class P>
-ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>& a,
-                            const ForceAndBlockOf<P>& b) {
+ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>& a, const ForceAndBlockOf<P>& b) {
   const Symmetric3Of<P>&p = a.block, &q = b.block;
   return {select(condition, a.force, b.force),
           {select(condition, p.xx, q.xx), select(condition, p.xy, q.xy), select(condition, p.xz, q.xz),

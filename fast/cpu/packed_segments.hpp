@@ -53,7 +53,8 @@ void update_pack(const UpdateSegment& f, int first) {
   for (int side = 0; side < 2; ++side) add_neighbours<P>(f, slots, side, old, b);
   typename P::Mask usual;
   const QuatOf<P> found = usual_orientation<P>(P::of_each([&](int k) { return slots[k].rest.stretch; }),
-                                          transposed<P>(end[1]) - transposed<P>(end[0]), {0.0f, 0.0f, 1.0f}, b, usual);
+                                               transposed<P>(end[1]) - transposed<P>(end[0]), {0.0f, 0.0f, 1.0f}, b,
+                                               usual);
   float x[P::width], y[P::width], z[P::width], w[P::width];
   found.x.store(x), found.y.store(y), found.z.store(z), found.w.store(w);
   const unsigned together = true_lanes(usual);

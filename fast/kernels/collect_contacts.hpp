@@ -11,7 +11,7 @@ namespace ogc::fast {
 struct CollectContacts {
   /// gives 128 registers; at 6 the spills cost more than the added warps win (fast/PERFORMANCE.md)
   static constexpr int resident_blocks = 4;
-  CollectVertexFacet vertex_facet;           ///< decides pairs whose first number is negative, ~vertex
+  CollectVertexFacet vertex_facet;  ///< decides pairs whose first number is negative, ~vertex
   /// decides pairs of edges; its radius also leaves out pairs that were noted for their planes alone
   CollectEdgeEdge edge_edge;
   ListsView lists;                   ///< contacts are entered here; the overflow flag ends the launch

@@ -122,7 +122,11 @@ struct TwoSegments {
   T aa, bb, ab, sine, to_start;  ///< squares and product of both, ‖first × second‖², first · between
 
   OGC_HD TwoSegments(const Vector<T>& along_first, const Vector<T>& along_second, const Vector<T>& apart)
-      : first(along_first), second(along_second), between(apart), aa(dot(first, first)), bb(dot(second, second)),
+      : first(along_first),
+        second(along_second),
+        between(apart),
+        aa(dot(first, first)),
+        bb(dot(second, second)),
         ab(dot(first, second)) {
     const Vector<T> normal = cross(first, second);
     sine = dot(normal, normal), to_start = dot(first, between);

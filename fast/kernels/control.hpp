@@ -54,8 +54,8 @@ struct ControlSettings {
 /// Holds the state of a frame and of its step on the device.
 struct StepControl {
   // Values of the frame:
-  int active = 0;            ///< 1: steps take place; 0: they are no-ops
-  int status = 0;            ///< compare::StepStatus bits that stopped the frame
+  int active = 0;      ///< 1: steps take place; 0: they are no-ops
+  int status = 0;      ///< compare::StepStatus bits that stopped the frame
   int steps_done = 0;  ///< steps committed since the frame began; indexes the row of metrics and the row of targets
   int since_sort = 1 << 30;  ///< steps begun since the last sort of the trees; the host carries it from frame to frame
   // Values of the step. Flags that `when` reads are 0 unless the frame is active.

@@ -71,8 +71,8 @@ struct BeginRegions {
 /// along half-spaces as inertia alone would have it. A prescribed vertex that touches stays from the second round on:
 /// sweeps move what is in its way. Index over all vertices.
 struct GuessVertex {
-  const Vec* target;             ///< y by vertex [m]
-  FeasibleRegions regions;       ///< about X_prev
+  const Vec* target;        ///< y by vertex [m]
+  FeasibleRegions regions;  ///< about X_prev
   /// `taken` is a double buffer: even rounds read its first half and write its second, odd rounds the reverse
   GuessContacts contacts;
   int vertex_count;              ///< length of one half

@@ -5,12 +5,12 @@ namespace ogc::fast {
 
 /// Sums over the mesh that a row needs, in this order.
 enum SumColumn : int {
-  sum_kinetic = 0,  ///< Σ m/2 ‖v‖² [J]
-  sum_gravity = 1,  ///< −Σ m a·x [J]
-  sum_lost = 2,     ///< Σ m (x − y), three columns [kg m]
-  sum_moved = 5,    ///< Σ m (y − xᵗ), three columns [kg m]
-  sum_last = 8,     ///< Σ m ‖x − x before the last sweep‖² [kg m²]
-  sum_way = 9,      ///< Σ m ‖x − xᵗ‖² [kg m²]
+  sum_kinetic = 0,        ///< Σ m/2 ‖v‖² [J]
+  sum_gravity = 1,        ///< −Σ m a·x [J]
+  sum_lost = 2,           ///< Σ m (x − y), three columns [kg m]
+  sum_moved = 5,          ///< Σ m (y − xᵗ), three columns [kg m]
+  sum_last = 8,           ///< Σ m ‖x − x before the last sweep‖² [kg m²]
+  sum_way = 9,            ///< Σ m ‖x − xᵗ‖² [kg m²]
   sum_membrane = 10,      ///< [J]
   sum_bending = 11,       ///< and of springs [J]
   sum_vertex_facet = 12,  ///< and of contacts with volumes [J]

@@ -195,8 +195,7 @@ compare::ForceOut probe_tetrahedron(Backend& backend, const compare::Tetrahedron
   for (int i = 0; i < static_cast<int>(in.cases.size()); ++i) {
     const compare::TetrahedronCase& c = in.cases[static_cast<std::size_t>(i)];
     batch.by_body.push_back({c.lame_lambda, c.lame_mu, c.damping});
-    batch.add(tetrahedron_rest(c, i), 0,
-              {compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
+    batch.add(tetrahedron_rest(c, i), 0, {compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
     batch.beside.push_back(TetrahedronKind::beside(batch.rest.back(), {}, 0));
   }
   return batch.ask<Tetrahedra, Tetrahedra>(backend);

@@ -37,7 +37,8 @@ class Rods {
     motion_.upload(rest.rods.motion.data(), rest.rods.motion.size());
     orientation_.resize(segments_.size());
     motion_turns_.resize(static_cast<std::size_t>(std::max(1, longest_frame * motions_)));
-    if (!at_rest<SegmentKind>(rest).by_body(rest).empty() && damps_strain(scene.settings.damping)) direction_.resize(segments_.size());
+    if (!at_rest<SegmentKind>(rest).by_body(rest).empty() && damps_strain(scene.settings.damping))
+      direction_.resize(segments_.size());
     put(start_orientations(scene, rest.rods));
   }
 

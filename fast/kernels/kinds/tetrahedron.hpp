@@ -110,8 +110,7 @@ OGC_HD TetrahedronReadsOf<typename Items::Number> read_tetrahedra(const SweepSha
 }
 /// Adds them without damping.
 template <class N>
-OGC_HD void add_tetrahedra(const TetrahedronReadsOf<N>& reads, const SolidMaterial& material,
-                           ForceAndBlockOf<N>& sum) {
+OGC_HD void add_tetrahedra(const TetrahedronReadsOf<N>& reads, const SolidMaterial& material, ForceAndBlockOf<N>& sum) {
   add_tetrahedron(reads.stencil, material, reads.a, reads.b, reads.c, sum);
 }
 

@@ -71,7 +71,7 @@ struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
 template <class N>
 struct MembraneReadsOf {
   MembraneStencilOf<N> stencil;
-  Vector<N> b, c;                 ///< positions [m]
+  Vector<N> b, c;                  ///< positions [m]
   Symmetric2Of<N> strain_start{};  ///< Gᵗ; 0 without damping
 };
 
@@ -80,14 +80,13 @@ template <class Items>
 OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared& view, const Symmetric2* strain_start,
                                                               const Items& items, const SurfaceMaterial& material) {
   using Seen = MembraneIncidence;
-  MembraneReadsOf<typename Items::Number> reads{
-      {{items.each([](const Seen& i) { return i.stencil.gradient_b[0]; }),
-        items.each([](const Seen& i) { return i.stencil.gradient_b[1]; })},
-       {items.each([](const Seen& i) { return i.stencil.gradient_c[0]; }),
-        items.each([](const Seen& i) { return i.stencil.gradient_c[1]; })},
-       items.each([](const Seen& i) { return i.stencil.area; })},
-      items.position(view, [](const Seen& i) { return i.index[0]; }),
-      items.position(view, [](const Seen& i) { return i.index[1]; })};
+  MembraneReadsOf<typename Items::Number> reads{{{items.each([](const Seen& i) { return i.stencil.gradient_b[0]; }),
+                                                  items.each([](const Seen& i) { return i.stencil.gradient_b[1]; })},
+                                                 {items.each([](const Seen& i) { return i.stencil.gradient_c[0]; }),
+                                                  items.each([](const Seen& i) { return i.stencil.gradient_c[1]; })},
+                                                 items.each([](const Seen& i) { return i.stencil.area; })},
+                                                items.position(view, [](const Seen& i) { return i.index[0]; }),
+                                                items.position(view, [](const Seen& i) { return i.index[1]; })};
   if (material.membrane_damping > 0)
     reads.strain_start = {items.each([=](const Seen& i) { return strain_start[i.triangle].xx; }),
                           items.each([=](const Seen& i) { return strain_start[i.triangle].xy; }),
@@ -97,8 +96,8 @@ OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared&
 
 /// Adds triangles of any model whose strain is damped.
 template <class N>
-OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial& material, compare::MembraneModel model,
-                          const Vector<N>& own, ForceAndBlockOf<N>& sum) {
+OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial& material,
+                          compare::MembraneModel model, const Vector<N>& own, ForceAndBlockOf<N>& sum) {
   const Vector<N> to_b = reads.b - own, to_c = reads.c - own;
   with_membrane(model, AddDampedMembrane<N>{reads.stencil, material, to_b, to_c, reads.strain_start, sum});
 }

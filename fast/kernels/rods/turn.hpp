@@ -38,8 +38,8 @@ struct SetDirection {
 
 /// Turns each frame after the guess loop, which gives q for the step. Index over segments.
 struct TurnSegment {
-  const SegmentRest* segments;    ///< by segment
-  const int* motion;              ///< by segment: what holds it, as in segments.hpp
+  const SegmentRest* segments;  ///< by segment
+  const int* motion;            ///< by segment: what holds it, as in segments.hpp
   /// [step of the frame][motion]: rotation of the motion in the step; w = 2: the motion has none
   const Quat* motion_turns;
   int motions;                    ///< motions in a row of turns

@@ -35,9 +35,7 @@ struct ContactAtOf {
   N majorant{};                 ///< stands for w² in the block
 
   /// Whether the vertex feels it, if only by its block: the points have not met.
-  OGC_HD Mask<N> acts() const {
-    return shape.distance > N(0.0f) && (weight > N(0.0f) || weight < N(0.0f));
-  }
+  OGC_HD Mask<N> acts() const { return shape.distance > N(0.0f) && (weight > N(0.0f) || weight < N(0.0f)); }
 };
 
 /// Reads contacts where their vertices are now.
@@ -86,7 +84,8 @@ OGC_HD ForceAndBlockOf<typename Items::Number> contact_term(const SweepShared& v
   const N stiffness = items.each([](const ContactIncidence& i) { return i.stiffness; });
   ForceAndBlockOf<N> term;
   add_where(at.acts(), term, [&](ForceAndBlockOf<N>& to) {
-    const N normal_force = add_contact(activation, at.shape, at.weight, at.majorant, view.contact_radius, stiffness, to);
+    const N normal_force = add_contact(activation, at.shape, at.weight, at.majorant, view.contact_radius, stiffness,
+                                       to);
     add_contact_friction(at, normal_force, view.friction_limit, to);
   });
   return term;

@@ -33,7 +33,9 @@ struct AtRest<SegmentKind> : PlainAtRest<SegmentKind> {
 
   const std::vector<SegmentRest>& elements() const { return rods.segments; }
   void add(const RestBuild& build) { rods = rods_at_rest(build.scene, build.mass); }
-  void add(const compare::RestStateIn& in, const compare::RestStateOut& out) { rods = rods_of(*in.scene, out.segments); }
+  void add(const compare::RestStateIn& in, const compare::RestStateOut& out) {
+    rods = rods_of(*in.scene, out.segments);
+  }
   void give(compare::RestStateOut& out) const { out.segments = rest_segments(rods); }
   bool damps(const RestShared&, int segment) const { return rods.segments[as_index(segment)].damping > 0; }
   /// k_d/h; empty where it is 0 everywhere.

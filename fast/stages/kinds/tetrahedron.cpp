@@ -20,8 +20,8 @@ void AtRest<TetrahedronKind>::add(const RestBuild& build) {
     if (body.fixed) continue;
     for (int t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t) {
       const compare::Tetrahedron& corners = build.scene.mesh.tetrahedra[as_index(t)];
-      const RestTetrahedron shape = rest_tetrahedron(p[as_index(corners[0])], p[as_index(corners[1])], p[as_index(corners[2])],
-                                                     p[as_index(corners[3])]);
+      const RestTetrahedron shape = rest_tetrahedron(p[as_index(corners[0])], p[as_index(corners[1])],
+                                                     p[as_index(corners[2])], p[as_index(corners[3])]);
       for (const int corner : corners) build.mass[as_index(corner)] += body.material.solid_density * shape.volume / 4;
       TetrahedronRest tetrahedron;
       for (int k = 0; k < 4; ++k) tetrahedron.corner[k] = corners[as_index(k)];

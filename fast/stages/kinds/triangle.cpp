@@ -21,7 +21,8 @@ void AtRest<TriangleKind>::add(const RestBuild& build) {
     if (body.fixed || body.is_solid()) continue;
     for (int t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
       const compare::Triangle& corners = build.scene.mesh.triangles[as_index(t)];
-      const RestTriangle shape = rest_triangle(p[as_index(corners[0])], p[as_index(corners[1])], p[as_index(corners[2])]);
+      const RestTriangle shape = rest_triangle(p[as_index(corners[0])], p[as_index(corners[1])],
+                                               p[as_index(corners[2])]);
       for (const int corner : corners) build.mass[as_index(corner)] += body.material.density * shape.area / 3;
       if (body.material.membrane == compare::MembraneModel::none) continue;
       TriangleRest triangle;
