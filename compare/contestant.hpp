@@ -1,5 +1,5 @@
-// A contestant: a name, a callable for each stage that it has, and a resident simulation. The judge drives two of them
-// through the same cases and never learns who they are.
+// A contestant has a name, a callable for each of its stages, and a resident simulation. The judge drives two of them
+// through the same cases and never learns which is which.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace ogc::compare {
 
-/// Why a step is not clean; bits of StepMetrics::status.
+/// Reasons that a step is not clean; bits of StepMetrics::status.
 enum StepStatus : std::uint32_t {
   step_clean = 0,
   step_list_grew = 1,       ///< a list was too small: it grew and the step was repeated
@@ -25,155 +25,160 @@ enum StepStatus : std::uint32_t {
   step_bound_violated = 4,  ///< the motion certificate failed: ‖x − x_prev‖ > b_v in double
   /// the solver's iterations ended above its tolerance: the run stops, the last good state stays
   step_not_converged = 8,
-  step_indefinite = 16,  ///< the solver's matrix is not positive definite, or no step lowers the energy: likewise
-  step_met = 32,         ///< faces met on the way, though bounds forbid it (compare/oracle/meetings.hpp)
+  /// the solver's matrix is not positive definite, or no step lowers the energy: the run stops, the last good state
+  /// stays
+  step_indefinite = 16,
+  step_met = 32,  ///< faces met on the way, though bounds forbid it (compare/oracle/meetings.hpp)
 };
 
-/// One row of iterations.csv, by solvers that keep one. The state is the one that the iteration begins with, or (the
-/// last row of a step) ends at.
+/// One row of iterations.csv, from solvers that keep one. The state is the one that the iteration begins with or, in
+/// the last row of a step, ends at.
 struct IterationMetrics {
-  std::int64_t step = 0, iteration = 0;  ///< from 1; from 0 in each step
+  std::int64_t step = 0, iteration = 0;  ///< step from 1; iteration from 0 in each step
   double wall_ms = 0;                    ///< since the step began
   double residual = 0;                   ///< Eq. 29 with the contacts of the last detection
   double energy = 0;                     ///< incremental potential with these contacts [J]
   double largest_change = 0;             ///< ‖δ‖_∞ of the solve, before any truncation [m]
-  double share = 0;                      ///< of δ' that the line search took, 0 where no step was taken
-  std::int64_t vertices_cut = 0;         ///< cut in this iteration
+  double share = 0;                      ///< share of δ' that the line search took, 0 where no step was taken
+  std::int64_t vertices_cut = 0;         ///< vertices cut in this iteration
   std::int64_t detected = 0;             ///< 1 where contacts were detected anew for this state
-  double condition_number = 0;           ///< of the matrix; not-a-number where it was not asked for
-  /// Of the matrix without friction, and without contact and friction: with stencils projected where the rest is not
-  /// positive definite.
+  double condition_number = 0;           ///< of the matrix; not-a-number unless requested
+  /// Condition numbers of the matrix without friction, and without contact and friction; stencils are projected where
+  /// the rest is not positive definite.
   double condition_without_friction = 0, condition_without_contact = 0;
-  /// of this iteration, counted as in StepMetrics
+  /// counts of this iteration, defined as in StepMetrics
   std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;
 };
 
 /// What the parts of a step do to energy and momentum: columns of steps.csv with `ogc run --ledger`
-/// (reference/ledger.md). Energies are changes but for the start's [J]; momenta and motions, free vertices' [kg m/s].
+/// (reference/ledger.md). All energies [J] but the start's are changes; momenta and motions are of free vertices [kg
+/// m/s].
 struct StepLedger {
-  double energy_start = 0;                                                   ///< at xᵗ with vᵗ
-  double energy_guess = 0, energy_detection = 0;                             ///< rounds; contacts found anew
-  double energy_sweep = 0, energy_truncation = 0;                            ///< to proposals; from there to x
-  double energy_commit = 0;                                                  ///< to the start of the next step
+  double energy_start = 0;                         ///< E at xᵗ with vᵗ
+  double energy_guess = 0, energy_detection = 0;   ///< changes by guess rounds; by new contacts
+  double energy_sweep = 0, energy_truncation = 0;  ///< changes from x to proposals; from these to the new x
+  double energy_commit = 0;                        ///< change to the start of the next step
   Vec3 momentum_start, momentum_guess, momentum_sweep, momentum_truncation;  ///< Σ m v, and changes of it
-  double motion_proposed = 0, motion_taken = 0;                              ///< of sweeps; by truncation of that
-  double motion_taken_tangential = 0, motion_taken_leaving = 0;              ///< along and off the nearest pair
-  double motion_taken_unpaired = 0;                                          ///< where no pair lies within r_q
-  double vertices_still = 0, vertices_held = 0;  ///< end where they began; of them those that truncation held there
+  double motion_proposed = 0, motion_taken = 0;                  ///< by sweeps; the part that truncation took
+  double motion_taken_tangential = 0, motion_taken_leaving = 0;  ///< parts along and away from the nearest pair
+  double motion_taken_unpaired = 0;                              ///< part of vertices without a pair within r_q
+  /// number of vertices that end where they began; of those that truncation held there
+  double vertices_still = 0, vertices_held = 0;
 };
 
-/// One row of steps.csv. Times [ms]; not-a-number where a quantity was not asked for.
+/// One row of steps.csv. Times in ms; not-a-number where a quantity was not requested.
 struct StepMetrics {
   std::int64_t step = 0;  ///< number of the step that this row ends, from 1
   /// CPU: steady clock; CUDA: device events over the frame, divided by its steps
   double wall_ms = 0;
   std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
-  /// trees brought up to date (built or refitted) and asked for all pairs once
+  /// how often trees were brought up to date (built or refitted) and searched once for all pairs
   std::int64_t broad_phases = 0;
-  /// contacts or distances of all pairs found at one state; a check that only guards one is none
+  /// how often contacts or distances of all pairs were found at one state; a check that only guards a search is not
+  /// counted
   std::int64_t discrete_detections = 0;
-  /// the first contact of all pairs, or of the active ones, found along one motion
+  /// how often the first contact of all pairs, or of the active ones, was found along one motion
   std::int64_t continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0;
-  std::int64_t vertices_cut = 0;                          ///< cut in the last iteration
+  std::int64_t vertices_cut = 0;                          ///< vertices cut in the last iteration
   double share_cut = 0;                                   ///< vertices_cut / K
   double momentum_lost_guess = 0, momentum_lost_end = 0;  ///< ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ (method.md §5.3)
-  double largest_lag = 0;                                 ///< of prescribed vertices behind their targets [m]
-  double query_radius = 0;                                ///< r_q of the step [m]
-  double residual = 0;                                    ///< Eq. 29
+  double largest_lag = 0;   ///< largest distance of a prescribed vertex behind its target [m]
+  double query_radius = 0;  ///< r_q of the step [m]
+  double residual = 0;      ///< Eq. 29
   /// √(Σ m ‖Δx‖²) of free vertices in the last sweep or iteration, over that of the step; 0 where nothing moves [1]
   double last_motion = std::numeric_limits<double>::quiet_NaN();
-  /// Eq. 29 with the step's own contacts, over free vertices that no bound holds, and what of it may come from rounded
-  /// positions [1]; free vertices that a bound holds. In some steps alone (method.md §6).
+  /// Eq. 29 with the step's own contacts, over free vertices that no bound holds; the part of it that may come from
+  /// rounded positions [1]; number of free vertices that a bound holds. Only in some steps (method.md §6).
   double left_residual = std::numeric_limits<double>::quiet_NaN(),
          left_rounding = std::numeric_limits<double>::quiet_NaN(), left_held = std::numeric_limits<double>::quiet_NaN();
   double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
   double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q where nothing is near) [m]
-  std::int64_t inverted_tetrahedra = 0;  ///< with J ≤ 0 at the end of the step
-  /// at the last detection: contacts with volumes, vertices that ask and have one inside, and how far the deepest of
-  /// them is from the surface [m]; sheets of tetrahedra around them without any way out
+  std::int64_t inverted_tetrahedra = 0;  ///< tetrahedra with J ≤ 0 at the end of the step
+  /// at the last detection: contacts with volumes, tested vertices that are inside one, largest distance of these from
+  /// the surface [m], and sheets of tetrahedra around them without any way out
   std::int64_t volume_contacts = 0, vertices_inside = 0;
   double deepest = 0;
   std::int64_t depth_unresolved = 0;
   /// pairs of faces that shared a point on the way (compare/meetings.md)
   double meetings = std::numeric_limits<double>::quiet_NaN();
-  /// of scenes with rods, at the end: smallest distance of contacts that act (not-a-number: none does) [m], mean and
+  /// in scenes with rods, at the end: smallest distance of active contacts (not-a-number without any) [m], mean and
   /// largest ‖D‖/l − 1 of the segments [1]
   double smallest_contact_distance = 0, mean_stretch = 0, largest_stretch = 0;
   std::int64_t repeats = 0;  ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
-  std::optional<StepLedger> ledger{};  ///< where it was asked for
-  /// what the solver ran into, by name, and how it went on; shown to the user, not in steps.csv
+  std::optional<StepLedger> ledger{};  ///< filled if requested
+  /// what the solver ran into, by name, and how it continued; shown to the user, not in steps.csv
   std::vector<std::string> notes;
   std::vector<IterationMetrics> iteration_rows;  ///< with SimulationOptions::iterations
-  /// with profile: time by stage, in the order of Simulation::stage_names()
+  /// with profile: time of each stage, in the order of Simulation::stage_names()
   std::vector<double> stage_ms;
 };
 
-/// State at the end of a step, with what the motion certificate needs.
+/// Holds the state at the end of a step, with what the motion certificate needs.
 struct Snapshot {
-  std::int64_t step = 0;                     ///< the step that it ends
+  std::int64_t step = 0;                     ///< number of the step
   std::vector<Vec3f> positions, velocities;  ///< [m], [m/s]
   std::vector<Vec3f> previous;               ///< X_prev of the last detection
   std::vector<float> bounds;                 ///< b_v of the last detection
   float query_radius = 0;                    ///< r_q of the last detection
-  /// of lists that grow, in the contestant's own order: they decide which step is repeated, and no position
+  /// capacities of lists that grow, in the contestant's own order: they decide which step is repeated, and no position
   std::vector<std::int64_t> capacities{};
-  /// of a solver whose state is in double: what positions and velocities are rounded from; else none
+  /// for a solver with a state in double: the numbers that positions and velocities are rounded from; otherwise empty
   std::vector<Vec3> exact_positions{}, exact_velocities{};
-  VertexPlanes planes{};  ///< of the last detection, where bounds are planes
-  /// of the segments of rods, in the order of rod_segments (compare/problem/rods.hpp)
+  VertexPlanes planes{};  ///< of the last detection, with bounds of planes
+  /// orientations of the segments of rods, in the order of rod_segments (compare/problem/rods.hpp)
   std::vector<Quaternion> orientations{};
 };
 
-/// What a simulation records beside its states.
+/// Selects what a simulation records beside its states.
 struct SimulationOptions {
-  bool profile = false;     ///< record times by stage (adds synchronisations)
-  bool energies = true;     ///< fill the energies of StepMetrics
-  bool iterations = false;  ///< fill StepMetrics::iteration_rows, where the solver keeps them
-  bool condition = false;   ///< with a solver that factorises: the condition number in each iteration row (slow)
+  bool profile = false;     ///< times by stage (adds synchronisations)
+  bool energies = true;     ///< energies of StepMetrics
+  bool iterations = false;  ///< StepMetrics::iteration_rows, if the solver keeps them
+  bool condition = false;   ///< condition number in each iteration row (slow), if the solver factorises
 };
 
-/// A simulation that lives where the contestant computes; nothing of it is copied to the host except on request.
+/// A simulation whose data stay where the contestant computes; they are copied to the host only on request.
 class Simulation {
  public:
   virtual ~Simulation() = default;
-  /// Runs `steps` steps (a frame); returns one row each. Stops early after a row whose status says not_finite or
-  /// bound_violated.
+  /// Runs `steps` steps (a frame) and returns one row for each. Stops early after a row whose status ends the run, as
+  /// not_finite and bound_violated do.
   virtual std::vector<StepMetrics> advance(std::int64_t steps) = 0;
   virtual Snapshot snapshot() = 0;
-  /// Continues from positions, velocities, orientations and step number, with room for `capacities` where there are
-  /// any; what else a snapshot holds is recomputed.
+  /// Continues from positions, velocities, orientations and step number, with room for `capacities` if there are any;
+  /// everything else in a snapshot is recomputed.
   virtual void restore(const Snapshot& snapshot) = 0;
   virtual std::vector<std::string> stage_names() const { return {}; }
-  /// One line on where it runs: "NVIDIA H200, CUDA 13.0" or "2 threads".
+  /// Returns one line about the device: "NVIDIA H200, CUDA 13.0" or "2 threads".
   virtual std::string device() const = 0;
 };
 
-/// A contestant that gave no answer: it crashed, hung, or wrote where it must not. The judge looks for the case that
-/// did it and goes on; whatever else a contestant throws ends the comparison.
+/// Reports a contestant that gave no answer: it crashed, hung, or wrote outside its arrays. The judge searches for the
+/// case that caused it and goes on; any other exception of a contestant ends the comparison.
 struct ContestantFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Empty functions are stages that the contestant does not have. A file that makes or
-/// calls one includes that stage's header: here questions and answers are declared alone, so that a change of one stage
-/// compiles what reads that stage again, and not what holds a contestant.
+/// Holds a contestant's stages; an empty function means that the contestant lacks the stage. Code that makes or calls a
+/// stage includes its header. Questions and answers are only declared here, so that a change of one stage recompiles
+/// the code of that stage and not all code that holds a contestant.
 struct Contestant {
-  std::string name;  ///< for reports
-  /// Whether its steps know bounds=planes and bounds=dat. A plug-in's do not: compare/plugin.h has no planes in its
-  /// trace.
+  std::string name;  ///< name in reports
+  /// Whether its steps implement bounds=planes and bounds=dat. A plug-in's do not: compare/plugin.h has no planes in
+  /// its trace.
   bool has_steps_with_planes = true;
-  /// Whether its planes divide gaps by approach. A plug-in's do not: compare/plugin.h has no displacements there.
+  /// Whether its planes divide gaps by approach. A plug-in's do not: compare/plugin.h has no displacements.
   bool divides_by_approach = true;
-  /// Whether it is asked about volumes with cavities. A plug-in is not: compare/plugin.h describes none.
+  /// Whether the judge asks it about volumes with cavities. Not a plug-in: compare/plugin.h describes none.
   bool has_cavities = true;
-  /// Whether its sweeps and steps know volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
+  /// Whether its sweeps and steps handle volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
   bool has_volumes = true;
-  /// Whether its rest states, guesses, sweeps and steps know rods. A plug-in's do not: compare/plugin.h has no
+  /// Whether its rest states, guesses, sweeps and steps handle rods. A plug-in's do not: compare/plugin.h has no
   /// segments there.
   bool has_rods = true;
-  /// By stage: compare/stages/STAGE.hpp says what is asked.
+  /// One function for each stage; compare/stages/STAGE.hpp has its contract.
   std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
   std::function<ClosestPointsOut(const ClosestPointsIn&)> closest_points;
   std::function<DetectVertexFacetOut(const DetectIn&)> detect_vertex_facet;
@@ -203,7 +208,7 @@ struct Contestant {
 };
 
 /// Calls visit(name, pointer to member) for each stage that a contestant may have; the names are those of
-/// compare/stages. The judge's list of stages is held to this one (compare/judge/engine/judge.cpp).
+/// compare/stages. A check compares the judge's list of stages with this one (compare/judge/engine/judge.cpp).
 template <class Visit>
 constexpr void visit_stages(Visit visit) {
   visit("closest_face", &Contestant::closest_face);
@@ -233,10 +238,11 @@ constexpr void visit_stages(Visit visit) {
   visit("step", &Contestant::step);
 }
 
-/// The contestant that is right: its answers carry what the judge needs to decide about grey cases and conditioning.
+/// Holds the contestant that is right: its answers contain what the judge needs to decide about grey cases and
+/// conditioning.
 struct Authority {
-  std::string name;  ///< for reports
-  /// By stage, as for a contestant.
+  std::string name;  ///< name in reports
+  /// One function for each stage, as in Contestant.
   std::function<ClosestFaceTruth(const ClosestFaceIn&)> closest_face;
   std::function<ClosestPointsTruth(const ClosestPointsIn&)> closest_points;
   std::function<DetectVertexFacetTruth(const DetectIn&)> detect_vertex_facet;
@@ -259,7 +265,8 @@ struct Authority {
   std::function<BlockTruth(const BlockIn&)> block;
   std::function<RestStateTruth(const RestStateIn&)> rest_state;
   std::function<InitialGuessTruth(const InitialGuessIn&)> initial_guess;
-  /// Of plane, sweep and step the truth follows the answer (compare/stages/plane.hpp, sweep.hpp, step.hpp).
+  /// In the stages plane, sweep and step the truth depends on the answer (compare/stages/plane.hpp, sweep.hpp,
+  /// step.hpp).
   std::function<PlaneTruth(const PlaneIn&, const PlaneOut&)> plane;
   std::function<SweepTruth(const SweepIn&, const SweepOut&)> sweep;
   std::function<StepTruth(const StepIn&, const StepOut&)> step;

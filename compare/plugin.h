@@ -1,4 +1,4 @@
-/* Your kernel before the judge: a shared library that offers one or more stages, in C, so that any language and
+/* Lets the judge compare your kernel: a shared library that offers one or more stages, in C, so that any language and
  * compiler will do.
  *
  *     #include "compare/plugin.h"
@@ -7,17 +7,17 @@
  *
  *     g++ -O2 -shared -fPIC -I INCLUDE mine.cpp -o mine.so && ogc compare truncate --plugin ./mine.so
  *
- * The library offers the stages whose functions it defines. What a stage asks, to the last boundary case, stands in
- * compare/stages/STAGE.hpp; the structures in compare/plugin/ are the same questions and answers as plain arrays. A
- * page that starts from an empty file: experiments/plugins/README.md.
+ * The library offers the stages whose functions it defines. compare/stages/STAGE.hpp defines each stage to the last
+ * boundary case; the structures in compare/plugin/ are the same questions and answers as plain arrays.
+ * experiments/plugins/README.md is a guide that starts from an empty file.
  *
  * Rules. A function answers all cases of `in`, writes every element of every array of `out` and nothing else, and
  * returns 0; any other value means that it failed, and is reported. Arrays of `in` are read-only. All arrays lie in the
- * memory that the library asked for: with OGC_DEVICE_MEMORY every pointer inside `in` and `out` is CUDA device memory
- * of the primary context of device 0, current when the function is called; the two structures themselves are in host
- * memory always. A function may return before the device has finished: the caller synchronises, and counts the time.
- * Calls come from one thread, one after another; a function may keep what it likes from call to call. Nothing is freed
- * by the library but what it has allocated.
+ * memory that the library chose: with OGC_DEVICE_MEMORY every pointer inside `in` and `out` is CUDA device memory of
+ * the primary context of device 0, current when the function is called; the two structures themselves are always in
+ * host memory. A function may return before the device has finished: the caller synchronises, and counts the time.
+ * Calls come from one thread, one after another; a function may keep data from call to call. The library frees only
+ * what it has allocated.
  *
  * Units: metres, newtons, joules. float is IEEE single precision; indices are from 0; int64_t n is the number of cases.
  */

@@ -1,4 +1,4 @@
-// Which way a step took: what a proof of motion asks (compare/meetings.md).
+// Lets a simulation report the way that a step took, for the proof of its motion (compare/meetings.md).
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace ogc::compare {
 
-/// A simulation that can say it. One that can't is asked for a trace (Contestant::step), which starts another
-/// simulation for each step.
+/// A simulation that can report its way. For any other the trace of a step is taken (Contestant::step), which starts
+/// another simulation for each step.
 class WayTeller {
  public:
   virtual ~WayTeller() = default;
-  /// One step: the row of Simulation::advance(1), and `states`, by detection X_prev [m]. Changes no bit; the time of
-  /// the row has the looks in it.
+  /// Runs one step and returns the row of Simulation::advance(1); sets `states` to X_prev [m] of each detection.
+  /// Changes no bit; the time of the row includes the copies of these states.
   virtual std::vector<StepMetrics> advance_telling(std::vector<std::vector<Vec3f>>& states) = 0;
 };
 

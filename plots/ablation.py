@@ -1,5 +1,6 @@
-"""Draws what `ogc ablate` came to: a panel a metric, a row a setting with the median of its runs and their range.
-Usage: python3 -m plots.ablation FOLDER [OUT.png]; the folder holds ablation_medians.csv, the picture goes there."""
+"""Draws the results of `ogc ablate`: a panel for each metric, a row for each setting with the median of its runs and
+their range. Usage: python3 -m plots.ablation FOLDER [OUT.png]; the folder holds ablation_medians.csv, the picture is
+written there."""
 
 import csv
 import math
@@ -9,16 +10,17 @@ from pathlib import Path
 from plots import style
 
 TABLE = "ablation_medians.csv"
-AFTER_AXES = "unit"  # columns before it: the metric, and what was varied
+AFTER_AXES = "unit"  # columns before it: the metric, and the varied settings
 COLUMNS = 3
 
 
 class AblationError(Exception):
-    """A folder that can't be drawn; the message says what is missing."""
+    """Raised for a folder that can't be drawn; the message names what is missing."""
 
 
 def read(folder):
-    """{metric: (unit, {setting: (median, smallest, largest)})} in the order of the table. Throws AblationError."""
+    """Returns {metric: (unit, {setting: (median, smallest, largest)})} in the order of the table. Throws
+    AblationError."""
     path = Path(folder) / TABLE
     if not path.is_file():
         raise AblationError(f"{path} is missing: make it with ogc ablate SCENE --vary key=a,b --repeat 10 "
@@ -37,13 +39,14 @@ def read(folder):
 
 
 def differing(metrics):
-    """Without those that are one number in every run."""
+    """Returns the metrics without those that have one value in every run."""
     return {name: (unit, settings) for name, (unit, settings) in metrics.items()
             if len({number for numbers in settings.values() for number in numbers}) > 1}
 
 
 def draw_metric(axes, name, unit, settings, has_names):
-    """Settings from above to below, the first one's range shaded: what overlaps it differs from it in nothing shown."""
+    """Draws the settings from top to bottom, with the first one's range shaded: a range that overlaps it shows no
+    difference."""
     for place, (median, smallest, largest) in enumerate(settings.values()):
         colour = style.COLOURS[place % len(style.COLOURS)]
         axes.plot([smallest, largest], [place, place], color=colour, linewidth=2)
@@ -56,7 +59,7 @@ def draw_metric(axes, name, unit, settings, has_names):
 
 
 def draw(metrics, out, title=""):
-    """One picture, PNG and PDF. Throws AblationError where no metric differs."""
+    """Draws one picture, PNG and PDF. Throws AblationError if no metric differs."""
     shown = differing(metrics)
     if not shown:
         raise AblationError("no metric differs between any two runs: there is nothing to draw")

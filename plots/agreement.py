@@ -15,7 +15,7 @@ from plots.run_folder import Run, RunError
 
 
 def differences(first, second):
-    """(steps, largest, root mean square) [m] over the frames that both runs have."""
+    """Returns (steps, largest, root mean square) [m] over the frames that both runs have."""
     seconds = {path.name: path for path in second.frames}
     rows = []
     for path in first.frames:
@@ -37,7 +37,7 @@ def draw(pairs, out):
     for (first, second), colour in zip(pairs, style.COLOURS):
         steps, largest, mean = differences(first, second)
         name = f"{label(first)} against {label(second)}"
-        floor = 1e-9  # a logarithmic axis has no zero: equal frames are drawn on this line, and the legend says so
+        floor = 1e-9  # a logarithmic axis has no zero: equal frames are drawn on this line, as the legend explains
         axes.plot(steps, np.maximum(largest, floor), color=colour, label=f"{name}, largest")
         axes.plot(steps, np.maximum(mean, floor), color=colour, linestyle="--", label=f"{name}, root mean square")
         equal = steps[largest == 0]

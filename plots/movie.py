@@ -15,11 +15,11 @@ from plots.run_folder import Run, RunError
 from plots.scene_figure import bodies_of, draw_movie, is_cloth
 
 UP, TOWARDS_EYE = (0, 1, 0), np.array([0.55, 0.35, 1.0])
-DISTANCE = 2.2  # of the eye, in diagonals of the box around what moves
+DISTANCE = 2.2  # distance of the eye, in diagonals of the box around the moving bodies
 
 
 def camera_of(run):
-    """(eye, target, up) that has in view where what is simulated was and came to."""
+    """Returns (eye, target, up) of a camera that shows the simulated bodies at their start and end."""
     moving = [body for body in run.manifest["scene"]["bodies"] if is_cloth(body)]
     ranges = [slice(body["first_vertex"], body["first_vertex"] + body["vertex_count"]) for body in moving or [
         {"first_vertex": 0, "vertex_count": None}] if body["vertex_count"]] or [slice(None)]
@@ -44,7 +44,7 @@ def main():
         camera, out = camera_of(run), options.out or run.folder / "movie.mp4"
         draw_movie(run, camera, out)
         if options.picture:
-            from PIL import Image  # with what draws meshes
+            from PIL import Image  # comes with the renderer
             Image.fromarray(render.picture(bodies_of(run, run.frame(run.frames[-1])), camera)).save(options.picture)
     except RunError as error:
         sys.exit(f"movie: {error}")

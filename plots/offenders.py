@@ -14,11 +14,12 @@ FROM = (1, 0.7, 1)  # the direction of view
 
 
 def draw(part, whole, out):
-    """`part`: the file of `ogc audit --show`; `whole`: the file of the mesh, or None; `out`: the PNG."""
+    """Draws the intersections. `part`: the file of `ogc audit --show`; `whole`: the file of the mesh, or None; `out`:
+    the PNG."""
     import pyvista as pv
     from vtkmodules.vtkCommonCore import vtkLogger
 
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # that there is no display is no news
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # hides the message that there is no display
     offenders = pv.read(part)
     around = [] if whole is None else [pv.read(whole).extract_surface(algorithm=None)]
     plotter = pv.Plotter(off_screen=True, shape=(1, 1 + len(around)), window_size=(640 * (1 + len(around)), 480))

@@ -1,10 +1,10 @@
-"""Renders meshes off-screen. Needs PyVista, and for movies imageio; `available()` says whether and why not."""
+"""Renders meshes off-screen. Needs PyVista, and imageio for movies; `available()` checks for them."""
 
 import numpy as np
 
 
 def available():
-    """(True, "") or (False, the reason in words)."""
+    """Returns (True, "") or (False, the reason in words)."""
     try:
         import pyvista  # noqa: F401
     except ImportError as error:
@@ -13,16 +13,17 @@ def available():
 
 
 def picture(bodies, camera, size=(640, 480)):
-    """An RGB image of `bodies`, each (points [n, 3], triangles [m, 3], front colour, back colour), seen from camera =
-    (eye, target, up). In place of the front colour RGB of each point [n, 3]: a closed surface, whose back nobody sees.
+    """Returns an RGB image of `bodies`, each (points [n, 3], triangles [m, 3], front colour, back colour), seen from
+    camera = (eye, target, up). In place of the front colour a body may have the RGB of each point [n, 3]: a closed
+    surface, whose back is never visible.
 
-    Front and back of a sheet have different colours, so that folds can be told; ambient occlusion makes contacts
+    Front and back of a sheet have different colours, so that folds are visible; ambient occlusion makes contacts
     readable.
     """
     import pyvista as pv
     from vtkmodules.vtkCommonCore import vtkLogger
 
-    # without a display VTK warns that it found none, and goes on
+    # without a display VTK warns and continues
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
     pv.OFF_SCREEN = True
     plotter = pv.Plotter(off_screen=True, window_size=list(size))
@@ -34,7 +35,7 @@ def picture(bodies, camera, size=(640, 480)):
                   else {"scalars": front, "rgb": True})
         plotter.add_mesh(mesh, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1, **colour)
     extent = np.linalg.norm(np.ptp(np.concatenate([points for points, *_ in bodies]), axis=0))
-    # a camera that is near sees a part of what there is, and corners are as deep as what it sees
+    # a near camera sees a part of the scene; the scale of ambient occlusion is limited to that part
     extent = min(extent, 2 * np.linalg.norm(np.subtract(camera[0], camera[1])))
     plotter.enable_ssao(radius=0.05 * extent, bias=0.001 * extent, kernel_size=64, blur=True)
     plotter.enable_anti_aliasing("ssaa")
@@ -45,12 +46,12 @@ def picture(bodies, camera, size=(640, 480)):
 
 
 def write_movie(scenes, camera, out, frames_per_second, size=(640, 480)):
-    """MP4 (H.264) with a picture of each element of `scenes`, which is what `picture` takes as bodies. Returns what
-    `available` does."""
+    """Writes an MP4 (H.264) with a picture of each element of `scenes`, which has the form of `bodies` of `picture`.
+    Returns the result of `available`."""
     usable, reason = available()
     try:
         import imageio
-        import imageio_ffmpeg  # noqa: F401  (the encoder, which imageio finds by itself)
+        import imageio_ffmpeg  # the encoder, which imageio finds by itself
     except ImportError as error:
         return False, f"a package for movies can't be imported ({error}); install plots/requirements.txt"
     if usable:

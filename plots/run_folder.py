@@ -1,5 +1,5 @@
-"""Reads run folders (design of the data: experiments/README.md, "Read a run"). Says in words what is missing, instead
-of drawing nonsense."""
+"""Reads run folders (format of the data: experiments/README.md, "Read a run"). Reports in words what is missing,
+instead of drawing nonsense."""
 
 import csv
 import json
@@ -15,13 +15,13 @@ from plots.columns import column_and_unit
 
 
 class RunError(Exception):
-    """Something about a run folder keeps it from being drawn; the message says what, where and what to do."""
+    """Raised if a run folder can't be drawn; the message says what, where and what to do."""
 
 
 @dataclass
 class Frame:
-    """One stored state; positions [m], velocities [m/s], bounds [m], orientations [segments of rods, 4] as x, y, z,
-    w."""
+    """Holds one stored state; positions [m], velocities [m/s], bounds [m], orientations [segments of rods, 4] as x, y,
+    z, w."""
 
     step: int
     time: float
@@ -32,7 +32,8 @@ class Frame:
 
 
 class Run:
-    """A run folder: `manifest` (run.json), `steps` (column name without unit -> array), `frames` (paths, ascending)."""
+    """Holds a run folder: `manifest` (run.json), `steps` (column name without unit -> array), `frames` (paths,
+    ascending)."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -46,7 +47,7 @@ class Run:
         self.frames = sorted((self.folder / "frames").glob("frame_*.h5"))
 
     def _take_audit(self, path):
-        """What an audit after the run found counts as what one beside it did."""
+        """Takes the result of an audit after the run as if it had been made beside the run."""
         found = json.loads(path.read_text()) if path.is_file() else {"states": 0}
         if found["states"]:
             kept = self.manifest.get("guarantee_kept") is not False and found["clean"]
@@ -63,17 +64,17 @@ class Run:
         return self.steps[name]
 
     def stage_columns(self):
-        """Times by stage [ms], where the run was profiled."""
+        """Returns the times by stage [ms] if the run was profiled."""
         return {name.removeprefix("stage_"): self.steps[name] for name in self.steps if name.startswith("stage_")}
 
     def setting(self, name):
-        """Value of a setting, in its own unit (SI)."""
+        """Returns the value of a setting in its own unit (SI)."""
         return self.manifest["settings"][name]["value"]
 
     def bodies(self):
-        """The scene's bodies as in run.json, each with its own `triangles` [n, 3], numbered from the body's first
-        vertex; a rod also with `segments` [n, 2], numbered likewise, and `first_segment`, the place of the first one's
-        orientation."""
+        """Returns the scene's bodies as in run.json, each with its own `triangles` [n, 3], numbered from the body's
+        first vertex. A rod also has `segments` [n, 2], numbered in the same way, and `first_segment`, the place of its
+        first orientation."""
         path = self.folder / "trajectory.vtkhdf"
         if not path.is_file():
             raise RunError(f"{path} is missing: the run is not finished; assemble it with: ogc export {self.folder}")
@@ -92,7 +93,7 @@ class Run:
 
     @cached_property
     def start_positions(self):
-        """Of the first stored frame [m]."""
+        """Returns the positions of the first stored frame [m]."""
         return self.frame(self.frames[0]).positions
 
     def frame(self, path):
@@ -100,14 +101,14 @@ class Run:
             frame = Frame(int(file.attrs["step"]), float(file.attrs["time"]),
                           file["positions"][:], file["velocities"][:], file["bounds"][:],
                           file["orientations"][:] if "orientations" in file else np.empty((0, 4), np.float32))
-            expected = int(file.attrs.get("crc32", _checksum(frame)))  # frames of format 1 have none
+            expected = int(file.attrs.get("crc32", _checksum(frame)))  # frames of format 1 have no checksum
         if expected != _checksum(frame):
             raise RunError(f"{path} is damaged: its content is not what its checksum says; "
                            "restore the file, or run the scene again")
         return frame
 
     def frame_at_step(self, step):
-        """The stored frame nearest to `step`."""
+        """Returns the stored frame nearest to `step`."""
         if not self.frames:
             raise RunError(f"{self.folder} has no finished frame yet (status: {self.status})")
         numbers = [int(path.stem.removeprefix("frame_")) for path in self.frames]
@@ -122,8 +123,8 @@ class Run:
 
 
 def commits_in_words(runs):
-    """The commit of the program that made `runs`; where there are several, which run is whose, because such a picture
-    compares programs, too."""
+    """Returns the commit of the program that made `runs`. If there are several, it names the run of each, because the
+    picture then compares programs, too."""
     commits = [run.manifest["commit"][:10] + (" (dirty)" if run.manifest.get("dirty") else "") for run in runs]
     if len(set(commits)) == 1:
         return f"commit {commits[0]}"
@@ -132,8 +133,8 @@ def commits_in_words(runs):
 
 
 def _checksum(frame):
-    """CRC-32 of the bytes of positions, velocities, bounds, step, time and orientations, as the file's writer took
-    it."""
+    """Returns the CRC-32 of the bytes of positions, velocities, bounds, step, time and orientations, in the order of
+    the file's writer."""
     step, time = np.array(frame.step, "<i8"), np.array(frame.time, "<f8")
     result = 0
     for part in (frame.positions, frame.velocities, frame.bounds, step, time, frame.orientations):

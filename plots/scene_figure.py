@@ -1,4 +1,5 @@
-"""The figure of one run: time a step, detections, contacts, smallest distance, and rendered frames; and its movie."""
+"""Draws the figure of one run (time a step, detections, contacts, smallest distance, rendered frames), and its
+movie."""
 
 import json
 from pathlib import Path
@@ -9,14 +10,14 @@ import numpy as np
 from plots import render, style, yarn
 from plots.run_folder import RunError, commits_in_words
 
-UNEVEN = 100  # the longest step over the median one, from which times are drawn by their logarithms
-NEAR = (1280, 560)  # pixels of a picture that is as wide as the figure
+UNEVEN = 100  # ratio of the longest step to the median one above which times are drawn on a logarithmic axis
+NEAR = (1280, 560)  # pixels of a picture as wide as the figure
 BOUNDS = {"planes": "bounds by planes", "dat": "bounds by planes of Divide and Truncate", "off": "without bounds"}
 YARNS = ("#0072B2", "#D55E00", "#009E73")
 
 
 def load_claims(path, backend):
-    """What the paper says about a scene on a backend: {quantity: (value, machine)}; empty where it says nothing."""
+    """Returns what the paper claims about a scene on a backend: {quantity: (value, machine)}; empty if nothing."""
     path = Path(path)
     if not path.is_file():
         return {}
@@ -25,13 +26,13 @@ def load_claims(path, backend):
 
 
 def is_cloth(body):
-    """Whether a body of the manifest is simulated: neither fixed nor wholly prescribed."""
+    """Returns whether a body of the manifest is simulated: neither fixed nor wholly prescribed."""
     return not body["fixed"] and body.get("prescribed_vertices") != body["vertex_count"]
 
 
 def bodies_of(run, frame):
-    """Bodies as `render.picture` wants them, with the frame's positions; bodies that are fixed or wholly prescribed
-    grey; rods as tubes with plies."""
+    """Returns the bodies in the form of `render.picture`, with the frame's positions; fixed and wholly prescribed
+    bodies are grey, rods are tubes with plies."""
     fronts, backs = ["#56B4E9", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#F0E442"]
     result, cloth = [], 0
     for body in run.bodies():
@@ -50,7 +51,7 @@ def bodies_of(run, frame):
 
 
 def yarn_of(run, body, frame):
-    """A rod as `render.picture` wants it; each of its chains has a colour."""
+    """Returns a rod in the form of `render.picture`; each of its chains has a colour."""
     first, count, segments = body["first_vertex"], body["vertex_count"], body["segments"]
     start = run.start_positions[first:first + count].astype(float)
     lengths = np.linalg.norm(start[segments[:, 1]] - start[segments[:, 0]], axis=1)
@@ -62,14 +63,14 @@ def yarn_of(run, body, frame):
     angles = yarn.angles_of(chains, lengths, yarn.PITCH * diameter)
     points = frame.positions[first:first + count]
     orientations = frame.orientations[body["first_segment"]:body["first_segment"] + len(segments)].astype(float)
-    if not len(orientations):  # the start of a scene that gives none: frames follow from its rest shape
+    if not len(orientations):  # the start of a scene without orientations: frames follow from its rest shape
         orientations = yarn.untwisted(chains, points.astype(float), segments)
     return (*yarn.tubes(points, segments, orientations, angles, diameter, colours), None)
 
 
 def draw_time(axes, run, claims, profiled):
-    """Time a step of `run`; behind it, where `profiled` was profiled, its times by stage (with a synchronisation after
-    each stage, so their sum is larger)."""
+    """Draws the time of each step of `run`. Behind it, if `profiled` was profiled, it draws the times by stage of that
+    run, whose sum is larger because of a synchronisation after each stage."""
     stages = profiled.stage_columns()
     if stages:
         axes.stackplot(profiled.column("step"), list(stages.values()),
@@ -87,7 +88,7 @@ def draw_time(axes, run, claims, profiled):
         axes.legend(fontsize=6.5, ncols=2, loc="upper left")
     elif stages:
         axes.legend(fontsize=6.5, ncols=2)
-    else:  # above the run's line: the paper's lie where we are slow at the bottom, and would be written over
+    else:  # above the run's line: the paper's lines lie at the bottom where we are slow, and would be drawn over
         axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
         axes.legend(fontsize=6.5, ncols=2, loc="upper left")
 
@@ -102,7 +103,7 @@ def draw_detections(axes, run):
 
 
 def draw_lag(axes, run):
-    """Nothing is drawn of a run that never lagged but the axis."""
+    """Draws the lag; of a run that never lagged only the axis."""
     axes.plot(run.column("step"), 1e3 * run.column("largest_lag"), label="of the prescribed vertex that lags most")
     axes.axhline(1e3 * run.setting("contact_radius"), color="black", linestyle="--", linewidth=0.8,
                  label=f"contact radius r = {1e3 * run.setting('contact_radius'):g} mm")
@@ -147,7 +148,7 @@ def draw_frames(figure, grid, run, steps, camera):
 
 
 def draw_near(axes, run, frame, camera):
-    """The frame from near, as wide as the figure."""
+    """Draws the frame from near, as wide as the figure."""
     axes.axis("off")
     axes.set_title(f"step {frame.step}, from near")
     usable, reason = render.available()
@@ -158,8 +159,8 @@ def draw_near(axes, run, frame, camera):
 
 
 def draw_movie(run, camera, out, most=160, frames_per_second=24, shortest=5):
-    """MP4 of a finished run's stored frames, of every second, third … where there are more than `most`; so slow that it
-    lasts `shortest` seconds where few were brought home. Throws RunError like `draw`."""
+    """Writes an MP4 of a finished run's stored frames; of every second, third … if there are more than `most`. It runs
+    so slowly that a few frames last `shortest` seconds. Throws RunError like `draw`."""
     run.require_finished()
     chosen = run.frames[::-(-len(run.frames) // most)]
     frames = (bodies_of(run, run.frame(path)) for path in chosen)
@@ -183,8 +184,8 @@ def draw(run, frames, camera, claims, out, profiled=None, driven=False, near=Non
     """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or
     failed its audit.
 
-    `profiled`: the same scene run with --profile, for the times by stage; `run` itself where it is None. `driven`: lag
-    in place of detections. `near`: a camera for the last of the `frames`, as a function of its positions.
+    `profiled`: the same scene run with --profile, for the times by stage; None: `run` itself. `driven`: shows lag in
+    place of detections. `near`: a camera for the last of the `frames`, as a function of its positions.
     """
     run.require_finished()
     plt = style.use()

@@ -11,12 +11,12 @@ import numpy as np
 
 from plots.run_folder import RunError, Run
 
-COLLAPSED = 1e-3  # of the area in the run's first frame
+COLLAPSED = 1e-3  # share of the area in the run's first frame
 
 
 def standing(positions, bounds):
-    """Whether a vertex' bound is below the spacing at its smallest coordinate (it can't move at all), and whether at
-    its largest one (not along it)."""
+    """Returns whether a vertex's bound is below the spacing at its smallest coordinate (it can't move at all), and
+    whether it is below that at its largest one (it can't move along that one)."""
     spacing = np.spacing(np.abs(np.asarray(positions, dtype=np.float32)))
     return bounds < spacing.min(axis=1), bounds < spacing.max(axis=1)
 
@@ -27,7 +27,7 @@ def areas(positions, triangles):
 
 
 def beside(triangles, collapsed, vertices):
-    """Whether each of so many vertices is a corner of a collapsed triangle, or the neighbour of one."""
+    """Returns for each vertex whether it is a corner of a collapsed triangle, or the neighbour of one."""
     corner = np.zeros(vertices, dtype=bool)
     corner[triangles[collapsed]] = True
     near = corner.copy()
@@ -36,9 +36,9 @@ def beside(triangles, collapsed, vertices):
 
 
 def rows(run):
-    """Of each frame after a detection, of the bodies that move: step; shares of vertices that can't move and that can't
-    along their largest coordinate; of triangles that have collapsed; of the vertices beside one among the second sort,
-    and among all."""
+    """Returns a row for each frame after a detection, for the bodies that move: step; shares of vertices that can't
+    move and that can't move along their largest coordinate; of triangles that have collapsed; and of vertices beside
+    one, among the second kind and among all."""
     bodies = run.bodies()
     moves = np.concatenate([np.full(body["vertex_count"], not body["fixed"]) for body in bodies])
     triangles = np.concatenate([body["triangles"] + body["first_vertex"] for body in bodies if not body["fixed"]])

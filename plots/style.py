@@ -1,14 +1,14 @@
-"""The house style of all figures: colours that survive colour-blindness and grey print, units on all axes, vector
-text."""
+"""Defines the style of all figures: colours that are distinct in colour-blindness and grey print, units on all axes,
+vector text."""
 
 from pathlib import Path
 
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first, so that no display is needed)
+import matplotlib.pyplot as plt  # the backend is chosen first, so that no display is needed
 
-# Okabe and Ito's palette, in an order whose lightness differs from neighbour to neighbour.
+# Okabe and Ito's palette, ordered so that the lightness differs from neighbour to neighbour.
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#CC79A7", "#000000"]
 DASHES = ["-", "--", "-.", ":"]
 

@@ -1,5 +1,5 @@
-"""Yarn as it is drawn: tubes around the segments of rods with two plies, which lie on a helix of the material. It turns
-with the segments' orientations, so that twist shows.
+"""Builds the shape in which yarn is drawn: tubes around the segments of rods with two plies, which lie on a helix fixed
+in the material. It turns with the segments' orientations, so that twist is visible.
 """
 
 from itertools import chain
@@ -7,15 +7,15 @@ from itertools import chain
 import numpy as np
 
 PLIES = 2
-PITCH = 5  # of a ply, in diameters
-PIECES_A_TURN = 8  # that a long segment is cut into, so that the helix stays one
-GROOVE = 0.3  # how far the surface sinks between the plies, in radii
-OVERLAP = 0.2  # of the tubes of neighbours, in radii, so that no gap shows between them
-SIDES, MANY, SIDES_OF_MANY = 24, 20_000, 10  # of a tube; of more segments than MANY fewer
+PITCH = 5  # length of a ply's turn in diameters
+PIECES_A_TURN = 8  # pieces of a long segment, so that its helix stays visible
+GROOVE = 0.3  # depth of the groove between the plies, in radii
+OVERLAP = 0.2  # overlap of the tubes of neighbours, in radii, so that no gap shows
+SIDES, MANY, SIDES_OF_MANY = 24, 20_000, 10  # sides of a tube; fewer if there are more segments than MANY
 
 
 def chains(segments, count):
-    """The segments [n, 2] of `count` vertices in chains of (segment, 1, or -1 where it is walked against its
+    """Returns the segments [n, 2] of `count` vertices in chains of (segment, 1, or -1 if it is traversed against its
     direction). A chain ends where not exactly two segments meet; a ring begins anywhere."""
     at_vertex = [[] for _ in range(count)]
     for e, ends in enumerate(segments.tolist()):
@@ -40,27 +40,28 @@ def chains(segments, count):
 
 
 def angles_of(chains_of, lengths, pitch):
-    """Angle of the first ply's helix at both ends of each segment [n, 2], about its own direction; `lengths` [n]."""
+    """Returns the angle of the first ply's helix at both ends of each segment [n, 2], about its own direction;
+    `lengths` [n]."""
     result = np.zeros((len(lengths), 2))
     for links in chains_of:
         numbers, along = (np.array(part) for part in zip(*links))
         ways = np.concatenate([[0], np.cumsum(lengths[numbers])]) / pitch * 2 * np.pi
         first, last = ways[:-1], ways[1:]
-        # Seen against the walk the same helix has the same hand: the way counts backwards.
+        # Traversed backwards, the same helix has the same hand, so the arc length counts backwards.
         result[numbers] = np.where(along[:, None] > 0, np.stack([first, last], 1), -np.stack([last, first], 1))
     return result
 
 
 def rotated(quaternions, axis):
-    """R(q) applied to one of the three axes: directors [n, 3] of quaternions x, y, z, w [n, 4]."""
+    """Returns R(q) applied to one of the three axes: directors [n, 3] of quaternions x, y, z, w [n, 4]."""
     v, w = quaternions[:, :3], quaternions[:, 3:]
     e = np.eye(3)[axis]
     return e + 2 * np.cross(v, np.cross(v, e) + w * e)
 
 
 def untwisted(chains_of, positions, segments):
-    """Orientations without twist [n, 4]: along each chain a frame is turned on by the smallest rotation, as a rod's
-    frames at rest are (compare/rods.md, "Rest data"); the first one from the axes."""
+    """Returns orientations without twist [n, 4]: along each chain a frame is turned by the smallest rotation, like a
+    rod's frames at rest (compare/rods.md, "Rest data"); the first one starts from the axes."""
     directions = _unit(positions[segments[:, 1]] - positions[segments[:, 0]])
     result = np.empty((len(segments), 4))
     for links in chains_of:
@@ -72,7 +73,7 @@ def untwisted(chains_of, positions, segments):
 
 
 def _smallest_rotation(a, b):
-    """Quaternion [1, 4] that takes the unit vector a to b; half a turn where they are opposite."""
+    """Returns the quaternion [1, 4] that rotates the unit vector a to b; half a turn if they are opposite."""
     w = 1 + a @ b
     axis = np.cross(a, b) if w > 1e-12 else np.cross(a, np.eye(3)[np.argmin(np.abs(a))])
     q = np.append(axis, max(w, 0) if w > 1e-12 else 0)
@@ -80,7 +81,7 @@ def _smallest_rotation(a, b):
 
 
 def _product(p, q):
-    """Of quaternions x, y, z, w [n, 4]."""
+    """Returns the products of quaternions x, y, z, w [n, 4]."""
     v = p[:, 3:] * q[:, :3] + q[:, 3:] * p[:, :3] + np.cross(p[:, :3], q[:, :3])
     return np.hstack([v, p[:, 3:] * q[:, 3:] - np.sum(p[:, :3] * q[:, :3], axis=1, keepdims=True)])
 
@@ -91,8 +92,8 @@ def _unit(vectors):
 
 
 def _mitres(segments, directions, count):
-    """Normals of the planes in which tubes end [n, 2, 3]: between two segments that meet the middle of their
-    directions, elsewhere the segment's own."""
+    """Returns the normals of the planes in which tubes end [n, 2, 3]: the mean of both directions where two segments
+    meet, the segment's own direction elsewhere."""
     normals = np.repeat(directions[:, None], 2, axis=1)
     meeting = np.bincount(segments.ravel(), minlength=count)
     ordered = np.argsort(segments.ravel(), kind="stable")
@@ -110,8 +111,8 @@ def _mitres(segments, directions, count):
 
 
 def tubes(positions, segments, orientations, angles, diameter, colours):
-    """(points, triangles, RGB of each point) of the tubes; `angles` [n, 2]: of the helix at both ends (angles_of);
-    `colours` [n, PLIES, 3]: of each segment's plies."""
+    """Returns (points, triangles, RGB of each point) of the tubes. `angles` [n, 2]: of the helix at both ends
+    (angles_of); `colours` [n, PLIES, 3]: of each segment's plies."""
     radius, count = diameter / 2, len(segments)
     ends = positions[segments].astype(float)
     directions = _unit(ends[:, 1] - ends[:, 0])
@@ -138,7 +139,7 @@ def tubes(positions, segments, orientations, angles, diameter, colours):
 
 
 def _triangles(count, pieces, sides):
-    """Of `count` tubes of so many pieces, whose rings of points follow each other."""
+    """Returns the triangles of `count` tubes of so many pieces, whose rings of points are consecutive."""
     ring, side = np.meshgrid(np.arange(pieces), np.arange(sides), indexing="ij")
     a, b = ring * sides + side, ring * sides + (side + 1) % sides
     one = np.stack([a, b, a + sides, b, b + sides, a + sides], axis=-1).reshape(-1, 3)
@@ -146,6 +147,6 @@ def _triangles(count, pieces, sides):
 
 
 def plies_of(colour):
-    """RGB of a yarn's two plies [2, 3]: the colour and a light one of its hue."""
+    """Returns the RGB of a yarn's two plies [2, 3]: the colour and a lighter one of its hue."""
     dark = np.array([int(colour[i:i + 2], 16) for i in (1, 3, 5)])
     return np.stack([dark, 255 - (255 - dark) * 0.3])

@@ -1,4 +1,4 @@
-// The stages of the reference under the judge's names.
+// Registers the reference's stages under the names that the judge uses.
 #include "reference/contestant.hpp"
 
 #include "reference/definitions/volume_depth.hpp"

@@ -1,4 +1,5 @@
-// The reference as the judge's authority: exact where the answer is discrete, correctly bounded where it is not.
+// The reference as the judge's authority: exact where the answer is discrete, with derived error bounds where it is
+// not.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -19,20 +20,20 @@
 
 namespace ogc::reference {
 
-/// Every stage that the reference has.
+/// Returns the authority with every stage that the reference has.
 compare::Authority authority();
 
-/// Newton-OGC: no stages, but a simulation to `start` (method.md §7.6).
+/// Returns Newton-OGC: it has no stages, only a simulation to `start` (method.md §7.6).
 compare::Contestant newton();
 
-/// The penalty baseline: Newton's method without bounds, line search or guarantee. Likewise.
+/// Returns the penalty baseline: Newton's method without bounds, line search or guarantee. It has no stages.
 compare::Contestant penalty();
 
-/// The IPC baseline: likewise.
+/// Returns the IPC baseline. It has no stages.
 compare::Contestant ipc();
 
-/// Vertex Block Descent in double, likewise. `colours`: of a scene's vertices, asked once a simulation
-/// (reference/solvers/vbd_solver.hpp); empty for its own.
+/// Returns Vertex Block Descent in double, without stages. `colours` returns the colours of a scene's vertices and is
+/// called once a simulation (reference/solvers/vbd_solver.hpp); if it is empty, the solver colours the vertices itself.
 compare::Contestant vbd(std::function<std::vector<compare::Index>(const compare::Scene&)> colours = {});
 
 }  // namespace ogc::reference

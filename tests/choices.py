@@ -17,11 +17,12 @@ from pathlib import Path
 
 ROOMS = ("compare", "reference", "fast", "experiments")
 SUFFIXES = {".hpp", ".cpp", ".cu", ".cuh"}
-# Where choices are declared.
+# Files that declare choices.
 HEADERS = ("compare/problem/bounds.hpp", "compare/problem/settings.hpp", "compare/problem/scene.hpp",
            "compare/judge/cases/stage.hpp", "experiments/program/runs/solvers.hpp",
            "reference/solvers/newton/settings.hpp", "reference/solvers/variants/settings.hpp")
-# Comparisons of these ask for an absence (none), for a default with a path of its own, or for who answers what.
+# Choices that may be compared: the code tests for an absence (none), for a default with a path of its own, or for the
+# stage, solver or kind of setting that something belongs to.
 COMPARED = {"MembraneModel", "BendingModel", "ContactActivation", "Stage", "Solver", "SettingKind"}
 ENUMERATION = re.compile(r"\benum class (\w+)(?: : std::(?:int64|uint8)_t)? \{")
 COMPARISON = re.compile(r"[=!]= *(?:\w+::)*(\w+)::\w+|\b(?:\w+::)*(\w+)::\w+ *[=!]=")
@@ -30,7 +31,7 @@ COMMENT = re.compile(r"//[^\n]*")
 
 
 def sources(root):
-    """Path -> its code, without comments."""
+    """Returns {path: code without comments}."""
     files = sorted(path for room in ROOMS for path in (root / room).rglob("*") if path.suffix in SUFFIXES)
     return {path.relative_to(root).as_posix(): COMMENT.sub("", path.read_text(encoding="utf-8")) for path in files}
 
@@ -63,7 +64,7 @@ def findings(root):
 
 
 def self_test():
-    """Sentences about planted files that are judged wrongly."""
+    """Returns sentences about planted files that are judged wrongly."""
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for header in HEADERS:

@@ -23,16 +23,16 @@ import sys
 import tempfile
 from pathlib import Path
 
-HISTORY = {"CHANGELOG.md"}  # says what was
-# Documents that programs write, by those who say so. An entry that nothing cites is a finding itself.
+HISTORY = {"CHANGELOG.md"}  # describes the past
+# Documents that programs write, by the code that names them. An entry that nothing cites is a finding itself.
 WRITTEN = {"counts.md": "the part judge of paper_figures.workflow.runner",
            "table1_paper.md": "python3 -m paper_figures.figures.table1"}
 SKIPPED = {".png", ".gif", ".mp4", ".gz", ".csv", ".h5", ".json", ".obj", ".ply", ".pdf", ".npz"}
 
-CITING = (".md", ".h", ".hpp", ".cpp", ".cu", ".cuh")  # where source files are cited
+CITING = (".md", ".h", ".hpp", ".cpp", ".cu", ".cuh")  # files in which source files are cited
 SOURCE_FILE = re.compile(r"(?<![\w/.-])(([a-z_]+)/(?:\w+/)*(\w+)\.(?:hpp|cpp|cuh?|py))\b")
 
-COMMENT = re.compile(r"\n[ \t]*(?://[/<!]*|#+(?![#\w])|\*(?!\*))?[ \t]*")  # a citation may go on in the next line
+COMMENT = re.compile(r"\n[ \t]*(?://[/<!]*|#+(?![#\w])|\*(?!\*))?[ \t]*")  # a citation may continue in the next line
 NAME = r"(?<![\w/.$-])((?:\.{1,2}/)*(?:[\w-]+/)*[\w-]+\.md)\b(?!\.)"
 NUMBER = r"\d+[a-z]?(?:\.\d+)*"
 SECTIONS = rf"(?:,? ?§ ?{NUMBER})(?:(?:,| and| to| or) §{NUMBER})*|, {NUMBER}\.(?= |$)"
@@ -44,17 +44,17 @@ BOLD = re.compile(r"^(?:[-*] )?\*\*(.+?)\*\*", re.M | re.S)
 
 
 def plain(title):
-    """A title as it is compared: without markup and without what ends it."""
+    """Returns a title in the form in which it is compared: without markup and trailing punctuation."""
     return re.sub(r"\s+", " ", re.sub(r"[`*]", "", title)).strip(" .:").lower()
 
 
 def anchor(title):
-    """The anchor that a title has where Markdown is shown."""
+    """Returns the anchor of a title in rendered Markdown."""
     return re.sub(r" ", "-", re.sub(r"[^\w\- ]", "", title.strip().lower()))
 
 
 class House:
-    """The files of a repository, and the citations in them that lead nowhere."""
+    """Holds the files of a repository, and the citations in them that lead nowhere."""
 
     def __init__(self, files):
         self.files = files
@@ -86,14 +86,14 @@ class House:
         return found
 
     def as_citation(self, name, target):
-        """A link to a document as its path, so that what follows it is read; nothing of other links."""
+        """Returns a link to a document as its path, so that the text after it is read; nothing for other links."""
         here = name.rpartition("/")[0]
         path = normal(f"{here}/{target}" if here else target)
         return path if path in self.documents else ""
 
     @staticmethod
     def flattened(text):
-        """The text in one line, and where in it each line begins."""
+        """Returns the text in one line, and the place in it where each line begins."""
         starts, flat, last = [0], [], 0
         length = 0
         for match in COMMENT.finditer(text):
@@ -109,7 +109,7 @@ class House:
         return sum(start <= place for start in starts)
 
     def resolved(self, name, cited):
-        """The document that is meant, or nothing."""
+        """Returns the cited document, or nothing."""
         here = name.rpartition("/")[0]
         for base in (here, ""):
             path = normal(f"{base}/{cited}" if base else cited)
@@ -173,7 +173,7 @@ def normal(path):
 
 
 def tracked(source):
-    """Texts of all files that git tracks; of others their names."""
+    """Returns the texts of all files that git tracks; the names of those that are not text."""
     names = subprocess.run(["git", "-C", source, "ls-files"], capture_output=True, text=True,
                            check=True).stdout.split("\n")
     files = {}
@@ -187,7 +187,7 @@ def tracked(source):
             files[name] = ""
     own = "tests/" + Path(__file__).name
     if own in files:
-        files[own] = ""  # what it plants
+        files[own] = ""  # its own planted citations
     return files
 
 
@@ -201,7 +201,7 @@ SOUND = {
     "reference/README.md": "In `compare/method.md`, \"In bold\", and [a](../compare/method.md).\n",
     "experiments/counts": 'writes counts.md and "table1_paper.md"\n',
 }
-# File that changes, its text, where the finding is and what it says.
+# The file that changes, its text, the place of the finding and its message.
 PLANTED = (
     ("fast/kernels/a.hpp", "// Of a contact\n// (method.md §9).\n", 2, "compare/method.md has no section 9"),
     ("fast/kernels/a.hpp", "// The rule of method.md\n// §4.3.\n", 1, "compare/method.md has no section 4.3"),
@@ -221,7 +221,7 @@ PLANTED = (
 
 
 def self_test():
-    """Messages about planted citations that were not found, or found beside others."""
+    """Returns messages about planted citations that were not found, or found beside others."""
     failures = [f"self-test: a sound tree is refused: {finding}" for finding in House(SOUND).findings]
     for name, text, line, message in PLANTED:
         found = House({**SOUND, name: text}).findings

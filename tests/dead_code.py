@@ -18,11 +18,11 @@ from pathlib import Path
 ROOMS = ("compare", "reference", "fast", "experiments")
 COMMENTS_AND_TEXTS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
 WORD = re.compile(r"\b[A-Za-z_]\w*\b")
-# What begins a line and is no declaration of a function.
+# Words that begin a line which is not a declaration of a function.
 STATEMENTS = "default|return|else|throw|delete|new|case|using|typedef|if|while|for|switch|goto|co_return"
 TYPE = rf"^(?![ \t]*(?:{STATEMENTS})\b)[\w:<>,*& \t]*?\w>*[*&]*[ \t]+"
 FUNCTION = re.compile(rf"{TYPE}(?:\w+(?:<\w+>)?::)*(?!alignas)([a-z]\w*)\(", re.M)
-# A plain enum's own name need not be said: its enumerators are.
+# The name of a plain enum need not be used: its enumerators are.
 NAMED = re.compile(r"\b(?:struct|(?<!enum )class|enum class|union|concept|using)\s+([A-Za-z_]\w*)\s*(?=[{=:;]|final\b)")
 CONSTANT = re.compile(r"\bconstexpr\s+[\w:<>, ]+?\s([A-Za-z_]\w*)\s*(?=[={\[])")
 
@@ -30,7 +30,7 @@ PAPER = "a definition or an equation of the paper, which tests of its theorems u
 ORACLE = "tests hold faster code against it"
 WINDOW = "tests look through it into what is private"
 CALLED = "a library or the system calls it by this name"
-# Names that stand alone on purpose, each with the reason. An entry whose name is gone is a finding itself.
+# Names that are unused on purpose, each with its reason. An entry whose name does not exist is a finding itself.
 KEPT = {
     **dict.fromkeys(("boundary_paths", "has_normals", "in_edge_only_block", "is_hull_edge", "locate",
                      "part_contacts",
@@ -53,7 +53,8 @@ def without_comments(text):
 
 
 def dead_names(files, kept=()):
-    """Names of C++ code that nothing uses; `files`: {path: text} of what is built into programs, tests left out."""
+    """Returns names of C++ code that nothing uses; `files`: {path: text} of what is built into programs, without
+    tests."""
     uses, introduced = collections.Counter(), collections.Counter()
     for text in map(without_comments, files.values()):
         uses.update(WORD.findall(text))
@@ -64,7 +65,7 @@ def dead_names(files, kept=()):
 
 
 def dead_functions(files):
-    """Functions and classes of Python that nothing names, tests included; `files`: {path: text}."""
+    """Returns functions and classes of Python that nothing names, including tests; `files`: {path: text}."""
     uses, defined = collections.Counter(), {}
     for path, text in files.items():
         uses.update(WORD.findall(text))
@@ -83,7 +84,7 @@ def tracked(root, *patterns):
 
 
 def self_test():
-    """Sentences about planted code that is judged wrongly."""
+    """Returns sentences about planted code that is judged wrongly."""
     used = {"a.hpp": "int used(int x);\nstruct Used {\n  int member() const;\n};\nconstexpr int limit = 3;\n",
             "a.cpp": "int used(int x) { return x + limit; }\nint Used::member() const { return 1; }\n",
             "b.cpp": "int main() {\n  Used one;\n  return used(one.member());\n}\nint main(int);\nauto m = main;\n"}

@@ -16,7 +16,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-# Room -> the least share.
+# The least share by room.
 THRESHOLDS = {"compare": 0.98, "reference": 0.90, "fast": 0.75, "experiments": 0.95}
 HEADERS = (".hpp", ".cuh")
 
@@ -28,7 +28,7 @@ NAME = re.compile(r"(~?\w+|operator\S+)\s*\($")
 
 
 class Declaration:
-    """One public declaration: where, its name, and whether a comment belongs to it."""
+    """One public declaration: its place, its name, and whether it has a comment."""
 
     def __init__(self, line, last, name):
         self.line, self.last, self.behind, self.name = line, last, last, name
@@ -36,7 +36,7 @@ class Declaration:
 
 
 def blanked(text):
-    """The text with comments, strings and preprocessor lines as spaces, line by line as long as before."""
+    """Returns the text with comments, strings and preprocessor lines replaced by spaces; lines keep their length."""
     pattern = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|'
                          r'^[ \t]*#[^\n]*(?:\\\n[^\n]*)*',
                          re.S | re.M)
@@ -44,7 +44,7 @@ def blanked(text):
 
 
 def closing(text, at):
-    """The place behind the bracket that closes the one at `at`."""
+    """Returns the place after the bracket that closes the one at `at`."""
     pairs = {"{": "}", "(": ")", "[": "]"}
     depth, opening, closer = 0, text[at], pairs[text[at]]
     for i in range(at, len(text)):
@@ -55,7 +55,7 @@ def closing(text, at):
 
 
 def name_of(text):
-    """What a declaration at namespace or class scope introduces; None for what is not counted."""
+    """Returns the name that a declaration at namespace or class scope introduces; None if it is not counted."""
     flat = " ".join(text.split())
     flat = re.sub(r"^template ?<.*?> (?=\w)", "", flat) if flat.startswith("template") else flat
     flat = re.sub(r"^requires [^{;]*?\) (?=\w)|^requires [\w:<>, ]+? (?=(?:void|auto|bool|inline|constexpr)\b)", "",
@@ -88,7 +88,7 @@ class Header:
         return self.text.count("\n", 0, at)
 
     def scope(self, at, end, owner, public):
-        """Declarations between two places of a namespace or class."""
+        """Collects the declarations between two places of a namespace or class."""
         start = at
         while at < end:
             letter = self.text[at]
@@ -109,7 +109,7 @@ class Header:
                 at += 1
 
     def braces(self, start, at, owner, public):
-        """Behind the braces that open at `at`, and where the next declaration starts."""
+        """Skips the braces that open at `at`; returns the place after them and the start of the next declaration."""
         head, end = self.text[start:at].strip(), closing(self.text, at)
         if re.match(r"^(?:inline\s+)?namespace\b", head):
             if re.match(r"^(?:inline\s+)?namespace\s+\w", head):
@@ -141,7 +141,7 @@ class Header:
             self.found[-1].is_type, self.found[-1].behind = is_type, self.line(behind) if behind else self.line(end)
 
     def attach_comments(self):
-        """`///` above, `///<` behind or on the lines below, or a group's."""
+        """Finds the comments of declarations: `///` above, `///<` behind or on the lines below, or one of a group."""
         before = None
         for one in self.found:
             above = self.lines[one.line - 1].strip() if one.line > 0 else ""
@@ -154,7 +154,7 @@ class Header:
 
 
 def counts(files):
-    """(documented, all) of headers; `files`: {path: text}."""
+    """Returns (documented, all) of headers; `files`: {path: text}."""
     declarations = [one for text in files.values() for one in Header(text).found]
     return sum(one.documented for one in declarations), len(declarations)
 

@@ -24,18 +24,18 @@ from pathlib import Path
 SOURCE, OGC = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 del sys.argv[1:3]
 try:
-    import h5py  # noqa: F401  (lines of Python in documents want it)
+    import h5py  # lines of Python in documents use it
     import matplotlib  # noqa: F401
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
 
-HISTORY = "CHANGELOG.md"  # says what was
+HISTORY = "CHANGELOG.md"  # describes the past
 FOLDERS = ("experiments", "paper_figures", "plots", "tests", "compare")
-# Other people's programs: nothing of ours parses their options.
+# Programs of others, whose options no program of ours parses.
 FOREIGN = {"cmake", "cd", "ctest", "g++", "ninja", "nvcc", "pip", "sudo", "docker"}
 OPERATORS = {"&&", "||", "|", ";", "&"}
-# Commands of shell blocks that are parsed, but not run, and why. A rule that matches nothing is a finding.
+# Commands of shell blocks that are parsed but not run, with the reason. A rule that matches nothing is a finding.
 NOT_RUN = {
     r"^(experiments/reproduce|tests/run)\b": "installs and builds; CI runs the one, tests the other's workflow",
     r"--backend cuda": "needs a GPU",
@@ -50,7 +50,7 @@ SPANS = re.compile(r"(?:[\w./]*\bogc|experiments/\w+|tests/\w+(?:\.py)?|python3|
 
 MESH = "".join(f"v {x} {y} {z}\n" for z in (0, 0.001) for x, y in ((0, 0), (0.01, 0), (0, 0.01))) + "f 1 2 3\nf 4 5 6\n"
 
-# Runs a program of Python as far as its parser of options, which says PARSED.
+# Runs a Python program up to its parser of options, which prints PARSED.
 AS_FAR_AS_ITS_PARSER = """
 import argparse, runpy, sys
 def stopping(parse):
@@ -70,7 +70,7 @@ runpy.run_path(name, run_name="__main__")
 
 
 def blocks(text):
-    """(language, content) of each fenced block."""
+    """Returns (language, content) of each fenced block."""
     return re.findall(r"^ *```(\w*)\n(.*?)^ *```", text, re.S | re.M)
 
 
@@ -79,13 +79,13 @@ def without_blocks(text):
 
 
 def lines_of(block):
-    """Lines of a shell block without comments; one that ends with \\ goes on."""
+    """Returns the lines of a shell block without comments, joining a line that ends with \\ to the next."""
     joined = block.replace("\\\n", " ")
     return [line for line in (re.sub(r"(^|\s)#.*$", "", raw).strip() for raw in joined.splitlines()) if line]
 
 
 def commands_of(line):
-    """The commands of a line, as words: without what is between them, and where their output goes."""
+    """Returns the commands of a line as words, without the operators between them and without redirections."""
     parser = shlex.shlex(line, posix=True, punctuation_chars="|&;<>")
     parser.whitespace_split, commands, skip = True, [[]], False
     for word in parser:
@@ -99,20 +99,20 @@ def commands_of(line):
 
 
 def spans_of(text):
-    """Code in the text that begins like a command of ours and has more than its name; "…" and alternatives in brackets
-    say nothing to a parser."""
+    """Returns the code in the text that begins like a command of ours and has more than its name, unless it has "…" or
+    alternatives in brackets, which no parser understands."""
     found = (span for span in re.findall(r"`([^`\n]+)`", without_blocks(text)) if SPANS.match(span) and " " in span)
     return [re.sub(r"\s*…", "", span) for span in found if not re.search(r"[\[\]|]", span)]
 
 
 def planned(text):
-    """What a document says is not there yet."""
+    """Returns what a document declares as not implemented yet."""
     section = re.search(r"^## What is not there yet$(.*?)(^## |\Z)", text, re.S | re.M)
     return re.findall(r"`([^`\n]+)`", section[1]) if section else []
 
 
 class Place:
-    """A folder that looks like the repository after `tests/run`, and says what is wrong with a command in it."""
+    """A folder that looks like the repository after `tests/run`; finds what is wrong with a command in it."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -125,7 +125,7 @@ class Place:
             path.chmod(0o755)
         for name in ("my.obj", "shirt.obj", "mesh.obj", "MESH"):
             (self.folder / name).write_text(MESH)
-        shutil.copy(self.folder / "build/default/ogc", self.folder / "PROGRAM")  # as documents call any of ours
+        shutil.copy(self.folder / "build/default/ogc", self.folder / "PROGRAM")  # name used in documents
 
     def run(self, words, limit=100, **variables):
         environment = {**os.environ, **variables}
@@ -135,7 +135,7 @@ class Place:
         return done.returncode, done.stdout, done.stderr
 
     def fault(self, words):
-        """What is wrong with a command, in words; empty where its program understands it."""
+        """Returns in words what is wrong with a command; empty if its program understands it."""
         program = Path(words[0]).name
         if program == "ogc":
             return self.fault_of_ogc(words)
@@ -146,7 +146,7 @@ class Place:
         return "" if program in FOREIGN else "nobody parses this: a program that is neither ours nor in FOREIGN"
 
     def fault_of_ogc(self, words):
-        if len(words) == 2 and not words[1].startswith("-"):  # the name of a command, not a command
+        if len(words) == 2 and not words[1].startswith("-"):  # the name of a command, not a call of it
             words = [*words, "--help"]
         status, _, said = self.run([OGC, *words[1:]], OGC_PARSE_ONLY="1")
         return "" if status == 0 else (said.strip().splitlines() or [f"exit status {status}"])[-1]
@@ -157,10 +157,10 @@ class Place:
         if not path.is_file():
             return f"there is no {kind} {name}"
         interpreter = [shutil.which("python3") if words[0] == "python3" else self.folder / words[0]]
-        return self.fault_by_parser(interpreter, kind, name, rest or ["--help"], path.read_text())  # alone it is a name
+        return self.fault_by_parser(interpreter, kind, name, rest or ["--help"], path.read_text())  # a name alone
 
     def fault_by_parser(self, interpreter, kind, name, rest, text):
-        # without a parser it takes words by their place
+        # without a parser it takes words by position
         if not re.search(r"argparse|baseline_arguments|parser_of_figure|common import main", text):
             if any(word.startswith("-") for word in rest if rest != ["--help"]):
                 return f"{name} takes no options"
@@ -184,7 +184,7 @@ class Place:
 
 
 def faults(place, text):
-    """(command, what is wrong) of a document's commands."""
+    """Returns (command, what is wrong) for the commands of a document."""
     shell = (block for language, block in blocks(text) if language in ("sh", "bash", "shell", "console"))
     lines = [line for block in shell for line in lines_of(block)]
     spans = [span for span in spans_of(text) if span not in planned(text)]
@@ -203,7 +203,7 @@ def documents():
     return {name: (SOURCE / name).read_text() for name in names if name != HISTORY and (SOURCE / name).is_file()}
 
 
-# Documents with one fault each, and what is said of it.
+# Documents with one fault each, and the message about it.
 PLANTED = {
     "```sh\nbuild/default/ogc run twist --scael smoke\n```": "--scael",
     "```sh\nogc audit my.obj && ogc contacts my.obj --radius\n```": "--radius",
@@ -260,7 +260,7 @@ class Understood(Scratch):
 
 
 class AsPrinted(Scratch):
-    """Commands that take seconds."""
+    """Runs commands that take seconds as printed."""
 
     def test_commands_of_shell_blocks_and_lines_of_python(self):
         texts = documents()
@@ -282,7 +282,7 @@ class AsPrinted(Scratch):
         self.assertEqual(used, set(NOT_RUN), "these rules of NOT_RUN match nothing: remove them")
 
     def check(self, language, command):
-        time.sleep(1 - time.time() % 1)  # two runs that begin in one second would want one folder's name
+        time.sleep(1 - time.time() % 1)  # two runs that begin in the same second would have the same folder name
         program = [".venv/bin/python", "-c"] if language == "python" else ["bash", "-euc"]
         status, _, said = self.place.run([*program, command])
         self.assertEqual(status, 0, said[-1500:])

@@ -22,10 +22,10 @@ LINE_LIMITED_SUFFIXES = SOURCE_SUFFIXES | {".py", ".sh", ".cmake", ".txt"}
 LONGEST_FILE = 800
 MOST_COLUMNS = 120
 COLUMN_LIMITED_SUFFIXES = SOURCE_SUFFIXES | {".c", ".py", ".sh", ".cmake", ".yaml", ".md", ".in", ".toml", ""}
-# Blocks of a document (their language), rows of its tables, and lines that are indented by four spaces.
+# Matches blocks of a document (with their language), rows of its tables, and lines indented by four spaces.
 PART = re.compile(r"^ *```(?P<language>\w*)\n.*?^ *```$|^ *\|[^\n]*$|^ {4}[^\n]*$", re.M | re.S)
 
-# What stands at the top, beside names that begin with a dot.
+# Names that are allowed at the top, beside names that begin with a dot.
 TOP = {"compare", "reference", "fast", "experiments", "plots", "paper_figures", "tests", "README.md", "CHANGELOG.md",
        "CONTRIBUTING.md", "LICENSE", "CITATION.cff", "CMakeLists.txt", "CMakePresets.json"}
 
@@ -36,7 +36,7 @@ CASES = FILES + CONTESTANT + ("compare/judge/cases/",)
 ENGINE = CASES + ("compare/judge/engine/",)
 REPORT = ENGINE + ("compare/judge/report/",)
 
-# Room -> beginnings of the project includes that it may have.
+# Beginnings of the project includes that are allowed, by room.
 PROJECT = {
     "compare/problem": PROBLEM,
     "compare/stages": PROBLEM,
@@ -45,7 +45,7 @@ PROJECT = {
     "compare/files": FILES,
     "compare/record": FILES + CONTESTANT,
     "compare/laws": PROBLEM + CONTESTANT + ("compare/laws/",),
-    # Each may include those before it; nobody includes a stage, which the list in cases/ points to.
+    # Each of these may include the ones before it. None may include a stage, which the list in cases/ points to.
     "compare/judge/cases": CASES,
     "compare/judge/engine": ENGINE,
     "compare/judge/report": REPORT,
@@ -54,7 +54,7 @@ PROJECT = {
     "compare/plugin.h": ("compare/plugin/",),
     "compare/plugin": ("compare/plugin/",),
     "reference": PROBLEM + CONTESTANT + ("reference/",),
-    # The truth of the stage is an exact decision, which the oracle has.
+    # The truth of this stage is an exact decision, which the oracle makes.
     "reference/ipc/ccd.cpp": PROBLEM + CONTESTANT + ("reference/", "compare/oracle/first_meeting.hpp"),
     "fast": PROBLEM + CONTESTANT + ("fast/",),
     "experiments": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp"),
@@ -64,12 +64,12 @@ PROJECT = {
     "tests": ("",),
 }
 
-# Headers of CGAL under the LGPL, as their SPDX lines say: the oracle, which any contestant may be audited by, has no
-# others.
+# Headers of CGAL under the LGPL, as their SPDX lines state. The oracle uses no others, because it may audit any
+# contestant.
 LESSER_CGAL = {"CGAL/Exact_predicates_inexact_constructions_kernel.h", "CGAL/Gmpq.h", "CGAL/Interval_nt.h",
                "CGAL/Mpzf.h"}
 
-# Beginning of a foreign include -> rooms that may have it (besides tests).
+# Rooms that may have a foreign include (besides tests), by the beginning of the include.
 FOREIGN = {
     "CGAL/": ("compare/oracle", "reference"),
     "boost/multiprecision/": ("compare/oracle", "reference"),
@@ -117,7 +117,7 @@ SKIPPED = {".git", "build", "ogc-compare", "__pycache__", ".venv", "venv", ".cac
 
 
 class House:
-    """All files below a root, their includes, and what was found wrong with them."""
+    """Holds all files below a root, their includes, and the findings about them."""
 
     def __init__(self, root):
         self.root = Path(root)
@@ -210,13 +210,13 @@ class House:
         graph = {file: {other for _, other in included} for file, included in self.includes.items()}
         try:
             TopologicalSorter(graph).prepare()
-        except CycleError as error:  # one cycle, from what is included to what includes it
+        except CycleError as error:  # one cycle, from the included file to the including one
             cycle = error.args[1][::-1]
             self.report(cycle[0], 1, "is in an include cycle: " + " -> ".join(cycle))
 
     def check_folder_pairs(self):
-        """A .cpp at the top of a room and the program's main.cpp assemble their parts, which see the headers beside
-        them: that is no pair, two headers are."""
+        """Finds folders that include each other. A .cpp at the top of a room and the program's main.cpp assemble their
+        parts, which include the headers beside them: these do not count as a pair, two headers do."""
         edges = {}
         for file, included in self.includes.items():
             for number, other in included:
@@ -265,7 +265,7 @@ SOUND = {
     "README.md": "See https://example.org/work/page and ../work/notes.\n",
 }
 
-# Name -> (files that change, what one finding says, where).
+# By name: (files that change, the only finding, its place).
 PLANTED = {
     "compare includes a contestant": (
         {"compare/files/x.cpp": '\n#include "fast/contact_sets.hpp"\n'},
@@ -326,7 +326,7 @@ def findings_of(files):
 
 
 def self_test():
-    """Messages about planted violations that were not found, or found beside others."""
+    """Returns messages about planted violations that were not found, or found beside others."""
     failures = [f"self-test: a sound tree is refused: {finding}" for finding in findings_of(SOUND)]
     for name, (changes, message, where) in PLANTED.items():
         found = findings_of({**SOUND, **changes})

@@ -3,18 +3,18 @@
 
 Every comparison, sum, product, sign, index, coordinate, number and condition of the given files is rewritten to one
 that can be switched (tests/mutants/switch.hpp), so that one build holds all mutants. Each is then judged on the same
-cases, whose exact answers are found once; what the judge lets through meets the unit tests of these files. Each stage
-and each test may take ten times what it takes without a mutant; one on which something takes longer, while all else is
-right, counts as ten times slower.
+cases, whose exact answers are computed once; mutants that the judge does not find go through the unit tests of these
+files. Each stage and each test may take ten times as long as without a mutant; a mutant on which something takes
+longer, while all else is right, counts as ten times slower.
 
     tests/mutants.py BUILD [--of kernels|stages] [--files a,b,…] [--stages a,b,…] [--cases N] [--limit N]
                      [--minutes M] [--jobs J] [--only IDS] [--since COMMIT] [--flags F] [--out FILE]
     tests/mutants.py BUILD --keep DIR …, and later --answers FILE …
 
 BUILD is a folder in which `ogc` was built by ninja. `--of kernels` are fast/kernels, `--of stages` fast/stages and
-fast/cpu. With --keep the program is left in DIR, with a command for a machine with more cores, whose output --answers
-takes. Not a part of tests/run: it takes minutes. FILE gets one line a mutant; to standard output go those that survive,
-are slow or not decided.
+fast/cpu. With --keep the program is left in DIR, with a command for a machine with more cores; --answers reads its
+output. It is not a part of tests/run, because it takes minutes. FILE gets one line for each mutant; standard output
+gets those that survive, are slow or not decided.
 """
 
 import argparse
@@ -40,7 +40,7 @@ def files(*patterns):
     return sorted(str(path.relative_to(ROOT)) for pattern in patterns for path in ROOT.glob(pattern))
 
 
-# Of each set: the files that are rewritten, and what is compiled over them.
+# By set: the files that are rewritten, and the sources that are compiled over them.
 SETS = {
     "kernels": ([name for name in files("fast/kernels/**/*.hpp") if name not in NOT_MATHEMATICS],
                 ["fast/stages/rest_state.cpp", *files("tests/fast/kernels/**/*.cpp"),
@@ -57,7 +57,7 @@ STAGES = ("closest_face closest_points activation truncate membrane bending spri
           "friction_force volume_force initial_guess rest_state sweep step").split()
 AS_THEY_ARE = ["tests/mutants/judge.cpp", "tests/mutants/unit_tests.cpp"]
 
-BINARY = {  # operator -> (struct, what its alternatives are)
+BINARY = {  # operator -> (struct, its alternatives)
     "<": ("Less", ("<=", ">=")), ">": ("Greater", (">=", "<=")), "<=": ("LessEqual", ("<", ">")),
             ">=": ("GreaterEqual", (">", "<")),
     "==": ("Equal", ("!=",)), "!=": ("Unequal", ("==",)),
@@ -78,12 +78,12 @@ Mutant = collections.namedtuple("Mutant", "id file line kind text")
 
 
 def code_of(line):
-    """The line without its comment."""
+    """Returns the line without its comment."""
     return line.split("//")[0]
 
 
 def closing(text, opened):
-    """Position of the parenthesis that closes the one at `opened`; None where it is not on the line."""
+    """Returns the position of the parenthesis that closes the one at `opened`; None if it is not on the line."""
     depth = 0
     for at in range(opened, len(text)):
         depth += {"(": 1, ")": -1}.get(text[at], 0)
@@ -93,8 +93,8 @@ def closing(text, opened):
 
 
 class Rewriter:
-    """Rewrites files, and remembers which mutant stands where. What is in `excluded` (file, line, kind) does not
-    compile when rewritten."""
+    """Rewrites files, and remembers the place of each mutant. Places in `excluded` (file, line, kind) do not compile
+    when rewritten."""
 
     def __init__(self, excluded):
         self.excluded = excluded
@@ -171,14 +171,14 @@ class Rewriter:
                               ("choice", choices), ("condition", conditions)):
             edits_before, mutants_before = len(edits), len(self.mutants)
             collect()
-            if not allowed(kind):  # its numbers stay taken, so that those of others don't change
+            if not allowed(kind):  # its numbers stay taken, so that those of others do not change
                 del edits[edits_before:], self.mutants[mutants_before:]
         for begin, end, text in sorted(edits, reverse=True):
             code = code[:begin] + text + code[end:]
         return code
 
     def file(self, name):
-        """The whole file, rewritten; code for devices stays as it is."""
+        """Rewrites a whole file; code for devices is not changed."""
         lines = (ROOT / name).read_text(encoding="utf-8").splitlines()
         rewritten, device = [], False
         if name.endswith(".cpp"):
@@ -195,16 +195,16 @@ class Rewriter:
         return "\n".join(rewritten) + "\n"
 
 
-# flatten: of a function with hundreds of switches it takes the compiler minutes. An index beyond an array ends the
-# process, as under the `sanitize` preset: whether it shows in an answer is chance.
+# Without `flatten`, because the compiler takes minutes for it in a function with hundreds of switches. An index beyond
+# an array ends the process, as under the `sanitize` preset: whether it shows in an answer is chance.
 FLAGS = ("-std=c++20 -O1 -fPIC -w -ffp-contract=off -fno-tree-slp-vectorize -Dflatten=used -D_GLIBCXX_ASSERTIONS "
          "-fsanitize=bounds-strict -fsanitize-undefined-trap-on-error").split()
 KIND_ORDER = ("number", "coordinate", "condition", "choice", "sign", "index", "operator")
 
 
 def compile_all(sources, folder, flags, jobs):
-    """Compiles (source, flags), a rewritten source in place of the original, `jobs` at a time; returns what the
-    compiler said of each, empty where it succeeded, and the objects."""
+    """Compiles (source, flags), with a rewritten source in place of the original, `jobs` at a time. Returns the
+    compiler's messages for each (empty if it succeeded) and the objects."""
     objects = [folder / (source.replace("/", "_") + "".join(own) + ".o") for source, own in sources]
 
     def one(source, target):
@@ -218,7 +218,8 @@ def compile_all(sources, folder, flags, jobs):
 
 
 def compile_rewritten(names, folder, options, log):
-    """Rewrites and compiles until what does not compile is left out; returns the mutants and the objects."""
+    """Rewrites and compiles, leaving out mutants that do not compile, until all compile; returns the mutants and the
+    objects."""
     excluded = set()
     sources = [("tests/mutants/contestant.cpp", ()), *((source, ()) for source in SETS[options.of][1])]
     if options.of == "stages":
@@ -242,7 +243,7 @@ def compile_rewritten(names, folder, options, log):
 
 
 def exclude(errors, mutants, excluded):
-    """Leaves out one kind of mutants of each line that the compiler names; whether there is any."""
+    """Leaves out one kind of mutants on each line that the compiler names; returns whether there was any."""
     place = r"(fast/(?:kernels|stages|probes|cpu)/(?:\w+/)?\w+\.[ch]pp):(\d+)"
     found = re.findall(place + r":\d+: (?:fatal )?error", errors) + re.findall(place + r":\d+:   required from", errors)
     present = {(m.file, m.line, m.kind) for m in mutants} - excluded
@@ -254,7 +255,7 @@ def exclude(errors, mutants, excluded):
 
 
 def link(folder, rewritten, options):
-    """The judge of the mutants, with the libraries of `ogc`."""
+    """Links the judge of the mutants with the libraries of `ogc`."""
     program = folder / "mutant_judge"
     rules = (options.build / "build.ninja").read_text(encoding="utf-8")
     libraries = re.search(r"^build ogc: .*?^  LINK_LIBRARIES = (.*?)$", rules, re.DOTALL | re.MULTILINE)[1].split()
@@ -267,7 +268,7 @@ def link(folder, rewritten, options):
 
 
 def lines_since(commit, names):
-    """The lines (file, number) that `commit` did not have, as they stand in the working tree."""
+    """Returns the lines (file, number) of the working tree that `commit` did not have."""
     lines = set()
     for name in names:
         command = ["git", "-C", str(ROOT), "diff", "--unified=0", commit, "--", name]
@@ -280,20 +281,20 @@ def lines_since(commit, names):
 
 
 def arguments(options, corpus):
-    """What the judge of the mutants is told."""
+    """Returns the arguments for the judge of the mutants."""
     numbers = (options.cases, options.seed, 60 * options.minutes, corpus, options.jobs)
     return [*map(str, numbers), *options.stages.split(",")]
 
 
 def drawn(mutants, options):
-    """All of them in the order in which they are judged: at random, by the seed."""
+    """Returns all mutants in the order in which they are judged: at random, by the seed."""
     order = list(mutants)
     random.Random(options.seed).shuffle(order)
     return order
 
 
 def category(found):
-    """Of what the program says of a mutant: by whom it is found, or why not."""
+    """Returns the category of the program's message about a mutant: what finds it, or why nothing does."""
     for beginning, name in (("not reached", "not reached"), ("not decided", "not decided"),
                             ("ten times slower", "slow"), ("test ", "test")):
         if found.startswith(beginning):
@@ -302,8 +303,8 @@ def category(found):
 
 
 def answers_of(lines, mutants, options, log):
-    """What was found of each mutant, in the order in which they were drawn, as far as the judge came. What was begun
-    and has no answer, as the program was stopped, is not decided."""
+    """Returns what was found of each mutant, in the order in which they were drawn, as far as the judge came. A mutant
+    that was begun and has no answer, because the program was stopped, is not decided."""
     said = iter(lines)
     first = next(said, "").strip()
     if first != "right":
@@ -326,7 +327,7 @@ def answers_of(lines, mutants, options, log):
 
 
 def judge(program, mutants, options, log):
-    """Pairs of a mutant and what was found of it (empty: it survives)."""
+    """Yields each mutant with what was found of it (empty: it survives)."""
     command = [str(program), *arguments(options, str(ROOT / "tests/experiments/corpus.txt"))]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     process = subprocess.Popen(command, **pipes, text=True, start_new_session=True)
@@ -340,7 +341,7 @@ def judge(program, mutants, options, log):
 
 
 def keep(program, mutants, options):
-    """The program, its mutants in the order in which they are to be judged, and how."""
+    """Keeps the program, its mutants in the order in which they are judged, and the command."""
     options.keep.mkdir(parents=True, exist_ok=True)
     shutil.copy(program, options.keep)
     shutil.copy(ROOT / "tests/experiments/corpus.txt", options.keep)
@@ -351,7 +352,7 @@ def keep(program, mutants, options):
 
 
 def kept(options):
-    """The mutants of a folder that --keep filled."""
+    """Returns the mutants of a folder that --keep filled."""
     rows = (options.keep / "mutants").read_text(encoding="utf-8").splitlines()
     return [Mutant(int(row[0]), row[1], int(row[2]), *row[3:]) for row in (line.split("\t") for line in rows)]
 
@@ -377,7 +378,7 @@ def report(mutants, results, options):
             print(f"{found or name}\t{mutant.id}\t{mutant.file}:{mutant.line}\t{mutant.kind}\t{mutant.text}")
 
 
-SELF_TEST = [  # a line, and what becomes of it (with M for ::ogc_mutant); numbers count from 1
+SELF_TEST = [  # a line, and its rewritten form (with M for ::ogc_mutant); numbers count from 1
     ("  if (a < b) return -c;", "  if (M::negated(4, a < M::Less{1} < b)) return M::Sign{3} * -c;"),
     ("  x = p.x + 2.0F * q[1];",
      "  x = (M::on(5) ? p.y : p.x) + M::Plus{1} + M::literal(7, 2.0F) * M::Times{3} * q[M::index(6, 1)];"),
@@ -390,8 +391,8 @@ SELF_TEST = [  # a line, and what becomes of it (with M for ::ogc_mutant); numbe
 ]
 
 
-# What a program that was stopped says of mutants 1 … 8 (the last line is cut off), and what is reported: drawn with
-# seed 1 they come in the order 4 7 2 6 8 1 5 3.
+# The output of a stopped program about mutants 1 … 8 (the last line is cut off), and the report on it: with seed 1 they
+# are drawn in the order 4 7 2 6 8 1 5 3.
 ANSWERS = """right
 7\tstep: wrong answers
 6\t
@@ -411,7 +412,7 @@ not decided: stopped\t1\tx.hpp:1\tsign\ta
 
 
 def reported(text, limit):
-    """What is reported of these answers."""
+    """Returns the report on these answers."""
     mutants = [Mutant(i, "x.hpp", i, "sign", "abcdefgh"[i - 1]) for i in range(1, 9)]
     options = argparse.Namespace(seed=1, limit=limit, out=None)
     with contextlib.redirect_stdout(io.StringIO()) as said:
@@ -420,7 +421,7 @@ def reported(text, limit):
 
 
 def work_apart():
-    """What is wrong with the processes of their own in which mutants are judged."""
+    """Returns what is wrong with the separate processes in which mutants are judged."""
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "self_test"
         command = ["g++", "-std=c++20", f"-I{ROOT}", str(ROOT / "tests/mutants/self_test.cpp"), "-o", str(program)]
@@ -452,7 +453,7 @@ def self_test():
 
 
 def build_judge(names, scratch, options, log):
-    """The judge of the mutants, and those that were asked for."""
+    """Builds the judge of the mutants; returns it and the requested mutants."""
     mutants, rewritten = compile_rewritten(names, scratch, options, log)
     if options.only:
         ids = set(map(int, options.only.split(",")))

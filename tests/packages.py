@@ -13,7 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-# What no include, import or call shows: why it is there, and the words in the tree that it is there for.
+# Packages that no include, import or call reveals: the reason, and the words in the tree that need it.
 STATED = {
     "build-essential": ("the compiler", r"project\([^)]*CXX"),
     "ca-certificates": ("the Python package index is reached by https", r"-m pip install"),
@@ -32,13 +32,13 @@ EXECUTOR = re.compile(r"^executor: (\w+)", re.M)
 
 
 def arrays(script):
-    """name -> words of the arrays `name=(…)` of a shell script."""
+    """Returns name -> words of the arrays `name=(…)` of a shell script."""
     found = re.findall(r"^(\w+)=\((.*?)\)$", script, re.M | re.S)
     return {name: re.sub(r"#[^\n]*", "", body).split() for name, body in found}
 
 
 def said(*command):
-    """What a command prints; nothing where it fails or is not there."""
+    """Returns the output of a command; nothing if it fails or does not exist."""
     try:
         return subprocess.run(command, capture_output=True, text=True, check=False).stdout
     except OSError:
@@ -46,8 +46,8 @@ def said(*command):
 
 
 def files_of(package, deep=True):
-    """Paths that an installed package brings, or those of the packages that a package of nothing but dependencies
-    stands for; none where it is not installed."""
+    """Returns the paths that an installed package brings, or those of its dependencies if it has nothing else; none if
+    it is not installed."""
     listed = said("dpkg", "-L", package).splitlines()
     places = ("/usr/include/", "/usr/bin/", "/usr/lib/python3/dist-packages/")
     found = [path for path in listed if path.startswith(places)]
@@ -58,7 +58,7 @@ def files_of(package, deep=True):
 
 
 def brings(files, tree):
-    """Whether the tree includes, imports or calls one of these files. `tree`: {path: text}."""
+    """Returns whether the tree includes, imports or calls one of these files. `tree`: {path: text}."""
     sources = {path for path in tree if path.endswith((".cpp", ".hpp", ".h", ".cu", ".cuh"))}
     includes = {"/" + header for path in sources for header in INCLUDE.findall(tree[path])}
     words = {word for path, text in tree.items() if path not in sources for word in re.findall(r"[\w-]+", text)}
@@ -79,7 +79,7 @@ def imported(tree):
 
 
 def unused(dependencies, requirements, tree, files=files_of):
-    """Sentences about packages of either file that nothing in the tree uses."""
+    """Returns sentences about packages of either file that nothing in the tree uses."""
     found, lists = [], arrays(dependencies)
     for package in dict.fromkeys(lists.get("packages", []) + lists.get("optional_packages", [])):
         if package in STATED:
@@ -101,7 +101,7 @@ def unused(dependencies, requirements, tree, files=files_of):
 
 
 def self_test():
-    """Sentences about planted packages that are judged wrongly."""
+    """Returns sentences about planted packages that are judged wrongly."""
     modules = "/usr/lib/python3/dist-packages"
     brought = {"libused-dev": ["/usr/include/used/all.hpp"], "tool": ["/usr/bin/tool"],
                "python3-used": [f"{modules}/used/x.py"], "libidle-dev": ["/usr/include/idle.h"],
@@ -128,7 +128,7 @@ def main(arguments):
     there = (name for name in texts if name not in ours and (root / name).is_file())
     tree = {name: (root / name).read_text(errors="replace") for name in there}
     dependencies = (root / "experiments/dependencies.sh").read_text()
-    how = re.sub(r"^\w+=\(.*?\)$", "", dependencies, flags=re.M | re.S)  # it installs, not what
+    how = re.sub(r"^\w+=\(.*?\)$", "", dependencies, flags=re.M | re.S)  # without the lists of packages
     tree["experiments/dependencies.sh"] = how
     findings = self_test() + unused(dependencies, (root / "plots/requirements.txt").read_text(), tree)
     print("\n".join(findings))

@@ -13,7 +13,7 @@ MERGED = "VWuvw"  # nm's letters for weak and unique symbols
 
 
 def strangers(lines, namespace):
-    """Symbols of nm's `lines` that the linker may merge and that do not name `namespace`."""
+    """Returns symbols of nm's `lines` that the linker may merge and that do not name `namespace`."""
     fields = (line.split(maxsplit=2) for line in lines)
     return [name for _, kind, name in (f for f in fields if len(f) == 3) if kind in MERGED and namespace not in name]
 

@@ -1,4 +1,4 @@
-// Base64 writes three bytes as four characters of text; this decodes it.
+// Decodes base64, which writes three bytes as four characters of text.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 namespace ogc::compare {
 
 /// Takes one group of four characters off `text`, with the blanks before it, and appends its bytes; padding ends a
-/// part, and decoding goes on behind it. False where there is no whole group. Throws InputError that begins with
-/// `where` for another character.
+/// part, and decoding continues after it. Returns false if there is no whole group. Throws InputError that begins with
+/// `where` for any other character.
 bool decode_base64_group(std::string_view& text, std::string& bytes, const std::string& where);
 
-/// The bytes of the whole text.
+/// Returns the bytes of the whole text; throws as decode_base64_group does.
 std::string decode_base64(std::string_view text, const std::string& where);
 
 }  // namespace ogc::compare

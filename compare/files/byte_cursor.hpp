@@ -1,4 +1,4 @@
-// A cursor that reads a binary file from its first byte to its last. Its errors name the file and the byte.
+// Reads a binary file from its first byte to its last; errors name the file and the byte.
 #pragma once
 
 #include <algorithm>
@@ -14,22 +14,22 @@ namespace ogc::compare {
 /// Takes numbers and lines off a file's bytes. The bytes and the name must outlive it.
 class ByteCursor {
  public:
-  /// At byte `at`; `name` is the file's, for errors.
+  /// Starts at byte `at`; `name` is the file's, for errors.
   ByteCursor(std::string_view bytes, const std::string& name, std::endian order, std::size_t at = 0)
       : bytes_(bytes), name_(name), order_(order), at_(at) {}
 
-  std::size_t at() const { return at_; }                    ///< the next byte, from 0
-  std::size_t left() const { return bytes_.size() - at_; }  ///< bytes from there on
-  std::endian order() const { return order_; }              ///< of numbers' bytes
-  void skip(std::size_t count) { take(count, "data"); }     ///< so many bytes, which must be there
+  std::size_t at() const { return at_; }                    ///< position of the next byte, from 0
+  std::size_t left() const { return bytes_.size() - at_; }  ///< number of bytes left
+  std::endian order() const { return order_; }              ///< byte order of numbers
+  void skip(std::size_t count) { take(count, "data"); }     ///< skips bytes, which must be there
 
-  /// The next number; `what` it is, for where the file ends before it.
+  /// Returns the next number; if the file ends before it the error calls it `what`.
   template <class Number>
   Number number(const std::string& what) {
     return number_at<Number>(take(sizeof(Number), what).data(), order_);
   }
 
-  /// The next `count` bytes.
+  /// Returns the next `count` bytes.
   std::string_view take(std::size_t count, const std::string& what) {
     if (count > left())
       throw InputError(name_ + ": ends at byte " + std::to_string(bytes_.size()) + ", where " + what +
@@ -38,7 +38,7 @@ class ByteCursor {
     return bytes_.substr(at_ - count, count);
   }
 
-  /// A number of entries of `size` bytes each that follow: fails where the file has not so many bytes left.
+  /// Checks a number of entries of `size` bytes each: fails if the file has fewer bytes left.
   std::size_t counted(double count, std::size_t size, const std::string& what) const {
     if (!(count >= 0 && count <= static_cast<double>(left() / size)))
       fail(shortest(count) + " " + what + " can't stand in the " + std::to_string(left()) +
@@ -46,7 +46,7 @@ class ByteCursor {
     return static_cast<std::size_t>(count);
   }
 
-  /// The rest of the line, without its end.
+  /// Returns the rest of the line, without its end.
   std::string_view line() {
     const std::string_view found = bytes_.substr(at_, bytes_.substr(at_).find('\n'));
     at_ = std::min(at_ + found.size() + 1, bytes_.size());

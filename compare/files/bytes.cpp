@@ -1,4 +1,4 @@
-// Streams report a full disk only when they are flushed, so writing ends with a close that is checked.
+// Streams report a full disk only when they are flushed, so writing ends with a checked close.
 #include "compare/files/bytes.hpp"
 
 #include <algorithm>
@@ -17,18 +17,18 @@ namespace ogc::compare {
 
 namespace {
 
-/// A long path without its middle.
+/// Returns a path; a long one loses its middle.
 std::string shown_path(const std::filesystem::path& path) {
   constexpr std::size_t most_shown = 160, kept = 60;
   const std::string text = path.string();
   if (text.size() <= most_shown) return text;
   std::size_t tail = text.size() - kept;
   while (tail < text.size() && (static_cast<unsigned char>(text[tail]) & 0xc0) == 0x80)
-    ++tail;  // not inside a character of UTF-8
+    ++tail;  // do not cut inside a UTF-8 character
   return shown(text) + text.substr(tail);
 }
 
-/// Whether the user can mend it, by another path or other rights.
+/// Returns whether the user can solve the error by another path or other rights.
 bool is_input(std::error_code error) {
   constexpr std::array reasons{std::errc::no_such_file_or_directory,
                                std::errc::not_a_directory,

@@ -14,15 +14,15 @@
 namespace ogc::compare {
 namespace {
 
-/// A folder that is gone, or a disk that takes no more writing, was there when the program began to write: the machine
-/// failed, not the user.
+/// Throws for a failed action. A missing folder or a read-only disk was fine when the program began to write, so the
+/// machine failed, not the user: ResourceError.
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* action, int error) {
   if (error != ENOENT && error != EROFS) refuse_path(path, action, {error, std::generic_category()});
   throw ResourceError(path.string() + ": can't " + action + " (" + std::strerror(error) +
                       "): its folder or disk was taken away");
 }
 
-/// An open file that is closed on every way out.
+/// Owns an open file and closes it on every way out.
 class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, int flags) : number(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
@@ -34,7 +34,7 @@ class Descriptor {
   const int number;
 };
 
-/// 0, or the error that stopped it.
+/// Writes all bytes; returns 0 or the error that stopped it.
 int write_bytes_of(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -45,7 +45,7 @@ int write_bytes_of(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// Writes all bytes and syncs; 0, or the error that stopped it.
+/// Writes all bytes and syncs; returns 0 or the error that stopped it.
 int write_and_sync(int descriptor, std::string_view bytes) {
   const int error = write_bytes_of(descriptor, bytes);
   return error != 0 || ::fsync(descriptor) == 0 ? error : errno;
@@ -59,7 +59,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Writes a new file by `write`, which returns an error or 0, and leaves none where there is an error.
+/// Writes a new file by `write`, which returns an error or 0, and leaves no file after an error.
 template <class Write>
 void write_new(const std::filesystem::path& path, const std::filesystem::path& named, const char* action, Write write) {
   int error = 0;
@@ -72,7 +72,7 @@ void write_new(const std::filesystem::path& path, const std::filesystem::path& n
   refuse(named, action, error);
 }
 
-/// False where another process holds the lock. A file system without locks tells of none.
+/// Takes the lock; returns false if another process holds it. On a file system without locks it always succeeds.
 bool take_lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
 
 [[noreturn]] void refuse_locked(const std::filesystem::path& path) {

@@ -32,7 +32,7 @@ void silence() {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
-/// Deflate packs 1,032 bytes into one at the best; shuffling changes no size.
+/// Deflate packs at most 1,032 bytes into one; shuffling changes no size.
 constexpr std::size_t most_unpacked = 1032;
 
 std::vector<hsize_t> shape_of(hid_t dataset) {
@@ -45,16 +45,16 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
 
 std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// Rows of a chunk of a dataset that is written `part` rows at a time: a whole number of small parts, or a large part
-/// cut evenly.
+/// Returns the rows of a chunk of a dataset that is written `part` rows at a time: a whole number of small parts, or a
+/// large part cut evenly.
 std::size_t rows_in_chunk(std::size_t part) {
   return part < smallest_chunk_rows ? part * divide_up(smallest_chunk_rows, part) : even_chunk_rows(part);
 }
 
-/// Chunked and compressed where that pays.
+/// Returns a creation list, chunked and compressed where that pays.
 Hdf5Handle creation_list(const std::vector<hsize_t>& shape, std::size_t part) {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  // Without times the same content makes the same file, whenever it is written.
+  // Without times the same content always makes the same file.
   H5Pset_obj_track_times(list.id(), false);
   std::vector<hsize_t> chunk = shape;
   chunk[0] = rows_in_chunk(part);
@@ -71,7 +71,7 @@ Hdf5Handle scalar_or_row(std::size_t count) {
   return {count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &length, nullptr), H5Sclose};
 }
 
-/// HDF5's type of a text of `size` bytes.
+/// Returns HDF5's type of a text of `size` bytes.
 Hdf5Handle text_type(std::size_t size) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   if (H5Tset_size(type.id(), size) < 0 || H5Tset_strpad(type.id(), H5T_STR_NULLPAD) < 0) type.release();
@@ -160,8 +160,8 @@ void Hdf5File::create_dataset(const std::string& name, std::size_t rows, std::si
   if (!dataset.valid()) refuse_write(name);
 }
 
-// A chunk that does not shrink is stored as it is, the last one is stored whole. Of the index, a node of 64 chunks has
-// 4 KiB at most (keys of 3 extents) and is at least half full: 128 B a chunk, and as much again covers the levels
+// A chunk that does not shrink is stored as it is, the last one is stored whole. In the index a node of 64 chunks has
+// at most 4 KiB (keys of 3 extents) and is at least half full: 128 B a chunk, and as much again covers the levels
 // above. Object header, group entry and attributes: 4 KiB.
 std::size_t Hdf5File::largest_size(std::size_t rows, std::size_t row_bytes, std::size_t part) {
   const std::size_t in_chunk = rows_in_chunk(part), chunks = divide_up(rows, in_chunk);
@@ -234,7 +234,7 @@ template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
   const Lock lock(hdf5_library());
   const std::vector<std::size_t> extents = shape(name);
-  // Before memory is taken: no file unpacks to more than most_unpacked times its size.
+  // Checked before memory is allocated: no file unpacks to more than most_unpacked times its size.
   hsize_t size = 0;
   H5Fget_filesize(file_.id(), &size);
   std::size_t count = std::ranges::count(extents, 0u) > 0 ? 0 : 1, most = most_unpacked * size / sizeof(T);

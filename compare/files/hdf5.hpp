@@ -1,6 +1,6 @@
-// The part of HDF5's C interface that run folders need, with ownership and errors in C++ terms. HDF5's own header stays
-// in the .cpp, and its habit of printing error stacks is off. Debian's library is built for one thread: every call into
-// it holds one lock, so files may be used by any thread, each by one at a time; what takes time, packing, is done
+// Wraps the part of HDF5's C interface that run folders need, with ownership and errors of C++. HDF5's own header stays
+// in the .cpp, and its printed error stacks are off. Debian's library is built for one thread: every call into it holds
+// one lock, so any thread may use files, but each file only by one thread at a time; slow work, packing, is done
 // outside of it (packing.hpp).
 #pragma once
 
@@ -16,10 +16,10 @@
 
 namespace ogc::compare {
 
-/// What a call into HDF5 holds.
+/// Returns the lock that every call into HDF5 holds.
 std::recursive_mutex& hdf5_library();
 
-/// An HDF5 handle that is released on every way out.
+/// Owns an HDF5 handle and releases it on every way out.
 class Hdf5Handle {
  public:
   using Close = int (*)(std::int64_t);
@@ -27,9 +27,9 @@ class Hdf5Handle {
   ~Hdf5Handle() { release(); }
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
   Hdf5Handle& operator=(Hdf5Handle&& other) noexcept;
-  std::int64_t id() const { return id_; }  ///< HDF5's own
-  bool valid() const { return id_ >= 0; }  ///< whether it holds one
-  /// Releases it now; false where HDF5 reports an error.
+  std::int64_t id() const { return id_; }  ///< HDF5's own number
+  bool valid() const { return id_ >= 0; }  ///< whether it holds a handle
+  /// Releases it now; returns false if HDF5 reports an error.
   bool release();
 
  private:
@@ -38,24 +38,23 @@ class Hdf5Handle {
 };
 
 /// One HDF5 file, to write or to read. Objects are named by path from the root ("VTKHDF/Points"). Reading throws
-/// InputError, writing ResourceError; both name the file and the object. Values: float, double, std::int32_t,
+/// InputError, writing ResourceError; both name the file and the object. Values are float, double, std::int32_t or
 /// std::int64_t.
 class Hdf5File {
  public:
-  /// Empties or creates the file and reserves `size` bytes on the disk before HDF5 gets it: HDF5 1.10 crashes where a
-  /// write fails while it closes a file. What is not needed is given back by `close`.
+  /// Empties or creates the file and reserves `size` bytes on the disk before HDF5 opens it: HDF5 1.10 crashes if a
+  /// write fails while it closes a file. `close` gives unused bytes back.
   static Hdf5File create(const std::filesystem::path& path, std::size_t size);
-  /// Lives in memory only; `name` stands in messages. See `image`.
+  /// Creates a file in memory only; messages call it `name`. See `image`.
   static Hdf5File create_in_memory(const std::filesystem::path& name);
   static Hdf5File open(const std::filesystem::path& path);
 
-  void create_group(const std::string& name);  ///< a path of names; groups above it must be there
+  void create_group(const std::string& name);  ///< a path of names; the groups above it must exist
   /// Makes a dataset of `rows` rows with `columns` values (0: one-dimensional), to be written `part` ≥ 1 rows at a
-  /// time; a long one is shuffled and deflated in chunks that fit the parts, so that no chunk is compressed again and
-  /// again.
+  /// time. A long one is shuffled and deflated in chunks that fit the parts, so that no chunk is compressed repeatedly.
   template <class T>
   void create_dataset(const std::string& name, std::size_t rows, std::size_t columns, std::size_t part);
-  /// Disk that such a dataset takes at most, with all that HDF5 stores about it.
+  /// Returns the most disk space that such a dataset takes, with everything that HDF5 stores about it.
   static std::size_t largest_size(std::size_t rows, std::size_t row_bytes, std::size_t part);
   /// Fills rows from `first_row` on.
   template <class T>
@@ -64,45 +63,45 @@ class Hdf5File {
   template <class T>
   void write(const std::string& name, std::span<const T> values, std::size_t columns = 0);
 
-  /// Writes an array that was packed before.
+  /// Writes an array that is already packed.
   void write_packed(const std::string& name, const PackedArray& array);
-  /// Reads a dataset of floats, packed as it is stored, or anew where it is stored otherwise.
+  /// Reads a dataset of floats as it is packed in the file, or packs it if it is stored otherwise.
   PackedArray read_packed(const std::string& name) const;
   /// Makes a dataset without rows, for append_packed.
   void create_growing(const std::string& name, std::size_t columns, std::size_t chunk_rows);
-  /// Adds the chunks of an array with these columns and chunk_rows behind all rows; the zeros that fill up its last
-  /// chunk count as rows. Reserve growth() first.
+  /// Appends the chunks of an array with these columns and chunk_rows; the zeros that fill up its last chunk count as
+  /// rows. Reserve growth() first.
   void append_packed(const std::string& name, const PackedArray& array);
-  /// Bytes by which the file grows at most for such an array.
+  /// Returns the most bytes by which the file grows for such an array.
   static std::size_t growth(const PackedArray& array);
-  /// Reserves the disk from byte `from` to byte `to` of the file. Throws ResourceError.
+  /// Reserves disk from byte `from` to byte `to` of the file. Throws ResourceError.
   void reserve(std::size_t from, std::size_t to) const;
 
-  /// A text, not empty, as one string of fixed length.
+  /// Writes a text, not empty, as one string of fixed length.
   void write_text(const std::string& name, std::string_view text);
 
-  /// All values of a dataset, row after row, converted to T.
+  /// Returns all values of a dataset, row after row, converted to T.
   template <class T>
   std::vector<T> read(const std::string& name) const;
-  std::string read_text(const std::string& name) const;  ///< a dataset of text of fixed length
-  /// Whether the root holds an object of this name.
+  std::string read_text(const std::string& name) const;  ///< reads a text of fixed length
+  /// Returns whether the root holds an object of this name.
   bool has(const std::string& name) const;
   std::vector<std::size_t> shape(const std::string& name) const;
 
-  /// One value becomes a scalar, more a one-dimensional attribute. `object` "/" is the root.
+  /// Writes one value as a scalar, more as a one-dimensional attribute. `object` "/" is the root.
   void set_attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
   void set_attribute(const std::string& object, const std::string& name, double value);
-  /// Fixed length, ASCII.
+  /// Writes ASCII of fixed length.
   void set_attribute(const std::string& object, const std::string& name, std::string_view text);
-  /// Whether the root has an attribute of this name.
+  /// Returns whether the root has an attribute of this name.
   bool has_attribute(const std::string& name) const;
-  /// Scalar attribute of the root, converted to T.
+  /// Returns a scalar attribute of the root, converted to T.
   template <class T>
   T attribute(const std::string& name) const;
 
-  /// The bytes that the file would have on the disk.
+  /// Returns the bytes that the file would have on the disk.
   std::string image();
-  /// Flushes and closes: what the disk does not take shows at the latest here.
+  /// Flushes and closes; a failure of the disk is thrown here at the latest.
   void close();
 
  private:

@@ -1,4 +1,4 @@
-// Writes and reads chunks as other threads packed them, past HDF5's own filters.
+// Writes and reads chunks as other threads packed them, bypassing HDF5's own filters.
 #include <hdf5.h>
 
 #include <array>
@@ -10,14 +10,14 @@ namespace ogc::compare {
 namespace {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
-using Extents = std::array<hsize_t, 2>;  // rows, columns; the second is not read where there is one dimension
+using Extents = std::array<hsize_t, 2>;  // rows, columns; a one-dimensional dataset has no second
 
-/// A bit for each filter of the dataset that a chunk has not been through: shuffle, deflate.
+/// Masks with a bit for each filter that was not applied to a chunk: shuffle, deflate.
 constexpr std::uint32_t no_filter = 0, every_filter = 3;
 
 int rank_of(const PackedArray& array) { return array.columns > 0 ? 2 : 1; }
 
-/// Chunked, shuffled and deflated as `pack` does it.
+/// Returns a creation list for chunks that are shuffled and deflated as `pack` does it.
 Hdf5Handle packed_list(std::size_t columns, std::size_t chunk_rows) {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(list.id(), false);
@@ -28,7 +28,7 @@ Hdf5Handle packed_list(std::size_t columns, std::size_t chunk_rows) {
   return list;
 }
 
-/// Whether a dataset of this creation list stores its chunks as `pack` makes them.
+/// Returns whether a dataset of this creation list stores its chunks as `pack` makes them.
 bool is_packed_so(hid_t list, int rank, std::size_t columns, std::size_t chunk_rows) {
   Extents chunk{};
   if (H5Pget_layout(list) != H5D_CHUNKED || H5Pget_chunk(list, 2, chunk.data()) != rank) return false;
@@ -41,7 +41,7 @@ bool is_packed_so(hid_t list, int rank, std::size_t columns, std::size_t chunk_r
   return filter(0) == H5Z_FILTER_SHUFFLE && filter(1) == H5Z_FILTER_DEFLATE;
 }
 
-/// Writes the chunks from row `first_row` on; false where HDF5 reports an error.
+/// Writes the chunks from row `first_row` on; returns false if HDF5 reports an error.
 bool write_chunks(hid_t dataset, std::size_t first_row, const PackedArray& array) {
   for (std::size_t i = 0; i < array.chunks.size(); ++i) {
     const PackedChunk& chunk = array.chunks[i];
@@ -53,7 +53,7 @@ bool write_chunks(hid_t dataset, std::size_t first_row, const PackedArray& array
   return true;
 }
 
-/// Reads all chunks; false where one is missing or went through one filter alone.
+/// Reads all chunks; returns false if one is missing or only one of the filters was applied to it.
 bool read_chunks(hid_t dataset, PackedArray& array) {
   for (std::size_t row = 0; row < array.rows; row += array.chunk_rows) {
     const Extents offset{row, 0};
@@ -122,7 +122,7 @@ void Hdf5File::append_packed(const std::string& name, const PackedArray& array) 
   if (!dataset.release() || !written) refuse_write(name);
 }
 
-// As in largest_size: 256 B a chunk for its entry in the index.
+// 256 B a chunk for its entry in the index, as in largest_size.
 std::size_t Hdf5File::growth(const PackedArray& array) { return array.byte_count() + 256 * array.chunks.size(); }
 
 void Hdf5File::reserve(std::size_t from, std::size_t to) const { compare::reserve(path_, from, to); }

@@ -7,7 +7,7 @@
 namespace ogc::compare {
 
 std::string inflate(std::string_view packed, std::size_t size, const std::string& where) {
-  constexpr std::size_t most_a_byte = 1032;  // zlib's own documentation of deflate
+  constexpr std::size_t most_a_byte = 1032;  // from zlib's documentation of deflate
   if (size / most_a_byte > packed.size())
     throw InputError(where + ": " + std::to_string(packed.size()) + " compressed bytes can't hold the " +
                      std::to_string(size) + " that are announced; the file is damaged");

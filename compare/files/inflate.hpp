@@ -1,4 +1,4 @@
-// zlib's streams, unpacked into memory whose size is known before.
+// Unpacks zlib streams of known size.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace ogc::compare {
 
-/// The `size` bytes that the zlib stream `packed` holds. Throws InputError that begins with `where`: damaged, or of
-/// another size. Deflate packs no more than 1032 bytes into one, so that an absurd size is refused before memory is
-/// taken for it.
+/// Returns the `size` bytes of the zlib stream `packed`. Throws InputError that begins with `where` if it is damaged or
+/// has another size. Deflate packs at most 1032 bytes into one, so an absurd size is refused before memory is
+/// allocated.
 std::string inflate(std::string_view packed, std::size_t size, const std::string& where);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Numbers keep JSON's own distinction: 40 is a whole number, 40.0 is not, so that a fractional count is a wrong type
-// rather than cut off.
+// Keeps JSON's own distinction of numbers: 40 is a whole number, 40.0 is not, so that a fractional count is a wrong
+// type and is not truncated.
 #include "compare/files/json_reader.hpp"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <set>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/settings.hpp"
 #include "compare/problem/text.hpp"
 
 namespace ogc::compare {
@@ -30,7 +31,7 @@ Json parse_json(std::string_view text, const std::string& file) {
   try {
     return Json::parse(text, refuse_repeated_keys);
   } catch (const Json::exception& error) {
-    constexpr std::size_t most_shown = 200;  // the library repeats a number of any length
+    constexpr std::size_t most_shown = 200;  // the library's message repeats a number of any length
     throw InputError(file + ": no valid JSON: " + shown(error.what(), most_shown));
   }
 }
@@ -120,8 +121,11 @@ void JsonObject::finish() const {
   if (!is_object_) return;
   const std::vector<std::string_view> known(asked_.begin(), asked_.end());
   for (const auto& [key, value] : node_.value().items()) {
-    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end())
-      node_.child(key).fail(unknown_name("key", key, known), "rename or remove it");
+    if (std::ranges::find(known, key) != known.end()) continue;
+    const std::string_view now = renamed_setting(key);
+    const bool has_now = std::ranges::find(known, now) != known.end();
+    node_.child(key).fail(has_now ? unknown_setting(key, known) : unknown_name("key", key, known),
+                          "rename or remove it");
   }
 }
 

@@ -1,5 +1,5 @@
-// Strict reading of JSON: whatever is not asked for is an error, and every error says where. Problems are collected, so
-// that one run lists them all.
+// Reads JSON strictly: an unknown key is an error, and every error gives its place. Problems are collected, so that one
+// run lists them all.
 #pragma once
 
 #include <functional>
@@ -14,22 +14,22 @@ namespace ogc::compare {
 
 using Json = nlohmann::ordered_json;
 
-/// Parses one JSON document. Throws InputError that names `file` and the line: bad syntax, a key twice in one object, a
-/// number beyond double, more than 64 levels of arrays and objects.
+/// Parses one JSON document. Throws InputError that names `file` and the line: bad syntax, a repeated key in one
+/// object, a number beyond double, more than 64 levels of arrays and objects.
 Json parse_json(std::string_view text, const std::string& file);
 
-/// A value, its path in the document ("/bodies/0/material"), and the list to which its problems go.
+/// A value, its path in the document ("/bodies/0/material"), and the list for its problems.
 class JsonNode {
  public:
   JsonNode(const Json& value, std::string file, std::string path, std::vector<Problem>& problems);
 
   /// Adds a problem at this node.
   void fail(const std::string& what, const std::string& remedy) const;
-  /// "FILE: PATH".
+  /// Returns "FILE: PATH".
   std::string where() const;
   const std::string& path() const { return path_; }
 
-  /// Each reads the value into `target`; adds a problem and leaves it as it is where the type is wrong.
+  /// Each reads the value into `target`; for a wrong type it adds a problem and leaves the target unchanged.
   void read(bool& target) const;
   void read(std::string& target) const;
   void read(double& target) const;
@@ -37,14 +37,14 @@ class JsonNode {
   void read(Index& target) const;
   void read(Vec3& target) const;
 
-  /// Whether the value is an object or an array; adds a problem if not.
+  /// Return whether the value is an object or an array; add a problem if not.
   bool expect_object() const;
   bool expect_array() const;
 
   std::size_t size() const { return value_->size(); }  ///< number of children
-  JsonNode child(std::size_t i) const;                 ///< of an array
-  JsonNode child(const std::string& key) const;        ///< of an object
-  const Json& value() const { return *value_; }        ///< the JSON itself
+  JsonNode child(std::size_t i) const;                 ///< element of an array
+  JsonNode child(const std::string& key) const;        ///< value of an object's key
+  const Json& value() const { return *value_; }        ///< the JSON value itself
 
  private:
   void wrong_type(const std::string& wanted) const;
@@ -53,14 +53,14 @@ class JsonNode {
   std::vector<Problem>* problems_;
 };
 
-/// Asks an object for its keys, one after the other; `finish` complains about keys that nobody asked for.
+/// Reads the keys of an object one after the other; `finish` reports keys that were not read.
 class JsonObject {
  public:
   explicit JsonObject(const JsonNode& node);
 
-  /// Calls `use` with the key's value where it is there.
+  /// Calls `use` with the key's value if it exists.
   void optional(const std::string& key, const std::function<void(const JsonNode&)>& use);
-  /// The same; adds a problem where it is not.
+  /// The same; adds a problem if it does not exist.
   void required(const std::string& key, const std::function<void(const JsonNode&)>& use);
   template <class Target>
   void optional_value(const std::string& key, Target& target) {
@@ -71,7 +71,7 @@ class JsonObject {
     required(key, [&](const JsonNode& node) { node.read(target); });
   }
   bool has(const std::string& key) const;  ///< whether the object has the key
-  void finish() const;                     ///< a key that nobody asked for is a problem
+  void finish() const;                     ///< adds a problem for each key that was not read
 
  private:
   JsonNode node_;

@@ -1,4 +1,4 @@
-// Numbers in text files, read strictly: the whole word or nothing.
+// Reads numbers in text files strictly: the whole word or nothing.
 #pragma once
 
 #include <charconv>
@@ -6,8 +6,8 @@
 
 namespace ogc::compare {
 
-/// Whether `word` is exactly one number; a leading '+' is allowed, as printf writes it. Overflow and underflow to zero
-/// do not count.
+/// Returns whether `word` is exactly one number; a leading '+' is allowed, as printf writes it. Overflow and underflow
+/// to zero are not accepted.
 template <class Number>
 bool parse_number(std::string_view word, Number& number) {
   if (word.starts_with('+')) word.remove_prefix(1);

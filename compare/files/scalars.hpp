@@ -1,4 +1,4 @@
-// Arrays of numbers as other programs store them: any width, either byte order.
+// Reads numbers as other programs store them: any width, either byte order.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace ogc::compare {
 enum class ScalarType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 inline constexpr std::array<std::size_t, 10> scalar_sizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};  ///< by ScalarType [bytes]
-/// Bytes of one number.
+/// Returns the bytes of one number.
 inline std::size_t size_of(ScalarType type) { return scalar_sizes[static_cast<std::size_t>(type)]; }
-/// Whether the numbers are floating-point ones.
+/// Returns whether the numbers are floating-point ones.
 inline bool is_floating(ScalarType type) { return type == ScalarType::float32 || type == ScalarType::float64; }
 
-/// The number of this type at `bytes`, whose byte order is `order`.
+/// Returns the number of this type at `bytes`, in byte order `order`.
 template <class Number>
 Number number_at(const char* bytes, std::endian order) {
   std::array<char, sizeof(Number)> raw;
@@ -27,7 +27,7 @@ Number number_at(const char* bytes, std::endian order) {
   return std::bit_cast<Number>(raw);
 }
 
-/// The number at `bytes` as a double, which holds every one but integers beyond 2⁵³ exactly.
+/// Returns the number at `bytes` as a double, which is exact except for integers beyond 2⁵³.
 inline double scalar_at(const char* bytes, ScalarType type, std::endian order) {
   switch (type) {
     case ScalarType::int8: return number_at<std::int8_t>(bytes, order);

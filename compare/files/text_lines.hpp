@@ -1,4 +1,4 @@
-// A reader that takes lines and words off a mesh file in text. Its errors name the file and the line.
+// Takes lines and words off a mesh file in text; errors name the file and the line.
 #pragma once
 
 #include <cstdint>
@@ -7,65 +7,65 @@
 
 namespace ogc::compare {
 
-/// Takes the first word off `text`, with the blanks before it; empty where only blanks are left. Ends of lines are
-/// blanks.
+/// Takes the first word off `text`, with the blanks before it; empty if only blanks are left. Ends of lines are blanks.
 std::string_view next_word(std::string_view& text);
 
-/// Whether the '#' at `place` belongs to a word of Windows programs that is no number ("-1.#IND", "1.#INF", "1.#QNAN",
-/// "1.#R"), and begins no comment.
+/// Returns whether the '#' at `place` belongs to a word of Windows programs that is no number ("-1.#IND", "1.#INF",
+/// "1.#QNAN", "1.#R"), and begins no comment.
 bool is_hash_of_number(std::string_view text, std::size_t place);
 
-/// What a word is that stands where a finite number should: "'nan' is no finite coordinate; give three numbers [m]".
+/// Returns the error for a word in place of a finite number: "'nan' is no finite coordinate; give three numbers [m]".
 std::string no_coordinate(std::string_view word);
 
-/// How a format's lines are read.
+/// Rules for reading a format's lines.
 struct LineRules {
-  char comment = '\0';           ///< the rest of the line behind it is left out; none: '\0'
-  bool backslash_joins = false;  ///< a line that ends in a backslash goes on in the next one
+  char comment = '\0';           ///< begins a comment up to the end of the line; none: '\0'
+  bool backslash_joins = false;  ///< a line that ends in a backslash continues in the next one
 };
 
-/// A text line by line, and each line word by word; lines end with a line feed, a carriage return or both. The text and
-/// the name must outlive it.
+/// Reads a text line by line, and each line word by word; lines end with a line feed, a carriage return or both. The
+/// text and the name must outlive it.
 class TextLines {
  public:
-  /// Before the first line; `name` is the file's, for errors.
+  /// Starts before the first line; `name` is the file's, for errors.
   TextLines(std::string_view text, const std::string& name, LineRules rules = {})
       : text_(text), name_(name), rules_(rules) {}
 
-  bool next();                                             ///< to the next line; false behind the last
-  bool next_filled();                                      ///< to the next line that has a word
+  bool next();                                             ///< goes to the next line; false after the last
+  bool next_filled();                                      ///< goes to the next line that has a word
   std::string_view word();                                 ///< the line's next word; empty at its end
   std::string_view far_word();                             ///< the next word of this line or of a later one
-  std::string_view rest() const { return line_; }          ///< of the line, behind the words taken so far
+  std::string_view rest() const { return line_; }          ///< rest of the line, after the words taken so far
   double coordinate();                                     ///< the next word [m]; fails where it isn't finite
-  double coordinate(std::string_view found) const;         ///< the same of a word that was taken
-  std::size_t number() const { return number_; }           ///< of the line, from 1; 0 before the first
-  std::size_t bytes_left() const { return text_.size(); }  ///< behind this line
+  double coordinate(std::string_view found) const;         ///< the same for a word that was taken
+  std::size_t number() const { return number_; }           ///< number of the line, from 1; 0 before the first
+  std::size_t bytes_left() const { return text_.size(); }  ///< bytes after this line
 
-  /// The next word, a whole number; fails where it is none: `what` should stand there.
+  /// Returns the next word as a whole number; fails if it is none, and calls the expected word `what`.
   std::int64_t integer(const std::string& what) { return integer(word(), what); }
-  std::int64_t integer(std::string_view found, const std::string& what) const;  ///< the same of a word that was taken
-  /// A number of entries that follow, of `least` bytes each: fails where the file has not so many bytes left.
+  std::int64_t integer(std::string_view found, const std::string& what) const;  ///< the same for a word that was taken
+  /// Returns a number of entries that follow, of `least` bytes each: fails if the file has fewer bytes left.
   std::size_t count(std::string_view found, const std::string& what, std::size_t least = 1) const;
 
-  /// To the next line that has a word; throws InputError where the file ends: `what` should stand there.
+  /// Goes to the next line that has a word; throws InputError if the file ends before it, and calls the expected line
+  /// `what`.
   void expect_filled(const std::string& what);
-  /// The next word of this line or a later one, in the same way.
+  /// Returns the next word of this line or a later one; throws in the same way.
   std::string_view expect_word(const std::string& what);
-  /// Throws InputError: the file ends, where `what` should stand.
+  /// Throws InputError: the file ends before `what`.
   [[noreturn]] void fail_truncated(const std::string& what) const;
   /// Throws InputError "FILE: line N: what", at this line or at another.
   [[noreturn]] void fail(const std::string& what) const { fail_at(number_, what); }
   [[noreturn]] void fail_at(std::size_t number, const std::string& what) const;
 
  private:
-  bool step();  ///< to the next line, whether it is joined to this one or not
+  bool step();  ///< goes to the next line, also if it is joined to this one
 
   std::string_view text_, line_;
   const std::string& name_;
   LineRules rules_;
   std::size_t number_ = 0;
-  bool goes_on_ = false;  ///< this line is joined to the next one
+  bool goes_on_ = false;  ///< whether this line is joined to the next one
 };
 
 }  // namespace ogc::compare

@@ -1,11 +1,11 @@
-// Beams and what swings about a pin.
+// Tests clamped beams, a pendulum, and the energy of a swinging sheet.
 //
 // Hinge. Two triangles share an edge of length e; one is held level, and the other turns about the edge under the
 // weight m g of its free corner, which is b away from it and carries a third of its mass. The edge is a torsion spring,
 //
 //     c θ = m g b cos θ,   c = 3 k_b e²/(A₀ + A₁),                                                            (1)
 //
-// at any angle: what the membranes draw of it is m g over E e/2.
+// at any angle, except for the stretch of the membranes, m g over E e/2.
 //
 // Tetrahedron. Three corners are held, and the fourth hangs from them. J is affine in one corner and ‖F‖² is quadratic,
 // so the force on it is linear (method.md §8.1): it goes down by exactly
@@ -19,25 +19,24 @@
 //
 //     w = q L⁴/(20 E I) + q L²/(3 (5/6) G A) = ρ g L⁴ 12/(20 E t²) + ρ g L²/(2.5 G).                          (3)
 //
-// The work of the weight is twice the energy of what deforms least at that work, and linear tetrahedra are some of all
-// displacements: their mean deflection is less, and more with cells half as large, which have the large ones' among
-// them.
+// The deflection minimises energy minus work, and linear tetrahedra allow only some of all displacements: their mean
+// deflection is less, and it is more with cells half as large, whose displacements include those of large cells.
 //
 // Pendulum. A triangle hung by a corner is rigid but for its strain. Implicit Euler takes the rotation nearest, in the
 // norm of masses, to y = 2 x_n − x_{n−1} + h² g. In the plane, with x = r e^{iθ},
 //
 //     θ_{n+1} = arg(I (2 e^{iθ_n} − e^{iθ_{n−1}}) + h² γ Σ m r̄),   γ = −i g,                                   (4)
 //
-// for any swing. It gets longer by its weight's strain ε, which makes its phase ω t late by ε/2 of itself.
+// for any swing. The weight's strain ε makes the pendulum longer, so its phase ω t is late by ε/2 of itself.
 //
 // Energy. With f the force that a step leaves, inertia's included, Δ = x' − x and E the sum of kinetic energy, elastic
 // energy U and gravity's (method.md §7.8),
 //
 //     E' − E = −f·Δ − ‖v' − v‖²_M/2 − c,   c = U(x) − U(x') + ∇U(x')·Δ,   −f·Δ = (M (v' − v)/h − M a + ∇U(x'))·Δ. (5)
 //
-// c ≥ 0 where U is convex. U is not: where a hinge turns or a triangle shrinks c may be less than 0. The law claims all
-// the same that E gains no more than what (5) has without c. Its limit is that sum, read off the states; so a wrong U,
-// or a wrong energy in a row, breaks it.
+// c ≥ 0 where U is convex. U is not: where a hinge turns or a triangle shrinks c may be below 0. The law still claims
+// that E gains no more than (5) without c. Its limit is that sum, computed from the states; so a wrong U, or a wrong
+// energy in a row, breaks it.
 //
 // A solved step has f = 0, and no step gains. Few sweeps leave f, and may gain up to the limit. N = D ln(101)/2 sweeps
 // leave a hundredth of a stretch (method.md §7.7), so that f is a hundredth of the elastic force; on its way f takes
@@ -64,7 +63,7 @@ using namespace law_shapes;
 constexpr Vec3 down{0, -standard_gravity, 0};
 constexpr double flap_side = 0.1, flap_bending = 2e-3;
 
-/// Where (1) has it.
+/// Returns the angle of (1).
 double hinge_angle(const Scene& scene) {
   // e² over both areas is 1, as both triangles are as high as they are long.
   const double load = masses(scene)[3] * standard_gravity * flap_side / (3 * flap_bending);
@@ -73,7 +72,7 @@ double hinge_angle(const Scene& scene) {
   return angle;
 }
 
-/// Two right triangles about an edge along z, the first level and held, the second as (1) has it.
+/// Returns two right triangles about an edge along z, the first level and held, the second at the angle of (1).
 std::vector<Scene> hinge_scenes(LawSize) {
   Scene scene = empty_scene("cantilever_hinge", 0.005, 200, 40);
   scene.gravity = down;
@@ -106,7 +105,7 @@ std::vector<Reading> read_hinge(std::span<const Trajectory> runs) {
 
 constexpr double tetrahedron_side = 0.1, tetrahedron_mu = 2e4, tetrahedron_lambda = 3e4;
 
-/// One corner of a cube, its three neighbours in the plane x = 0 held but for the one along x.
+/// Returns one corner of a cube with its three neighbours; those in the plane x = 0 are held, the one along x is free.
 std::vector<Scene> tetrahedron_scenes(LawSize) {
   Scene scene = empty_scene("cantilever_tetrahedron", 0.005, 100, 40);
   scene.gravity = {1, -standard_gravity, 2};
@@ -125,7 +124,7 @@ std::vector<Scene> tetrahedron_scenes(LawSize) {
   return {scene};
 }
 
-/// The corner is a above the plane x = 0 of the others: ∇N = (1/a, 0, 0), so H is diagonal.
+/// Reads the corner, which is a above the plane x = 0 of the others: ∇N = (1/a, 0, 0), so H is diagonal.
 std::vector<Reading> read_tetrahedron(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const double a = tetrahedron_side, volume = a * a * a / 6, m = masses(run.scene)[1];
@@ -205,13 +204,13 @@ std::vector<Scene> swing_scenes(LawSize) {
   return {scene};
 }
 
-/// The angle of the two lower corners' middle from straight down.
+/// Returns the angle of the two lower corners' middle from straight down.
 double swing_angle(const LawState& state) {
   const Vec3 x = plus(state.positions[1], state.positions[2]);
   return std::atan2(x.x, -x.y);
 }
 
-/// (4), from the angle and the rest shape; x + i y, turned so that straight down is 0.
+/// Returns the angles of (4), from the start angle and the rest shape; x + i y, turned so that straight down is 0.
 std::vector<double> swings(const Trajectory& run) {
   using Complex = std::complex<double>;
   const double h = run.scene.settings.time_step;
@@ -238,7 +237,7 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
   const std::vector<double> law = swings(run);
   double most = 0;
   for (std::size_t n = 0; n < law.size(); ++n) most = std::max(most, std::abs(swing_angle(run.states[n]) - law[n]));
-  // E of plane stress is 8 μ/3 with λ = μ; the strip is swing_side/2 wide in the mean. Speed adds as much as weight.
+  // E of plane stress is 8 μ/3 with λ = μ; the mean width of the strip is swing_side/2. Speed adds as much as weight.
   const double weight = mass_of(run.scene, 0) * standard_gravity;
   const double strain = 2 * weight / (8. / 3 * run.scene.bodies[0].material.lame_mu * swing_side / 2);
   const double phase = std::sqrt(standard_gravity / swing_side) * run.scene.settings.time_step *
@@ -253,21 +252,22 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
 
 constexpr double arc_cell = 0.03, arc_density = 0.3, arc_lame = 500, arc_bending = 0.005;
 
-/// N of (5).
+/// Returns N of (5).
 double solving_sweeps(double time_step) {
   const double trace = 16 * arc_lame + 84 * arc_bending / (arc_cell * arc_cell);
   const double mass = arc_density * arc_cell * arc_cell;
   return (1 + time_step * time_step * trace / (3 * mass)) * std::log(101) / 2;
 }
 
-/// A sheet that is curved at rest, 11 × 11 vertices of a cylinder of 0.2 m, held at one corner. Nothing touches.
+/// Returns a sheet that is curved at rest, 11 × 11 vertices of a cylinder of 0.2 m, held at one corner. Nothing
+/// touches.
 Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) {
   Scene scene = empty_scene("pinned_sheet", time_step, steps, iterations);
   scene.gravity = down;
   scene.settings.contact_radius = 0.002;
   Material material = cloth(0);
   material.density = arc_density;
-  material.membrane = MembraneModel::st_venant_kirchhoff;  // N of (5) is that of its block
+  material.membrane = MembraneModel::st_venant_kirchhoff;  // N of (5) is derived from its block
   material.lame_mu = material.lame_lambda = arc_lame;
   material.bending = BendingModel::discrete_hinge;
   material.bending_stiffness = arc_bending;
@@ -282,7 +282,7 @@ Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) 
   return scene;
 }
 
-/// With few sweeps, and with N of a shorter step, until the sheet has swung down.
+/// Returns runs with few sweeps, and with N of a shorter step, until the sheet has swung down.
 std::vector<Scene> pinned_scenes(LawSize size) {
   constexpr double brief = 1. / 480;
   const Scene solved = pinned_arc(brief, 240, std::lround(std::ceil(solving_sweeps(brief))));
@@ -290,7 +290,7 @@ std::vector<Scene> pinned_scenes(LawSize size) {
   return {pinned_arc(1. / 120, 240, 20), pinned_arc(1. / 120, 240, 5), pinned_arc(brief, 480, 20), solved};
 }
 
-/// −f·Δ − ‖v' − v‖²_M/2 of (5) in the step that ends in state n.
+/// Returns −f·Δ − ‖v' − v‖²_M/2 of (5) in the step that ends in state n.
 double work_left(const Trajectory& run, std::size_t n) {
   const LawState &before = run.states[n - 1], &now = run.states[n];
   const std::vector<double> m = masses(run.scene);

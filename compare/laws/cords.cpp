@@ -10,10 +10,10 @@
 //     Σ_j l (1 + ‖n_j‖/k_s) H/‖n_j‖ = span,                                                                   (2)
 //
 // the discrete catenary. A cord in a groove of two planes that stand at a right angle rests on both, its nodes' springs
-// bearing m g/√2 on each side, and without friction keeps its speed along the groove: nothing acts there. (Of a solver
-// whose contacts are barriers the rest is read, and no spring.)
+// bearing m g/√2 on each side, and without friction keeps its speed along the groove: nothing acts there. (For solvers
+// whose contacts are barriers the rest is read, but no spring.)
 //
-// Tolerances: law_measures::force_left of the weight. A sum over nodes is exact as it stands, not for many nodes only.
+// Tolerances are law_measures::force_left of the weight. Sums over nodes are exact for any number of nodes.
 #include <algorithm>
 #include <cmath>
 
@@ -38,7 +38,7 @@ Material cord(double bend) {
   return material;
 }
 
-/// A rod along x, `count` segments, its first node at `start`.
+/// Returns a rod along x, `count` segments, its first node at `start`.
 Mesh straight(std::size_t count, const Vec3& start) {
   std::vector<Vec3> nodes;
   for (std::size_t k = 0; k <= count; ++k) nodes.push_back(plus(start, {static_cast<double>(k) * segment, 0, 0}));
@@ -53,7 +53,7 @@ Scene rod_scene(const char* name, const Mesh& mesh, double bend) {
   return scene;
 }
 
-/// Nodes of a clamped rod that obeys (1).
+/// Returns the nodes of a clamped rod that obeys (1).
 std::vector<Vec3> clamped(const Scene& scene) {
   const std::vector<double> m = masses(scene);
   std::vector<double> weight(segments), angle(segments, 0);
@@ -92,7 +92,7 @@ std::vector<Reading> read_clamped(std::span<const Trajectory> runs) {
 
 constexpr double span = 0.08;
 
-/// Nodes of a chain that hangs by both ends as (2) has it.
+/// Returns the nodes of a chain that hangs by both ends according to (2).
 std::vector<Vec3> hanging(const std::vector<double>& m, double across) {
   const auto chain_of = [&](double pull) {
     double inner = 0;
@@ -142,7 +142,7 @@ std::vector<Reading> read_catenary(std::span<const Trajectory> runs) {
            .side = Side::at_most}};
 }
 
-/// A stiff cord of two segments that is thrown: it moves as a point does (falls.cpp).
+/// Returns a stiff cord of two segments that is thrown: it moves as a point does (falls.cpp).
 std::vector<Scene> thrown_scenes(LawSize) {
   Scene scene = empty_scene("cord_falls", 1. / 240, 60, 20);
   scene.gravity = down;
@@ -178,7 +178,7 @@ std::vector<Scene> channel_scenes(LawSize) {
   Scene scene = rod_scene("cord_in_channel", straight(segments, {0, 0, 0}), rod_bend);
   const double r = scene.settings.contact_radius, k = scene.bodies[0].material.contact_stiffness;
   const std::vector<double> m = masses(scene);
-  // Both planes at a distance of r less the depth: the node is √2 of that above the line in which they meet.
+  // Both planes are at a distance of r minus the depth: the node is √2 of that above the line in which they meet.
   for (std::size_t v = 0; v <= segments; ++v) {
     const double depth = m[v] * standard_gravity / std::numbers::sqrt2 / k;
     scene.mesh.positions[v] = {segment * (static_cast<double>(v) - 0.5 * segments), std::numbers::sqrt2 * (r - depth),

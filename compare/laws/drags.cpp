@@ -1,11 +1,11 @@
-// What holds, and what drags. Between two plates at the depth δ on either side a sheet of n vertices creeps under its
-// weight as slopes.cpp has it,
+// Tests what friction holds or drags. Between two plates at the depth δ on either side a sheet of n vertices creeps
+// under its weight as derived in slopes.cpp,
 //
 //     f₁(v/ε_v) = M g/(2 n μ k_c δ),
 //
 // and a floor that moves with u drags: w = v − u obeys w' = w − h μ g f₁(|w'|/ε_v) sign w'.
 //
-// Tolerances: those of slopes.cpp. The depth is rounded as r is.
+// Tolerances are those of slopes.cpp. The depth is rounded as r is.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -69,7 +69,7 @@ std::vector<Reading> read_conveyor(std::span<const Trajectory> runs) {
     relative = slid(relative, 0, mu * standard_gravity, run.scene.settings.friction_velocity, h);
     way += h * (relative + belt);
   }
-  // Lag of one step and what sweeps leave of λ, as in slopes.cpp, of what the belt is ahead by.
+  // Lag of one step and the error of λ that sweeps leave, as in slopes.cpp, times the lead of the belt.
   const double ahead = belt * h * static_cast<double>(run.rows.size()) - way;
   const double dragged = belt / (mu * standard_gravity), share = 2 * lagged_steps(run) * h / dragged + force_left(run);
   return {{.what = "way",

@@ -1,4 +1,4 @@
-// Derivatives follow the rules of sums and products: a `Moving` number carries its rate along d.
+// Differentiates by the rules of sums and products: a `Moving` number carries its rate along d.
 //
 // The membrane's energy needs tr G and ‖G‖² of the Green strain G. Let g hold the products of a triangle's two edges,
 // and ḡ those at rest. Then C = ḡ⁻¹ (g − ḡ)/2 has tr C = tr G and tr C² = ‖G‖².
@@ -25,35 +25,35 @@ Moving root(Moving a) {
   const double value = std::sqrt(a.value);
   return {value, a.rate / (2 * value)};
 }
-/// The angle of the point (c, s).
+/// Returns the angle of the point (c, s).
 Moving angle(Moving s, Moving c) {
   return {std::atan2(s.value, c.value),
           (c.value * s.rate - s.value * c.rate) / (c.value * c.value + s.value * s.value)};
 }
 
-/// A vector likewise.
+/// A vector with its rate along d.
 struct MovingVec {
   Vec3 value{}, rate{};
 };
 MovingVec operator-(const MovingVec& a, const MovingVec& b) {
   return {plus(a.value, b.value, -1), plus(a.rate, b.rate, -1)};
 }
-/// a · b.
+/// Returns a · b.
 Moving inner(const MovingVec& a, const MovingVec& b) {
   return {dot(a.value, b.value), dot(a.rate, b.value) + dot(a.value, b.rate)};
 }
-/// a × b.
+/// Returns a × b.
 MovingVec normal(const MovingVec& a, const MovingVec& b) {
   return {cross(a.value, b.value), plus(cross(a.rate, b.value), cross(a.value, b.rate))};
 }
 
-/// Positions of which any vertex can be read as it moves.
+/// Positions with their rates along d, by vertex.
 struct Points {
   const std::vector<Vec3>&x, &along;
   MovingVec operator[](Index v) const { return {x[static_cast<std::size_t>(v)], along[static_cast<std::size_t>(v)]}; }
 };
 
-/// g₁₁, g₁₂, g₂₂.
+/// Returns g₁₁, g₁₂, g₂₂.
 std::array<Moving, 3> products(const Points& at, const Triangle& t) {
   const MovingVec a = at[t[1]] - at[t[0]], b = at[t[2]] - at[t[0]];
   return {inner(a, a), inner(a, b), inner(b, b)};
@@ -71,7 +71,7 @@ Moving membrane(const Points& now, const Points& rest, const Triangle& t, const 
   return area * (of.lame_lambda / 2 * (trace * trace) + of.lame_mu * squared);
 }
 
-/// The angle θ of a hinge. Its sign is a convention, which is the same at all positions.
+/// Returns the angle θ of a hinge. Its sign is a convention, which is the same at all positions.
 Moving hinge_angle(const Points& at, const Edge& edge, const Hinge& hinge) {
   const MovingVec along = at[edge[1]] - at[edge[0]];
   const MovingVec first = normal(along, at[hinge.opposite[0]] - at[edge[0]]);

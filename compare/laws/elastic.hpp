@@ -1,4 +1,4 @@
-// Laws of energy compute the elastic energy of cloth themselves, from method.md, as they judge who moved it.
+// Computes the elastic energy of cloth from method.md: laws of energy do not use a solver's own, as they judge it.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ struct Elastic {
   double change = 0;  ///< ∇U(x)·d [J]
 };
 
-/// Sums up all bodies that are not fixed: St. Venant–Kirchhoff membranes (method.md §4.6) and discrete hinges (§4.7).
-/// `along` is d by vertex [m]. Throws InputError where a body has another model of either.
+/// Adds up all bodies that are not fixed: St. Venant–Kirchhoff membranes (method.md §4.6) and discrete hinges (§4.7).
+/// `along` is d by vertex [m]. Throws InputError if a body has another membrane or bending model.
 Elastic elastic(const Scene& scene, const std::vector<Vec3>& x, const std::vector<Vec3>& along);
 
 }  // namespace ogc::compare::law_measures

@@ -1,10 +1,10 @@
-// Free flight. Implicit Euler has v_n = v_0 + n h g and x_n = x_{n−1} + h v_n, so
+// Tests free flight. Implicit Euler has v_n = v_0 + n h g and x_n = x_{n−1} + h v_n, so
 //
 //     x_n = x_0 + n h v_0 + h² g n (n + 1)/2,
 //
-// which is the parabola of Galilei and g h t/2 more: an error of first order, halved where h is. No vertex moves
-// against another one, so that no energy acts, and what is left is rounding (flight_rounding). Newton's method ends
-// where it begins, as y has no force.
+// which is the parabola of Galilei and g h t/2 more: an error of first order, which halves with h. No vertex moves
+// against another one, so that no energy acts, and only rounding remains (flight_rounding). Newton's method ends where
+// it begins, as y has no force.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -33,7 +33,8 @@ Vec3 discrete_flight(const Scene& scene, const Vec3& start, const Vec3& velocity
   return plus(plus(start, velocity, t), scene.gravity, (t * t + t * h) / 2);
 }
 
-/// The largest distance of any vertex from the discrete law at any step, in units of what rounding may do until then.
+/// Returns the largest distance of any vertex from the discrete law at any step, in units of the rounding error up to
+/// then.
 double largest_miss(const Trajectory& run) {
   const double largest = largest_coordinate(run);
   double most = 0;
@@ -53,7 +54,7 @@ std::vector<Scene> fall_scenes(LawSize size) {
 }
 
 std::vector<Reading> read_fall(std::span<const Trajectory> runs) {
-  // √3: of three coordinates each may be off by that much.
+  // √3: each of three coordinates may be off by that much.
   return {{.what = "distance from the discrete law",
            .unit = "roundings",
            .measured = largest_miss(runs[0]),
@@ -66,7 +67,7 @@ std::vector<Scene> order_scenes(LawSize) {
   return {thrown_sheet(10, 0.2), thrown_sheet(20, 0.2), thrown_sheet(40, 0.2)};
 }
 
-/// How far the end is below the parabola [m].
+/// Returns how far the end is below the parabola [m].
 double error_of_fall(const Trajectory& run) {
   const double t = run.scene.settings.time_step * static_cast<double>(run.scene.settings.steps);
   const double start = centre(run.scene, 0, run.states.front()).y, v = run.scene.velocities[0].y;

@@ -1,11 +1,11 @@
-// Bodies on which nothing acts from outside. With the forces f of a step at xᵗ⁺¹, m (vᵗ⁺¹ − vᵗ) = h f. Inner forces
-// come from energies that neither translation nor rotation changes: Σ f = 0 and Σ x × f = 0 at xᵗ⁺¹. So
+// Tests bodies on which nothing acts from outside. With the forces f of a step at xᵗ⁺¹, m (vᵗ⁺¹ − vᵗ) = h f. Inner
+// forces come from energies that neither translation nor rotation changes: Σ f = 0 and Σ x × f = 0 at xᵗ⁺¹. So
 //
 //     Σ m vᵗ⁺¹ = Σ m vᵗ,      Lᵗ⁺¹ = Σ m xᵗ⁺¹ × vᵗ = Lᵗ + h Σ m vᵗ⁺¹ × vᵗ                                   (1)
 //
-// whatever the body does. A rigid body that turns by φ_n in step n about an axis through its centre has at radius R
-// v_n = (x_n − x_{n−1})/h, and y = 2 x_n − x_{n−1} lies at the angle atan(sin φ_n/(2 − cos φ_n)) ahead of x_n. The
-// rotation nearest to y in the norm of the masses is that one:
+// whatever the body does. A rigid body that turns by φ_n in step n about an axis through its centre has at radius R v_n
+// = (x_n − x_{n−1})/h, and y = 2 x_n − x_{n−1} lies at the angle atan(sin φ_n/(2 − cos φ_n)) ahead of x_n. The rotation
+// nearest to y in the norm of the masses is that one:
 //
 //     tan φ_{n+1} = sin φ_n/(2 − cos φ_n),   φ_1 = atan(h ω),   L_n = I sin φ_n/h                            (2)
 //
@@ -13,8 +13,8 @@
 // twice.
 //
 // A step that is not solved leaves a force. Newton leaves newton_tolerance of the mean |f*|, the force after the guess,
-// and sweeps what they have not yet taken away: the tolerances below are shares of the impulses that inner forces
-// exchange, Σ ‖m Δv‖, 10⁻⁴ (newton_tolerance) and 10⁻² (what a sweep of a stiff body is asked to leave at most).
+// and sweeps leave what they have not yet removed: the tolerances below are shares of the impulses that inner forces
+// exchange, Σ ‖m Δv‖, 10⁻⁴ (newton_tolerance) and 10⁻² (the most that sweeps of a stiff body may leave).
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -29,7 +29,7 @@ using namespace law_shapes;
 
 double left_over(const Trajectory& run) { return run.by.is_solved ? 1e-4 : 1e-2; }
 
-/// Σ over steps and vertices of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖: what inner forces exchange; `n` steps.
+/// Σ over steps and vertices of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖, which inner forces exchange.
 struct Exchange {
   double impulse = 0, turn = 0;
 };
@@ -45,8 +45,8 @@ Exchange exchanged(const Trajectory& run) {
   return sum;
 }
 
-/// Rounding of velocities (x' − x)/h by 2 u |x|/h in each of n steps, all of one sign: of Σ m v, and with the lever
-/// |x| of Σ m x × v.
+/// Returns the rounding error of Σ m v: velocities (x' − x)/h are off by 2 u |x|/h in each of n steps, all of one sign;
+/// with the lever |x| it is that of Σ m x × v.
 double momentum_rounding(const Trajectory& run) {
   const double x = largest_coordinate(run), steps = static_cast<double>(run.rows.size());
   double mass = 0;
@@ -54,7 +54,7 @@ double momentum_rounding(const Trajectory& run) {
   return steps * mass * 2 * unit_roundoff * x / run.scene.settings.time_step;
 }
 
-/// A sheet that tumbles, stretches and goes away.
+/// Returns a sheet that tumbles, stretches and flies away.
 std::vector<Scene> tumbling_scenes(LawSize size) {
   Scene scene = empty_scene("momentum", 0.005, size == LawSize::least ? 40 : 200, 100);
   append_body(scene, {.name = "sheet", .material = cloth(0)}, sheet(5, 5, 0.05, 0));
@@ -66,7 +66,7 @@ std::vector<Scene> tumbling_scenes(LawSize size) {
   return {scene};
 }
 
-/// Σ over the steps of h Σ m vᵗ⁺¹ × vᵗ, as (1) has it.
+/// Returns Σ over the steps of h Σ m vᵗ⁺¹ × vᵗ of (1).
 Vec3 lost_turn(const Trajectory& run) {
   const std::vector<double> m = masses(run.scene);
   Vec3 sum{};

@@ -1,14 +1,14 @@
-// What must not change a motion.
+// Tests changes that must not change a motion.
 //
-// Another body, farther away than any contact, exchanges nothing, but its speed sets the query radius of all and it
-// counts in means that end a solve. (IPC's barriers are as stiff as the whole scene makes them, unless κ is given.) So
-// a resting sheet stays where it is but for rounding (flight_rounding) and for what a step leaves,
+// Another body, farther away than any contact, exchanges nothing, but its speed sets the query radius of all vertices,
+// and it counts in means that end a solve. (IPC's barriers are as stiff as the whole scene makes them, unless κ is
+// given.) So a resting sheet stays in place except for rounding (flight_rounding) and the force that a step leaves,
 // law_measures::force_left of h² g.
 //
-// Lengths in units of 2ᵏ m, masses and times as they are: lengths, velocities, gravity, radii and ε_v times 2ᵏ, density
-// a square metre over 4ᵏ, energies of bending times 4ᵏ; stiffness a metre [N/m] has no length. Every number of a step
-// is multiplied by a power of two, which rounds nothing, and every decision is one about a sign or a ratio: the motion
-// is the same to the bit, times 2ᵏ.
+// Lengths are scaled by 2ᵏ, masses and times are not: lengths, velocities, gravity, radii and ε_v are multiplied by 2ᵏ,
+// densities per square metre by 4⁻ᵏ, energies of bending by 4ᵏ; stiffnesses [N/m] stay. Every number of a step is
+// multiplied by a power of two, which rounds nothing, and every decision is about a sign or a ratio: the motion is the
+// same to the bit, times 2ᵏ.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ namespace {
 using namespace law_measures;
 using namespace law_shapes;
 
-/// A sheet that falls on a floor askew, with friction and hinges.
+/// Returns a sheet that falls on a floor askew, with friction and hinges.
 Scene falling(const char* name, std::int64_t steps) {
   Scene scene = empty_scene(name, 0.005, steps, 20);
   scene.gravity = {0, -standard_gravity, 0};
@@ -40,7 +40,7 @@ Scene falling(const char* name, std::int64_t steps) {
 std::vector<Scene> apart_scenes(LawSize) {
   Scene alone = falling("far_apart", 40);
   alone.settings.iterations = 40;
-  // Each vertex at the depth at which it rests by itself, so that no start shakes it.
+  // Each vertex begins at the depth at which it rests by itself, so that the start disturbs nothing.
   const std::vector<double> m = masses(alone);
   for (std::size_t v = 0; v < static_cast<std::size_t>(alone.bodies[0].vertex_count); ++v) {
     const double depth = m[v] * standard_gravity / alone.bodies[0].material.contact_stiffness;
@@ -58,7 +58,8 @@ std::vector<Scene> apart_scenes(LawSize) {
   return {alone, beside};
 }
 
-/// The largest distance of a vertex of the first body from where `scale` times the other run has it, at any step.
+/// Returns the largest distance of a vertex of the first body from `scale` times its position in the other run, at any
+/// step.
 double largest_difference(const Trajectory& run, const Trajectory& other, double scale) {
   const auto count = static_cast<std::size_t>(run.scene.bodies[0].vertex_count);
   double most = 0;
@@ -71,7 +72,7 @@ double largest_difference(const Trajectory& run, const Trajectory& other, double
 std::vector<Reading> read_apart(std::span<const Trajectory> runs) {
   const double h = runs[0].scene.settings.time_step;
   const double rounding = flight_rounding(1, 0.1) * static_cast<double>(runs[0].rows.size());
-  // What is left is a share of the mean weight, and may stand on the lightest vertex.
+  // The remaining force is a share of the mean weight, and may act on the lightest vertex.
   const std::vector<double> m = masses(runs[0].scene);
   const auto sheet = std::span(m).first(static_cast<std::size_t>(runs[0].scene.bodies[0].vertex_count));
   const double mean = mass_of(runs[0].scene, 0) / static_cast<double>(sheet.size());
@@ -84,7 +85,7 @@ std::vector<Reading> read_apart(std::span<const Trajectory> runs) {
            .side = Side::at_most}};
 }
 
-/// The scene with lengths times 2ᵏ.
+/// Returns the scene with lengths times 2ᵏ.
 Scene scaled(Scene scene, int k) {
   const double s = std::ldexp(1., k);
   for (auto* list : {&scene.mesh.positions, &scene.rest_positions, &scene.velocities})

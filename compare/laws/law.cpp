@@ -12,7 +12,7 @@
 namespace ogc::compare {
 namespace {
 
-/// How far beyond its answer, on the side that matters; not-a-number stays one.
+/// Returns how far a reading is beyond its answer, on the side that counts; not-a-number stays one.
 double excess(const Reading& reading) {
   const double off = reading.measured - reading.answer;
   return reading.side == Side::both ? std::abs(off) : off;

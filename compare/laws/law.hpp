@@ -1,5 +1,5 @@
-// A law of motion: small scenes whose motion is known in closed form, the answer, and what may be missing from it. A
-// law sees states and rows of steps alone, and never who made them; compare/laws.md lists the laws.
+// A law of motion has small scenes whose motion is known in closed form, the answer, and its tolerance. A law reads
+// states and rows of steps alone, and never learns the solver; compare/laws.md lists the laws.
 #pragma once
 
 #include <span>
@@ -12,75 +12,76 @@
 
 namespace ogc::compare {
 
-/// The end of a step, or the start. Of a solver whose state is in double the doubles, otherwise floats, widened.
+/// State at the end of a step, or at the start: doubles of a solver with a state in double, otherwise widened floats.
 struct LawState {
   std::vector<Vec3> positions, velocities;  ///< by vertex [m], [m/s]
 };
 
-/// What a law must know of whoever moved its scene.
+/// What a law must know of the solver.
 struct Answerer {
   bool is_solved = false;           ///< steps are solved to a tolerance, in double; otherwise `iterations` sweeps
-  bool has_contact_energy = false;  ///< contacts are springs within r (method.md §4.2); otherwise barriers
+  bool has_contact_energy = false;  ///< contacts are springs within r (method.md §4.2); otherwise they are barriers
 };
 
-/// One scene, moved.
+/// The motion of one scene.
 struct Trajectory {
-  Scene scene;                    ///< as it was asked, rounded to single precision
-  Answerer by;                    ///< who moved it
+  Scene scene;                    ///< the law's scene, rounded to single precision
+  Answerer by;                    ///< properties of the solver
   std::vector<LawState> states;   ///< the start, then the end of each step
-  std::vector<StepMetrics> rows;  ///< rows[n − 1] is of the step that states[n] ends
+  std::vector<StepMetrics> rows;  ///< rows[n − 1] is of the step that ends in states[n]
 };
 
-/// How a number is held against the answer.
+/// How a number is compared with the answer.
 enum class Side {
   both,     ///< |measured − answer| ≤ tolerance
   at_most,  ///< measured ≤ answer + tolerance
 };
 
-/// One number, beside what the law says.
+/// One number of a law, with its answer.
 struct Reading {
   std::string what, unit;  ///< "way down the slope", "m"
-  double measured = 0;     ///< from the trajectories; not-a-number is broken
+  double measured = 0;     ///< from the trajectories; not-a-number breaks the law
   double answer = 0;       ///< in closed form
-  double tolerance = 0;    ///< same unit; the law's file derives it
-  Side side = Side::both;  ///< whether less is right, too
-  /// Where a limit of the method is derived, how far it lets a reading be off; 0: there is none.
+  double tolerance = 0;    ///< in the same unit; the law's file derives it
+  Side side = Side::both;  ///< whether a lower number is right, too
+  /// Largest error that a derived limit of the method allows; 0: no limit is derived.
   double limit = 0;
-  std::string why{};  ///< of the limit, and the setting that moves it
+  std::string why{};  ///< reason of the limit, and the setting that changes it
 };
 
-/// What became of a reading, or of a whole row.
+/// Verdict about a reading, or about a whole row.
 enum class Verdict {
   holds,   ///< within the tolerance
-  limit,   ///< beyond it, within the derived limit
+  limit,   ///< beyond the tolerance, within the derived limit
   broken,  ///< beyond both
 };
 
-/// By tolerance and limit.
+/// Judges a reading by tolerance and limit.
 Verdict verdict(const Reading& reading);
-/// The worst of them; holds where there is none.
+/// Returns the worst verdict; holds if there is none.
 Verdict verdict(std::span<const Reading> readings);
-/// The reading that is farthest out, in units of its tolerance; null where there is none.
+/// Returns the reading that is farthest out, in units of its tolerance; null if there is none.
 const Reading* worst(std::span<const Reading> readings);
 
-/// How much is asked: the least that can show the law broken, for CI, or all of it.
+/// How much is run: the least that can show the law broken, for CI, or everything.
 enum class LawSize { least, whole };
 
-/// A law by name.
+/// A law with its name, scenes and readings.
 struct Law {
   std::string_view name, group;  ///< "slope_slides", "slopes"
-  std::string_view meaning;      ///< what it proves, a clause
-  std::string_view answer;       ///< the closed answer, a line
-  bool needs_springs = false;    ///< only who has contact energy is asked (Answerer); of others the row says so
-  /// What is to be moved, one after the other; settings.steps says how far.
+  std::string_view meaning;      ///< clause: what it proves
+  std::string_view answer;       ///< line: the closed answer
+  /// only for solvers with contact energy (Answerer); for others the row says that it was left out
+  bool needs_springs = false;
+  /// Returns the scenes to move; settings.steps gives the length.
   std::vector<Scene> (*scenes)(LawSize size) = nullptr;
-  /// Reads the trajectories of these scenes, in their order, each whole.
+  /// Reads the whole trajectories of these scenes, in their order.
   std::vector<Reading> (*read)(std::span<const Trajectory> runs) = nullptr;
 };
 
-/// All laws, group by group.
+/// Returns all laws, group by group.
 std::span<const Law> laws();
-/// The law of this name. Throws InputError that lists what there is.
+/// Returns the law of this name. Throws InputError that lists all names.
 const Law& find_law(std::string_view name);
 
 }  // namespace ogc::compare

@@ -18,7 +18,7 @@ void each_vertex(const Body& body, Visit visit) {
   for (Index v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v) visit(static_cast<std::size_t>(v));
 }
 
-/// Σ m q of a body over its mass.
+/// Returns Σ m q of a body over its mass.
 Vec3 mean(const Scene& scene, std::size_t body, const std::vector<Vec3>& values) {
   const std::vector<double> m = masses(scene);
   Vec3 sum{};
@@ -30,7 +30,7 @@ Vec3 mean(const Scene& scene, std::size_t body, const std::vector<Vec3>& values)
   return {sum.x / all, sum.y / all, sum.z / all};
 }
 
-/// f₁ of friction (method.md §4.4) as a function of v/ε_v, odd.
+/// Returns f₁ of friction (method.md §4.4) as a function of v/ε_v, odd.
 double smoothed_sign(double share) {
   const double y = std::min(std::abs(share), 1.);
   return std::copysign(y * (2 - y), share);

@@ -1,5 +1,5 @@
-// What laws measure of a trajectory, and the scalar recursions that several of them share. Masses and energies are
-// written from method.md once more: a law borrows nothing of those whom it judges.
+// Measures trajectories, and solves the scalar recursions that several laws share. Masses and energies are written from
+// method.md once more: a law borrows nothing from the solvers that it judges.
 #pragma once
 
 #include <string>
@@ -10,43 +10,45 @@
 
 namespace ogc::compare::law_measures {
 
-/// a + s b, a · b and a × b.
+/// Return a + s b, a · b, a × b and ‖a‖.
 Vec3 plus(const Vec3& a, const Vec3& b, double s = 1);
 double dot(const Vec3& a, const Vec3& b);
 Vec3 cross(const Vec3& a, const Vec3& b);
 double length(const Vec3& a);
 
-/// The share of a body's weight that a step may leave unbalanced. Newton ends at 10⁻⁴ of the force after the guess
-/// (newton_tolerance), which of a body at rest is its weight; of sweeps, as many as a scene has, 1/40 is asked.
+/// Returns the share of a body's weight that a step may leave unbalanced. Newton ends at 10⁻⁴ of the force after the
+/// guess (newton_tolerance), which is the weight of a body at rest; sweeps, as many as a scene has, must reach 1/40.
 double force_left(const Trajectory& run);
 
-/// Steps by which friction's normal force may be late: one solve, and with barriers, whose force begins at nothing, the
-/// step of the first one.
+/// Returns the number of steps by which friction's normal force may be late: one solve, and with barriers, whose force
+/// begins at 0, also the first step.
 double lagged_steps(const Trajectory& run);
 
-/// m_v [kg]: a third of each triangle's, a quarter of each tetrahedron's, half of each segment's mass at rest
-/// (method.md §4.10, §8.4); 0 of fixed bodies.
+/// Returns m_v [kg]: a third of each triangle's, a quarter of each tetrahedron's, half of each segment's mass at rest
+/// (method.md §4.10, §8.4); 0 on fixed bodies.
 std::vector<double> masses(const Scene& scene);
 
-/// Total mass of a body [kg]; mean of its positions and velocities weighted by mass; Σ m v of all that moves.
+/// Return the total mass of a body [kg]; the mean of its positions and velocities weighted by mass; Σ m v of everything
+/// that moves.
 double mass_of(const Scene& scene, std::size_t body);
 Vec3 centre(const Scene& scene, std::size_t body, const LawState& state);
 Vec3 centre_velocity(const Scene& scene, std::size_t body, const LawState& state);
 Vec3 momentum(const Scene& scene, const LawState& state);
-/// Σ m x × v of all that moves, about the origin [kg m²/s].
+/// Returns Σ m x × v of everything that moves, about the origin [kg m²/s].
 Vec3 angular_momentum(const Scene& scene, const LawState& state);
-/// Σ m v²/2 of all that moves [J].
+/// Returns Σ m v²/2 of everything that moves [J].
 double kinetic_energy(const Scene& scene, const LawState& state);
-/// The largest coordinate of any state [m].
+/// Returns the largest coordinate of any state [m].
 double largest_coordinate(const Trajectory& run);
 
-/// How far positions in single precision may be off after n steps of free flight [m]. Each step rounds x and
+/// Returns the largest error of positions in single precision after n steps of free flight [m]. Each step rounds x and
 /// v = (x' − x)/h, the first by u |x|, the second by 2 u |x|/h, and a wrong v is carried on: n + 2 (1 + … + n) such
-/// roundings, all of one sign at worst.
+/// roundings, in the worst case all of one sign.
 double flight_rounding(std::int64_t n, double largest_coordinate);
 
-/// Implicit Euler of one body that slides with velocity v against something with friction (method.md §4.4):
-/// v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so there is one root.
+/// Returns the velocity v' after a step of implicit Euler of a body that slides with velocity v against friction
+/// (method.md §4.4): v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so there is one
+/// root.
 double slid(double velocity, double drive, double brake, double friction_velocity, double time_step);
 
 /// Implicit Euler of a height x above a plane at 0 that repels below r with k_c (r − x), x ≥ r/2, per mass: the

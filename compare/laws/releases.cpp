@@ -1,5 +1,5 @@
-// Leaving a contact. What lies at d = r has no force, and no force may come: whatever leaves moves freely (falls.cpp),
-// or as it would without the floor, also where its contact is listed before it acts, as `contact_margin` has it.
+// Tests leaving a contact. At d = r there is no force, and none may appear: a body that leaves moves freely
+// (falls.cpp), or as it would without the floor, also if `contact_margin` lists its contact before it acts.
 //
 // A triangle of three equal vertices that falls flat on a floor of one triangle stays flat: each vertex is a mass on a
 // spring of its own, and implicit Euler's step is the minimiser of ‖x − y‖²/(2h²) + (k_c/m)/2 max(0, r − x)² with
@@ -7,10 +7,11 @@
 //
 //     x' = y where y ≥ r, otherwise (y + κ r)/(1 + κ), κ = h² k_c/m                 (law_measures::bounced).   (1)
 //
-// Of a convex potential U implicit Euler loses (v' − v)²/2 and more a step, so that m v²/2 + m g x + U never rises.
-// That takes a contact which is listed in the step that brings it below r. A detection lists what is below r where the
-// step begins: then the impact's step goes as deep as h v without paying k_c (h v)²/2 for it, and the bounce is richer
-// by up to that. With v² = 2 g H of a fall of H it is κ of the fall's energy, a limit that `contact_margin` moves.
+// With a convex potential U implicit Euler loses at least (v' − v)²/2 in each step, so that m v²/2 + m g x + U never
+// rises. That needs a contact that is listed in the step that brings it below r. A detection lists contacts below r at
+// the start of the step: then the step of the impact goes as deep as h v without paying k_c (h v)²/2 for it, and the
+// bounce gains up to that. With v² = 2 g H after a fall of H it is κ of the fall's energy, a limit that
+// `contact_margin` changes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,7 +30,7 @@ constexpr double spacing = 0.05, reach = 0.5;
 constexpr Index sheet_vertices = 25;
 constexpr Vec3 down{0, -standard_gravity, 0};
 
-/// A sheet that lies at d = r, with another gravity.
+/// Returns a scene with a sheet at d = r and another gravity.
 Scene leaving(const char* name, const Vec3& gravity, double floor_speed) {
   Scene scene = empty_scene(name, 0.005, 20, 40);
   scene.gravity = gravity;
@@ -43,7 +44,7 @@ Scene leaving(const char* name, const Vec3& gravity, double floor_speed) {
   return scene;
 }
 
-/// The largest distance of the sheet's vertices from free flight at any step, in roundings.
+/// Returns the largest distance of the sheet's vertices from free flight at any step, in roundings.
 Reading distance_from_flight(const Trajectory& run) {
   const double h = run.scene.settings.time_step, largest = largest_coordinate(run);
   double most = 0;
@@ -68,14 +69,14 @@ std::vector<Reading> read_leaving(std::span<const Trajectory> runs) {
   return {distance_from_flight(runs[0]), distance_from_flight(runs[1])};
 }
 
-/// The scene, and the same with contacts that are listed from 2 r on.
+/// Returns the scene, and the same with contacts listed from 2 r on.
 std::vector<Scene> with_early_lists(const Scene& scene) {
   Scene early = scene;
   early.settings.contact_margin = 1;
   return {scene, early};
 }
 
-/// A sheet at d = r that is thrown up askew, so that it stretches, with a floor and without.
+/// Returns a sheet at d = r that is thrown up askew, so that it stretches, with a floor and without.
 std::vector<Scene> beyond_scenes(LawSize) {
   Scene with = leaving("beyond_contact", {0, 0, 0}, 0);
   with.settings.contact_margin = 1;
@@ -92,7 +93,7 @@ std::vector<Scene> beyond_scenes(LawSize) {
   return {with, without};
 }
 
-/// Steps may leave force_left of what bends the sheet off its free way.
+/// Reads the difference; steps may leave force_left of what bends the sheet off its free way.
 std::vector<Reading> read_beyond(std::span<const Trajectory> runs) {
   const Trajectory &with = runs[0], &without = runs[1];
   double most = 0, elastic = 0;
@@ -111,7 +112,7 @@ std::vector<Reading> read_beyond(std::span<const Trajectory> runs) {
            .side = Side::at_most}};
 }
 
-/// One triangle with equal masses above a floor of one triangle.
+/// Returns one triangle with equal masses above a floor of one triangle.
 Scene small_triangle(const char* name, double height, double time_step, std::int64_t steps, const Vec3& gravity) {
   Scene scene = empty_scene(name, time_step, steps, 40);
   scene.gravity = gravity;
@@ -134,8 +135,8 @@ std::vector<Height> heights_by_law(const Trajectory& run) {
   return heights;
 }
 
-/// The largest distance of the centre's height from (1). A step leaves up to 10⁻⁴ of its force, forty sweeps of one
-/// spring a vertex no more, and fewer than ten steps are in contact; rounding is that of flight.
+/// Returns the largest distance of the centre's height from (1). A step leaves up to 10⁻⁴ of its force, forty sweeps of
+/// one spring for each vertex no more, and fewer than ten steps are in contact; rounding is that of flight.
 Reading distance_of_height(const Trajectory& run) {
   const std::vector<Height> law = heights_by_law(run);
   double most = 0, way = 0;
@@ -154,7 +155,7 @@ Reading distance_of_height(const Trajectory& run) {
 
 std::vector<Reading> read_heights(std::span<const Trajectory> runs) { return {distance_of_height(runs[0])}; }
 
-/// Kinetic, gravity's and the springs' energy of the triangle [J].
+/// Returns the kinetic energy, gravity's and the springs' energy of the triangle [J].
 double energy_of_bounce(const Trajectory& run, const LawState& state) {
   const double r = run.scene.settings.contact_radius;
   double energy = kinetic_energy(run.scene, state) -
@@ -164,7 +165,7 @@ double energy_of_bounce(const Trajectory& run, const LawState& state) {
   return energy;
 }
 
-/// The largest rise of energy over that of the fall.
+/// Returns the largest rise of energy over that of the fall.
 double energy_gained(const Trajectory& run) {
   double least = std::numeric_limits<double>::infinity(), rise = 0;
   for (const LawState& state : run.states) {

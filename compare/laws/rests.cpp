@@ -1,13 +1,14 @@
-// Rest. A floor of one triangle has no edge and no vertex near a body, so that each vertex of a sheet above it has one
-// contact with it, a spring k_c (r − d) along the normal with d its height. At rest these bear the weight,
+// Tests rest. A floor of one triangle has no edge and no vertex near a body, so that each vertex of a sheet above it
+// has one contact with it, a spring k_c (r − d) along the normal with d its height. At rest these bear the weight,
 //
 //     Σ k_c (r − d_v) = M g,
 //
-// whatever lies on what, and nothing moves along the normal; along the floor what sticks may creep (slopes.cpp). A
-// sheet that is dropped by a fifth of r comes to rest, too: implicit Euler takes (v' − v)²/2 a step from it at least.
+// whatever lies on top of what, and nothing moves along the normal; along the floor sticking vertices may creep
+// (slopes.cpp). A sheet that is dropped by a fifth of r also comes to rest: implicit Euler takes at least (v' − v)²/2
+// from it in each step.
 //
-// Tolerances: law_measures::force_left of the weight. So little force moves a vertex by that share of g h in a step,
-// and its energy is the square of it.
+// Tolerances are law_measures::force_left of the weight. That force changes a vertex's velocity by that share of g h in
+// a step, and its energy is the square of it.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +22,7 @@ namespace {
 using namespace law_measures;
 using namespace law_shapes;
 
-/// Σ k_c (r − d) over the vertices of the lowest sheet [N]; no other one is within r of the floor.
+/// Returns Σ k_c (r − d) over the vertices of the lowest sheet [N]; no other one is within r of the floor.
 double borne(const Trajectory& run, const LawState& state) {
   const Body& of = run.scene.bodies[0];
   double sum = 0;
@@ -31,13 +32,13 @@ double borne(const Trajectory& run, const LawState& state) {
   return sum;
 }
 
-/// Σ m v_y²/2: what sticks may creep along the floor, as ε_v allows.
+/// Returns Σ m v_y²/2: sticking vertices may creep along the floor, as ε_v allows.
 double vertical_energy(const Scene& scene, LawState state) {
   for (Vec3& v : state.velocities) v = {0, v.y, 0};
   return kinetic_energy(scene, state);
 }
 
-/// Of the run's last quarter.
+/// Reads the run's last quarter.
 void add_rest(std::vector<Reading>& readings, const Trajectory& run, const std::string& how) {
   double mass = 0, kinetic = 0;
   for (const double m : masses(run.scene)) mass += m;
@@ -74,9 +75,9 @@ std::vector<Scene> weight_scenes(LawSize) {
   return {scene, dropped};
 }
 
-/// With a hundred sweeps. Its sheets have ten contacts a vertex with each other and one with the floor, so that the
-/// stack sinks and rises as one body against blocks that are many times as stiff: a sweep takes about 7 % of that,
-/// where one of a sheet alone takes nearly all.
+/// Runs a hundred sweeps. The sheets have ten contacts a vertex with each other and one with the floor, so that the
+/// stack sinks and rises as one body against blocks that are many times as stiff: a sweep removes about 7 % of that,
+/// while for a single sheet one removes nearly all.
 std::vector<Scene> stack_scenes(LawSize size) {
   Scene scene = stacked_sheets("stack_at_rest", 3, size == LawSize::least ? 200 : 400);
   scene.settings.iterations = 100;

@@ -1,7 +1,7 @@
-// Slopes: gravity is tilted by α over a level floor, so that x runs down the slope. A body in contact has the normal
-// force m g cos α, all of it, at rest as in the mean of every motion along the floor: what it does along the normal is
-// a change of momentum that stays bounded. So along the slope its centre obeys Coulomb's law as method.md §4.4 smooths
-// it, and implicit Euler makes of it one equation a step (law_measures::slid):
+// Tests slopes: gravity is tilted by α over a level floor, so that x runs down the slope. A body in contact has the
+// normal force m g cos α, at rest, and in the mean of every motion along the floor, since its momentum along the normal
+// stays bounded. So along the slope its centre obeys Coulomb's law as method.md §4.4 smooths it, and implicit Euler
+// turns it into one equation for each step (law_measures::slid):
 //
 //     v' = v + h (g sin α − μ g cos α f₁(v'/ε_v)),   x' = x + h v',   f₁(y) = 2 y − y² for y < 1, else 1.
 //
@@ -28,7 +28,7 @@ namespace {
 using namespace law_measures;
 using namespace law_shapes;
 
-/// One slope: its angle, friction, and the velocity down it at the start.
+/// One slope: its angle, friction, and the initial velocity down it.
 struct Slope {
   double angle = 0, friction = 0, velocity = 0;  ///< [rad], [1], [m/s]
 };
@@ -36,12 +36,12 @@ constexpr double radius = 0.01, sheet_side = 0.2, block_side = 0.1;
 
 Vec3 tilted(double angle) { return {standard_gravity * std::sin(angle), -standard_gravity * std::cos(angle), 0}; }
 
-/// 49 vertices a metre apart: bodies cross its edges and vertices.
+/// Adds a floor of 49 vertices a metre apart: bodies cross its edges and vertices.
 void add_floor(Scene& scene, const Material& material) {
   append_body(scene, {.name = "floor", .fixed = true, .material = material}, sheet(7, 7, 1, 0));
 }
 
-/// A sheet at the depth at which `vertices` springs bear its weight.
+/// Returns a sheet at the depth at which `vertices` springs bear its weight.
 Scene sheet_on(const char* name, const Slope& slope, std::int64_t steps) {
   Scene scene = empty_scene(name, 0.005, steps, 40);
   scene.gravity = tilted(slope.angle);
@@ -57,7 +57,7 @@ Scene sheet_on(const char* name, const Slope& slope, std::int64_t steps) {
   return scene;
 }
 
-/// A block of soft rubber, 27 vertices, nine of them on the floor.
+/// Returns a block of soft rubber, 27 vertices, nine of them on the floor.
 Scene block_on(const char* name, const Slope& slope, std::int64_t steps) {
   Scene scene = empty_scene(name, 0.005, steps, 40);
   scene.gravity = tilted(slope.angle);
@@ -76,7 +76,7 @@ Scene block_on(const char* name, const Slope& slope, std::int64_t steps) {
   return scene;
 }
 
-/// The discrete law from the scene's own numbers: way [m] and velocity [m/s] after all steps.
+/// Way [m] and velocity [m/s] after all steps by the discrete law, from the scene's own numbers.
 struct Slid {
   double way = 0, velocity = 0;
 };
@@ -91,8 +91,8 @@ Slid slid_down(const Trajectory& run, std::size_t steps) {
   return now;
 }
 
-/// What friction's lag and sweeps may leave of a velocity that friction alone changes, in shares of it; a way has twice
-/// the lag. `seconds`: of sliding.
+/// Errors that friction's lag and sweeps may leave in a velocity that friction alone changes, in shares of it; a way
+/// has twice the lag. `seconds`: time of sliding.
 struct Share {
   double way = 0, velocity = 0;
 };
@@ -130,7 +130,7 @@ std::vector<Reading> read_slide(std::span<const Trajectory> runs) {
   return readings;
 }
 
-/// Over the second half, when what the start shook has gone.
+/// Reads the second half, when the disturbance of the start has decayed.
 std::vector<Reading> read_stick(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const std::size_t last = run.states.size() - 1, half = last / 2;
@@ -138,7 +138,7 @@ std::vector<Reading> read_stick(std::span<const Trajectory> runs) {
   const double way = centre(run.scene, 0, run.states[last]).x - centre(run.scene, 0, run.states[half]).x;
   const double share = run.scene.gravity.x / (-run.scene.gravity.y * run.scene.bodies[0].material.friction);
   const double creep = run.scene.settings.friction_velocity * (1 - std::sqrt(1 - share));
-  // An error e of λ changes f₁ by e of itself, and y by e f₁/(2 (1 − y)); rounding is one of x a step at worst.
+  // An error e of λ changes f₁ by e f₁, and y by e f₁/(2 (1 − y)); rounding is at worst one of x in each step.
   const double error = (lagged_steps(run) / static_cast<double>(run.rows.size()) + force_left(run)) * share /
                        (2 * std::sqrt(1 - share)) * run.scene.settings.friction_velocity;
   return {{.what = "creep",
@@ -159,7 +159,7 @@ std::vector<Reading> read_frictionless(std::span<const Trajectory> runs) {
            .tolerance = share * law.velocity}};
 }
 
-/// The way until it rests, after v/(μ g), and that it rests.
+/// Reads the way until it rests, after v/(μ g), and that it rests.
 std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const Slid law = slid_down(run, run.rows.size());
@@ -177,7 +177,8 @@ std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
 
 constexpr Slope steep{degrees(20), 0.2, 0}, gentle{degrees(2), 1, 0}, smooth{degrees(20), 0, 0}, level{0, 0.2, 0.5};
 
-/// At the whole size with five times the sweeps, too, and with half of h: both obey the law of their own h.
+/// Returns the scene, and at the whole size also with five times the sweeps, and with half of h: both obey the law of
+/// their own h.
 std::vector<Scene> at_sizes(Scene scene, LawSize size) {
   if (size == LawSize::least) return {scene};
   Scene swept = scene, fine = scene;

@@ -1,5 +1,5 @@
-// What hangs. A strip of membrane with λ = 0 does not get narrower as it is drawn (St. Venant–Kirchhoff, method.md
-// §4.6): with a stretch s along gravity ψ = μ (s² − 1)²/4, so the force across a width w is
+// Tests hanging strips and bars. A strip of membrane with λ = 0 does not get narrower as it is drawn (St.
+// Venant–Kirchhoff, method.md §4.6): with a stretch s along gravity ψ = μ (s² − 1)²/4, so the force across a width w is
 //
 //     T = μ w s (s² − 1).
 //
@@ -32,7 +32,7 @@ using namespace law_shapes;
 
 constexpr double cell = 0.025;
 
-/// The stretch of a row that bears `load` = T/(μ w) [1]: s (s² − 1) rises from s = 1.
+/// Returns the stretch of a row that bears `load` = T/(μ w) [1]: s (s² − 1) rises from s = 1.
 double stretch(double load) {
   double low = 1, high = 2 + load;
   for (int k = 0; k < 100; ++k) {
@@ -42,14 +42,14 @@ double stretch(double load) {
   return low;
 }
 
-/// Mass of the vertices from row `first` on, `width` vertices a row.
+/// Returns the mass of the vertices from row `first` on, `width` vertices in a row.
 double mass_below(const std::vector<double>& m, std::size_t first, std::size_t width) {
   double sum = 0;
   for (std::size_t v = first * width; v < m.size(); ++v) sum += m[v];
   return sum;
 }
 
-/// Hangs the scene's first body along x: row i goes to where the closed answer has it, row 0 stays.
+/// Hangs the scene's first body along x: row i goes to its place in the closed answer, row 0 stays.
 template <class Stretch>
 void hang(Scene& scene, std::size_t width, Stretch stretch_under) {
   const std::vector<double> m = masses(scene);
@@ -71,7 +71,7 @@ Scene strip(Index rows, std::int64_t iterations, std::int64_t steps) {
   Scene scene = empty_scene("hanging_strip", 0.005, steps, iterations);
   Material material = cloth(0);
   material.density = strip_density;
-  material.membrane = MembraneModel::st_venant_kirchhoff;  // whose T stands above
+  material.membrane = MembraneModel::st_venant_kirchhoff;  // T above belongs to this model
   material.lame_mu = strip_mu;
   material.lame_lambda = 0;
   append_body(scene, {.name = "strip", .material = material}, sheet(rows, 3, cell, 0));
@@ -79,7 +79,7 @@ Scene strip(Index rows, std::int64_t iterations, std::int64_t steps) {
   return scene;
 }
 
-/// How much lower sweeps may leave the end, as above.
+/// Returns how much lower sweeps may leave the end, as derived above.
 double swept_sag(const Trajectory& run, double young, double density, double area, double rows) {
   const double h = run.scene.settings.time_step, m = density * area * cell, k = young * area / cell;
   const double q = std::numbers::pi / (2 * rows + 1), rho = std::pow(2 * k * std::cos(q) / (m / (h * h) + 2 * k), 2);
@@ -88,7 +88,7 @@ double swept_sag(const Trajectory& run, double young, double density, double are
   return 4 / std::numbers::pi * h * h * standard_gravity * left / ((1 - left) * kept);
 }
 
-/// Extension at the end over that of the closed answer, at which the run began.
+/// Reads the extension at the end over that of the closed answer, at which the run began.
 Reading read_hanging(const Trajectory& run, std::size_t width, double young, double density, double area) {
   const auto end = [&](const std::vector<Vec3>& x) {
     double sum = 0;

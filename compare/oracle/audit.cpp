@@ -1,5 +1,5 @@
-// Culling by boxes, then one exact question for each pair. Findings are gathered by thread and sorted, so that the
-// answer never depends on threads.
+// Culls by boxes, then decides each pair exactly. Findings are collected by thread and sorted, so that the answer never
+// depends on threads.
 #include "compare/oracle/audit.hpp"
 
 #include <tbb/blocked_range.h>
@@ -15,7 +15,7 @@
 namespace ogc::compare {
 namespace {
 
-/// What one thread found, or all of them.
+/// The findings of one thread, or of all.
 struct Findings {
   std::vector<Intersection> intersections;
   std::size_t pairs_tested = 0;
@@ -45,7 +45,7 @@ class Auditor {
       all.pairs_tested += share.pairs_tested;
     }
     std::sort(all.intersections.begin(), all.intersections.end());
-    // Two edges may each lie opposite in a triangle of the other, or in several.
+    // The same two edges may be found through several triangles.
     const auto [first, last] = std::ranges::unique(all.intersections);
     all.intersections.erase(first, last);
     return all;
@@ -112,8 +112,8 @@ class Auditor {
 
   std::array<Vec3, 2> segment(const Edge& e) const { return {positions_[at(e[0])], positions_[at(e[1])]}; }
 
-  /// The edge and the side of a triangle that lies opposite to their one common vertex: they may cross in the plane of
-  /// both, with no end on any triangle.
+  /// Tests an edge against the side of a triangle that lies opposite to their one common vertex: they may cross in the
+  /// plane of both, with no end on any triangle.
   void test_opposite(Index edge, const Box& box, const Edge& side, Findings& found) const {
     const std::array<Vec3, 2> others = segment(side);
     if (!box.meets(box_of({others[0], others[1]}))) return;
@@ -125,7 +125,8 @@ class Auditor {
     found.intersections.push_back({IntersectionKind::edge_edge, std::min(edge, other), std::max(edge, other)});
   }
 
-  /// Beyond the vertex that they share, if they do: the end of one lies on the other.
+  /// Returns whether two edges meet, beyond the vertex that they share if they do: an end of one then lies on the
+  /// other.
   bool meet(const Edge& first, const Edge& second) const {
     const auto lies_on = [&](Index v, const Edge& other) {
       return v != other[0] && v != other[1] && segments_meet(segment({v, v}), segment(other));
@@ -151,8 +152,8 @@ class Auditor {
   std::span<const Vec3> positions_;
   ExclusionView exclusions_;
   BoxTree tree_;
-  std::vector<Index> loose_;  ///< edges of no triangle
-  BoxTree loose_tree_;        ///< over these
+  std::vector<Index> loose_;  ///< edges that belong to no triangle
+  BoxTree loose_tree_;        ///< over the loose edges
 };
 
 }  // namespace

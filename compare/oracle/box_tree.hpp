@@ -1,6 +1,6 @@
-// A tree of axis-parallel boxes for the oracle's culling. Boxes are closed and compared in double without arithmetic,
-// so culling never rounds: a pair that meets is always visited. Own tree, because CGAL's asks its kernel about each
-// datum and wants no degenerate ones.
+// Culls pairs with a tree of axis-parallel boxes. Boxes are closed and compared in double without arithmetic, so
+// culling never rounds: a pair that meets is always visited. CGAL's own tree evaluates predicates of its kernel for
+// each item and excludes degenerate ones.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ struct Box {
   std::array<double, 3> low{1e308, 1e308, 1e308}, high{-1e308, -1e308, -1e308};  ///< corners [m]
   void add(const Vec3& point);                                                   ///< grows to hold the point
   void add(const Box& box);                                                      ///< grows to hold the box
-  /// Whether the closed boxes share a point. Here, because it is asked far more often than anything else.
+  /// Returns whether the closed boxes share a point. Inline, because it is called far more often than anything else.
   bool meets(const Box& other) const {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
            low[2] <= other.high[2] && other.low[2] <= high[2];
   }
 };
 
-/// Box of the given points.
+/// Returns the box of the given points.
 Box box_of(std::initializer_list<Vec3> points);
 
 /// Binary tree over boxes, split at the median centre along the longest side; the same boxes give the same tree on any
@@ -33,7 +33,7 @@ Box box_of(std::initializer_list<Vec3> points);
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes);
-  /// What making a tree over so many boxes takes at the most, with the boxes.
+  /// Returns the most memory that making a tree over so many boxes takes, with the boxes.
   static std::size_t bytes(std::size_t boxes);
 
   /// Calls `visit(i)` for every box i that meets `query`, in the order of the tree.
@@ -57,12 +57,12 @@ class BoxTree {
   }
 
  private:
-  /// A leaf holds one item. The left child stands behind its parent, the right one behind the left one's subtree.
+  /// A leaf holds one item. The left child follows its parent, the right one the left one's subtree.
   struct Node {
     Box box;
     Index right = -1, item = -1;
   };
-  /// What a split asks of an item, gathered in one place.
+  /// The data of an item that a split needs, in one place.
   struct Item {
     std::array<double, 3> centre{};
     Index box = 0;

@@ -14,7 +14,7 @@
 namespace ogc::compare {
 namespace {
 
-/// a + b = high + low, exactly.
+/// The exact sum a + b = high + low.
 struct TwoParts {
   double high, low;
 };
@@ -24,7 +24,7 @@ TwoParts two_sum(double a, double b) {
   return {sum, (a - a_part) + (b - b_part)};
 }
 
-/// A sum of doubles kept without rounding, components ascending in size and not overlapping.
+/// Keeps a sum of doubles without rounding, components ascending in size and not overlapping.
 class ExactSum {
  public:
   void add(double value) {

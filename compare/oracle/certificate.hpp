@@ -1,5 +1,5 @@
-// The motion certificate (method.md §5.5): two states without intersections say nothing about the way between them;
-// bounds that are kept do.
+// Checks the motion certificate (method.md §5.5): two states without intersections do not prove that the way between
+// them was free; bounds that are kept do.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,19 @@
 
 namespace ogc::compare {
 
-/// What the stored positions say about Eq. 27. Kept: no vertex moved further than its bound.
+/// Holds whether stored positions satisfy Eq. 27. It is kept if no vertex moved further than its bound.
 struct MotionCertificate {
   /// vertices with ‖x − x_prev‖ > b_v, or with a number that is not finite, or with b_v < 0
   std::size_t violations = 0;
-  Index worst_vertex = -1;  ///< of the largest ratio, the first of equals; -1 where no vertex moved
-  /// largest ‖x − x_prev‖ / b_v, rounded; infinite where a vertex moved against b_v = 0 or is not finite
+  Index worst_vertex = -1;  ///< vertex of the largest ratio, the first of equals; -1 if no vertex moved
+  /// largest ‖x − x_prev‖ / b_v, rounded; infinite if a vertex moved against b_v = 0 or is not finite
   double worst_ratio = 0;
   bool kept() const { return violations == 0; }
 };
 
-/// Each comparison is exact, on the stored single-precision values; only `worst_ratio` is rounded. The arrays are those
-/// of a Snapshot: positions x, X_prev and b_v of the last detection [m], one entry each vertex. Throws InputError where
-/// their lengths differ.
+/// Compares each motion with its bound exactly, on the stored single-precision values; only `worst_ratio` is rounded.
+/// The arrays are those of a Snapshot: positions x, X_prev and b_v of the last detection [m], one entry for each
+/// vertex. Throws InputError if their lengths differ.
 MotionCertificate motion_certificate(std::span<const Vec3f> positions, std::span<const Vec3f> previous,
                                      std::span<const float> bounds);
 

@@ -1,5 +1,5 @@
-// Points of one plane are projected along a coordinate axis on which the plane does not project to a line, points of
-// one line along two: both are one-to-one there, and dropping coordinates rounds nothing.
+// Projects points of a plane along a coordinate axis on which the plane does not become a line, which is one-to-one,
+// and compares points of a line coordinate by coordinate. Dropping coordinates rounds nothing.
 #include "compare/oracle/exact_intersection.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -24,14 +24,14 @@ Point2 project(const Vec3& v, int axis) {
   return axis == 1 ? Point2(v.z, v.x) : Point2(v.x, v.y);
 }
 
-/// Axis along which the three points project to a proper triangle; none where they are collinear.
+/// Returns the axis along which the three points project to a proper triangle; none if they are collinear.
 std::optional<int> projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
   for (int axis = 0; axis < 3; ++axis)
     if (CGAL::orientation(project(a, axis), project(b, axis), project(c, axis)) != CGAL::COLLINEAR) return axis;
   return std::nullopt;
 }
 
-/// c lies in the box of a and b: where the three are collinear, on the closed segment ab.
+/// Returns whether c lies in the box of a and b: for collinear points, on the closed segment ab.
 bool within(const Point2& a, const Point2& b, const Point2& c) {
   const auto between = [](double s, double t, double u) { return std::min(s, t) <= u && u <= std::max(s, t); };
   return between(a.x(), b.x(), c.x()) && between(a.y(), b.y(), c.y());
@@ -45,7 +45,7 @@ bool planar_segments_meet(const Point2& p, const Point2& q, const Point2& a, con
          (aq == 0 && within(a, b, q));
 }
 
-/// Proper triangle, closed.
+/// Returns whether a proper, closed triangle holds the point.
 bool planar_triangle_holds(const std::array<Point2, 3>& t, const Point2& p) {
   const int s0 = CGAL::orientation(t[0], t[1], p), s1 = CGAL::orientation(t[1], t[2], p),
             s2 = CGAL::orientation(t[2], t[0], p);
@@ -60,7 +60,7 @@ bool planar_segment_meets_triangle(const std::array<Vec3, 2>& segment, const std
          planar_segments_meet(p, q, t[2], t[0]);
 }
 
-/// All four points on one line, or all the same.
+/// Returns whether the segments meet; all four points lie on one line, or are the same.
 bool collinear_segments_meet(const std::array<Vec3, 2>& first, const std::array<Vec3, 2>& second) {
   const auto overlap = [](double a, double b, double c, double d) {
     return std::max(std::min(a, b), std::min(c, d)) <= std::min(std::max(a, b), std::max(c, d));

@@ -1,5 +1,5 @@
-// Does a segment meet a triangle? Decided by exact predicates alone, and total: whatever the five points are, there is
-// an answer. The degenerate configurations are not rare here; they are what an audit is asked about.
+// Decides whether a segment meets a triangle or a segment, by exact predicates alone, for any points. Degenerate
+// configurations are not rare in an audit.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 
 namespace ogc::compare {
 
-/// Closed segment pq and closed triangle abc share a point. Either may be degenerate: p = q is a point, a collinear
-/// triangle is the segment or point that it covers. Coordinates must be finite.
+/// Returns whether closed segment pq and closed triangle abc share a point. Either may be degenerate: p = q is a point,
+/// a collinear triangle is the segment or point that it covers. Coordinates must be finite.
 bool segment_meets_triangle(const std::array<Vec3, 2>& segment, const std::array<Vec3, 3>& triangle);
 
-/// Closed segments share a point; either may be a point. Coordinates must be finite.
+/// Returns whether closed segments share a point; either may be a point. Coordinates must be finite.
 bool segments_meet(const std::array<Vec3, 2>& first, const std::array<Vec3, 2>& second);
 
 }  // namespace ogc::compare

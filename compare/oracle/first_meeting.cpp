@@ -27,10 +27,10 @@ class Paths {
     for (std::size_t k = 0; k < 4; ++k) areas_[k] = area(triples[k]);
   }
 
-  /// Six times the volume of the four points: 0 wherever the faces share one.
+  /// Returns six times the volume of the four points: 0 whenever the faces share a point.
   Polynomial volume() const { return dot(areas_[0], minus(points_[3], points_[0])); }
 
-  /// All that `meets` asks the sign of.
+  /// Returns all polynomials whose sign `meets` reads.
   std::vector<Polynomial> questions() const {
     std::vector<Polynomial> all;
     const auto add = [&](const Path& v) {
@@ -43,7 +43,7 @@ class Paths {
     return all;
   }
 
-  /// At a time at which the volume is 0.
+  /// Returns whether the faces meet at a time at which the volume is 0.
   bool meets(Moment& time) const { return kind_ == MeetingKind::edge_edge ? edges_meet(time) : vertex_meets(time); }
 
  private:
@@ -51,12 +51,12 @@ class Paths {
     return cross(minus(points_[t[1]], points_[t[0]]), minus(points_[t[2]], points_[t[0]]));
   }
 
-  /// Orientation of three points seen along an axis.
+  /// Returns the orientation of three points seen along an axis.
   int side(Moment& time, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     return time.sign(component(area({i, j, k}), axis));
   }
 
-  /// Coordinate `axis` of k is not outside of those of i and j.
+  /// Returns whether coordinate `axis` of k lies between those of i and j, ends included.
   bool between(Moment& time, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     const auto beyond = [&](std::size_t end) {
       return time.sign(component(points_[k], axis) - component(points_[end], axis));
@@ -64,12 +64,13 @@ class Paths {
     return beyond(i) * beyond(j) <= 0;
   }
 
-  /// Seen along an axis, k lies in the box of i and j: where the three are collinear, on the closed segment.
+  /// Returns whether k, seen along an axis, lies in the box of i and j: for collinear points, on the closed segment.
   bool within(Moment& time, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     return between(time, i, j, k, (axis + 1) % 3) && between(time, i, j, k, (axis + 2) % 3);
   }
 
-  /// Points of a plane are seen along an axis on which it is no line: one-to-one.
+  /// Returns whether the edges meet. Points of a plane are projected along an axis on which it becomes no line:
+  /// one-to-one.
   bool edges_meet(Moment& time) const {
     for (const Triple& t : triples)
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -87,7 +88,8 @@ class Paths {
            (s0 == 0 && within(time, 2, 3, 0, axis)) || (s1 == 0 && within(time, 2, 3, 1, axis));
   }
 
-  /// The ranges of a coordinate on both edges share a number: an end of one is not outside of the other.
+  /// Returns whether the ranges of a coordinate on both edges share a number: an end of one is in the range of the
+  /// other.
   bool overlap(Moment& time, std::size_t axis) const {
     return between(time, 0, 1, 2, axis) || between(time, 0, 1, 3, axis) || between(time, 2, 3, 0, axis) ||
            between(time, 2, 3, 1, axis);
@@ -110,7 +112,7 @@ class Paths {
 
   MeetingKind kind_;
   std::array<Path, 4> points_;
-  std::array<Path, 4> areas_;  ///< by triple
+  std::array<Path, 4> areas_;  ///< area of each triple
 };
 
 }  // namespace
@@ -134,7 +136,7 @@ std::optional<MeetingTime> first_meeting(const MovingPair& pair) {
       const MomentBracket found = time.bracket();
       first = first ? MeetingTime{std::min(first->low, found.low), std::min(first->high, found.high)}
                     : MeetingTime{found.low, found.high};
-      break;  // later roots of this one are later
+      break;  // later roots of this polynomial come later
     }
   return first;
 }

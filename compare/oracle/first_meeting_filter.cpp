@@ -1,6 +1,6 @@
-// One direction is a proof: where every vertex of the one face stays above every vertex of the other along it, at the
-// begin and at the end of a span of time, it does so in between, for heights are linear in time, and the hulls never
-// meet. Any direction serves, so it may come from rounded guesses; only heights have an error, bounded below.
+// One direction is a proof: if every vertex of one face is above every vertex of the other along it at the begin and at
+// the end of a span of time, it is so in between, since heights are linear in time, and the hulls never meet. Any
+// direction may serve, so it comes from rounded guesses; only heights have an error, bounded below.
 //
 // Height h = d·(p − q), u = 2⁻⁵³, M = Σ|d_k||p_k − q_k| as computed: the difference carries one rounding, its product
 // one, two sums two, together less than 4.001 u M; a span's end (1 − s) h₀ + s h₁ with dyadic s of few bits carries two
@@ -22,7 +22,7 @@ using Vector = DistanceVector<double>;
 using Points = std::array<Vector, 4>;
 
 constexpr double height_error = 0x1p-50, underflow_error = 0x1p-1000;
-constexpr int most_halvings = 5;  // beyond them the exact answer is as cheap
+constexpr int most_halvings = 5;  // with more of them the exact answer is as cheap
 
 Vector along(const Vector& a, const Vector& b, double s) {
   return {a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.z + s * (b.z - a.z)};
@@ -30,7 +30,7 @@ Vector along(const Vector& a, const Vector& b, double s) {
 
 double share(double part, double whole) { return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0; }
 
-/// From the point of the segment ab that is nearest to p, to p.
+/// Returns the vector to p from the point of the segment ab that is nearest to p.
 Vector from_segment(const Vector& p, const Vector& a, const Vector& b) {
   const Vector e = minus(b, a), w = minus(p, a);
   return minus(p, along(a, b, share(dot(w, e), dot(e, e))));
@@ -42,7 +42,7 @@ Vector toward(const Vector& normal, const Vector& side) {
   return dot(normal, side) < 0 ? Vector{-normal.x, -normal.y, -normal.z} : normal;
 }
 
-/// Two guesses of a direction from the second face to the first: across both, and between points that are near.
+/// Returns two guesses of a direction from the second face to the first: across both, and between near points.
 std::array<Vector, 2> guesses(MeetingKind kind, const Points& x) {
   if (kind == MeetingKind::vertex_triangle) {
     const Vector n = cross(minus(x[2], x[1]), minus(x[3], x[1]));
@@ -85,7 +85,7 @@ class Filter {
     return {dot(d, w), std::abs(d.x * w.x) + std::abs(d.y * w.y) + std::abs(d.z * w.z)};
   }
 
-  /// Along d every vertex of the first face is above every one of the second, from `begin` to `end`.
+  /// Returns whether along d every vertex of the first face is above every one of the second, from `begin` to `end`.
   bool above(const Vector& d, double begin, double end) const {
     for (std::size_t i = 0; i < split_; ++i)
       for (std::size_t j = split_; j < 4; ++j) {

@@ -1,5 +1,5 @@
-// Boxes of swept faces hold every position of theirs, since corners move straight: what meets is visited. Then a proof
-// in floating point that a pair stays apart; what has none is decided exactly.
+// Boxes of swept faces hold all of their positions, since corners move straight, so every pair that meets is visited. A
+// proof in floating point then keeps a pair apart; pairs without one are decided exactly.
 #include "compare/oracle/meetings.hpp"
 
 #include <tbb/blocked_range.h>
@@ -30,10 +30,10 @@ class MotionAuditor {
         triangles_(tree_over(topology.triangles)),
         edges_(tree_over(topology.edges)) {}
 
-  /// Vertices and edges that ask.
+  /// Returns the number of vertices and edges that search for partners.
   std::size_t asking() const { return at(topology_.vertex_count) + topology_.edges.size(); }
 
-  /// What every `stride`-th of them finds.
+  /// Returns the meetings of every `stride`-th of them.
   MeetingsResult run(std::size_t stride = 1) const {
     tbb::enumerable_thread_specific<MeetingsResult> shares;
     const std::size_t count = (asking() + stride - 1) / stride;

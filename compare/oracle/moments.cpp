@@ -1,7 +1,8 @@
-// Roots are separated by Descartes' rule in Bernstein form: the changes of sign in the coefficients on an open interval
-// are as many as the roots there, or an even number more; none and one are exact, and halving ends where no root is
-// multiple (Obreshkoff; Mourrain, Rouillier, Roy 2005). Whether two polynomials share a root is asked of their greatest
-// common divisor, so that a sign of 0 is found, not approached. Coefficients are dyadic numbers: all of it is a ring.
+// Roots are separated by Descartes' rule in Bernstein form: the coefficients on an open interval have as many changes
+// of sign as there are roots, or an even number more; none and one are exact, and halving ends if no root is multiple
+// (Obreshkoff; Mourrain, Rouillier, Roy 2005). The greatest common divisor of two polynomials decides whether they
+// share a root, so that a sign of 0 is found, not approached. Coefficients are dyadic numbers, and only ring operations
+// are used.
 #include "compare/oracle/moments.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ Polynomial derivative(const Polynomial& p) {
   return Polynomial(std::move(c));
 }
 
-/// The largest double that is not above x ≥ 0; CGAL's interval may begin a unit earlier.
+/// Returns the largest double that is not above x ≥ 0; CGAL's interval may begin a unit earlier.
 double double_below(const Exact& x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double below = x.to_interval().first;
@@ -40,7 +41,7 @@ struct Division {
   Polynomial quotient, remainder;
 };
 
-/// factor · a = quotient · b + remainder with a factor that is not 0; b is not 0.
+/// Divides: factor · a = quotient · b + remainder with a factor that is not 0; b is not 0.
 Division divide(Polynomial a, const Polynomial& b) {
   std::vector<Exact> quotient;
   while (!a.is_zero() && a.c.size() >= b.c.size()) {
@@ -56,7 +57,7 @@ Division divide(Polynomial a, const Polynomial& b) {
   return {Polynomial(std::move(quotient)), std::move(a)};
 }
 
-/// Up to a factor; not both are 0.
+/// Returns the greatest common divisor up to a factor; not both are 0.
 Polynomial common_divisor(Polynomial a, Polynomial b) {
   while (!b.is_zero()) {
     Polynomial rest = divide(std::move(a), b).remainder;
@@ -65,11 +66,11 @@ Polynomial common_divisor(Polynomial a, Polynomial b) {
   return a;
 }
 
-/// Bernstein coefficients on [low, high] up to a positive factor each.
+/// Returns Bernstein coefficients on [low, high], each up to a positive factor.
 std::vector<Exact> bernstein(const Polynomial& p, const Exact& low, const Exact& high) {
   const std::size_t n = p.degree();
   const Exact width = high - low;
-  std::vector<Exact> a{p.c[n]};  // of p(low + width u), by Horner's rule
+  std::vector<Exact> a{p.c[n]};  // coefficients of p(low + width u), by Horner's rule
   for (std::size_t i = n; i-- > 0;) {
     std::vector<Exact> next(a.size() + 1, Exact(0));
     for (std::size_t k = 0; k < a.size(); ++k) {
@@ -176,7 +177,7 @@ int Moment::sign(const Polynomial& p) {
   if (p.is_zero()) return 0;
   if (is_dyadic_) return sign_of(p.at(low_));
   if (p.degree() == 0) return sign_of(p.c[0]);
-  // A common divisor has no other root in the interval than this time, and that one once.
+  // A common divisor has no root in the interval but this time, and that one once.
   const Polynomial common = common_divisor(square_free_, p);
   if (common.degree() > 0 && changes_of_sign(bernstein(common, low_, high_)) % 2 == 1) return 0;
   while (!is_dyadic_) {

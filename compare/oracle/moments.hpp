@@ -1,5 +1,5 @@
-// Polynomials of time without rounding, and the moments at which they vanish: what the oracle decides motions with.
-// Only .cpp files of this room include this header: it shows CGAL's number types.
+// Holds exact polynomials of time, and the moments at which they vanish; the oracle decides motions with them. Only
+// .cpp files of this room include this header, since it exposes CGAL's number types.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -8,21 +8,21 @@
 
 namespace ogc::compare {
 
-/// c₀ + c₁ t + …, exactly; the last coefficient is not 0, and 0 has none.
+/// The exact polynomial c₀ + c₁ t + …; the last coefficient is not 0, and the polynomial 0 has none.
 struct Polynomial {
   std::vector<CGAL::Mpzf> c;  ///< coefficients, ascending
 
   Polynomial() = default;
   explicit Polynomial(std::vector<CGAL::Mpzf> coefficients);
-  /// From `begin` at t = 0 straight to `end` at t = 1; both finite.
+  /// Returns the line from `begin` at t = 0 to `end` at t = 1; both are finite.
   static Polynomial line(double begin, double end);
 
   bool is_zero() const { return c.empty(); }
-  std::size_t degree() const { return c.size() - 1; }  ///< of a polynomial that is not 0
-  CGAL::Mpzf at(const CGAL::Mpzf& t) const;            ///< the value
+  std::size_t degree() const { return c.size() - 1; }  ///< only if it is not 0
+  CGAL::Mpzf at(const CGAL::Mpzf& t) const;            ///< value at t
 };
 
-/// Sum, difference and product.
+/// Return sum, difference and product.
 Polynomial operator+(const Polynomial& a, const Polynomial& b);
 Polynomial operator-(const Polynomial& a, const Polynomial& b);
 Polynomial operator*(const Polynomial& a, const Polynomial& b);
@@ -36,14 +36,14 @@ struct MomentBracket {
 /// open interval (low, high).
 class Moment {
  public:
-  /// The time itself.
+  /// Makes a moment of a given time.
   explicit Moment(CGAL::Mpzf time);
-  /// The only root in the open interval of a polynomial without multiple roots.
+  /// Makes a moment of the only root in the open interval of a polynomial without multiple roots.
   Moment(Polynomial square_free, CGAL::Mpzf low, CGAL::Mpzf high);
 
-  /// Sign of a polynomial at this time: −1, 0, 1.
+  /// Returns the sign of a polynomial at this time: −1, 0, 1.
   int sign(const Polynomial& p);
-  /// Doubles around this time.
+  /// Returns doubles around this time.
   MomentBracket bracket();
 
  private:
@@ -51,10 +51,10 @@ class Moment {
   bool is_dyadic_ = false;
   Polynomial square_free_;
   CGAL::Mpzf low_, high_;
-  int sign_after_ = 0;  ///< of the polynomial between the root and high_
+  int sign_after_ = 0;  ///< sign of the polynomial between the root and high_
 };
 
-/// Where a polynomial that is not 0 vanishes in [0, 1], ascending, each once.
+/// Returns the times in [0, 1] at which a polynomial that is not 0 vanishes, ascending, each once.
 std::vector<Moment> moments(const Polynomial& p);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Which pairs the oracle leaves out, and which states it refuses.
+// Decides which pairs the oracle leaves out, and which states it refuses.
 #pragma once
 
 #include <span>
@@ -7,13 +7,13 @@
 
 namespace ogc::compare {
 
-/// Whether a pair of primitives, given by their vertices, is excluded: all vertices carry one group ≥ 0, or a vertex of
-/// one is an excluded partner of a vertex of the other (method.md §2.3).
+/// Returns whether a pair of primitives, given by their vertices, is excluded: all vertices have one group ≥ 0, or a
+/// vertex of one is an excluded partner of a vertex of the other (method.md §2.3).
 bool is_excluded(std::span<const Index> first, std::span<const Index> second, const ExclusionView& exclusions);
-/// Whether it is excluded or shares a vertex.
+/// Returns whether it is excluded or shares a vertex.
 bool left_out(std::span<const Index> first, std::span<const Index> second, const ExclusionView& exclusions);
 
-/// Throws InputError where positions or groups (unless empty) have not one entry for each vertex, or a position is not
+/// Throws InputError if positions or groups (unless empty) do not have one entry for each vertex, or a position is not
 /// finite: `who` begins the message.
 void check_state(const char* who, const Topology& topology, std::span<const Vec3> positions,
                  const ExclusionView& exclusions);

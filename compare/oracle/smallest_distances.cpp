@@ -1,5 +1,5 @@
-// Boxes cull by the smallest distance found so far, intervals cull next, and exact numbers compare what may be nearer
-// or as near: in a regular stack most pairs. Threads share that distance. It decides how early a pair is culled, and
+// Boxes cull by the smallest distance found so far, then intervals, and exact numbers compare pairs that may be nearer
+// or as near: most pairs in a regular stack. Threads share that distance. It decides how early a pair is culled, but
 // neither the nearest pair nor its name.
 #include "compare/oracle/smallest_distances.hpp"
 
@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Whether two primitives are certainly farther apart than √limit.
+/// Returns whether two primitives are certainly farther apart than √limit.
 template <std::size_t A, std::size_t B>
 bool certainly_beyond(const std::array<Vec3, A>& first, const std::array<Vec3, B>& second, double limit) {
   const CGAL::Protect_FPU_rounding<true> upward;
@@ -32,7 +32,7 @@ bool certainly_beyond(const std::array<Vec3, A>& first, const std::array<Vec3, B
   return below.value > limit;
 }
 
-/// The largest double whose square is not above `square`.
+/// Returns the largest double whose square is not above `square`.
 double root_rounded_down(const Rational& square) {
   double root = std::sqrt(CGAL::to_interval(square).first);
   while (Rational(root) * Rational(root) > square) root = std::nextafter(root, 0.0);
@@ -42,17 +42,17 @@ double root_rounded_down(const Rational& square) {
   return root;
 }
 
-/// A double that is not below the square.
+/// Returns a double that is not below the square.
 double square_above(const LeastSquare& square) {
   return CGAL::to_interval(Rational(square.numerator) / Rational(square.denominator)).second;
 }
 
-/// The nearest of the pairs that one thread saw.
+/// The nearest pair that one thread has found.
 struct Nearest {
   LeastSquare square;
   Index first = -1, second = -1;
 
-  /// Nearer than the pair (i, j) with that square, or as near with smaller numbers.
+  /// Returns whether this pair is nearer than the pair (i, j) with that square, or as near with smaller numbers.
   bool keeps(const LeastSquare& other, Index i, Index j) const {
     if (first < 0) return false;
     const Exact difference = other.numerator * square.denominator - square.numerator * other.denominator;
@@ -63,7 +63,7 @@ struct Nearest {
   }
 };
 
-/// What all threads know: no pair beyond the root of `limit` is the nearest.
+/// Shares between threads that no pair beyond the root of `limit` is the nearest.
 class Search {
  public:
   template <std::size_t A, std::size_t B>
@@ -79,8 +79,8 @@ class Search {
     if (nearer) lower(square_above(square));
   }
 
-  /// `box` grown by no less than the nearest distance: the root and the sums are each off by half a unit in the last
-  /// place at most, two steps outwards are more than that.
+  /// Returns `box` grown by at least the nearest distance: the root and the sums are each off by at most half a unit in
+  /// the last place, and two steps outwards are more than that.
   Box search_box(Box box) const {
     const double reach = std::nextafter(std::sqrt(limit_.load(std::memory_order_relaxed)), infinity);
     for (std::size_t k = 0; k < 3; ++k) {

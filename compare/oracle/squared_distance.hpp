@@ -1,8 +1,8 @@
-// Squared distances of points, triangles and segments as quotients, without a division and without a case that is
-// decided wrongly: every feature whose region can't be excluded offers the distance to its point, line or plane. For
-// exact numbers these are the right features, for intervals a superset; a distance to a line or plane is never above
-// that to the feature in it, so the least offer is the distance, or a lower bound of it. Only .cpp files of this room
-// include this header: it shows CGAL's number types.
+// Computes squared distances of points, triangles and segments as quotients, without a division and without a wrong
+// case: every feature whose region can't be excluded offers the distance to its point, line or plane. For exact numbers
+// these are the right features, for intervals a superset; a distance to a line or plane is never above the distance to
+// the feature in it, so the least offer is the distance, or a lower bound of it. Only .cpp files of this room include
+// this header, since it exposes CGAL's number types.
 #pragma once
 
 #include <CGAL/Interval_nt.h>
@@ -15,12 +15,11 @@
 
 namespace ogc::compare {
 
-/// Sets the rounding that these intervals need: CGAL::Protect_FPU_rounding<true>, for as long as they are used.
+/// Interval numbers; they need CGAL::Protect_FPU_rounding<true> as long as they are used.
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// Whether the number can have this sign: of an exact number, whether it has it; of an interval, whether it holds such
-/// a number.
+/// Return whether the number can have this sign: an exact number if it has it, an interval if it holds such a number.
 inline bool may_be_positive(const Exact& x) { return static_cast<int>(x.sign()) > 0; }
 inline bool may_be_negative(const Exact& x) { return static_cast<int>(x.sign()) < 0; }
 inline bool may_be_zero_or_more(const Exact& x) { return static_cast<int>(x.sign()) >= 0; }
@@ -28,10 +27,10 @@ inline bool may_be_positive(const Interval& x) { return x.sup() > 0; }
 inline bool may_be_negative(const Interval& x) { return x.inf() < 0; }
 inline bool may_be_zero_or_more(const Interval& x) { return x.sup() >= 0; }
 
-/// The least quotient, exactly.
+/// Keeps the least quotient exactly.
 struct LeastSquare {
   Exact numerator{0}, denominator{0};  ///< denominator 0: nothing was offered yet
-  /// Keeps n/d where it is less than the quotient so far; d > 0.
+  /// Keeps n/d if it is less than the quotient so far; d > 0.
   void offer(const Exact& n, const Exact& d) {
     if (!denominator.is_zero() && !(n * denominator < numerator * d)) return;
     numerator = n;
@@ -39,10 +38,10 @@ struct LeastSquare {
   }
 };
 
-/// A number that is not above the least quotient.
+/// Keeps a number that is not above the least quotient.
 struct SquareBelow {
-  double value = std::numeric_limits<double>::infinity();  ///< a lower bound of the smallest quotient
-  /// Keeps a lower bound of n/d where it is less than the value so far; 0 where d may be 0.
+  double value = std::numeric_limits<double>::infinity();  ///< lower bound of the smallest quotient
+  /// Keeps a lower bound of n/d if it is less than the value so far; 0 if d may be 0.
   void offer(const Interval& n, const Interval& d) { value = std::min(value, d.inf() > 0 ? (n / d).inf() : 0.0); }
 };
 
@@ -51,7 +50,7 @@ template <class N>
 struct DistanceVector {
   N x, y, z;  ///< coordinates
 };
-/// a − b, a·b and a × b; K points as vectors over N.
+/// Return a − b, a·b and a × b, and K points as vectors over N.
 template <class N>
 DistanceVector<N> minus(const DistanceVector<N>& a, const DistanceVector<N>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};

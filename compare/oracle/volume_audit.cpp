@@ -1,6 +1,6 @@
-// The winding number by the crossings of a ray from (x, y + ε, z + ε²) along +x, ε vanishing: it meets no edge, and
-// where x is not on the surface the number there is that at x. A triangle is crossed where the ray's foot lies inside
-// of its projection along x, on the side that the triangle's plane says.
+// Computes the winding number from the crossings of a ray from (x, y + ε, z + ε²) along +x with vanishing ε: the ray
+// meets no edge, and where x is not on the surface the number there is that at x. The ray crosses a triangle if its
+// foot lies inside the triangle's projection along x, and the triangle's plane lies ahead.
 #include "compare/oracle/volume_audit.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -24,7 +24,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Sign of the area of (a, b, x + (ε, ε²)) seen along the x axis.
+/// Returns the sign of the area of (a, b, x + (ε, ε²)) seen along the x axis.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& x) {
   const int exact = CGAL::orientation(Kernel::Point_2(a.y, a.z), Kernel::Point_2(b.y, b.z), Kernel::Point_2(x.y, x.z));
   if (exact != 0) return exact;
@@ -32,12 +32,12 @@ int side_seen(const Vec3& a, const Vec3& b, const Vec3& x) {
   return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
 }
 
-/// How the ray from x crosses the triangle: 1 outward, −1 inward, 0 not at all.
+/// Returns how the ray from x crosses the triangle: 1 outward, −1 inward, 0 not at all.
 int crossing(const Corners& t, const Vec3& x) {
   const int seen = side_seen(t[0], t[1], x);
   if (seen == 0 || side_seen(t[1], t[2], x) != seen || side_seen(t[2], t[0], x) != seen) return 0;
   const auto point = [](const Vec3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
-  // the normal's x component has the sign `seen`: the plane lies ahead where x is on the side against it
+  // the normal's x component has the sign `seen`: the plane lies ahead if x is on the side against it
   const int above = CGAL::orientation(point(t[0]), point(t[1]), point(t[2]), point(x));
   return above == -seen ? seen : 0;
 }
@@ -56,7 +56,8 @@ double to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   return std::hypot(w.x - s * e.x, w.y - s * e.y, w.z - s * e.z);
 }
 
-/// In rounded numbers. Where the foot on the plane is in doubt the outline counts, which is as near there.
+/// Returns the distance to a triangle in rounded numbers. If the foot on the plane is in doubt the outline decides,
+/// which is as near there.
 double to_triangle(const Vec3& x, const Corners& t) {
   const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   const double square = dot(n, n);
@@ -67,7 +68,7 @@ double to_triangle(const Vec3& x, const Corners& t) {
   return std::min({to_segment(x, t[0], t[1]), to_segment(x, t[1], t[2]), to_segment(x, t[2], t[0])});
 }
 
-/// Edges of one triangle, sorted into closed rims, each against the sense of its triangle.
+/// Sorts edges of one triangle into closed rims, each against the sense of its triangle.
 std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   std::map<Index, Index> root;
   const auto find = [&](Index v) {
@@ -82,7 +83,7 @@ std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   return closed;
 }
 
-/// The triangles of a part and of the fans that close it, and its tetrahedra, where the positions put them.
+/// The triangles of a part and of the fans that close it, and its tetrahedra, at given positions.
 class PlacedPart {
  public:
   PlacedPart(std::span<const Triangle> triangles, std::span<const std::vector<Edge>> rims,
@@ -113,7 +114,7 @@ class PlacedPart {
     return least;
   }
 
-  /// Whether the part's own vertex lies in the part.
+  /// Returns whether the part's own vertex lies in the part.
   bool holds_own(Index vertex) const {
     const Vec3& x = positions_[at(vertex)];
     bool is_inside = false;
@@ -124,7 +125,8 @@ class PlacedPart {
     return is_inside;
   }
 
-  /// From the part's own vertex to its triangles without a vertex of the triangles around it; 0 where there are none.
+  /// Returns the distance from the part's own vertex to those of its triangles that share no vertex with the triangles
+  /// around it; 0 if there are none.
   double distance_of_own(Index vertex) const {
     std::vector<Index> around;
     for (const Triangle& t : triangles_)
@@ -168,7 +170,7 @@ class PlacedPart {
     return result;
   }
 
-  /// Closed, of positive volume.
+  /// Returns whether a closed tetrahedron of positive volume holds the point.
   bool holds(const Tetrahedron& t, const Vec3& x) const {
     const auto sign = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
       const auto point = [](const Vec3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
@@ -187,7 +189,7 @@ class PlacedPart {
   BoxTree tree_, tetrahedron_tree_;
 };
 
-/// How many of the edges meet one of the triangles with which they have no vertex in common.
+/// Returns how many of the edges meet one of the triangles with which they have no vertex in common.
 std::size_t count_meeting(const Topology& topology, std::span<const Index> edges, std::span<const Index> triangles,
                           std::span<const Vec3> positions) {
   std::vector<Box> boxes;
@@ -220,7 +222,7 @@ std::size_t count_meeting(const Topology& topology, std::span<const Index> edges
 }  // namespace
 
 VolumeAuditor::VolumeAuditor(const Scene& scene) : topology_(build_topology(scene)) {
-  std::vector<Index> part_of(scene.bodies.size(), -1);  // of a body of tetrahedra
+  std::vector<Index> part_of(scene.bodies.size(), -1);  // part of each body of tetrahedra
   for (const VolumePart& part : volume_parts(scene)) {
     const Body& body = scene.bodies[part.body];
     if (part_of[part.body] < 0) {

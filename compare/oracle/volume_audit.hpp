@@ -1,6 +1,6 @@
-// What volumes let in (§3.9): vertices inside by winding number, edges that meet their triangles, found by the oracle
-// alone. A solver's own answer (compare/stages/volume_depth.hpp) asks the nearest face; the two agree on closed parts
-// that do not pass through themselves, and each is what it is elsewhere.
+// Measures what volumes let in (§3.9): vertices inside by winding number, and edges that meet their triangles, found by
+// the oracle alone. A solver's own answer (compare/stages/volume_depth.hpp) uses the nearest face; the two agree on
+// closed parts that do not pass through themselves, and may differ elsewhere.
 #pragma once
 
 #include <array>
@@ -14,43 +14,44 @@
 
 namespace ogc::compare {
 
-/// What is inside at one state. Surfaces pass a volume for a moment: none of it is a failure by itself.
+/// What is inside at one state. Surfaces may be in a volume for a moment, so nothing of this is a failure by itself.
 struct VolumePenetration {
   std::size_t vertices_inside = 0;  ///< vertices of surfaces and of free volumes that lie in some part
-  Index deepest_vertex = -1;        ///< of them the one farthest from the triangles of a part that holds it
+  Index deepest_vertex = -1;        ///< the one of them farthest from the triangles of a part that holds it
   double deepest = 0;               ///< that distance, rounded [m]
-  /// edges of surfaces that meet a triangle of a volume, edges of volumes that meet a triangle of a surface, and, where
-  /// one of both bodies is a free volume, edges of volumes that meet a triangle of one, itself included
+  /// edges of surfaces that meet a triangle of a volume, edges of volumes that meet a triangle of a surface, and, if
+  /// one of the two bodies is a free volume, edges of volumes that meet a triangle of a volume, their own included
   std::size_t edges_meeting = 0;
 };
 
-/// The volumes of one scene.
+/// Audits the volumes of one scene.
 class VolumeAuditor {
  public:
-  /// Valid indices; bodies cover the scene, which need not outlive it.
+  /// Takes the volumes of a scene, which need not outlive the auditor. Indices are valid; bodies cover the scene.
   explicit VolumeAuditor(const Scene& scene);
-  /// Whether there are any.
+  /// Returns whether there are any.
   bool has_volumes() const { return !parts_.empty(); }
-  /// Of vertices that are not fixed, and of edges of which an end is not. Winding numbers and meetings are decided
-  /// without rounding, each part by itself: a connected component of triangles with its cavities, or the boundary of a
-  /// body of tetrahedra. Of a part with rims each rim is closed by a fan about the mean of its ends. A vertex on the
+  /// Audits vertices that are not fixed, and edges with an end that is not fixed. Winding numbers and meetings are
+  /// decided without rounding, for each part by itself: a connected component of triangles with its cavities, or the
+  /// boundary of a body of tetrahedra. Each rim is closed by a fan about the mean of its vertices. A vertex on the
   /// surface is outside.
   ///
-  /// A vertex of a body of tetrahedra lies on its surface, and in the body itself where one of its tetrahedra of
-  /// positive volume, without this vertex, holds it, its surface included; its distance is then that to triangles which
-  /// have no vertex in common with those around it. Pairs with a common vertex do not meet.
+  /// A vertex of a body of tetrahedra lies on its surface, and in the body itself if one of its tetrahedra of positive
+  /// volume, without this vertex, holds it, its surface included; its distance is then taken to triangles that have no
+  /// vertex in common with those around it. Pairs with a common vertex do not meet.
   ///
-  /// Does not depend on the number of threads. Throws InputError where positions are not of the scene, or not finite.
+  /// The answer does not depend on the number of threads. Throws InputError if positions are not of the scene, or not
+  /// finite.
   VolumePenetration audit(std::span<const Vec3> positions) const;
 
  private:
-  /// A part, its rims closed.
+  /// A part with closed rims.
   struct Part {
-    std::vector<Triangle> triangles;      ///< by vertices of the scene
-    std::vector<std::vector<Edge>> rims;  ///< by closed rim: its edges as the missing triangles run through them
-    std::vector<Tetrahedron> tetrahedra;  ///< of a body that has any
+    std::vector<Triangle> triangles;      ///< vertex numbers of the scene
+    std::vector<std::vector<Edge>> rims;  ///< for each closed rim its edges in the sense of the missing triangles
+    std::vector<Tetrahedron> tetrahedra;  ///< of a body of tetrahedra
   };
-  /// Who may be inside, and the part that it is of; −1: of a surface.
+  /// A vertex that may be inside, and the part that it belongs to; −1: it is of a surface.
   struct Asker {
     Index vertex, part;
   };

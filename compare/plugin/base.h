@@ -1,4 +1,4 @@
-/* What all parts of the interface share: versions, what a library says of itself, points, meshes. */
+/* Holds what all parts of the interface share: version, description of a library, points, meshes. */
 #ifndef OGC_COMPARE_PLUGIN_BASE_H
 #define OGC_COMPARE_PLUGIN_BASE_H
 
@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* Of this interface. A library that was built for another one is refused by name: its structures are laid out
- * otherwise. */
+/* Version of this interface. A library that was built for another one is refused by name: its structures have another
+ * layout. */
 #define OGC_PLUGIN_VERSION 9
 
 #define OGC_HOST_MEMORY 0
@@ -21,11 +21,11 @@ extern "C" {
 #define OGC_PLUGIN_EXPORT __attribute__((visibility("default")))
 #endif
 
-/* What a library says of itself. `version` stays first in every version of this interface. */
+/* Description of a library. `version` stays first in every version of this interface. */
 typedef struct ogc_plugin_info {
   int32_t version;  /* OGC_PLUGIN_VERSION */
   int32_t memory;   /* OGC_HOST_MEMORY or OGC_DEVICE_MEMORY */
-  const char* name; /* for the report */
+  const char* name; /* name in the report */
 } ogc_plugin_info;
 
 /* The one function that every library has; the macro defines it. */
@@ -51,7 +51,7 @@ typedef struct ogc_vec3 {
 
 /* ---- meshes ------------------------------------------------------------------------------------------------------ */
 
-/* Row i is items[offsets[i]] … items[offsets[i + 1] - 1], ascending. */
+/* Rows of different length: row i is items[offsets[i]] … items[offsets[i + 1] - 1], ascending. */
 typedef struct ogc_rows {
   const int32_t* offsets; /* [rows + 1] */
   const int32_t* items;
@@ -64,7 +64,7 @@ typedef struct ogc_topology {
   const int32_t (*triangles)[3];                              /* [triangle_count] */
   const int32_t (*triangle_edges)[3];                         /* [triangle_count] from corner k to corner k+1 */
   ogc_rows vertex_edges, vertex_triangles, vertex_neighbours; /* rows by vertex */
-  ogc_rows edge_triangles, edge_opposite; /* rows by edge; edge_opposite: vertices that share a triangle with it */
+  ogc_rows edge_triangles, edge_opposite; /* rows by edge; edge_opposite: opposite vertices of its triangles */
 } ogc_topology;
 
 #ifdef __cplusplus

@@ -10,7 +10,7 @@ extern "C" {
 
 /* ---- activation: contact energy over distance -------------------------------------------------------------------- */
 
-/* Which energy. */
+/* Values of `activation`. */
 enum {
   OGC_ACTIVATION_OGC,
   OGC_ACTIVATION_OGC_AS_PRINTED,
@@ -52,8 +52,8 @@ enum { OGC_BENDING_NONE, OGC_DISCRETE_HINGE, OGC_ISOMETRIC_QUADRATIC };
 enum { OGC_DAMPING_OF_STRAIN, OGC_DAMPING_PER_VERTEX };
 
 typedef struct ogc_membrane_case {
-  ogc_vec3 corner[3], start[3]; /* asked about corner 0 */
-  float gradient[2][2];         /* of N_1, N_2; that of N_0 is minus their sum */
+  ogc_vec3 corner[3], start[3]; /* the question is about corner 0 */
+  float gradient[2][2];         /* of N_1, N_2; the gradient of N_0 is minus their sum */
   float area, lame_lambda, lame_mu, damping;
   int32_t model;
   int64_t damping_form;
@@ -67,9 +67,9 @@ typedef struct ogc_membrane_in {
 typedef struct ogc_bending_case {
   ogc_vec3 vertex[4], start[4];
   float stiffness, rest_angle, damping;
-  int32_t own; /* which vertex is asked about */
+  int32_t own; /* the vertex of the question */
   int32_t model;
-  float weight[3]; /* isometric quadratic: of x1, o0, o1; that of x0 is minus their sum */
+  float weight[3]; /* isometric quadratic: of x1, o0, o1; the weight of x0 is minus their sum */
   int64_t damping_form;
 } ogc_bending_case;
 
@@ -82,7 +82,7 @@ typedef struct ogc_spring_case {
   ogc_vec3 vertex[3], start[3];
   float stiffness, rest_length, damping;
   float ratio; /* s: between vertex 0 and the point (1 - s) vertex 1 + s vertex 2; 0: vertex 2 is not read */
-  int32_t own; /* which vertex is asked about */
+  int32_t own; /* the vertex of the question */
   int64_t damping_form;
 } ogc_spring_case;
 
@@ -92,11 +92,11 @@ typedef struct ogc_spring_in {
 } ogc_spring_in;
 
 typedef struct ogc_tetrahedron_case {
-  ogc_vec3 corner[4], start[4]; /* asked about corner 0; at rest det(x1 - x0, x2 - x0, x3 - x0) > 0 */
-  float weight[3];              /* V grad N_k . grad N_0 of corners 1, 2, 3 */
+  ogc_vec3 corner[4], start[4]; /* the question is about corner 0; at rest det(x1 - x0, x2 - x0, x3 - x0) > 0 */
+  float weight[3];              /* V grad N_k . grad N_0 for corners 1, 2, 3 */
   float inverse;                /* 1 / (6 V) */
-  float gradient[3][3];         /* of N_1, N_2, N_3; that of N_0 is minus their sum; of the damping */
-  float volume;                 /* V of the damping */
+  float gradient[3][3];         /* of N_1, N_2, N_3, for damping; the gradient of N_0 is minus their sum */
+  float volume;                 /* V, for damping */
   float lame_lambda, lame_mu, damping;
   int64_t damping_form;
 } ogc_tetrahedron_case;
@@ -114,7 +114,7 @@ typedef struct ogc_force_out {
 OGC_PLUGIN_EXPORT int ogc_membrane(const ogc_membrane_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_bending(const ogc_bending_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_spring(const ogc_spring_in* in, ogc_force_out* out);
-/* A library that has it is asked about scenes with solids, too. */
+/* If a library has it, the judge also asks it about scenes with solids. */
 OGC_PLUGIN_EXPORT int ogc_tetrahedron(const ogc_tetrahedron_in* in, ogc_force_out* out);
 
 /* The faces that meet in a contact, and their vertices: first side | second side. */
@@ -125,15 +125,15 @@ enum {
   OGC_POINT_TRIANGLE /* 0 | 1 2 3 */
 };
 
-/* From d = r on there is no force, and the block has the curvature that waits at r. */
+/* Beyond d = r there is no force, and the block has the curvature at r. */
 typedef struct ogc_contact_force_case {
   uint8_t sides;
   int32_t own;
   ogc_vec3 vertex[4], previous[4];
-  float rest_squared[2]; /* 0 of an edge without triangles: compare/stages/contact_force.hpp */
+  float rest_squared[2]; /* 0 for an edge without triangles: compare/stages/contact_force.hpp */
   float contact_radius, stiffness;
   int64_t activation;
-  uint8_t together; /* bit k: vertex k is updated together with the own one */
+  uint8_t together; /* bit k: vertex k is updated together with `own` */
 } ogc_contact_force_case;
 
 typedef struct ogc_contact_force_in {
@@ -158,7 +158,7 @@ OGC_PLUGIN_EXPORT int ogc_friction_force(const ogc_friction_force_in* in, ogc_fo
 /* A point, vertex 0, and the triangle of a volume that pushes it out, vertices 1 2 3; the answer is force and block of
  * contact and friction together: compare/stages/volume_force.hpp. */
 typedef struct ogc_volume_force_case {
-  int32_t own; /* which vertex is asked about */
+  int32_t own; /* the vertex of the question */
   ogc_vec3 vertex[4], start[4];
   float weights[3];   /* of the closest point, by corner */
   float direction[3]; /* n, out of the volume */

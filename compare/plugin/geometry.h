@@ -10,7 +10,7 @@ extern "C" {
 
 /* ---- closest_face: which face of a closed triangle holds the point closest to a given point ---------------------- */
 
-/* Values of `feature`: corners, edges from corner k to corner k+1, the interior. On a plane between two of them the
+/* Values of `feature`: corners, edges from corner k to corner k+1, the interior. On the boundary of two of them the
  * lower-dimensional one wins. */
 enum { OGC_CORNER_0, OGC_CORNER_1, OGC_CORNER_2, OGC_EDGE_01, OGC_EDGE_12, OGC_EDGE_20, OGC_INTERIOR };
 
@@ -55,9 +55,10 @@ enum { OGC_FACE_VERTEX, OGC_FACE_EDGE, OGC_FACE_TRIANGLE };
 
 typedef struct ogc_detect_in {
   ogc_topology topology;
-  const int32_t* rigid_groups; /* [vertex_count] a pair whose vertices all carry one number >= 0 is left out */
-  ogc_rows excluded_partners;  /* rows by vertex, nearly all empty: a pair is left out where a vertex of one side stands
-                                  in the row of one of the other */
+  const int32_t* rigid_groups; /* [vertex_count] a pair whose vertices all have one number >= 0 is excluded */
+  ogc_rows
+      excluded_partners; /* rows by vertex, nearly all empty: a pair is excluded if a vertex of one side is in the row
+                                  of a vertex of the other */
   const ogc_vec3* positions;   /* [vertex_count] */
   float contact_radius;        /* r */
   float query_radius;          /* r_q >= r */
@@ -70,13 +71,13 @@ typedef struct ogc_vertex_facet_contact {
   int32_t owner;      /* the lowest-numbered triangle that contains the face */
 } ogc_vertex_facet_contact;
 
-/* `contacts` has room for `capacity`; set `count` to the number found. Where that is more than the capacity, nothing
- * need be written: the function is called once more with room for as many. In any order, each contact once. */
+/* `contacts` has room for `capacity`; set `count` to the number found. If that is more than the capacity, nothing
+ * need be written: the function is called once more with room for as many. Contacts may have any order, each once. */
 typedef struct ogc_detect_vertex_facet_out {
   ogc_vertex_facet_contact* contacts;
   int64_t capacity, count;
   float* d_min_vertex;   /* [vertex_count] over non-adjacent triangles, at most r_q, never above the exact value */
-  float* d_min_triangle; /* [triangle_count] over non-adjacent vertices, likewise */
+  float* d_min_triangle; /* [triangle_count] over non-adjacent vertices, in the same way */
 } ogc_detect_vertex_facet_out;
 
 OGC_PLUGIN_EXPORT int ogc_detect_vertex_facet(const ogc_detect_in* in, ogc_detect_vertex_facet_out* out);
@@ -90,7 +91,7 @@ typedef struct ogc_edge_edge_contact {
 } ogc_edge_edge_contact;
 
 typedef struct ogc_detect_edge_edge_out {
-  ogc_edge_edge_contact* contacts; /* as above */
+  ogc_edge_edge_contact* contacts; /* with room for `capacity`, as above */
   int64_t capacity, count;
   float* d_min_edge; /* [edge_count] over non-adjacent edges, at most r_q, never above the exact value */
 } ogc_detect_edge_edge_out;
@@ -102,13 +103,13 @@ OGC_PLUGIN_EXPORT int ogc_detect_edge_edge(const ogc_detect_in* in, ogc_detect_e
 typedef struct ogc_bound_in {
   ogc_topology topology;
   const float *d_min_vertex, *d_min_edge, *d_min_triangle; /* [vertex_count], [edge_count], [triangle_count] */
-  float bound_relaxation;                                  /* gamma_p */
+  float bounds_relaxation;                                  /* gamma_p */
   const uint8_t* inside_solid;                             /* [vertex_count] as in ogc_detect_in */
 } ogc_bound_in;
 
 typedef struct ogc_bound_out {
   float* bound; /* [vertex_count] never above gamma_p times the smallest distance of the vertex, its edges and its
-                   triangles; of a vertex inside a solid, which nothing bounds, the largest finite number */
+                   triangles; the largest finite number for a vertex inside a solid, which nothing bounds */
 } ogc_bound_out;
 
 OGC_PLUGIN_EXPORT int ogc_bound(const ogc_bound_in* in, ogc_bound_out* out);
@@ -118,11 +119,11 @@ OGC_PLUGIN_EXPORT int ogc_bound(const ogc_bound_in* in, ogc_bound_out* out);
 typedef struct ogc_plane_in {
   ogc_topology topology;
   const int32_t* rigid_groups; /* as in ogc_detect_in */
-  ogc_rows excluded_partners;  /* likewise */
+  ogc_rows excluded_partners;  /* as in ogc_detect_in */
   const ogc_vec3* positions;   /* [vertex_count] */
-  const uint8_t* is_fixed;     /* [vertex_count] 1: never moves, and bears no plane */
+  const uint8_t* is_fixed;     /* [vertex_count] 1: the vertex never moves, and bears no plane */
   float query_radius;          /* r_q */
-  float bound_relaxation;      /* gamma_p */
+  float bounds_relaxation;      /* gamma_p */
   const uint8_t* inside_solid; /* [vertex_count] as in ogc_detect_in */
 } ogc_plane_in;
 
@@ -139,10 +140,10 @@ typedef struct ogc_vertex_plane {
 
 /* Pairs nearer than the 17th nearest of each of their vertices need a plane; more may have one. `planes` and `offset`
  * have room for `capacity`, as lists of contacts do; in any order, each vertex of each pair once. A bound is never
- * above gamma_p times r_q, nor times the distance of a pair of the vertex that no plane holds apart. */
+ * above gamma_p r_q, and never above gamma_p times the distance of a pair of the vertex that no plane separates. */
 typedef struct ogc_plane_out {
   ogc_vertex_plane* planes;
-  double* offset; /* of each of them */
+  double* offset; /* of each plane */
   int64_t capacity, count;
   float* bound; /* [vertex_count] */
 } ogc_plane_out;
@@ -157,22 +158,22 @@ typedef struct ogc_half_space {
   double offset;
 } ogc_half_space;
 
-/* Libraries without ogc_plane are asked about balls alone. */
+/* The judge asks libraries without ogc_plane only about balls. */
 typedef struct ogc_truncate_in {
   int64_t n;
   const ogc_vec3 *previous, *position; /* [n] */
   const float* bound;                  /* [n] b >= 0 */
-  const int32_t* half_space_offsets;   /* [n + 1] those of case i: half_spaces[offsets[i]] ... [offsets[i + 1] - 1] */
+  const int32_t* half_space_offsets;   /* [n + 1] case i has half_spaces[offsets[i]] ... [offsets[i + 1] - 1] */
   const ogc_half_space* half_spaces;
-  const ogc_vec3* current;      /* [n] where the vertex is, in its region */
+  const ogc_vec3* current;      /* [n] current position, in its region */
   const float (*block)[6];      /* [n] H: xx, xy, xz, yy, yz, zz; positive definite */
-  const uint8_t* is_prescribed; /* [n] 1: it does not slide, and H is not to be read */
+  const uint8_t* is_prescribed; /* [n] 1: the vertex does not slide, and H is not set */
 } ogc_truncate_in;
 
 typedef struct ogc_truncate_out {
-  ogc_vec3* position; /* [n] as stored, |position - previous| <= bound and each half-space kept exactly; bit for bit
-                         what came in where nothing is cut */
-  uint8_t* cut;       /* [n] 1 where the given position was farther than the bound, or beyond a half-space */
+  ogc_vec3* position; /* [n] as stored, |position - previous| <= bound and each half-space kept exactly; the given
+                         position bit for bit if nothing is cut */
+  uint8_t* cut;       /* [n] 1 if the given position was farther than the bound, or beyond a half-space */
 } ogc_truncate_out;
 
 OGC_PLUGIN_EXPORT int ogc_truncate(const ogc_truncate_in* in, ogc_truncate_out* out);
@@ -184,7 +185,7 @@ typedef struct ogc_initial_guess_case {
   float time_step;
   ogc_vec3 previous;
   float bound;
-  uint8_t reserved; /* 0; contacts hold vertices in the stage `step` alone */
+  uint8_t reserved; /* 0 */
 } ogc_initial_guess_case;
 
 typedef struct ogc_initial_guess_in {
@@ -239,7 +240,7 @@ typedef struct ogc_ccd_in {
 } ogc_ccd_in;
 
 typedef struct ogc_ccd_out {
-  float* time; /* [n] in [0, 1]: the faces share no point before it; 1 where none is needed, 0 where they touch at 0 */
+  float* time; /* [n] in [0, 1]: the faces share no point before it; 1 if no limit is needed, 0 if they touch at 0 */
 } ogc_ccd_out;
 
 OGC_PLUGIN_EXPORT int ogc_ccd(const ogc_ccd_in* in, ogc_ccd_out* out);
@@ -247,19 +248,19 @@ OGC_PLUGIN_EXPORT int ogc_ccd(const ogc_ccd_in* in, ogc_ccd_out* out);
 /* ---- volume_depth: which parts of a closed surface hold a point, or are nearer to it than r --------------------- */
 
 typedef struct ogc_volume_depth_in {
-  ogc_topology topology;     /* of the volume: each edge has two triangles, or one where there is a rim */
+  ogc_topology topology;     /* of the volume: each edge has two triangles, or one at a rim */
   const ogc_vec3* positions; /* [vertex_count] */
   float contact_radius;      /* r */
   int64_t n;
-  const ogc_vec3* points; /* [n] that ask */
+  const ogc_vec3* points; /* [n] points to test */
 } ogc_volume_depth_in;
 
-/* A contact of a point with a part, that is with a connected component of the volume; none of them is a cavity. */
+/* A contact of a point with a part, that is, with a connected component of the volume; no component is a cavity. */
 typedef struct ogc_volume_contact {
   int32_t point;
   int32_t inside;     /* 1: the part holds the point */
-  int32_t triangle;   /* the lowest-numbered one that contains the face */
-  int32_t kind, face; /* whose interior holds the closest point, by kind (OGC_FACE_VERTEX, ...) and number */
+  int32_t triangle;   /* the lowest-numbered triangle that contains the face */
+  int32_t kind, face; /* the face whose interior holds the closest point, by kind (OGC_FACE_VERTEX, ...) and number */
 } ogc_volume_contact;
 
 typedef struct ogc_volume_numbers {
@@ -271,7 +272,7 @@ typedef struct ogc_volume_numbers {
 /* `contacts` and `numbers` have room for `capacity`, as lists of contacts do; in any order. */
 typedef struct ogc_volume_depth_out {
   ogc_volume_contact* contacts;
-  ogc_volume_numbers* numbers; /* of each of them */
+  ogc_volume_numbers* numbers; /* of each contact */
   int64_t capacity, count;
 } ogc_volume_depth_out;
 

@@ -1,4 +1,4 @@
-/* Stages that are asked about a whole scene. */
+/* Stages whose questions are about a whole scene. */
 #ifndef OGC_COMPARE_PLUGIN_SCENES_H
 #define OGC_COMPARE_PLUGIN_SCENES_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
-/* An edge with exactly two triangles; opposite[k]: the vertex of triangles[k] that is not on it. */
+/* An edge with exactly two triangles; opposite[k] is the vertex of triangles[k] that is not on the edge. */
 typedef struct ogc_hinge {
   int32_t edge, triangles[2], opposite[2];
 } ogc_hinge;
@@ -27,16 +27,16 @@ typedef struct ogc_body {
 } ogc_body;
 
 typedef struct ogc_scene_spring {
-  int32_t vertex[3]; /* the last is -1 where ratio is 0 */
+  int32_t vertex[3]; /* the last is -1 if ratio is 0 */
   float stiffness, rest_length, damping, ratio;
 } ogc_scene_spring;
 
-/* As in compare/problem/settings.hpp. */
+/* Settings of compare/problem/settings.hpp. */
 typedef struct ogc_settings {
-  float time_step, contact_radius, query_radius_cap, bound_relaxation, redetect_fraction, friction_velocity;
-  int64_t iterations, redetect_every, guess_rounds;
-  int64_t lanes;                    /* width of sums; 0: as you like */
-  int64_t activation, damping_form; /* OGC_ACTIVATION_…, OGC_DAMPING_… */
+  float time_step, contact_radius, detection_radius_cap, bounds_relaxation, detection_fraction, friction_velocity;
+  int64_t iterations, detection_every, guess_rounds;
+  int64_t lanes;                            /* width of sums; 0: the library chooses */
+  int64_t contact_activation, damping_form; /* OGC_ACTIVATION_…, OGC_DAMPING_… */
 } ogc_settings;
 
 typedef struct ogc_scene {
@@ -55,10 +55,10 @@ typedef struct ogc_scene {
   const void* reserved[8]; /* null: for rods, volumes and pairs of bodies */
 } ogc_scene;
 
-/* ---- rest_state: what is computed once of the rest shape --------------------------------------------------------- */
+/* ---- rest_state: what is computed once from the rest shape ------------------------------------------------------- */
 
 /* The rest state as sweep reads it; lists in the order of the topology, without fixed bodies and without models `none`.
- * The triangles of solids are not in it, and their tetrahedra are in the order of the scene's. */
+ * The triangles of solids are left out; tetrahedra are in the order of the scene. */
 typedef struct ogc_rest {
   const float* mass; /* [vertex_count] */
   int32_t triangle_count, hinge_count, tetrahedron_count;
@@ -72,16 +72,16 @@ typedef struct ogc_rest {
   const float (*weight)[3];                  /* [hinge_count] isometric quadratic: of x1, o0, o1; otherwise 0 */
   const float* edge_length_squared;          /* [edge_count] */
   const float *meeting_stiffness,
-      *meeting_friction;            /* [body_count * body_count] of bodies a and b at a * body_count + b */
+      *meeting_friction;            /* [body_count * body_count] for bodies a and b at a * body_count + b */
   const int32_t (*solid_corner)[4]; /* [tetrahedron_count] */
   const int32_t* solid_body;        /* [tetrahedron_count] */
   const float *volume, *inverse;    /* [tetrahedron_count] V and 1 / (6 V) */
-  const float (*solid_weight)[6];   /* [tetrahedron_count] V grad N_k . grad N_l of the pairs 01, 02, 03, 12, 13, 23 */
+  const float (*solid_weight)[6];   /* [tetrahedron_count] V grad N_k . grad N_l for the pairs 01, 02, 03, 12, 13, 23 */
   const float (*solid_gradient)[3][3]; /* [tetrahedron_count] of N_1, N_2, N_3 */
   const void* reserved[8];             /* null */
 } ogc_rest;
 
-/* Likewise, to be written. A list has room for its capacity; set its count, as with contacts. */
+/* The rest state, to be written. A list has room for its capacity; set its count, as with contacts. */
 typedef struct ogc_rest_state_out {
   float* mass;
   int64_t triangle_capacity, triangle_count, hinge_capacity, hinge_count, tetrahedron_capacity, tetrahedron_count;
@@ -115,30 +115,30 @@ typedef struct ogc_sweep_in {
   const float* bound;                              /* [vertex_count] */
   int64_t vertex_facet_count, edge_edge_count;
   const ogc_vertex_facet_contact* vertex_facet; /* [vertex_facet_count] found at X_prev, sorted */
-  const ogc_edge_edge_contact* edge_edge;       /* [edge_edge_count] likewise */
+  const ogc_edge_edge_contact* edge_edge;       /* [edge_edge_count] found at X_prev, sorted */
 } ogc_sweep_in;
 
 typedef struct ogc_sweep_out {
   ogc_vec3* position; /* [vertex_count] each within its bound of X_prev, exactly */
-  int32_t* cut;       /* [1] how many proposals lay beyond their bound */
+  int32_t* cut;       /* [1] number of proposals beyond their bound */
 } ogc_sweep_out;
 
 OGC_PLUGIN_EXPORT int ogc_sweep(const ogc_sweep_in* in, ogc_sweep_out* out);
 
-/* ---- step: a whole step, told event by event --------------------------------------------------------------------- */
+/* ---- step: a whole step, reported event by event ----------------------------------------------------------------- */
 
 typedef struct ogc_step_in {
   ogc_scene scene;
   const ogc_vec3 *start, *velocity; /* [vertex_count] */
-  const ogc_vec3* prescribed;       /* [vertex_count] where prescribed vertices are to go; of others `start` */
+  const ogc_vec3* prescribed;       /* [vertex_count] targets of prescribed vertices; `start` for others */
 } ogc_step_in;
 
 /* Values of `kind` of an event. */
 enum { OGC_DETECTION, OGC_GUESS, OGC_SWEEP };
 
 /* Lists have room for their capacities; set their counts, as with contacts. The i-th detection is the i-th event of
- * that kind. Of all detections together are the two lists of contacts: those of the i-th end where `vertex_facet_end`
- * and `edge_edge_end` say. */
+ * that kind. The two lists of contacts hold those of all detections; each detection's part ends at its
+ * `vertex_facet_end` and `edge_edge_end`. */
 typedef struct ogc_step_out {
   ogc_rest_state_out rest;                /* of the sweeps */
   int32_t* colour;                        /* [vertex_count] of the sweeps; -1: prescribed or fixed */
@@ -146,8 +146,8 @@ typedef struct ogc_step_out {
   ogc_vec3 *target, *position, *velocity; /* [vertex_count] y, and the end of the step */
   int64_t event_capacity, event_count;
   int32_t* kind;            /* [event_count] */
-  int32_t* cut;             /* [event_count] of guess and sweep; of a detection 0 */
-  ogc_vec3* event_position; /* [event_count][vertex_count] after the event; of a detection X_prev */
+  int32_t* cut;             /* [event_count] for guess and sweep; 0 for a detection */
+  ogc_vec3* event_position; /* [event_count][vertex_count] after the event; X_prev for a detection */
   int64_t detection_capacity, detection_count;
   float *d_min_vertex, *bound;               /* [detection_count][vertex_count] */
   float* d_min_triangle;                     /* [detection_count][triangle_count] */

@@ -1,4 +1,5 @@
-// The winding number by the crossings of a ray from (x, y + ε, z + ε²) along +x, ε vanishing: it meets no edge.
+// Computes the winding number from the crossings of a ray from (x, y + ε, z + ε²) along +x with vanishing ε, which
+// meets no edge.
 #include "compare/problem/cavities.hpp"
 
 #include <algorithm>
@@ -13,16 +14,16 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The sign of the area of a, b and a point beside p, seen against the x axis.
+/// Returns the sign of the area of a, b and a point beside p, seen against the x axis.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   const int side = orientation({0, a.y, a.z}, {0, b.y, b.z}, {0, p.y, p.z}, {1, p.y, p.z});
   if (side != 0) return side;
-  // moved by (ε, ε²): −(b.z − a.z) decides, then b.y − a.y
+  // p is moved by (ε, ε²): −(b.z − a.z) decides, then b.y − a.y
   if (a.z != b.z) return b.z < a.z ? 1 : -1;
   return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
 }
 
-/// A shell at its positions.
+/// A shell with its positions.
 class PlacedShell {
  public:
   PlacedShell(const Mesh& mesh, std::span<const Vec3> positions, std::span<const Index> triangles)
@@ -47,7 +48,7 @@ class PlacedShell {
     std::ranges::sort(from_below_, {}, &Reach::bottom);
   }
 
-  /// Whether it winds around all vertices of the other one.
+  /// Returns whether it winds around all vertices of the other one.
   bool holds(const PlacedShell& other) const {
     const bool may_hold = low_.x <= other.low_.x && low_.y <= other.low_.y && low_.z <= other.low_.z &&
                           other.high_.x <= high_.x && other.high_.y <= high_.y && other.high_.z <= high_.z;
@@ -55,7 +56,7 @@ class PlacedShell {
   }
 
  private:
-  /// A triangle and where it begins along y.
+  /// A triangle and its lower end along y.
   struct Reach {
     double bottom = 0;
     Triangle corners{};
@@ -63,13 +64,13 @@ class PlacedShell {
 
   int winding(const Vec3& p) const {
     int count = 0;
-    // the difference that is the greatest height may be rounded down: twice of it is not
+    // tallest_ is a difference that may have been rounded down; twice of it is above the true height
     auto reach = std::ranges::lower_bound(from_below_, p.y - 2 * tallest_, {}, &Reach::bottom);
     for (; reach != from_below_.end() && reach->bottom <= p.y; ++reach) count += crossing(reach->corners, p);
     return count;
   }
 
-  /// How the ray from p crosses a triangle: 1 outward, −1 inward, 0 not at all.
+  /// Returns how the ray from p crosses a triangle: 1 outward, −1 inward, 0 not at all.
   int crossing(const Triangle& triangle, const Vec3& p) const {
     const Vec3 &a = positions_[at(triangle[0])], &b = positions_[at(triangle[1])], &c = positions_[at(triangle[2])];
     if (std::max({a.x, b.x, c.x}) < p.x || std::max({a.y, b.y, c.y}) < p.y || std::max({a.z, b.z, c.z}) < p.z ||
@@ -82,7 +83,7 @@ class PlacedShell {
 
   std::span<const Vec3> positions_;
   std::vector<Index> vertices_;
-  std::vector<Reach> from_below_;  ///< ascending
+  std::vector<Reach> from_below_;  ///< ascending by bottom
   double tallest_ = 0;
   Vec3 low_, high_;
 };

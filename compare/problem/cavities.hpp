@@ -1,5 +1,5 @@
-// Cavities of a volume of triangles (§3.9): closed shells whose normals point into a void, within a shell that faces
-// outward. The solid between them is one part.
+// Finds the cavities of a volume of triangles (§3.9): closed shells whose normals point into a void, inside a shell
+// that faces outward. The solid between them is one part.
 //
 //        + + + + + + + + +      +  the shell of a part, normals outward
 //        +  - - - - - -  +      -  a cavity of it, normals into the void
@@ -18,14 +18,14 @@ namespace ogc::compare {
 
 /// A connected component of a body's triangles.
 struct Shell {
-  std::span<const Index> triangles;  ///< of the mesh
-  double volume = 0;                 ///< that it encloses, times any positive factor; 0 where it has rims, or none
+  std::span<const Index> triangles;  ///< numbers of triangles of the mesh
+  double volume = 0;  ///< enclosed volume, times any positive factor; 0 where it has rims or encloses none
 };
 
-/// By shell of one body: the shell whose cavity it is, or −1. A shell of negative volume is a cavity of that of
-/// positive volume that winds around all of its vertices, of several the one of least volume, unless another cavity of
-/// the same one does, too: a void in a void is none. Decided without rounding, of positions [m] rounded to single
-/// precision; a vertex on a shell counts as one beside it.
+/// Returns for each shell of one body the shell whose cavity it is, or −1. A shell of negative volume is a cavity of
+/// the shell of positive volume that winds around all of its vertices; if there are several, of the one of least
+/// volume. It is none if another cavity of the same shell also winds around it, since a void in a void is no cavity.
+/// Positions [m] are rounded to single precision, then all is decided exactly; a vertex on a shell is moved beside it.
 std::vector<int> enclosing_shells(const Mesh& mesh, std::span<const Shell> shells);
 
 }  // namespace ogc::compare

@@ -23,7 +23,7 @@ double largest_coordinate(std::span<const Vec3> positions) {
   return largest;
 }
 
-/// Clears what is below `limit`; a coordinate that equals the one in the same place of `counted_elsewhere` is not
+/// Clears coordinates below `limit`; one that equals the coordinate in the same place of `counted_elsewhere` is not
 /// counted.
 void clear(std::vector<Vec3>& positions, double limit, std::span<const Vec3> counted_elsewhere, Dust& dust) {
   for (std::size_t v = 0; v < positions.size(); ++v) {

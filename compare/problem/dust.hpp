@@ -1,5 +1,5 @@
-// Dust: what is left of a sine that should be 0, like 6e-17. It stands in nearly every mesh that a program made, means
-// nothing, and makes the numbers of exact arithmetic as long as their exponents are apart; so it becomes 0 when a
+// Clears dust: what is left of a sine that should be 0, like 6e-17. Nearly every generated mesh has some. It means
+// nothing, and it makes the numbers of exact arithmetic as long as their exponents are apart. So it becomes 0 when a
 // scene's meshes are read (method.md §2.4), and never later.
 #pragma once
 
@@ -9,22 +9,22 @@
 
 namespace ogc::compare {
 
-/// Coordinates that were not zero and below 2⁻⁴⁰ of the largest one.
+/// Counts coordinates that were not zero and below 2⁻⁴⁰ of the largest one.
 struct Dust {
-  std::size_t count = 0;  ///< of coordinates
-  double largest = 0;     ///< [m]
+  std::size_t count = 0;  ///< how many there were
+  double largest = 0;     ///< largest modulus among them [m]
 };
 
-/// Sets the dust of a mesh to 0. The largest coordinate is that of the mesh; positions that are not finite count for
-/// nothing and stay. Rounding to single precision afterwards makes no dust: x ≥ 2⁻⁴⁰ M stays so, as rounding is
-/// monotonic and a power of two does not change it.
+/// Sets the dust of a mesh to 0 and returns what it cleared. The limit is 2⁻⁴⁰ of the mesh's largest finite coordinate;
+/// coordinates that are not finite stay. Rounding to single precision afterwards makes no dust: x ≥ 2⁻⁴⁰ M stays so, as
+/// rounding is monotonic and a power of two does not change it.
 Dust clear_dust(Mesh& mesh);
 
-/// The same for start and rest positions of a scene, with the scene's largest coordinate; of a coordinate that is the
-/// same in both one is counted.
+/// Sets the dust of start and rest positions to 0, with the scene's largest coordinate. A coordinate that is the same
+/// in both counts once.
 Dust clear_dust(Scene& scene);
 
-/// "7 coordinates are dust (…): taken as 0", or what else became of them; empty where there is none.
+/// Returns "7 coordinates are dust (…): taken as 0", with another treatment if one is given; empty without dust.
 std::string describe(const Dust& dust, const std::string& treatment = "taken as 0");
 
 }  // namespace ogc::compare

@@ -10,10 +10,10 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The number that the file has for the mesh's `i`.
+/// Returns the number in the file of element i of the mesh.
 Index file_number(const std::vector<Index>& numbers, Index i) { return at(i) < numbers.size() ? numbers[at(i)] : i; }
 
-/// "line 7", "lines 4, 5"; empty where the file has none.
+/// Returns "line 7" or "lines 4, 5"; empty if the file has none.
 std::string lines(const std::vector<std::size_t>& lines, std::initializer_list<Index> elements) {
   std::string text;
   for (const Index i : elements) {
@@ -23,7 +23,7 @@ std::string lines(const std::vector<std::size_t>& lines, std::initializer_list<I
   return (elements.size() == 1 ? "line " : "lines ") + text;
 }
 
-/// Where a message says that an element stands: its line; in a scene, whose bodies have several files, the file, too.
+/// Returns where an element stands in its file: its line; in a scene, whose bodies have several files, the file, too.
 std::string file_and_line(const std::string& body, const MeshSource& source, const std::string& line) {
   if (body.empty()) return line;
   return source.file + (line.empty() ? "" : ", " + line);
@@ -104,7 +104,7 @@ std::string ElementNames::triangle(Index t, const Triangle& corners) const {
   const Index local = t - body.first_triangle;
   const std::string in_scene = local == t ? "" : std::to_string(t) + " in the scene";
   if (body.source == nullptr) return name("triangle " + std::to_string(local), body, {vertices(corners), in_scene});
-  if (!body.source->tetrahedra.empty())  // derived, the file has no number for it
+  if (!body.source->tetrahedra.empty())  // a tetrahedron's face is derived, the file has no number for it
     return name("boundary triangle", body, {vertices(corners), file_and_line(body.name, *body.source, {}), in_scene});
   const Index number = file_number(body.source->faces, local);
   return name(
@@ -114,7 +114,8 @@ std::string ElementNames::triangle(Index t, const Triangle& corners) const {
 
 std::string ElementNames::tetrahedron(Index t, const Tetrahedron& corners) const {
   static const NamedBody none;
-  const auto after = std::ranges::upper_bound(bodies_, t, {}, &NamedBody::first_tetrahedron);  // as body_of_triangle
+  // the last body with this start, see body_of_triangle
+  const auto after = std::ranges::upper_bound(bodies_, t, {}, &NamedBody::first_tetrahedron);
   const NamedBody& body = after == bodies_.begin() ? none : *(after - 1);
   const Index local = t - body.first_tetrahedron;
   const std::string in_scene = local == t ? "" : std::to_string(t) + " in the scene";

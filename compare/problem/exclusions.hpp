@@ -1,5 +1,5 @@
-// Which pairs of faces are excluded (method.md §2.3): they are no contacts, do not enter d_min, and no audit looks at
-// them. The rules stand here as data; detections and audits apply them.
+// Holds which pairs of faces are excluded (method.md §2.3): they are no contacts, do not enter d_min, and are not
+// audited. The rules stand here as data; detections and audits apply them.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace ogc::compare {
 
-/// Which pairs of a mesh or scene are left out.
+/// The excluded pairs of a mesh or scene.
 struct Exclusions {
-  /// By vertex; may be empty. A pair whose vertices all carry one number ≥ 0 is left out.
+  /// Group of each vertex; may be empty. A pair whose vertices all have one number ≥ 0 is excluded.
   std::vector<Index> groups;
-  /// By vertex, both ways; without rows where there are none. A pair is left out where a vertex of one side is a
+  /// Partners of each vertex, both ways; no rows if no vertex has any. A pair is excluded if a vertex of one side is a
   /// partner of a vertex of the other.
   CompressedRows partners{};
   friend bool operator==(const Exclusions& a, const Exclusions& b) {
@@ -21,10 +21,10 @@ struct Exclusions {
   }
 };
 
-/// The same, owned by somebody else, who must outlive it.
+/// Refers to exclusions that another object owns, which must outlive the view.
 struct ExclusionView {
-  std::span<const Index> groups;             ///< as in Exclusions
-  const CompressedRows* partners = nullptr;  ///< null: there are none
+  std::span<const Index> groups;             ///< Exclusions::groups
+  const CompressedRows* partners = nullptr;  ///< Exclusions::partners, or null where there are none
 
   ExclusionView() = default;
   ExclusionView(std::span<const Index> by_group, const CompressedRows* by_partner = nullptr)
@@ -34,11 +34,11 @@ struct ExclusionView {
       : groups(all.groups), partners(all.partners.rows() > 0 ? &all.partners : nullptr) {}
 };
 
-/// Rows of partners of `count` vertices, each pair both ways, ascending and without repetition; without rows where
+/// Returns the rows of partners of `count` vertices: each pair both ways, ascending and without repetition; no rows if
 /// there is no pair. Indices are valid.
 CompressedRows partner_rows(std::size_t count, std::span<const std::array<Index, 2>> pairs);
 
-/// The pairs of such rows, smaller vertex first, ascending.
+/// Returns the pairs of such rows, smaller vertex first, ascending.
 std::vector<std::array<Index, 2>> pairs_of(const CompressedRows& partners);
 
 }  // namespace ogc::compare

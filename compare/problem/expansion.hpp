@@ -1,4 +1,4 @@
-// Sums of products without rounding, for the few questions that validation decides exactly.
+// Adds products without rounding, for the few signs that validation decides exactly.
 #pragma once
 
 #include <array>
@@ -7,24 +7,24 @@
 
 namespace ogc::compare {
 
-/// A sum as a non-overlapping expansion of at most `capacity` components (Shewchuk 1997, Grow-Expansion): the last one
-/// that is not zero has the sum's sign. No product may overflow, nor its rounding error underflow.
+/// Holds a sum as a non-overlapping expansion of at most `capacity` components (Shewchuk 1997, Grow-Expansion); the
+/// last component that is not zero has the sum's sign. No product may overflow, nor its rounding error underflow.
 template <std::size_t capacity>
 class Expansion {
  public:
-  /// Takes two components.
+  /// Adds a b, which takes two components.
   void add_product(double a, double b) {
     const double product = a * b;
     add(std::fma(a, b, -product));
     add(product);
   }
-  /// Takes four components.
+  /// Adds a b c, which takes four components.
   void add_product(double a, double b, double c) {
     const double product = a * b;
     add_product(std::fma(a, b, -product), c);
     add_product(product, c);
   }
-  /// −1, 0 or 1.
+  /// Returns the sign of the sum: −1, 0 or 1.
   int sign() const {
     for (std::size_t i = count_; i-- > 0;)
       if (parts_[i] != 0) return parts_[i] > 0 ? 1 : -1;

@@ -1,5 +1,5 @@
-// Meshes whose coordinates are large against their size, as surveys and city models have them: single precision would
-// bend their edges, so that they are taken relative to a point near them.
+// Moves meshes whose coordinates are large against their size, as in surveys and city models, near the origin: single
+// precision would bend their edges. Coordinates are taken relative to a point near the mesh.
 #pragma once
 
 #include <string>
@@ -9,24 +9,24 @@
 
 namespace ogc::compare {
 
-/// Where positions lie 16 times as far from 0 as their bounding box is long, or farther, a point near its centre: in
-/// each coordinate that is so, a multiple of the largest power of two below that length, so that differences from it
-/// are exact in double. Otherwise, and for positions that are not finite, 0. Single precision keeps at least 20 bits of
-/// the length where it is 0, and 23 relative to such a point.
+/// Returns a point near the centre of the positions' bounding box. A coordinate of it is not 0 where the box's centre
+/// lies at least 16 times the box's length from 0; there it is a multiple of the largest power of two that is not above
+/// that length, so that differences from it are exact in double. For positions that are not finite the point is 0.
+/// Single precision keeps at least 20 bits of the length where it is 0, and 23 relative to such a point.
 Vec3 local_origin(const std::vector<Vec3>& positions);
 
-/// Positions relative to a point: x − o [m].
+/// Returns x − o of all positions [m].
 std::vector<Vec3> relative_to(const Vec3& origin, std::vector<Vec3> positions);
 
-/// The double with the fewest decimal digits whose distance from `origin` rounds to `local` in single precision: what a
-/// file had there that was read relative to `origin`.
+/// Returns the double with the fewest decimal digits whose distance from `origin` rounds to `local` in single
+/// precision: the number that stood in the file from which `local` was read.
 double typed_at(double origin, float local);
 
-/// Local positions as the file's coordinates; where `origin` is 0 as they are.
+/// Returns local positions as coordinates of the file; unchanged if `origin` is 0.
 std::vector<Vec3> in_file(const Vec3& origin, const std::vector<Vec3f>& local);
 
-/// "coordinates lie 5e+06 m from 0, 1e+05 times the mesh's size; REMEDY" of a mesh with that origin: what a user should
-/// know. Empty where it is 0.
+/// Returns "coordinates lie 5e+06 m from 0, 1e+05 times the mesh's size; REMEDY" for a mesh with that origin, as a note
+/// for the user; empty if the origin is 0.
 std::string describe_origin(const std::vector<Vec3>& positions, const Vec3& origin, const std::string& remedy);
 
 }  // namespace ogc::compare

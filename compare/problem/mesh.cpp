@@ -16,8 +16,8 @@ Index number(std::size_t i) { return static_cast<Index>(i); }
 
 Edge ordered(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
-// `visit(emit)` calls emit(row, item) for every entry, items of one row in the order wanted, and does the same each
-// time it is called.
+// Builds rows from `visit(emit)`, which calls emit(row, item) for every entry, items of one row in the order wanted,
+// and does the same each time it is called.
 template <class Visit>
 CompressedRows gather(std::size_t rows, const Visit& visit) {
   CompressedRows result;

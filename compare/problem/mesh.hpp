@@ -1,4 +1,4 @@
-// Meshes and their topology: names and adjacency, no geometry.
+// Holds meshes and their topology: names and adjacency, no geometry.
 #pragma once
 
 #include <cstddef>
@@ -9,38 +9,38 @@
 
 namespace ogc::compare {
 
-/// Rows of different length in one array: row i is items[offsets[i] .. offsets[i+1]), ascending.
+/// Holds rows of different length in one array: row i is items[offsets[i] .. offsets[i+1]), ascending.
 struct CompressedRows {
-  std::vector<Index> offsets{0};                           ///< of the rows, and the end
-  std::vector<Index> items;                                ///< row after row
-  std::size_t rows() const { return offsets.size() - 1; }  ///< how many
+  std::vector<Index> offsets{0};                           ///< start of each row, and the end
+  std::vector<Index> items;                                ///< items of all rows, row after row
+  std::size_t rows() const { return offsets.size() - 1; }  ///< number of rows
   std::span<const Index> operator[](std::size_t i) const {
     return {items.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
   }
 };
 
-/// What a mesh file gives: positions [m], triangles, edges that belong to no triangle (yarn), and tetrahedra. In a
-/// scene the boundary of the tetrahedra stands among the triangles (compare/problem/tetrahedra.hpp).
+/// Holds what a mesh file gives: positions [m], triangles, edges that belong to no triangle (yarn), and tetrahedra. In
+/// a scene the boundary of the tetrahedra is among the triangles (compare/problem/tetrahedra.hpp).
 struct Mesh {
   std::vector<Vec3> positions;            ///< by vertex [m]
-  std::vector<Triangle> triangles;        ///< by numbers of vertices
-  std::vector<Edge> loose_edges;          ///< edges of no triangle
-  std::vector<Tetrahedron> tetrahedra{};  ///< by numbers of vertices
+  std::vector<Triangle> triangles;        ///< vertex numbers
+  std::vector<Edge> loose_edges;          ///< edges that belong to no triangle
+  std::vector<Tetrahedron> tetrahedra{};  ///< vertex numbers
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
 /// One bending stencil: an interior edge with exactly two triangles. `edge` is its number, `opposite[k]` the vertex of
 /// `triangles[k]` that is not on the edge; triangles ascending. Non-manifold edges give no hinge.
 struct Hinge {
-  Index edge = -1;                         ///< that both triangles share
+  Index edge = -1;                         ///< the edge that both triangles share
   std::array<Index, 2> triangles{-1, -1};  ///< the lower-numbered first
   std::array<Index, 2> opposite{-1, -1};   ///< their vertices that are not on the edge
 };
 
-/// Adjacency of a complex of `vertex_count` vertices. Edge numbers are names that both contestants share: all edges of
+/// Holds the adjacency of a complex of `vertex_count` vertices. Both contestants share the edge numbers: all edges of
 /// triangles and all loose edges, without repetition, sorted by smaller, then larger vertex.
 struct Topology {
-  Index vertex_count = 0;                            ///< vertices of no face count
+  Index vertex_count = 0;                            ///< includes vertices of no face
   std::vector<Triangle> triangles;                   ///< as given
   std::vector<Edge> edges;                           ///< the smaller vertex first, ascending
   std::vector<std::array<Index, 3>> triangle_edges;  ///< k-th entry: the edge from corner k to corner k+1 (mod 3)
@@ -48,36 +48,36 @@ struct Topology {
   CompressedRows vertex_edges;                       ///< edges that contain v
   CompressedRows vertex_neighbours;                  ///< V_v: vertices that share an edge with v (Eq. 8)
   CompressedRows edge_triangles;                     ///< triangles that contain e
-  /// V_e: vertices that share a triangle with e (Eq. 9), however many
+  /// V_e: vertices opposite e in the triangles that contain it (Eq. 9), any number of them
   CompressedRows edge_opposite;
   std::vector<Hinge> hinges;              ///< by edge number
   std::vector<Index> boundary_edges;      ///< edges with exactly one triangle
   std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
   std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
 
-  /// By vertex, or empty where there is no such vertex: 1 inside a solid, that is of a tetrahedron and on no edge, and
-  /// on a volume (§3.9), all of whose faces it then takes along.
+  /// By vertex: 1 if it is inside a solid, that is, on a tetrahedron and on no edge, or on a volume (§3.9), whose faces
+  /// are then off the surface, too. Empty if no vertex is.
   std::vector<std::uint8_t> off_surface;
 
-  /// What is not on the surface takes no part in detection, contact among surfaces or audit, and no bound holds it
-  /// (method.md §2).
+  /// Returns whether a vertex is on the surface. Others take no part in detection, contact among surfaces and audit,
+  /// and no bound holds them (method.md §2).
   bool on_surface(Index v) const { return off_surface.empty() || off_surface[static_cast<std::size_t>(v)] == 0; }
-  /// Of a face or edge by its vertices, which are all of one body.
+  /// Returns whether an edge or a triangle is on the surface; all of its vertices are of one body.
   template <std::size_t N>
   bool on_surface(const std::array<Index, N>& vertices) const {
     return on_surface(vertices[0]);
   }
 };
 
-/// Builds the adjacency. Triangles and loose edges must have valid, distinct indices (see `validate`); throws
-/// std::out_of_range otherwise.
+/// Builds the adjacency. Throws std::out_of_range if a triangle or loose edge has an invalid or repeated index (see
+/// `validate`).
 Topology build_topology(Index vertex_count, std::span<const Triangle> triangles,
                         std::span<const Edge> loose_edges = {});
 
-/// The same, with the vertices inside its solids.
+/// Builds the adjacency of a mesh and marks the vertices inside its solids.
 Topology build_topology(const Mesh& mesh);
 
-/// Number of the edge {a, b}, or -1 where there is none.
+/// Returns the number of the edge {a, b}, or -1 if there is none.
 Index find_edge(const Topology& topology, Index a, Index b);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Names of choices in scene files, `--set` and messages. Each comes from a `switch` without `default`, so that an
-// enumerator without a name does not compile; whoever draws, lists or reads a choice takes them from here.
+// Names the choices in scene files, `--set` and messages. Each name comes from a `switch` without `default`, so that an
+// enumerator without a name does not compile; code that draws, lists or reads a choice takes the names from here.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace ogc::compare {
 
-// Each as it is typed; "" for a number that is no enumerator.
+// Each function returns the name as users type it, or "" for a number that is no enumerator.
 
 constexpr std::string_view name_of(MembraneModel model) {
   switch (model) {
@@ -61,22 +61,22 @@ constexpr std::string_view name_of(Bounds bounds) {
   }
   return {};
 }
-constexpr std::string_view name_of(OrientationUpdate update) {
+constexpr std::string_view name_of(RodOrientation update) {
   switch (update) {
-    case OrientationUpdate::exact: return "exact";
-    case OrientationUpdate::as_published: return "as_published";
+    case RodOrientation::exact: return "exact";
+    case RodOrientation::as_published: return "as_published";
   }
   return {};
 }
-constexpr std::string_view name_of(StartFrames frames) {
-  switch (frames) {
-    case StartFrames::turned: return "turned";
-    case StartFrames::kept: return "kept";
+constexpr std::string_view name_of(RodStart start) {
+  switch (start) {
+    case RodStart::turned: return "turned";
+    case RodStart::kept: return "kept";
   }
   return {};
 }
 
-/// How many enumerators a choice has.
+/// Number of enumerators of a choice.
 template <class Choice>
 inline constexpr std::size_t choice_count = [] {
   std::size_t count = 0;
@@ -84,7 +84,7 @@ inline constexpr std::size_t choice_count = [] {
   return count;
 }();
 
-/// All of them, in order.
+/// All enumerators of a choice, in order.
 template <class Choice>
 inline constexpr std::array<Choice, choice_count<Choice>> choices = [] {
   std::array<Choice, choice_count<Choice>> all{};
@@ -92,7 +92,7 @@ inline constexpr std::array<Choice, choice_count<Choice>> choices = [] {
   return all;
 }();
 
-/// Their names, in order.
+/// Names of all enumerators of a choice, in order.
 template <class Choice>
 inline constexpr std::array<std::string_view, choice_count<Choice>> choice_names = [] {
   std::array<std::string_view, choice_count<Choice>> names;

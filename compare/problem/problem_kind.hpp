@@ -1,4 +1,4 @@
-// How `validate` keeps its list short: a mesh with a million bad triangles is described by ten of them and a number.
+// Keeps the list of `validate` short: a mesh with a million bad triangles is described by ten of them and a number.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// Problems of one kind: lists the first `limit`; the destructor adds how many more there are.
+/// Lists the first `limit` problems of one kind; the destructor adds how many more there are.
 class ProblemKind {
  public:
   ProblemKind(std::vector<Problem>& problems, std::size_t limit, std::string what, std::string remedy)
@@ -19,11 +19,11 @@ class ProblemKind {
   ~ProblemKind() {
     if (count_ > limit_) problems_.push_back({std::to_string(count_ - limit_) + " more", what_, remedy_});
   }
-  /// One more of them, at `where`.
+  /// Adds one problem, at `where`.
   void add(const std::string& where, const std::string& detail = {}) {
     if (++count_ <= limit_) problems_.push_back({where, detail.empty() ? what_ : what_ + ": " + detail, remedy_});
   }
-  std::size_t count() const { return count_; }  ///< of all problems, listed or not
+  std::size_t count() const { return count_; }  ///< number of all problems, listed or not
 
  private:
   std::vector<Problem>& problems_;
@@ -31,7 +31,7 @@ class ProblemKind {
   std::string what_, remedy_;
 };
 
-/// "triangle 17".
+/// Returns "triangle 17".
 inline std::string numbered(const std::string& kind, std::size_t i) { return kind + " " + std::to_string(i); }
 
 }  // namespace ogc::compare

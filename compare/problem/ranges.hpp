@@ -1,4 +1,4 @@
-// What may stand in a row of the tables of settings and materials: for checks, messages and help.
+// Describes and checks the values of rows in the tables of settings and materials, for checks, messages and help.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace ogc::compare {
 
-/// Whether the number is not 0, but below the smallest number of single precision: rounded it may be 0, which may mean
-/// something else.
+/// Returns whether the number is not 0 but below the smallest number of single precision: rounding could make it 0,
+/// which may mean something else.
 bool vanishes_in_single(double value);
 
-/// "1 to 1024", "0, or 1.401298464324817e-45 to 1", or the names of the choices.
+/// Returns "1 to 1024", "0, or 1.401298464324817e-45 to 1", or the names of the choices.
 std::string range_text(const SettingInfo& info);
 std::string range_text(const MaterialInfo& info);
 
-/// Whether a constant may have this value; see in_range of settings.
+/// Returns whether a constant may have this value; settings have an in_range of their own.
 bool in_range(const MaterialInfo& info, double value);
-/// "a number from 1 to 1024 N/m (meaning)".
+/// Returns "a number from 1 to 1024 N/m (meaning)".
 std::string describe_range(const MaterialInfo& info);
 
 }  // namespace ogc::compare

@@ -9,32 +9,32 @@
 namespace ogc::compare {
 namespace {
 
-/// A setting at one value, or at any but its default (""), and who reads it then.
+/// A setting at one value, or at any but its default (""), and the solvers that read it then.
 struct Readers {
   std::string_view setting, value;
-  std::array<std::string_view, 4> solvers;  ///< "" behind the last one
-  std::string_view why;                     ///< others don't
+  std::array<std::string_view, 4> solvers;  ///< "" after the last one
+  std::string_view why;                     ///< reason that others do not read it
   bool has(std::string_view solver) const { return std::ranges::find(solvers, solver) != solvers.end(); }
 };
 
 constexpr auto table = std::to_array<Readers>({
     {"bounds", "dat", {"vbd", "reference_vbd"}, "whose line search scales all vertices at once"},
-    {"truncation", "", {"newton"}, "which holds no pairs to planes that travel with them"},
-    {"orientation", "", {"vbd", "reference_vbd"}, "which sweeps over no frames"},
-    {"contact_set", "", {"reference_vbd", "newton", "penalty"}, "which lists the method's contacts"},
-    {"colours", "", {"reference_vbd"}, "which has colours of its own, or none"},
-    {"contact_blocks", "", {"reference_vbd"}, "which has blocks of its own, or none"},
-    {"cut_after", "", {"reference_vbd"}, "which cuts as the method does"},
+    {"newton_truncation", "", {"newton"}, "which holds no pairs to planes that travel with them"},
+    {"rod_orientation", "", {"vbd", "reference_vbd"}, "which sweeps over no orientations"},
+    {"reference_contact_set", "", {"reference_vbd", "newton", "penalty"}, "which lists the method's contacts"},
+    {"reference_vbd_colours", "", {"reference_vbd"}, "which has colours of its own, or none"},
+    {"reference_vbd_contact_blocks", "", {"reference_vbd"}, "which has blocks of its own, or none"},
+    {"reference_vbd_cut_after", "", {"reference_vbd"}, "which cuts as the method does"},
 });
 
 constexpr auto required = std::to_array<RequiredSetting>({
     {"penalty", "bounds", "off"},
-    {"penalty", "activation", "quadratic"},
+    {"penalty", "contact_activation", "quadratic"},
 });
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// Whether the setting has the row's value. Settings of a contestant that a program lacks are at their default.
+/// Returns whether the setting has the row's value. Settings of a contestant that a program lacks are at their default.
 bool is_asked(const Settings& settings, const SettingInfo& info, const Readers& row) {
   if (!row.value.empty()) return setting_text(settings, info) == row.value;
   return get_setting(settings, info) != get_setting(Settings{}, info);

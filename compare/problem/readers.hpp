@@ -1,4 +1,4 @@
-// Which solver reads which setting: a value that a solver would not read is refused, in place of a run that ignores it.
+// Lists which solver reads which setting. A value that a solver would ignore is refused.
 #pragma once
 
 #include <span>
@@ -8,16 +8,17 @@
 
 namespace ogc::compare {
 
-/// What a solver has at one value alone.
+/// A setting that a solver accepts at one value alone.
 struct RequiredSetting {
   std::string_view solver, setting, value;  ///< "penalty", "bounds", "off"
 };
 
-/// All of them.
+/// Returns all of them.
 std::span<const RequiredSetting> required_settings();
 
-/// Throws InputError where a setting has a value that the solver does not read, or not the one that it requires: it
-/// names the setting, its value and who reads it. `solver`: "vbd", "newton", "reference_vbd", "ipc" or "penalty".
+/// Throws InputError if a setting has a value that the solver does not read, or another one than it requires; the
+/// message names the setting, its value and the solvers that read it. `solver`: "vbd", "newton", "reference_vbd", "ipc"
+/// or "penalty".
 void refuse_unread(const Settings& settings, std::string_view solver);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// What is asked of a rest shape needs no rounding: a segment reverses onto its neighbour where both leave their common
-// vertex on one line (zero_area.hpp) to one side.
+// Checks of a rest shape need no rounding: a segment reverses onto its neighbour if both leave their common vertex
+// along one line (zero_area.hpp) to the same side.
 #include "compare/problem/rods.hpp"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ void check_constants(std::vector<Problem>& problems, const Body& body) {
   }
 }
 
-/// By vertex: whether it is on a triangle or a tetrahedron, and whether it moves freely.
+/// Holds for each vertex whether it is on a triangle or a tetrahedron, and whether it moves freely.
 struct Vertices {
   std::vector<bool> has_mass, is_free;
 
@@ -56,10 +56,10 @@ struct Vertices {
   }
 };
 
-/// Of each segment the direction at rest away from the vertex; exact signs alone are asked.
+/// Returns whether two segments leave a vertex at rest in one direction; only signs decide, exactly.
 bool leaves_to_one_side(const Vec3& from, const Vec3& a, const Vec3& b) {
   if (!has_zero_area(from, a, b)) return false;
-  // On one line, each coordinate says the same side or nothing.
+  // on one line every coordinate has the same sign, or is 0
   return (a.x - from.x) * (b.x - from.x) + (a.y - from.y) * (b.y - from.y) + (a.z - from.z) * (b.z - from.z) > 0;
 }
 
@@ -131,7 +131,7 @@ bool says_turn(const PrescribedMotion& motion) { return motion.keyframes.empty()
 
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to) {
   const auto elapsed = [&](double t) { return std::clamp(t, motion.start, motion.end) - motion.start; };
-  // Rounded before what follows: times that are counted from another start give the same turn.
+  // Rounded first, so that times counted from another start give the same turn.
   const auto half = static_cast<float>(motion.angular_velocity * (elapsed(to) - elapsed(from)) / 2);
   const double size = std::hypot(motion.axis.x, motion.axis.y, motion.axis.z), sine = std::sin(double{half});
   return {static_cast<float>(sine * motion.axis.x / size), static_cast<float>(sine * motion.axis.y / size),

@@ -1,5 +1,5 @@
-// Rods: bodies whose loose edges, their segments, have a material and an orientation each. What they are called, which
-// they are, and what makes a rod one that can be simulated.
+// Lists the constants of rods, finds them in a scene and checks them. Rods are bodies whose loose edges, their
+// segments, have a material and an orientation each.
 #pragma once
 
 #include <cstddef>
@@ -17,38 +17,39 @@ namespace ogc::compare {
 struct RodInfo {
   std::string_view name, unit, meaning;  ///< "stretch", "N", one line
   double minimum, maximum;               ///< inclusive; single precision holds both exactly
-  double RodMaterial::*field;            ///< where it is kept
+  double RodMaterial::*field;            ///< the member that it sets
 };
 
-/// All constants, in the order of the struct. Ranges are those of material_table.
+/// Returns the rows of all constants, in the order of the struct; their ranges are as in material_table.
 std::span<const RodInfo> rod_table();
 
-/// Whether a constant may have this value, and "a number from 1 to 1024 N (meaning)", as of other materials
-/// (compare/problem/ranges.hpp).
+/// Check and describe a constant as compare/problem/ranges.hpp does for materials: whether it may have this value, and
+/// "a number from 1 to 1024 N (meaning)".
 bool in_range(const RodInfo& info, double value);
 std::string describe_range(const RodInfo& info);
 
-/// Numbers of the loose edges that are segments, those of bodies with a rod material, ascending: the order of every
-/// list of orientations. Indices are valid, and bodies cover the scene.
+/// Returns the numbers of the loose edges that are segments, that is, in bodies with a rod material, ascending. Every
+/// list of orientations has this order. Indices are valid, and bodies cover the scene.
 std::vector<Index> rod_segments(const Scene& scene);
 
-/// Whether a body of the scene is a rod.
+/// Returns whether a body of the scene is a rod.
 bool has_rods(const Scene& scene);
 
-/// What holds each segment: −1: nothing; 0: it is fixed; k ≥ 1: both of its ends are in the k-th prescribed motion.
+/// Returns what holds each segment: −1: nothing; 0: it is fixed; k ≥ 1: both of its ends are in the k-th prescribed
+/// motion.
 std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> segments);
 
-/// Whether a motion says how what it moves turns: any that is rigid does, written as keyframes or not.
+/// Returns whether a motion determines how its segments turn: any rigid motion does, also one written as keyframes.
 bool says_turn(const PrescribedMotion& motion);
-/// How such a motion turns from one time to another [s], computed in double and rounded once.
+/// Returns the rotation of such a motion from one time to another [s], computed in double and rounded once.
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to);
 
-/// What is wrong with the scene's rods: constants out of range, a rod without segments, free vertices on loose edges of
-/// a body that is no rod, segments that reverse onto their neighbour at rest, orientations that are no unit quaternions
-/// or not one for each segment. Indices are valid, and bodies cover the scene.
+/// Adds what is wrong with the scene's rods: constants out of range, a rod without segments, free vertices on loose
+/// edges of a body that is no rod, segments that reverse onto their neighbour at rest, orientations that are no unit
+/// quaternions or not one for each segment. Indices are valid, and bodies cover the scene.
 void check_rods(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit);
 
-/// The first that is no unit quaternion within unit_quaternion_slack, or −1.
+/// Returns the number of the first that is no unit quaternion within unit_quaternion_slack, or −1.
 std::ptrdiff_t find_no_unit(std::span<const Quaternion> orientations);
 
 }  // namespace ogc::compare

@@ -1,5 +1,4 @@
-// Bookkeeping of scenes, and the one motion that everything prescribed follows. Targets are computed here, once, for
-// all contestants.
+// Does the bookkeeping of scenes, and computes the targets of prescribed motions, once for all contestants.
 #include "compare/problem/scene.hpp"
 
 #include <algorithm>
@@ -12,8 +11,8 @@
 namespace ogc::compare {
 namespace {
 
-// Through memory: g++ 12.2 vectorises a pair of conversions double → float → double to nothing at -O2 (basic-block
-// vectorisation).
+// The value goes through memory because g++ 12.2 vectorises a pair of conversions double → float → double to nothing at
+// -O2 (basic-block vectorisation).
 double rounded(double value) {
   const volatile float single = static_cast<float>(value);
   return single;
@@ -27,8 +26,8 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// x(t) as x + (R − I)(x − c) + u τ with R − I = sin θ K + 2 sin²(θ/2) K²: before the motion starts the start position
-// comes back exactly.
+// Evaluates x(t) as x + (R − I)(x − c) + u τ with R − I = sin θ K + 2 sin²(θ/2) K², so that the start position comes
+// back exactly before the motion starts.
 struct RigidMotion {
   Vec3 centre, axis, shift;
   double sine, versine;
@@ -52,7 +51,8 @@ struct RigidMotion {
 
 Vec3 widened(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
-/// Of `count` vertices at time `t`: a + s (b − a) in double, so that each frame itself comes back exactly.
+/// Returns the positions of `count` vertices at time `t`: a + s (b − a) in double, so that each frame comes back
+/// exactly.
 std::vector<Vec3f> between(const Keyframes& frames, std::size_t count, double t) {
   const std::vector<double>& times = frames.times;
   const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());

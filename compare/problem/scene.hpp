@@ -1,6 +1,6 @@
-// A scene: everything that a contestant needs to know. Plain data in double; `round_to_single` makes each number one
-// that single precision holds exactly, so that a contestant in single and one in double are asked the same question
-// (method.md §2.5).
+// Holds a scene: everything that a contestant needs to know, as plain data in double. `round_to_single` makes each
+// number one that single precision holds exactly, so that a contestant in single and one in double answer the same
+// question (method.md §2.5).
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ namespace ogc::compare {
 enum class MembraneModel { none, st_venant_kirchhoff, stable_neo_hookean };  ///< method.md §4.6
 enum class BendingModel { none, discrete_hinge, isometric_quadratic };       ///< method.md §4.7
 
-/// What a body is to others: a surface with two sides that nothing passes through, or a volume, which
-/// others may enter and are pushed out of (§3.9).
+/// How a body meets others: as a surface with two sides that nothing passes through, or as a volume, which others may
+/// enter and which pushes them out (§3.9).
 enum class BodyContact { surface, volume };
-/// Whether others may enter it.
+/// Returns whether others may enter the body.
 constexpr bool is_volume(BodyContact contact) {
   switch (contact) {
     case BodyContact::surface: return false;
@@ -30,18 +30,18 @@ constexpr bool is_volume(BodyContact contact) {
   return false;
 }
 
-/// Constants of a rod: of the loose edges of a body, its *segments* (compare/rods.md).
+/// Constants of a rod, that is, of the loose edges of a body, its *segments* (compare/rods.md).
 struct RodMaterial {
   double density = 1e-3;   ///< ρ, mass per rest length [kg/m]
   double stretch = 0.1;    ///< k_s = EA, of stretch and shear [N]
   double bend = 2e-7;      ///< k_b = EI = GJ, of bend and twist [N m²]
   double damping = 0;      ///< k_d of both energies about the strain at the start of a step [s]
-  double diameter = 3e-3;  ///< what is drawn; no force knows it [m]
+  double diameter = 3e-3;  ///< for drawing only; no force uses it [m]
   friend bool operator==(const RodMaterial&, const RodMaterial&) = default;
 };
 
-/// Constants of one body: of its surface (method.md §4.5 to §4.10), and of its volume where it has tetrahedra
-/// (method.md §8), and of its loose edges where it is a rod.
+/// Constants of one body: of its surface (method.md §4.5 to §4.10), of its volume if it has tetrahedra (method.md §8),
+/// and of its loose edges if it is a rod.
 struct Material {
   double density = 0.2;                                        ///< mass per rest area [kg/m²]
   MembraneModel membrane = MembraneModel::stable_neo_hookean;  ///< energy of triangles
@@ -56,7 +56,7 @@ struct Material {
   double solid_density = 1000;                ///< ρ, mass per rest volume [kg/m³]
   double solid_mu = 1e4, solid_lambda = 1e4;  ///< Lamé constants of the volume [Pa]
   double solid_damping = 0;                   ///< k_d of ψ_d = (k_d/h) ϕ(G − Gᵗ) of the volume [s]
-  std::optional<RodMaterial> rod{};           ///< of its loose edges; none: they have neither mass nor energies
+  std::optional<RodMaterial> rod{};           ///< of the loose edges; without it they have neither mass nor energies
   friend bool operator==(const Material&, const Material&) = default;
 };
 
@@ -68,19 +68,19 @@ struct Body {
   Index first_vertex = 0, vertex_count = 0;                       ///< its vertices are consecutive
   Index first_triangle = 0, triangle_count = 0;                   ///< its triangles are consecutive
   bool fixed = false;                                             ///< an obstacle that never moves
-  Material material;                                              ///< of all of it
+  Material material;                                              ///< one material for the whole body
   Index first_tetrahedron = 0, tetrahedron_count = 0;             ///< its tetrahedra are consecutive
-  BodyContact contact = BodyContact::surface;                     ///< what it is to others
+  BodyContact contact = BodyContact::surface;                     ///< how it meets others
   bool is_solid() const { return tetrahedron_count > 0; }         ///< whether it has tetrahedra
   bool is_volume() const { return compare::is_volume(contact); }  ///< whether others may enter it
   friend bool operator==(const Body&, const Body&) = default;
 };
 
-/// Positions at some times, straight lines between them; at rest before the first and after the last.
+/// Holds positions at some times, joined by straight lines; at rest before the first and after the last.
 struct Keyframes {
-  std::vector<double> times;     ///< ascending [s]; at least two where there are any
-  std::vector<Vec3f> positions;  ///< [m]; frame by frame, in each the vertices in the order of the motion
-  bool is_rigid = false;         ///< the motion's axis and ω say how it turns; no file sets it
+  std::vector<double> times;     ///< ascending [s]; empty or at least two
+  std::vector<Vec3f> positions;  ///< [m]; frame by frame, the vertices of each in the order of the motion
+  bool is_rigid = false;         ///< axis and ω of the motion give its rotation; no file sets it
   bool empty() const { return times.empty(); }  ///< whether there are none
   friend bool operator==(const Keyframes&, const Keyframes&) = default;
 };
@@ -91,30 +91,30 @@ struct Keyframes {
 /// deform it.
 struct PrescribedMotion {
   std::string name;              ///< for messages and files
-  std::vector<Index> vertices;   ///< which it moves
+  std::vector<Index> vertices;   ///< vertices that it moves
   Vec3 centre{}, axis{1, 0, 0};  ///< [m]; direction of the axis: not zero, its length does not matter
   double angular_velocity = 0;   ///< ω [rad/s]
   Vec3 velocity{};               ///< u [m/s]
   double start = 0, end = 1e30;  ///< [s]
-  Keyframes keyframes;           ///< in place of a rigid motion, where there are any
+  Keyframes keyframes;           ///< replaces the rigid motion unless empty
   friend bool operator==(const PrescribedMotion&, const PrescribedMotion&) = default;
 };
 
-/// A spring between a vertex and another one, or a point of the line between two others, of any bodies: k/2 (l − l₀)²,
-/// and k_d/h · k/2 (l − lᵗ)² of damping, with l = ‖x_first − (1 − s) x_second − s x_third‖. It is no edge of the mesh
-/// and takes no part in contact. A stitch has l₀ = 0, and the pairs beside it are no contacts only where
-/// `Scene::excluded_pairs` says so.
+/// A spring between a vertex and another one, or a point of the line between two others, of any bodies. Its energy is
+/// k/2 (l − l₀)², that of its damping k_d/h · k/2 (l − lᵗ)², with l = ‖x_first − (1 − s) x_second − s x_third‖. It is
+/// no edge of the mesh and takes no part in contact. A stitch has l₀ = 0; the pairs beside it are excluded only if
+/// `Scene::excluded_pairs` has them.
 struct Spring {
-  Index first = -1, second = -1;  ///< vertices, not the same
+  Index first = -1, second = -1;  ///< vertices, distinct
   double stiffness = 0;           ///< k [N/m]
   double rest_length = 0;         ///< l₀ [m]
   double damping = 0;             ///< k_d [s]
-  Index third = -1;               ///< −1: there is none, and s = 0
+  Index third = -1;               ///< −1: none, and s = 0
   double ratio = 0;               ///< s [1], from 0 to 1
   friend bool operator==(const Spring&, const Spring&) = default;
 };
 
-/// A problem as every contestant gets it.
+/// Holds a problem as every contestant gets it.
 struct Scene {
   std::string name;                       ///< for messages and files
   Mesh mesh;                              ///< start positions X⁰ [m] of all bodies
@@ -123,19 +123,18 @@ struct Scene {
   std::vector<Body> bodies;               ///< cover all vertices, triangles and tetrahedra, in order
   std::vector<PrescribedMotion> motions;  ///< of vertices that no force moves
   std::vector<Spring> springs;            ///< between vertices, or a vertex and an edge
-  /// vertices: a pair of faces with one of them on each side is left out (stitched primitives, §5.1.3)
+  /// pairs of vertices; a pair of faces with one of them on each side is excluded (stitched primitives, §5.1.3)
   std::vector<std::array<Index, 2>> excluded_pairs;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s²]
   Settings settings;
-  /// Start orientations of all segments, in the order of rod_segments (compare/problem/rods.hpp); empty: those that its
-  /// rest shape has, each turned by the smallest rotation to where its segment starts
+  /// start orientations of all segments, in the order of rod_segments (compare/problem/rods.hpp); empty: those of the
+  /// rest shape, each turned by the smallest rotation to the start direction of its segment
   std::vector<Quaternion> orientations{};
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// Appends the mesh as a body at rest in its rest shape; `body` gives name, material and whether it is fixed, its
-/// ranges are set here. Of a mesh with tetrahedra their boundary becomes the body's triangles, whatever triangles it
-/// has. Returns its number.
+/// Appends the mesh as a body at rest in its rest shape and returns the body's number. `body` gives name, material and
+/// whether it is fixed; its ranges are set here. If the mesh has tetrahedra, their boundary replaces its triangles.
 std::size_t append_body(Scene& scene, Body body, const Mesh& mesh);
 
 /// Rounds every number that a stage sees (positions, rest data, velocities, materials, gravity, settings) to the
@@ -146,28 +145,29 @@ void round_to_single(Scene& scene);
 /// pairs beside it.
 void add_stitch(Scene& scene, Index first, Index second, Index third, double ratio, double stiffness);
 
-/// What moves with what: -1: free; 0: fixed; k ≥ 1: in the k-th prescribed motion. Length: vertex count.
+/// Returns the group of each vertex: -1: free; 0: fixed; k ≥ 1: in the k-th prescribed motion. Length: vertex count.
 std::vector<Index> rigid_groups(const Scene& scene);
 
-/// K: how many vertices move and have a bound, those of the surface that are not fixed. `groups`: of rigid_groups.
+/// Returns K, the number of vertices that may move and have a bound: those of the surface that are not fixed. `groups`:
+/// of rigid_groups.
 Index bounded_count(const Topology& topology, std::span<const Index> groups);
 
-/// Pairs that are left out of contact, d_min and audit: by rigid_groups and excluded_pairs.
+/// Returns the pairs that are excluded from contact, d_min and audit, by rigid_groups and excluded_pairs.
 Exclusions exclusions(const Scene& scene);
 
-/// Target of each vertex of `motion` at time `t` [s], computed in double and rounded once to single; in the order of
-/// motion.vertices.
+/// Returns the target of each vertex of `motion` at time `t` [s], computed in double and rounded once to single; in the
+/// order of motion.vertices.
 std::vector<Vec3f> prescribed_targets(const Scene& scene, const PrescribedMotion& motion, double t);
 
-/// Number of the body of each vertex; -1 where no body covers it. Length: vertex count.
+/// Returns the body of each vertex; -1 if no body covers it. Length: vertex count.
 std::vector<Index> body_of_vertex(const Scene& scene);
 
-/// The topology of the scene's mesh; what is of volumes is not on the surface.
+/// Builds the topology of the scene's mesh; vertices of volumes are off the surface.
 Topology build_topology(const Scene& scene);
 
-/// Positions as the stages see them.
+/// Rounds positions to what stages see.
 std::vector<Vec3f> to_single(const std::vector<Vec3>& positions);
-/// Widens without loss.
+/// Widens positions without loss.
 std::vector<Vec3> to_double(const std::vector<Vec3f>& positions);
 
 }  // namespace ogc::compare

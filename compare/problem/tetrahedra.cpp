@@ -24,7 +24,7 @@ TetrahedronFace face_of(const Tetrahedron& tetrahedron, std::size_t number, std:
   return face;
 }
 
-/// sign · det(p, q, r) in six triple products.
+/// Adds sign · det(p, q, r) as six triple products.
 void add_determinant(const Vec3& p, const Vec3& q, const Vec3& r, double sign, Expansion<96>& sum) {
   sum.add_product(sign * p.x, q.y, r.z);
   sum.add_product(-sign * p.x, q.z, r.y);
@@ -67,7 +67,7 @@ std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra
 
 std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra,
                                      std::span<const Edge> cavities) {
-  std::vector<Index> lowest(topology.component.size());  // by component: one of its set that is not above it
+  std::vector<Index> lowest(topology.component.size());  // by component: a component of its set, not above itself
   std::iota(lowest.begin(), lowest.end(), 0);
   const auto root = [&](Index v) {
     Index c = topology.component[static_cast<std::size_t>(v)];

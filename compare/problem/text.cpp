@@ -19,8 +19,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Typing errors that lead from one to the other (Damerau's, each pair of letters swapped at most once): rows i − 2, i
-/// − 1 and i of the usual table.
+/// Returns the number of typing errors that lead from one to the other (Damerau's, each pair of letters swapped at most
+/// once), with rows i − 2, i − 1 and i of the usual table.
 std::size_t typing_errors(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, above, row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -35,7 +35,7 @@ std::size_t typing_errors(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// "stvk" of "st_venant_kirchhoff".
+/// Returns whether the shorter text abbreviates the name, as "stvk" does "st_venant_kirchhoff".
 bool abbreviates(std::string_view shorter, std::string_view name) {
   if (shorter.size() < 3 || name.empty() || shorter.front() != name.front()) return false;
   for (const char c : name)
@@ -82,7 +82,8 @@ std::string joined(std::span<const std::string_view> names) {
 std::string shown(std::string_view text, std::size_t most) {
   if (text.size() <= most) return std::string(text);
   std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not inside a character of UTF-8
+  // do not cut inside a UTF-8 character
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
   return std::string(text.substr(0, end)) + "…";
 }
 

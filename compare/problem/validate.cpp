@@ -1,4 +1,4 @@
-// The list of everything wrong with a scene: its mesh (validate_mesh.cpp), then what stands around it.
+// Lists everything that is wrong with a scene: its mesh (validate_mesh.cpp), then the rest of it.
 #include "compare/problem/validate.hpp"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ void check_materials(std::vector<Problem>& problems, const Scene& scene) {
   }
 }
 
-// Whether the bodies are consecutive ranges that end at the last vertex and triangle; lists the first gap.
+// Returns whether the bodies are consecutive ranges that end at the last vertex and triangle; lists the first gap.
 bool check_cover(std::vector<Problem>& problems, const Scene& scene) {
   const std::string remedy = "bodies are consecutive ranges that cover all vertices, triangles and tetrahedra";
   std::int64_t vertex = 0, triangle = 0, tetrahedron = 0;
@@ -118,7 +118,7 @@ void check_ownership(std::vector<Problem>& problems, const Scene& scene, const E
   }
 }
 
-// A solid's triangles are derived, so that nothing else can stand among them.
+// Checks that a solid's triangles are its boundary: they are derived, so no others can be among them.
 void check_boundaries(std::vector<Problem>& problems, const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (!body.is_solid()) continue;
@@ -210,13 +210,13 @@ void check_motions(std::vector<Problem>& problems, const Scene& scene, const Ele
   }
 }
 
-/// What a message calls a vertex whose number may be invalid.
+/// Returns the name of a vertex whose number may be invalid.
 std::string point_name(const Scene& scene, const ElementNames& names, Index v) {
   const bool exists = v >= 0 && static_cast<std::size_t>(v) < scene.mesh.positions.size();
   return exists ? names.vertex(v) : "vertex " + std::to_string(v) + " of the scene, which does not exist";
 }
 
-/// Ranges as in the table of material constants.
+/// Checks springs; the ranges are as in the table of material constants.
 void check_springs(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
   ProblemKind unknown(problems, limit, "does not join two vertices", "give two different vertices of the scene");
   ProblemKind range(problems, limit, "has a number out of range",

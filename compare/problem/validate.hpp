@@ -1,4 +1,4 @@
-// Checks of meshes and scenes that need no geometry but lengths, areas and volumes; the oracle looks for intersections.
+// Checks meshes and scenes, with no geometry but lengths, areas and volumes; the oracle looks for intersections.
 #pragma once
 
 #include <string>
@@ -9,27 +9,27 @@
 
 namespace ogc::compare {
 
-/// One thing that is wrong with a mesh or scene: where it stands ("face 18 (line 40)", "motion 'left', vertex 3 of body
-/// 'sheet'") and what to do.
+/// One thing that is wrong with a mesh or scene: its place ("face 18 (line 40)", "motion 'left', vertex 3 of body
+/// 'sheet'") and the remedy.
 struct Problem {
   std::string where, what, remedy;  ///< which element, what is wrong, what to do
 };
 
-/// Index out of range, repeated vertex in a triangle, duplicate face, NaN or infinity, coordinate beyond 2²⁰ m, edge
-/// length that is not within 2⁻²⁰ … 2²⁰ m, zero-length edge, zero-area triangle (decided exactly), isolated vertex,
-/// face of three tetrahedra or of two on one side. At most `limit` entries of each kind are listed, then a count.
-/// `names`: what its elements are called.
+/// Returns a mesh's problems: index out of range, repeated vertex in a triangle, duplicate face, NaN or infinity,
+/// coordinate beyond 2²⁰ m, edge length that is not within 2⁻²⁰ … 2²⁰ m, zero-length edge, zero-area triangle (decided
+/// exactly), isolated vertex, face of three tetrahedra or of two on one side. At most `limit` entries of each kind are
+/// listed, then a count. `names` names the elements.
 std::vector<Problem> validate(const Mesh& mesh, std::size_t limit = 10, const ElementNames& names = {});
 
-/// The mesh, its rest positions, tetrahedra that are flat or inverted there, bodies that do not cover it, motions of
-/// unknown, fixed or doubly prescribed vertices, settings out of range, negative stiffness, density or friction, rods
-/// that can't be simulated (compare/problem/rods.hpp).
-/// Elements are named by body, as its file counts them.
+/// Returns a scene's problems: those of the mesh and its rest positions, tetrahedra that are flat or inverted there,
+/// bodies that do not cover it, motions of unknown, fixed or doubly prescribed vertices, settings out of range,
+/// negative stiffness, density or friction, rods that can't be simulated (compare/problem/rods.hpp). Elements are named
+/// by body, with the numbers of its file.
 std::vector<Problem> validate(const Scene& scene, std::size_t limit = 10);
-/// The same with names that know the files of bodies' meshes.
+/// Returns the same, with names that know the files of the bodies' meshes.
 std::vector<Problem> validate(const Scene& scene, std::size_t limit, const ElementNames& names);
 
-/// All of them as one message; empty if there are none.
+/// Returns all problems as one message; empty if there are none.
 std::string describe(const std::vector<Problem>& problems);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Each kind of problem is one loop over one array. Lengths and areas are asked only of usable coordinates, faces only
-// of valid indices.
+// Each kind of problem is one loop over one array. Lengths and areas are computed from usable coordinates only, faces
+// are looked at with valid indices only.
 #include "compare/problem/validate_mesh.hpp"
 
 #include <algorithm>
@@ -50,8 +50,8 @@ std::string loose_edge_name(const MeshCheck& check, std::size_t e) {
   return check.names.loose_edge(static_cast<Index>(e), check.mesh.loose_edges[e]);
 }
 
-// Each edge is visited once for each triangle that has it; a bad edge is named with the first. Zero is decided exactly;
-// at the ends of the range one rounding of the length does not matter.
+// Visits each edge once for each triangle that has it; a bad edge is named with the first. Zero is decided exactly; at
+// the ends of the range one rounding of the length does not matter.
 void check_edges(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind) {
   ProblemKind zero(check.problems, check.limit, kind + "edge of zero length",
                    "merge the two vertices or move them apart");
@@ -94,7 +94,7 @@ void check_areas(const MeshCheck& check, const std::vector<Vec3>& positions, con
   }
 }
 
-// Sorted copies with their numbers stand next to each other where they are equal.
+// Lists elements with equal vertices, which stand next to each other after sorting.
 template <std::size_t corners, class Name>
 void check_repeated(const MeshCheck& check, const std::string& kind,
                     const std::vector<std::array<Index, corners>>& faces, const Name& name) {
@@ -141,7 +141,8 @@ void check_isolated_vertices(const MeshCheck& check) {
   }
 }
 
-/// 6V below 2⁻⁸⁰ m³, or V ∇N_k·∇N_l = n_k·n_l/(36 V) that may be above 2⁶⁰ m, n_k the normal of twice a face's area.
+/// Returns whether 6V is below 2⁻⁸⁰ m³, or V ∇N_k·∇N_l = n_k·n_l/(36 V) may be above 2⁶⁰ m; n_k is the normal of twice
+/// a face's area.
 bool is_sliver(const std::vector<Vec3>& positions, const Tetrahedron& corners) {
   const auto edge = [&](Index from, Index to) {
     const Vec3 &p = positions[at(from)], &q = positions[at(to)];

@@ -1,5 +1,5 @@
-// Plain coordinates. This room holds facts, never an algorithm, so the types carry no operators: each contestant brings
-// its own arithmetic, and none can borrow the other's.
+// Holds plain coordinates. This room holds facts, never an algorithm, so the types carry no operators: each contestant
+// brings its own arithmetic, and none can borrow the other's.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ struct Vec3f {
   friend bool operator==(const Vec3f&, const Vec3f&) = default;
 };
 
-/// A quaternion as a stage sees it: what stands before i, j, k, then the real part.
+/// A quaternion as a stage sees it: the factors of i, j, k, then the real part.
 using Quaternion = std::array<float, 4>;
-/// How far ‖q‖² of a unit quaternion may be off 1: one whose length was found in single precision is within 2⁻²² of
-/// unit length (orientation_length_tolerance in compare/stages/orientation.hpp).
+/// Largest deviation of ‖q‖² of a unit quaternion from 1: a quaternion whose length was found in single precision is
+/// within 2⁻²² of unit length (orientation_length_tolerance in compare/stages/orientation.hpp).
 inline constexpr double unit_quaternion_slack = 0x1p-21;
 
 using Index = std::int32_t;
@@ -36,9 +36,9 @@ using Tetrahedron = std::array<Index, 4>;
 /// A face of the complex (method.md §2.1): a vertex, the interior of an edge, or the interior of a triangle.
 enum class FaceKind : std::uint8_t { vertex = 0, edge = 1, triangle = 2 };
 
-/// Names one face: kind and number within its kind. Ordered by kind, then number.
+/// Names one face by kind and number within its kind; ordered by kind, then number.
 struct Face {
-  FaceKind kind = FaceKind::vertex;  ///< whose numbers `index` counts
+  FaceKind kind = FaceKind::vertex;  ///< the kind that `index` counts
   Index index = -1;                  ///< −1: none
   friend auto operator<=>(const Face&, const Face&) = default;
 };

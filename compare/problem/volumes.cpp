@@ -17,10 +17,11 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// An edge as one of its triangles runs through it; those of one edge stand next to each other in order.
+/// An edge in the sense in which one of its triangles runs through it; sides of one edge stand next to each other in
+/// order.
 struct Side {
   Edge edge{};            ///< the smaller vertex first
-  Index triangle = -1;    ///< whose it is
+  Index triangle = -1;    ///< triangle that has it
   bool ascending = true;  ///< it runs from the smaller vertex to the larger one
   friend auto operator<=>(const Side&, const Side&) = default;
 };
@@ -39,7 +40,7 @@ std::vector<Side> sorted_sides(const Scene& scene, std::span<const Index> triang
   return sides;
 }
 
-/// Calls visit(the sides of one edge) for each edge.
+/// Calls visit(sides) with the sides of each edge.
 template <class Visit>
 void visit_edges(std::span<const Side> sides, const Visit& visit) {
   for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
@@ -48,7 +49,7 @@ void visit_edges(std::span<const Side> sides, const Visit& visit) {
   }
 }
 
-/// Sets of numbers that grow together; the smallest number of a set stands for it.
+/// Holds sets of numbers that can be united; the smallest number of a set stands for it.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
@@ -65,13 +66,13 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-/// The connected components of a body's surface, each as a part.
+/// Returns the connected components of a body's surface, each as a part.
 std::vector<VolumePart> shells_of(const Scene& scene, std::size_t number) {
   const Body& body = scene.bodies[number];
   Sets sets(scene.mesh.positions.size());
   const auto triangles = std::span(scene.mesh.triangles).subspan(at(body.first_triangle), at(body.triangle_count));
   for (const auto& [a, b, c] : triangles) sets.unite(at(a), at(b)), sets.unite(at(a), at(c));
-  std::map<std::size_t, std::size_t> place;  // of the shell of a set
+  std::map<std::size_t, std::size_t> place;  // place of a set's shell
   std::vector<VolumePart> shells;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto [entry, is_new] = place.try_emplace(sets.root(at(triangles[i][0])), shells.size());
@@ -89,12 +90,12 @@ std::vector<VolumePart> shells_of(const Scene& scene, std::size_t number) {
   return shells;
 }
 
-/// A sum of determinants with the sum of the moduli of their terms.
+/// Holds a sum of determinants with the sum of the moduli of their terms.
 struct SignedVolume {
   double value = 0, modulus = 0;
   std::size_t count = 0;
 
-  /// det(a − o, b − o, c − o).
+  /// Adds det(a − o, b − o, c − o).
   void add(const Vec3& o, const Vec3& a, const Vec3& b, const Vec3& c) {
     const std::array<double, 3> u{a.x - o.x, a.y - o.y, a.z - o.z}, v{b.x - o.x, b.y - o.y, b.z - o.z},
         w{c.x - o.x, c.y - o.y, c.z - o.z};
@@ -108,14 +109,14 @@ struct SignedVolume {
     value += sum;
     ++count;
   }
-  /// How far `value` is off at most. A term goes through at most n + 12 roundings (three differences, two products,
-  /// four sums inside a determinant, those of n determinants), each a factor of 1 + δ with |δ| ≤ 2⁻⁵³; twice that
-  /// holds what the moduli themselves lose, and the higher orders.
+  /// Returns a bound of the error of `value`. A term goes through at most n + 12 roundings (three differences, two
+  /// products, four sums inside a determinant, those of n determinants), each a factor of 1 + δ with |δ| ≤ 2⁻⁵³; twice
+  /// that covers what the moduli themselves lose, and the higher orders.
   double error() const { return static_cast<double>(count + 12) * 0x1p-52 * modulus; }
 };
 
-/// Six times the volume that a part encloses, each of its rims (connected edges of one triangle) closed by a fan about
-/// the mean of their ends.
+/// Returns six times the volume that a part encloses, with each of its rims (connected edges of one triangle) closed by
+/// a fan about the mean of its vertices.
 SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
   const auto position = [&](Index v) -> const Vec3& { return scene.mesh.positions[at(v)]; };
   const Vec3& origin = position(scene.mesh.triangles[at(part.triangles[0])][0]);
@@ -132,7 +133,7 @@ SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
     double count = 0;
   };
   std::map<std::size_t, Mean> means;
-  // each vertex of a rim ends as many of its edges as it begins, so that the beginnings are all of them
+  // each vertex of a rim ends as many of its edges as it begins, so the first ends are all vertices
   for (const auto& [a, b] : part.rims) {
     Mean& mean = means[sets.root(at(a))];
     const Vec3& x = position(a);
@@ -153,7 +154,7 @@ bool is_usable(const Scene& scene, const Body& body) {
   });
 }
 
-/// By shell of a volume of triangles: the shell whose cavity it is, or −1.
+/// Returns for each shell of a volume of triangles the shell whose cavity it is, or −1.
 std::vector<int> cavities_among(const Scene& scene, const std::vector<VolumePart>& shells) {
   std::vector<Shell> asked;
   if (shells.size() < 2 || !is_usable(scene, scene.bodies[shells[0].body])) return std::vector<int>(shells.size(), -1);
@@ -170,7 +171,7 @@ void unite_by_tetrahedra(const Scene& scene, const std::vector<VolumePart>& shel
   Sets sets(scene.mesh.positions.size());
   for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t)
     for (const Index v : scene.mesh.tetrahedra[at(t)]) sets.unite(at(scene.mesh.tetrahedra[at(t)][0]), at(v));
-  std::map<std::size_t, std::size_t> shell_of;  // the first one of a set
+  std::map<std::size_t, std::size_t> shell_of;  // first shell of a set
   for (std::size_t i = 0; i < shells.size(); ++i) {
     const std::size_t set = sets.root(at(scene.mesh.triangles[at(shells[i].triangles[0])][0]));
     parts.unite(shell_of.try_emplace(set, i).first->second, i);
@@ -189,7 +190,7 @@ std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
       if (enclosing[i] >= 0) sets.unite(i, at(enclosing[i]));
   }
   std::vector<VolumePart> parts;
-  std::map<std::size_t, std::size_t> place;  // of the part of a set
+  std::map<std::size_t, std::size_t> place;  // place of a set's part
   for (std::size_t i = 0; i < shells.size(); ++i) {
     const auto [entry, is_new] = place.try_emplace(sets.root(i), parts.size());
     if (is_new) parts.push_back({number, {}, {}});
@@ -201,7 +202,7 @@ std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
   return parts;
 }
 
-/// Whether each edge of the body has an inner side or is of one triangle; lists those that have not.
+/// Returns whether each edge of the body has an inner side or belongs to one triangle; lists the others.
 bool check_edges(std::vector<Problem>& problems, const Scene& scene, const Body& body, const ElementNames& names,
                  std::size_t limit) {
   ProblemKind threefold(problems, limit, "of a volume has more than two triangles",
@@ -227,7 +228,7 @@ bool check_edges(std::vector<Problem>& problems, const Scene& scene, const Body&
   return threefold.count() + misoriented.count() == 0;
 }
 
-/// `is_sound`: by body, whether its parts may be looked at.
+/// Lists parts that are inside out or enclose nothing. `is_sound`: by body, whether its parts can be examined.
 void check_parts(std::vector<Problem>& problems, const Scene& scene, const std::vector<bool>& is_sound,
                  const ElementNames& names, std::size_t limit) {
   ProblemKind inside_out(problems, limit, "begins a part of a volume that is turned inside out",
@@ -250,7 +251,7 @@ void check_parts(std::vector<Problem>& problems, const Scene& scene, const std::
   }
 }
 
-/// How many vertices of the body are neither fixed nor prescribed.
+/// Returns how many vertices of the body are neither fixed nor prescribed.
 Index free_vertices(const Scene& scene, const Body& body) {
   if (body.fixed) return 0;
   std::vector<bool> driven(at(body.vertex_count));

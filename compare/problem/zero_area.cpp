@@ -1,5 +1,5 @@
-// Three 2×2 determinants as exact sums of six products each; a rounded evaluation settles nearly all triangles before
-// that.
+// Evaluates three 2×2 determinants as exact sums of six products each; a rounded evaluation settles nearly all
+// triangles before that.
 #include "compare/problem/zero_area.hpp"
 
 #include <array>
@@ -12,8 +12,8 @@ namespace {
 
 std::array<double, 3> coordinates(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-// Whether the projections of a, b and c on the plane of coordinates i and j lie on a line; exact. The filter: each
-// factor is rounded once and each product once, so the difference is known to 3ε(|p| + |q|) + O(ε²), ε = 2⁻⁵³; 4ε
+// Returns whether the projections of a, b and c on the plane of coordinates i and j lie on a line; exact. The filter:
+// each factor is rounded once and each product once, so the difference is known to 3ε(|p| + |q|) + O(ε²), ε = 2⁻⁵³; 4ε
 // covers the second order.
 bool on_a_line(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c,
                std::size_t i, std::size_t j) {

@@ -1,13 +1,13 @@
-// The one geometric question that validation asks: do three points lie on a line? Decided without rounding.
+// Decides without rounding the one geometric question of validation: do three points lie on a line?
 #pragma once
 
 #include "compare/problem/vector.hpp"
 
 namespace ogc::compare {
 
-/// Whether the triangle has exactly zero area. Coordinates are zero or within 2⁻⁴⁵⁰ … 2⁴⁵⁰ m, which those of single
-/// precision and those of meshes without dust are: no product overflows, and its rounding error, a multiple of 2⁻¹⁰⁰⁴,
-/// underflows not.
+/// Returns whether the triangle has exactly zero area. Coordinates are zero or within 2⁻⁴⁵⁰ … 2⁴⁵⁰ m, as numbers of
+/// single precision and meshes without dust are: then no product overflows, and no rounding error, a multiple of
+/// 2⁻¹⁰⁰⁴, underflows.
 bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace ogc::compare

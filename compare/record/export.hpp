@@ -1,4 +1,4 @@
-// Frames as mesh files, for programs that do not read VTKHDF (ParaView before 5.13, modelling tools).
+// Exports frames as mesh files, for programs that do not read VTKHDF (ParaView before 5.13, modelling tools).
 #pragma once
 
 #include <filesystem>
@@ -7,17 +7,17 @@
 
 namespace ogc::compare {
 
-enum class ExportFormat { obj, ply, vtp, vtu };  ///< of a sequence of meshes
+enum class ExportFormat { obj, ply, vtp, vtu };  ///< formats of a sequence of meshes
 
-/// "obj", "ply", "vtp" or "vtu". Throws InputError that lists them.
+/// Returns the format called "obj", "ply", "vtp" or "vtu". Throws InputError that lists them.
 ExportFormat parse_export_format(std::string_view text);
 
-/// Writes one mesh a frame, `out`/frame_000025.EXT with the number of the frame's step, and makes `out` where it is
-/// missing. OBJ and PLY hold positions, triangles and loose edges; VTP (XML PolyData) holds velocity [m/s], bound [m]
-/// and body besides, VTU (XML UnstructuredGrid) tetrahedra and their J as well (compare/record/vtu.hpp); both get an
-/// index with the frames' times, `out`/NAME.pvd, NAME being the scene's. Positions are in the coordinates of the mesh's
-/// file (Provenance::origin). Returns all files, the index last. Throws InputError where the run has no frame,
-/// ResourceError where the disk does not take it.
+/// Writes one mesh for each frame, `out`/frame_000025.EXT with the number of the frame's step, and makes `out` if it is
+/// missing. OBJ and PLY hold positions, triangles and loose edges; VTP (XML PolyData) also velocity [m/s], bound [m]
+/// and body, VTU (XML UnstructuredGrid) also tetrahedra and their J (compare/record/vtu.hpp); both get an index with
+/// the frames' times, `out`/NAME.pvd, where NAME is the scene's. Positions are in the coordinates of the mesh's file
+/// (Provenance::origin). Returns all files, the index last. Throws InputError if the run has no frame, ResourceError if
+/// the disk fails.
 std::vector<std::filesystem::path> export_run(const std::filesystem::path& folder, ExportFormat format,
                                               const std::filesystem::path& out);
 

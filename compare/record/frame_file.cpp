@@ -22,11 +22,12 @@ std::int64_t checksum(const Frame& frame) {
   };
   add(frame.positions), add(frame.velocities), add(frame.bounds);
   add(std::array{frame.step}), add(std::array{frame.time});
-  if (!frame.orientations.empty()) add(as_floats(frame.orientations));  // zlib takes no bytes at null for a new sum
+  // zlib would begin a new sum for no bytes at null
+  if (!frame.orientations.empty()) add(as_floats(frame.orientations));
   return sum;
 }
 
-/// The version of the frame's format. Throws InputError where a newer program wrote it.
+/// Returns the version of the frame's format. Throws InputError if a newer program wrote it.
 std::int64_t version_of(const Hdf5File& file, const fs::path& path) {
   if (!file.has_attribute("format_version")) return 1;
   const auto version = file.attribute<std::int64_t>("format_version");

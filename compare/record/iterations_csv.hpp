@@ -1,4 +1,5 @@
-// iterations.csv: one row an iteration, of runs whose solver keeps them. Columns as in steps.csv: "name [unit]".
+// Writes iterations.csv: one row for each iteration, for solvers that keep them. Columns as in steps.csv: "name
+// [unit]".
 #pragma once
 
 #include <span>
@@ -8,11 +9,11 @@
 
 namespace ogc::compare {
 
-/// The header line.
+/// Returns the header line.
 std::string iteration_header();
 
-/// The iteration rows of all steps; numbers read back as the same double, "nan" where a quantity was not asked for.
-/// Empty where there are none.
+/// Returns the iteration rows of all steps; numbers read back as the same double, "nan" if a quantity was not
+/// requested. Empty if there are none.
 std::string iteration_lines(std::span<const StepMetrics> steps);
 
 }  // namespace ogc::compare

@@ -68,7 +68,7 @@ Json material_json(const Material& material) {
   return json;
 }
 
-/// How many vertices of the body follow a motion.
+/// Returns how many vertices of the body follow a motion.
 std::int64_t prescribed_count(const Scene& scene, const Body& body) {
   const auto is_in = [&](Index v) { return v >= body.first_vertex && v < body.first_vertex + body.vertex_count; };
   std::int64_t count = 0;
@@ -87,7 +87,7 @@ Json bodies_json(const Scene& scene) {
                     {"first_tetrahedron", body.first_tetrahedron},
                     {"tetrahedron_count", body.tetrahedron_count},
                     {"fixed", body.fixed},
-                    {"contact", name_of(body.contact)},
+                    {"body_contact", name_of(body.contact)},
                     {"prescribed_vertices", prescribed_count(scene, body)},
                     {"material", material_json(body.material)}});
   return json;

@@ -1,5 +1,5 @@
-// run.json: who ran what, where and when, and with which numbers. For people and plots; the program itself reads the
-// scene back from its own files.
+// Writes and reads run.json: the solver, device, command and time of a run, and its numbers. It is for people and
+// plots; the program itself reads the scene back from its own files.
 #pragma once
 
 #include <filesystem>
@@ -11,36 +11,36 @@
 
 namespace ogc::compare {
 
-/// The newest run folder that this program writes and reads. Of format 1, with other names of two columns of rows, it
-/// reads, too (StepColumn::former_name).
+/// Newest version of run folders that this program writes and reads. It also reads format 1, with other names of two
+/// columns of rows (StepColumn::former_name).
 inline constexpr int run_format_version = 2;
 
-/// What run.json says besides the scene: who ran what, where, when.
+/// What run.json says besides the scene: solver, device, program, and times.
 struct Provenance {
-  std::string solver, backend, device, command;  ///< as the user named them, and where it ran
+  std::string solver, backend, device, command;  ///< names given by the user, and the device that it ran on
   std::string version, commit, compiler, cuda;   ///< of the program
   bool dirty = false;                            ///< whether the tree had changes beyond the commit
   std::string started, ended, status;            ///< ISO 8601, UTC; status: "running", "finished", "failed: …"
-  std::vector<std::string> warnings;             ///< about settings that are hardly meant
-  Vec3 origin{};  ///< what positions are relative to, in the coordinates of the mesh's file [m]; exports add it
-  std::map<std::string, std::string> extra;  ///< further entries of run.json; "yes" and "no" are truth values there
+  std::vector<std::string> warnings;             ///< about settings that are probably a mistake
+  Vec3 origin{};  ///< point that positions are relative to, in the coordinates of the mesh's file [m]; exports add it
+  std::map<std::string, std::string> extra;  ///< further entries of run.json; "yes" and "no" become truth values there
 };
 
-/// What run.json says beside the copy of the scene's numbers.
+/// The contents of run.json besides the copy of the scene's numbers.
 struct Manifest {
-  Provenance provenance;                 ///< who ran it, and with what
-  std::string scene_name, scene_file;    ///< file: relative to the run folder
-  std::vector<std::string> stage_names;  ///< of steps.csv
+  Provenance provenance;                 ///< solver, program, device and times
+  std::string scene_name, scene_file;    ///< scene_file: path relative to the run folder
+  std::vector<std::string> stage_names;  ///< stages with columns in steps.csv
 };
 
-/// The text of run.json: `manifest`, and of the scene its sizes, settings and bodies with each number's unit.
+/// Returns the text of run.json: `manifest`, and the scene's sizes, settings and bodies with each number's unit.
 std::string manifest_text(const Manifest& manifest, const Scene& scene);
 
-/// Reads `folder`/run.json. Throws InputError that names the file: missing, not JSON, not of a run, or of a newer
-/// format, which is named.
+/// Reads `folder`/run.json. Throws InputError that names the file if it is missing, not JSON, not of a run, or of a
+/// newer format, which is named.
 Manifest read_manifest(const std::filesystem::path& folder);
 
-/// Date and time now, ISO 8601, UTC, whole seconds.
+/// Returns the current date and time, ISO 8601, UTC, whole seconds.
 std::string utc_now();
 
 }  // namespace ogc::compare

@@ -27,7 +27,7 @@ fs::path frame_path(const fs::path& folder, std::int64_t step) {
   return folder / "frames" / (frame_name(step) + ".h5");
 }
 
-/// Step in the name of a frame's file; none for another file.
+/// Returns the step in the name of a frame's file; none for another file.
 std::optional<std::int64_t> frame_step_of(const std::string& name) {
   constexpr std::string_view prefix = "frame_", suffix = ".h5";
   if (!name.starts_with(prefix) || !name.ends_with(suffix)) return std::nullopt;
@@ -37,8 +37,8 @@ std::optional<std::int64_t> frame_step_of(const std::string& name) {
   return parsed.ec == std::errc{} && parsed.ptr == end ? std::optional(step) : std::nullopt;
 }
 
-/// Length of a table with its header and its whole rows of steps up to `step`. A row begins with the number of its
-/// step.
+/// Returns the length of a table with its header and its whole rows of steps up to `step`. A row begins with the number
+/// of its step.
 std::size_t length_until(const fs::path& table, std::int64_t step) {
   const std::string text = read_bytes(table);
   std::size_t kept = text.find('\n') + 1;
@@ -50,7 +50,7 @@ std::size_t length_until(const fs::path& table, std::int64_t step) {
   return kept;
 }
 
-/// Finished frames by step.
+/// Returns finished frames by step.
 std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folder) {
   if (!fs::is_directory(folder / "frames"))
     throw InputError((folder / "frames").string() + ": is missing: name a folder that `ogc run` has written");
@@ -61,7 +61,7 @@ std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folde
   return frames;
 }
 
-/// Removes the files that a killed run was still writing.
+/// Removes the unfinished files of a killed run.
 void remove_partial_frames(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder / "frames"))
@@ -88,7 +88,7 @@ void refuse_used_folder(const fs::path& folder) {
                        "): name another folder, or remove this one");
 }
 
-/// Writes the scene beside its place and moves it there as a whole. Returns its file relative to `folder`.
+/// Writes the scene under a temporary name and moves it to its place as a whole. Returns its file relative to `folder`.
 std::string store_scene(const fs::path& folder, const Scene& scene) {
   const fs::path target = folder / "scene", partial = partial_name(target);
   fs::remove_all(partial);
@@ -153,7 +153,7 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, std::int64_t step, con
   if (fs::exists(folder_ / "iterations.csv"))
     iterations_.emplace(folder_ / "iterations.csv", length_until(folder_ / "iterations.csv", step));
   remove_partial_frames(folder_);
-  fs::remove(folder_ / "trajectory.vtkhdf");  // ends where the run was cut off
+  fs::remove(folder_ / "trajectory.vtkhdf");  // it ends where the run was cut off
   for (const auto& [stored, path] : list_frames(folder_))
     if (stored <= step) written_step_ = stored;
   Provenance& provenance = manifest_.provenance;
@@ -191,7 +191,7 @@ void RunWriter::add_frame(Frame frame) {
   };
   const auto work = std::make_shared<Work>(Work{std::move(frame), {}});
   const std::size_t bytes = 2 * (count * (2 * sizeof(Vec3f) + sizeof(float)) +
-                                 work->frame.orientations.size() * sizeof(Quaternion));  // as it is, and packed
+                                 work->frame.orientations.size() * sizeof(Quaternion));  // twice: plain and packed
   queue_.add(
       bytes, [work] { work->packed = pack(std::exchange(work->frame, {})); },
       [this, work] { write_frame(work->packed); });
@@ -205,7 +205,7 @@ void RunWriter::write_frame(const PackedFrame& frame) {
   grow_trajectory(frame);
 }
 
-/// Appends the frame to the trajectory; a resumed run first appends the frames that it has already.
+/// Appends the frame to the trajectory; a continued run first appends the frames that it already has.
 void RunWriter::grow_trajectory(const PackedFrame& frame) {
   const fs::path path = folder_ / "trajectory.vtkhdf";
   if (!trajectory_) {
@@ -264,7 +264,7 @@ void RunWriter::finish(const std::string& status) {
 }
 
 void RunWriter::give_up(const std::string& status) {
-  // The error that made the caller give up is the one to report.
+  // Report the error that made the caller give up, not a later one.
   try {
     queue_.drain();
   } catch (const std::exception&) {}

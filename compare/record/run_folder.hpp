@@ -1,4 +1,4 @@
-// Run folders: run.json, steps.csv, frames/, trajectory.vtkhdf.
+// Writes and reads run folders: run.json, steps.csv, frames/, trajectory.vtkhdf.
 //
 //   run.json            written last when a run begins, again when it ends: "status" says which
 //   scene/NAME.json     the scene, meshes beside it (compare/files/scenes/scene_files.hpp)
@@ -8,18 +8,18 @@
 //   trajectory.vtkhdf   all frames, for viewers (compare/record/trajectory.hpp); while the run goes on it grows as
 //                       trajectory.vtkhdf.growing
 //
-// Frames and checkpoints are packed and written by threads of their own (compare/record/writing_queue.hpp). What holds:
+// Frames and checkpoints are packed and written by threads of their own (compare/record/writing_queue.hpp). Guarantees:
 //
 //   - A file that has its name is whole, whatever ends the program or the machine: it is written under another name,
-//     synced, renamed. steps.csv grows by lines; readers leave out a last one that is cut.
+//     synced, renamed. steps.csv grows by lines; readers ignore an incomplete last line.
 //   - No later than a second after something was written, and at the end, all of it is synced by one call; then frames
 //     get their names. So a power cut loses the last second, and what waited for a disk that is slower than that.
 //   - kill -9 loses nothing that `written()` counts: frames that have their names. Rows are in the file when add_steps
-//     returns; for kill -9 that is enough.
-//   - A checkpoint is written after all frames and rows up to its step are synced, so what goes on from it misses none.
-//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are worked at; then add_frame and save wait.
-//   - What fails on another thread (a full disk) is thrown by the next call here; what was written before is kept.
-//   - A growing trajectory that a kill left behind is worth nothing; a run that goes on makes it anew from the frames.
+//     returns, which is enough for kill -9.
+//   - A checkpoint is written after all frames and rows up to its step are synced, so a run continued from it has them.
+//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are in progress; then add_frame and save wait.
+//   - A failure on another thread (a full disk) is thrown by the next call; everything written before is kept.
+//   - A growing trajectory that a kill left behind is useless; a continued run makes it anew from the frames.
 #pragma once
 
 #include <atomic>
@@ -41,54 +41,54 @@
 
 namespace ogc::compare {
 
-/// Throws InputError, before anything is computed for it, where no new run can be written to the folder: it holds one,
-/// a file has its name, it can't be made.
+/// Throws InputError if no new run can be written to the folder: it holds one, a file has its name, or it can't be
+/// made. To be called before anything is computed.
 void expect_new_run_folder(const std::filesystem::path& folder);
 
-/// Writes a run. Throws ResourceError (disk full or not writable, with the path).
+/// Writes a run. Throws ResourceError with the path if the disk is full or not writable.
 class RunWriter {
  public:
-  /// Makes the folder and all that a run has before its first step; status "running". `started` is set to now where it
-  /// is empty. Stage names give columns of steps.csv, none for a run without profile; so do the extra
-  /// entries "ledger", "yes", and "meetings". Throws InputError where the folder holds a run already, or what a run
-  /// would overwrite.
+  /// Makes the folder and everything that a run has before its first step; status "running". An empty `started` is set
+  /// to now. steps.csv gets columns for each stage name (none for a run without profile), for the extra entry "ledger"
+  /// if it is "yes", and for the extra entry "meetings". Throws InputError if the folder already holds a run, or files
+  /// that a run would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance,
             std::vector<std::string> stage_names);
-  /// Goes on with the run of the folder after `step`, a checkpoint's: rows of later steps are cut off, as they are
-  /// written again; status "running", and run.json says when it went on, with `note`. Scene: the folder's. Throws
-  /// InputError where another process writes the run, or where it can't be read.
+  /// Continues the run of the folder after `step` of a checkpoint: rows of later steps are cut off, as they are written
+  /// again; status "running", and run.json gets the time of the restart, with `note`. `scene` is the folder's. Throws
+  /// InputError if another process writes the run, or if it can't be read.
   RunWriter(std::filesystem::path folder, const Scene& scene, std::int64_t step, const std::string& note);
-  /// Removes the frames of other steps.
+  /// Removes the frames of steps for which `keep` is false.
   void keep_frames(const std::function<bool(std::int64_t)>& keep);
   /// Appends rows to steps.csv in one write, and their iteration rows, if there are any, to iterations.csv. Throws
-  /// std::invalid_argument where a row has times for another number of stages.
+  /// std::invalid_argument if a row has times for another number of stages.
   void add_steps(const std::vector<StepMetrics>& rows);
-  /// Stores a state; one of the same step is replaced. Throws std::invalid_argument where its arrays have not one entry
-  /// for each vertex.
+  /// Stores a state and replaces one of the same step. Throws std::invalid_argument if an array has not one entry for
+  /// each vertex.
   void add_frame(Frame frame);
-  /// Replaces checkpoint.h5. Rows and frames up to its step must be added before.
+  /// Replaces checkpoint.h5. Rows and frames up to its step must be added first.
   void save(Checkpoint checkpoint);
-  /// Waits until all that was added is on the disk.
+  /// Waits until everything that was added is on the disk.
   void flush() { queue_.drain(); }
-  /// Sets an entry of Provenance::extra; the next manifest (at the latest that of finish) carries it.
+  /// Sets an entry of Provenance::extra; the next manifest (at the latest the one that finish writes) has it.
   void set_extra(const std::string& key, const std::string& value) { manifest_.provenance.extra[key] = value; }
-  /// Replaces Provenance::warnings; the next manifest carries them.
+  /// Replaces Provenance::warnings; the next manifest has them.
   void set_warnings(std::vector<std::string> warnings) { manifest_.provenance.warnings = std::move(warnings); }
-  /// Flushes and completes trajectory.vtkhdf, where there is a frame. Nothing may be added afterwards.
+  /// Flushes and, if there is a frame, completes trajectory.vtkhdf. Nothing may be added afterwards.
   void close();
   /// Closes, then writes the final run.json.
   void finish(const std::string& status);
-  /// After an error: keeps and completes what can be, then writes the final run.json.
+  /// Keeps and completes what is possible after an error, then writes the final run.json.
   void give_up(const std::string& status);
   const std::filesystem::path& folder() const { return folder_; }
 
   /// What is on the disk under its name, synced.
   struct Written {
-    std::int64_t frames = 0;      ///< of this writer
-    std::int64_t last_step = -1;  ///< of the last of them, or of those that a run goes on from
+    std::int64_t frames = 0;      ///< number of frames of this writer
+    std::int64_t last_step = -1;  ///< step of the last of them, or of the last frame of the continued run
   };
   Written written() const { return {written_frames_, written_step_}; }  ///< what is safe on disk
-  /// Time that calls waited for the disk [s].
+  /// Returns the time that calls waited for the disk [s].
   double waited_seconds() const { return queue_.waited_seconds() + closing_seconds_; }
 
  private:
@@ -102,30 +102,30 @@ class RunWriter {
   Manifest manifest_;
   std::string scene_digest_;
   std::optional<LineAppender> steps_, iterations_;
-  // Of the writing thread; after a flush, of the caller's.
-  std::vector<std::filesystem::path> uncommitted_;  ///< frames that wait for their names
-  std::int64_t uncommitted_step_ = -1;              ///< of the last of them
+  // The writing thread uses these; after a flush, the caller's.
+  std::vector<std::filesystem::path> uncommitted_;  ///< frames without their names
+  std::int64_t uncommitted_step_ = -1;              ///< step of the last of them
   std::optional<TrajectoryWriter> trajectory_;
-  bool disordered_ = false;  ///< a frame came that belongs before another one of the trajectory
+  bool disordered_ = false;  ///< a frame came out of order for the trajectory
   std::atomic<std::int64_t> written_frames_ = 0, written_step_ = -1;
   double closing_seconds_ = 0;
   bool closed_ = false;
-  WritingQueue queue_;  ///< its threads end before what they use
+  WritingQueue queue_;  ///< last, so that its threads end before the members that they use
 };
 
-/// Reads what a run has so far. Throws InputError that names the file.
+/// Reads the finished part of a run. Throws InputError that names the file.
 class RunReader {
  public:
   explicit RunReader(std::filesystem::path folder);
   const Scene& scene() const { return scene_; }                                          ///< as it was run
-  const Provenance& provenance() const { return manifest_.provenance; }                  ///< of run.json
+  const Provenance& provenance() const { return manifest_.provenance; }                  ///< provenance in run.json
   const std::vector<std::string>& stage_names() const { return manifest_.stage_names; }  ///< columns of `--profile`
-  std::size_t frame_count() const { return frames_.size(); }                             ///< finished ones
-  /// Step of the i-th frame, ascending.
+  std::size_t frame_count() const { return frames_.size(); }                             ///< number of finished frames
+  /// Returns the step of the i-th frame, ascending.
   std::int64_t frame_step(std::size_t i) const { return frames_.at(i).first; }
-  /// Throws InputError also where it does not fit the scene.
+  /// Returns a frame. Throws InputError also if it does not fit the scene.
   Frame frame(std::size_t i) const;
-  /// The same as it is stored.
+  /// Returns a frame as it is stored, checked in the same way.
   PackedFrame packed_frame(std::size_t i) const;
 
  private:

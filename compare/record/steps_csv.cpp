@@ -37,8 +37,7 @@ constexpr std::array<StepColumn, 23> columns{{
     {"status", "bits", &StepMetrics::status},
 }};
 
-/// Behind those: of scenes with tetrahedra, of scenes with volumes, with such of tetrahedra, of scenes with rods, of
-/// runs that were asked, of runs that say how far their steps were solved.
+/// Optional columns, in this order: tetrahedra, volumes, volumes of tetrahedra, rods, counted meetings, convergence.
 constexpr std::array<StepColumn, 1> solid_columns{{
     {"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra},
 }};
@@ -66,7 +65,7 @@ constexpr std::array<StepColumn, 4> convergence_columns{{
     {"left_held", "1", &StepMetrics::left_held},
 }};
 
-/// Those before a ledger's.
+/// Returns all columns before those of a ledger.
 std::vector<StepColumn> common_columns(const StepGroups& groups) {
   std::vector<StepColumn> all(columns.begin(), columns.end());
   if (groups.solids) all.insert(all.end(), solid_columns.begin(), solid_columns.end());
@@ -84,7 +83,7 @@ struct LedgerColumn {
   double& (*of)(StepLedger& row);
 };
 
-/// Behind those, of runs with a ledger.
+/// Columns of runs with a ledger, after the others.
 constexpr std::array<LedgerColumn, 25> ledger_columns{{
     {"energy_start", "J", [](StepLedger& l) -> double& { return l.energy_start; }},
     {"energy_guess", "J", [](StepLedger& l) -> double& { return l.energy_guess; }},
@@ -156,7 +155,7 @@ bool is_titled(const StepColumn& column, std::string_view title) {
          (!column.former_name.empty() && title == title_of(column.former_name, column.unit));
 }
 
-/// The table without rows.
+/// Returns the table without rows.
 StepTable parse_header(const std::string& file, std::string_view line) {
   const std::vector<std::string_view> titles = split(line);
   const auto refuse = [&](std::size_t i, const std::string& expected) {
@@ -196,13 +195,13 @@ StepTable parse_header(const std::string& file, std::string_view line) {
   return table;
 }
 
-/// How many numbers a row has.
+/// Returns the number of values in a row.
 std::size_t width_of(const StepTable& table) {
   return common_columns(table.groups).size() + (table.groups.ledger ? ledger_columns.size() : 0) +
          table.stage_names.size();
 }
 
-/// False where the line is not a row of such a table.
+/// Returns false if the line is not a row of such a table.
 bool parse_row(std::string_view line, const StepTable& table, StepMetrics& row) {
   const std::vector<std::string_view> parts = split(line);
   if (parts.size() != width_of(table)) return false;

@@ -26,7 +26,7 @@ WritingQueue::~WritingQueue() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-/// Waits for a condition, which must also hold after a failure, and throws the failure then.
+/// Waits for a condition, which must also hold after a failure, and then throws the failure.
 template <class Condition>
 void WritingQueue::wait(std::unique_lock<std::mutex>& lock, Condition condition) {
   const Clock::time_point begin = Clock::now();
@@ -155,7 +155,7 @@ void WritingQueue::write_front(std::unique_lock<std::mutex>& lock) {
   }
   lock.lock();
   busy_ = false;
-  // After a failure of a job that is prepared the queue is empty.
+  // The queue is empty if the preparation of another job has failed meanwhile.
   if (!jobs_.empty() && jobs_.front() == job) jobs_.pop_front(), bytes_ -= job->bytes;
   if (failure) fail(failure);
   changed_.notify_all();

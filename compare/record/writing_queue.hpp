@@ -1,6 +1,6 @@
-// What a run writes, beside the simulation: jobs are prepared by several threads at the same time and written by one,
-// in the order in which they came. What was written is synced in groups. Memory is bounded: who adds to a queue that is
-// full waits, so a disk that is too slow slows the simulation down.
+// Writes the files of a run beside the simulation: several threads prepare jobs at the same time, and one writes them
+// in the order in which they came. Written files are synced in groups. Memory is bounded: adding to a full queue waits,
+// so a disk that is too slow slows the simulation down.
 #pragma once
 
 #include <chrono>
@@ -16,32 +16,33 @@
 
 namespace ogc::compare {
 
-/// What a queue takes at most.
+/// Limits of a queue.
 struct QueueLimits {
-  std::size_t jobs = 64;                       ///< that wait or are worked at
-  std::size_t bytes = std::size_t{256} << 20;  ///< of them together; a job that is larger waits until it is alone
+  std::size_t jobs = 64;                       ///< jobs that wait or are in progress
+  std::size_t bytes = std::size_t{256} << 20;  ///< bytes of all jobs together; a larger job waits until it is alone
   double sync_seconds = 1;                     ///< from the first write after a sync to the next sync [s]
-  unsigned threads = 0;                        ///< that prepare; 0: half of the machine's, at most 8
+  unsigned threads = 0;                        ///< threads that prepare; 0: half of the machine's, at most 8
 };
 
-/// One thread adds.
+/// Queue of jobs, filled by one thread.
 class WritingQueue {
  public:
   using Work = std::function<void()>;
-  /// `sync`: called by the writing thread when something was written and a second is over, or `drain` asks.
+  /// Makes a queue. The writing thread calls `sync` when something was written and `sync_seconds` have passed, or when
+  /// `drain` waits.
   explicit WritingQueue(Work sync, const QueueLimits& limits = {});
-  /// Writes and syncs what was added; what fails then is not told.
+  /// Writes and syncs what was added; failures are not reported.
   ~WritingQueue();
   WritingQueue(const WritingQueue&) = delete;
   WritingQueue& operator=(const WritingQueue&) = delete;
-  /// Adds a job that holds so many bytes; waits where that is too much. `prepare` may be empty. Throws what an earlier
-  /// job or sync threw: after the first failure nothing is written any more, but what was written before is synced.
+  /// Adds a job that holds so many bytes; waits if that is too much. `prepare` may be empty. Throws what an earlier job
+  /// or sync threw: after the first failure nothing more is written, but what was written before is synced.
   void add(std::size_t bytes, Work prepare, Work write);
-  /// Something was written past the queue and wants to be synced with the rest. Throws like `add`.
+  /// Tells the queue that a file was written without it and must be synced with the rest. Throws as `add` does.
   void touch();
-  /// Waits until all is written and synced, or nothing will be any more. Throws like `add`.
+  /// Waits until everything is written and synced, or a failure has stopped the queue. Throws as `add` does.
   void drain();
-  /// Time that add and drain waited [s].
+  /// Returns the time that add and drain waited [s].
   double waited_seconds() const { return waited_seconds_; }
 
  private:
@@ -69,7 +70,7 @@ class WritingQueue {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::shared_ptr<Job>> jobs_;
-  std::size_t bytes_ = 0;  ///< of the jobs
+  std::size_t bytes_ = 0;  ///< sum over the jobs
   bool busy_ = false;      ///< the writing thread writes or syncs
   bool dirty_ = false;     ///< something is written and not synced
   bool draining_ = false;  ///< nothing was added since the last drain began

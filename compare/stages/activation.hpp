@@ -9,8 +9,8 @@
 
 namespace ogc::compare {
 
-/// n cases: r [m] and k_c [N/m] within 2⁻²⁰ … 2²⁰, distance d [m] from the smaller of
-/// 2⁻²⁰ and 2⁻⁴⁰ r to 2²⁰; which energy.
+/// n cases with r [m] and k_c [N/m] within 2⁻²⁰ … 2²⁰, distance d [m] from the smaller of 2⁻²⁰ and 2⁻⁴⁰ r to 2²⁰, and
+/// the energy.
 struct ActivationIn {
   std::vector<float> distance, contact_radius, stiffness;  ///< by case: d [m], r [m], k_c [N/m]
   std::vector<ContactActivation> activation;               ///< by case
@@ -24,18 +24,18 @@ struct ActivationOut {
   std::vector<float> energy, slope, curvature;  ///< by case: g [J], g' [N], g'' [N/m]
 };
 
-/// Values in double from multiprecision, and the sum of the moduli of the terms of which each consists, but at least
-/// 2⁻¹⁰² where d < r: the unit of the errors. u times that is the smallest normal number, so that underflow next to r
+/// Values in double from multiprecision, and the units of their errors: the sum of the moduli of the terms of each
+/// value, but at least 2⁻¹⁰² where d < r. u times that is the smallest normal number, so that underflow next to r
 /// counts little.
 struct ActivationTruth {
-  std::vector<double> energy, slope, curvature;                    ///< exact
+  std::vector<double> energy, slope, curvature;
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
 };
 
 /// Largest error in units of u · scale. Quadratic stage: r − d (1), square (2), k_c/2 (1). Logarithmic stage: r − τ
-/// (1), k'_c (2), log (library: 2 ulp), product and sum (2), b (4). Cubic: 2k_c/(3r) (2), three depths (3 + 3). IPC's:
-/// the depth, twice (2), ln(r/d) from the depth (three roundings of a quotient, two of a polynomial), its products (4),
-/// or with g'' instead of a second depth the sum with (d − r)/d (2 + 2) and its square (1).
+/// (1), k'_c (2), log (library, 2 ulp), product and sum (2), b (4). Cubic: 2k_c/(3r) (2), three depths (3 + 3).
+/// `ipc_log`: the depth, twice (2), ln(r/d) from the depth (three roundings of a quotient, two of a polynomial), its
+/// products (4), or with g'' instead of a second depth the sum with (d − r)/d (2 + 2) and its square (1).
 inline constexpr double activation_tolerance = 12;
 
 }  // namespace ogc::compare

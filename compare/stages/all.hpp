@@ -1,4 +1,4 @@
-// All stages, for what handles each of them in turn.
+// Includes all stages, for code that handles each of them in turn.
 #pragma once
 
 #include "compare/stages/activation.hpp"

@@ -13,13 +13,13 @@ namespace ogc::compare {
 struct BoundIn {
   const Topology* topology = nullptr;                               ///< of the mesh
   std::span<const float> d_min_vertex, d_min_edge, d_min_triangle;  ///< [m], by vertex, edge, triangle
-  float bound_relaxation = 0.45f;                                   ///< γ_p
+  float bounds_relaxation = 0.45f;                                  ///< γ_p
 };
 
 /// The answer.
 struct BoundOut {
-  /// b_v [m], by vertex; never above γ_p · min(…). Of a vertex inside a solid (Topology::on_surface), which nothing
-  /// bounds, the largest finite number.
+  /// b_v [m], by vertex; never above γ_p · min(…). The largest finite number for a vertex inside a solid
+  /// (Topology::on_surface), which nothing bounds.
   std::vector<float> bound;
 };
 

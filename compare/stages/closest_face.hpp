@@ -22,7 +22,7 @@ struct ClosestFaceIn {
 
 /// The answer; all arrays have length n.
 struct ClosestFaceOut {
-  /// on a plane that separates two features the lower-dimensional one wins
+  /// of equally near features the lower-dimensional one wins
   std::vector<TriangleFeature> feature;
   std::vector<std::array<float, 3>> weights;  ///< barycentric weights of the closest point, ≥ 0
   std::vector<float> distance;                ///< [m], nearest
@@ -47,13 +47,13 @@ struct ClosestFaceTruth {
 /// a norm: 3 + 4 + 1 + 4 roundings, half of them systematic. Differences of the given coordinates are amplified by
 /// Σ|δ|/distance; the judge multiplies by max(1, Σ|δ|/distance).
 inline constexpr double closest_face_distance_tolerance = 12;
-/// Largest error accepted in a weight, in units of u · weight_condition: the same count.
+/// Largest error accepted in a weight, in units of u · weight_condition; the same count.
 inline constexpr double closest_face_weight_tolerance = 12;
-/// Largest shortfall accepted in `distance_below`, in units of u · max(distance, Σ|δ|): below that the bound is valid
-/// but uselessly loose. No kernel can vouch for the plane of a needle: with relative errors ρ its normal, of length ‖n‖
-/// beside sides of length L, moves the distance by ρ S L²/‖n‖, where S = ‖p − a‖ + ‖b − a‖ + ‖c − a‖ ≤ 3 Σ|δ|; taking a
-/// needle for its edges costs its height ‖n‖/L. Changing over at ‖n‖ = √ρ L² costs √ρ S either way. With 2⁷ roundings
-/// in double √ρ = 2⁻²³ = 2 u: a bound 2 √ρ S below the distance, for a slack as large as the error, is 12 u Σ|δ|; twice
+/// Largest shortfall accepted in `distance_below`, in units of u · max(distance, Σ|δ|): a bound below that is valid but
+/// uselessly loose. No kernel knows the plane of a needle well: with relative errors ρ its normal, of length ‖n‖ beside
+/// sides of length L, moves the distance by ρ S L²/‖n‖, where S = ‖p − a‖ + ‖b − a‖ + ‖c − a‖ ≤ 3 Σ|δ|; taking a needle
+/// for its edges costs its height ‖n‖/L. Changing over at ‖n‖ = √ρ L² costs √ρ S either way. With 2⁷ roundings in
+/// double √ρ = 2⁻²³ = 2 u: a bound 2 √ρ S below the distance, for a slack as large as the error, is 12 u Σ|δ|; twice
 /// that for the kernel.
 inline constexpr double closest_face_below_tolerance = 24;
 

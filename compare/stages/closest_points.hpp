@@ -12,8 +12,8 @@ namespace ogc::compare {
 
 enum class EdgeFeature : std::uint8_t { end_0, end_1, interior };  ///< of a closed edge
 
-/// n independent cases; `first` is the lower-numbered edge. Edges of zero length are legal (during a run): such an edge
-/// is its end_0.
+/// n independent cases; `first` is the lower-numbered edge. Edges of zero length are legal (during a run): the closest
+/// point of such an edge is its end_0.
 struct ClosestPointsIn {
   std::vector<std::array<Vec3f, 2>> first, second;  ///< by case and end [m]
 };
@@ -22,30 +22,31 @@ struct ClosestPointsIn {
 /// the first in more than a point. Then both features are interior, and the points are the middle of the overlap and
 /// its projection on the (closed) second edge.
 struct ClosestPointsOut {
-  std::vector<EdgeFeature> first_feature, second_feature;  ///< where the closest points lie
+  std::vector<EdgeFeature> first_feature, second_feature;  ///< features that hold the closest points
   std::vector<std::uint8_t> nearly_parallel;               ///< 0 or 1
   std::vector<std::array<float, 2>> parameters;            ///< of the contact points, in [0, 1] from end_0 to end_1
   std::vector<float> contact_distance;                     ///< [m], between the contact points, nearest
   std::vector<float> distance_below;                       ///< [m], never above the exact distance of the two edges
 };
 
-/// Code of an answer: first_feature + 3 · second_feature + 9 · nearly_parallel; bit `code` of `accepted` says whether
-/// it is acceptable.
+/// Code of an answer: first_feature + 3 · second_feature + 9 · nearly_parallel; it is accepted if bit `code` of
+/// `accepted` is set.
 struct ClosestPointsTruth {
-  ClosestPointsOut exact;               ///< rounded
-  std::vector<std::uint32_t> accepted;  ///< bit f + 3 f' + 9 p: features f, f' and nearly_parallel p are accepted
-  std::vector<std::uint8_t> near;       ///< 1 where a margin between answers lies within near_factor
+  ClosestPointsOut exact;                          ///< rounded
+  std::vector<std::uint32_t> accepted;             ///< bit of each accepted code
+  std::vector<std::uint8_t> near;                  ///< 1 where a margin between answers lies within near_factor
   std::vector<double> contact_distance, distance;  ///< [m]
   std::vector<std::array<double, 2>> parameters;   ///< exact
-  std::vector<double> parameter_condition;         ///< as weight_condition of closest_face
+  std::vector<double> parameter_condition;         ///< defined as weight_condition of closest_face
 };
 
-/// Units as in closest_face; the interior–interior solution has two more products in its determinant.
+/// Largest errors, in units as in closest_face; the interior–interior solution has two more products in its
+/// determinant.
 inline constexpr double closest_points_distance_tolerance = 16;
 inline constexpr double closest_points_parameter_tolerance = 16;
-/// As closest_face_below_tolerance: nearly parallel edges at an angle θ cost ρ S/θ by their normal, S ≤ 2 Σ|δ|, or θ
-/// ‖e‖ by their ends; 2⁸ roundings in double give √ρ = 2.9 u at the best change-over, 2 √ρ S = 12 u Σ|δ|; twice that
-/// for the kernel, and a third for the two products.
+/// Derived as closest_face_below_tolerance: nearly parallel edges at an angle θ cost ρ S/θ by their normal, S ≤ 2 Σ|δ|,
+/// or θ ‖e‖ by their ends; 2⁸ roundings in double give √ρ = 2.9 u at the best change-over, 2 √ρ S = 12 u Σ|δ|; twice
+/// that for the kernel, and a third for the two products.
 inline constexpr double closest_points_below_tolerance = 32;
 
 }  // namespace ogc::compare

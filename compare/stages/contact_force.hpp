@@ -15,58 +15,59 @@ enum class ContactSides : std::uint8_t {
   point_triangle,  ///< 0 | 1 2 3
 };
 
-/// Vertices of a contact between these sides.
+/// Returns the number of vertices of a contact between these sides.
 constexpr std::int32_t vertex_count(ContactSides sides) {
   return sides == ContactSides::point_point ? 2 : sides == ContactSides::point_edge ? 3 : 4;
 }
 
-/// E = e_k g(d), g the activation asked for (compare/stages/activation.hpp), d the distance of the contact points: the
-/// closest points of the closed faces, for nearly parallel edges those of closest_points. Force −e_k g'(d) w n on a
-/// vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are updated together, itself
-/// included: w² mostly (method.md §4.2, §7.4). Slope and curvature are those at d within 2⁻²³ r … r: from r on
-/// no force, and the block of r, k_c of `ogc`. At d = 0, which the bounds exclude, there is no normal, and both are 0.
+/// E = e_k g(d), g the case's activation (compare/stages/activation.hpp), d the distance of the contact points: the
+/// closest points of the closed faces, for nearly parallel edges as closest_points defines them. Force −e_k g'(d) w n
+/// on a vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are updated together with it,
+/// itself included: mostly w² (method.md §4.2, §7.4). Slope and curvature are taken at d, clamped to 2⁻²³ r … r: beyond
+/// r there is no force, and the block is that at r (k_c with `ogc`). At d = 0, which the bounds exclude, there is no
+/// normal, and both are 0.
 ///
 /// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for
-/// other sides and where one of the rest lengths is 0. Where both are, and the edges were nearly parallel at the last
-/// detection (closest_points: decided exactly), e_k is the length of their overlap, seen along the first, over that of
+/// other sides and where one of the rest lengths is 0. Where both are 0, and the edges were nearly parallel at the last
+/// detection (closest_points: decided exactly), e_k is the length of their overlap along the first over the length of
 /// the shorter one.
 ///
 /// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one:
 /// its foot is not known to first order. The judge accepts any force and block there, too, whose moduli are at most
-/// −e_k g' and e_k g'' at the exact distance, the largest that any point of the needle gives, or 2 e_k g'' where others
-/// are updated together. d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
+/// −e_k g' and e_k g'' at the exact distance, the largest values of any point of the needle, or 2 e_k g'' if other
+/// vertices are updated with it. d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
 struct ContactForceCase {
-  ContactSides sides = ContactSides::point_point;  ///< what meets
-  std::int32_t own = 0;                            ///< which vertex is asked about, 0 … vertex_count(sides) − 1
-  std::array<Vec3f, 4> vertex;                     ///< x [m]; what the sides lack is 0
-  std::array<Vec3f, 4> previous;                   ///< X_prev, x at the last detection [m], for e_k
-  std::array<float, 2> rest_squared{};             ///< ‖ē‖², ‖ē'‖² [m²]; 0 of an edge without triangles
-  float contact_radius = 0, stiffness = 0;         ///< r [m], k_c [N/m]
+  ContactSides sides = ContactSides::point_point;  ///< the faces that meet
+  std::int32_t own = 0;           ///< the vertex whose force and block are asked for, 0 … vertex_count(sides) − 1
+  std::array<Vec3f, 4> vertex;    ///< x [m]; 0 for vertices that the sides lack
+  std::array<Vec3f, 4> previous;  ///< X_prev, x at the last detection [m]; e_k uses it
+  std::array<float, 2> rest_squared{};      ///< ‖ē‖², ‖ē'‖² [m²]; 0 for an edge without triangles
+  float contact_radius = 0, stiffness = 0;  ///< r [m], k_c [N/m]
   ContactActivation activation = ContactActivation::ogc;  ///< g
-  std::uint8_t together = 0;  ///< bit k: vertex k is updated together with the own one, whose bit means nothing
+  std::uint8_t together = 0;  ///< bit k: vertex k is updated together with `own`, whose bit is ignored
 };
 
-/// The question: cases that have nothing to do with each other.
+/// The question: independent cases.
 struct ContactForceIn {
-  std::vector<ContactForceCase> cases;  ///< each by itself
+  std::vector<ContactForceCase> cases;  ///< independent of each other
 };
 
-/// In units of u · scale. On the longest way from an input to the force lie a difference (1), the first parameter of
-/// two edges (two cross products (4), their product (3) over the square of the one (2 + 3), a quotient (1)), from it
-/// the second (two products of vectors (6), a product, a difference, a quotient (3), the other square (3)), its
-/// complement (1), the vector between the contact points (a product, two sums), its length (3 + 1), the normal (2), the
-/// slope (4; of ipc_log 9), its products with weight and normal (2): 47. e_k comes another way: a difference, a cross
-/// product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15. As a share of the overlap: a
-/// difference, two products of vectors (6), a quotient for each end, their difference, the root of a quotient of
-/// squares (6 / 2 + 2), two products: 16.
+/// Largest error in units of u · scale. On the longest way from an input to the force lie a difference (1), the first
+/// parameter of two edges (two cross products (4), their product (3) over the square of the one (2 + 3), a quotient
+/// (1)), from it the second (two products of vectors (6), a product, a difference, a quotient (3), the other square
+/// (3)), its complement (1), the vector between the contact points (a product, two sums), its length (3 + 1), the
+/// normal (2), the slope (4; of ipc_log 9), its products with weight and normal (2): 47. For e_k: a difference, a cross
+/// product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15. For e_k as a share of the
+/// overlap: a difference, two products of vectors (6), a quotient for each end, their difference, the root of a
+/// quotient of squares (6 / 2 + 2), two products: 16.
 inline constexpr double contact_force_tolerance = 47;
-/// As far as the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the
-/// curvature (2), an outer product (2).
+/// Up to the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the curvature
+/// (2), an outer product (2).
 inline constexpr double contact_block_tolerance = 51;
 /// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a
-/// root (1), twice for weights that are not quite those of the closest points. Contacts within it of another
-/// feature, of touching or, with ogc_as_printed, of the jump at τ are grey. Where they cannot be told from touching,
-/// neither distance nor normal is known: any answer within that of d = 2⁻²³ r is accepted.
+/// root (1), twice for weights that are not quite those of the closest points. Contacts within this of another feature,
+/// of touching or, with ogc_as_printed, of the jump at τ are grey. If a contact cannot be told from touching, neither
+/// distance nor normal is known: any answer up to the one at d = 2⁻²³ r is accepted.
 inline constexpr double contact_grey = 16;
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// What the two detections share: their question, and lists of grey cases.
+// Holds what the two detections share: their question, and lists of grey cases.
 #pragma once
 
 #include <span>
@@ -18,14 +18,14 @@ struct DetectIn {
   float query_radius = 0;              ///< r_q ≥ r [m]
 };
 
-/// A grey decision: any one of `contacts` may stand in the answer, and none at all only where `absence_accepted`.
+/// A grey decision: an answer may hold any one of `contacts`, or none if `absence_accepted`.
 template <class Contact>
 struct GreyDecision {
-  std::vector<Contact> contacts;  ///< any of them may be answered
-  bool absence_accepted = false;  ///< none of them may be, too
+  std::vector<Contact> contacts;  ///< alternatives, all accepted
+  bool absence_accepted = false;  ///< whether an answer may hold none of them
 };
 
-/// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|), as distance_below of the pair
+/// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|), as for distance_below of the pair
 /// stages.
 inline constexpr double detect_below_tolerance = 32;
 

@@ -8,15 +8,15 @@
 
 namespace ogc::compare {
 
-/// Nearly parallel edges that overlap (compare/stages/closest_points.hpp) are, if nearer than r, a contact of their
-/// interiors where closest points of theirs lie in each other's blocks, of exactly parallel ones those at either end of
-/// the overlap; two edges without triangles are one without that test.
+/// Nearly parallel edges that overlap (compare/stages/closest_points.hpp) are a contact of their interiors if they are
+/// nearer than r and their closest points lie in each other's blocks; if they are exactly parallel, the closest points
+/// at either end of the overlap count. Two edges without triangles are a contact without that test.
 ///
 /// {p, q}, each a vertex or the interior of an edge, first < second as faces. `first_edge` ∋ first and `second_edge` ∋
 /// second are the lowest-numbered edges that generate the pair: lexicographically smallest (min, max) of both.
 struct EdgeEdgeContact {
-  Face first, second;                       ///< a vertex or an edge each, the lower face first
-  Index first_edge = -1, second_edge = -1;  ///< that generate the pair, in the order of the faces
+  Face first, second;                       ///< each a vertex or an edge, the lower face first
+  Index first_edge = -1, second_edge = -1;  ///< edges that generate the pair, in the order of the faces
   friend auto operator<=>(const EdgeEdgeContact&, const EdgeEdgeContact&) = default;
 };
 
@@ -29,9 +29,9 @@ struct DetectEdgeEdgeOut {
 /// The exact answer and each grey decision.
 struct DetectEdgeEdgeTruth {
   DetectEdgeEdgeOut exact;                          ///< in canonical order, distances rounded down
-  std::vector<GreyDecision<EdgeEdgeContact>> grey;  ///< all there are
-  std::size_t pairs = 0;                            ///< decided
-  std::size_t near = 0;                             ///< edges of which some decision lies within near_factor
+  std::vector<GreyDecision<EdgeEdgeContact>> grey;  ///< all grey decisions
+  std::size_t pairs = 0;                            ///< decided pairs
+  std::size_t near = 0;                             ///< edges with a decision within near_factor
 };
 
 }  // namespace ogc::compare

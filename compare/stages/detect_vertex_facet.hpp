@@ -11,8 +11,8 @@ namespace ogc::compare {
 /// v is in contact with the face: x_v ∈ U_a and d < r. `owner` is the lowest-numbered triangle that contains the face.
 struct VertexFacetContact {
   Index vertex = -1;  ///< v
-  Face face;          ///< that it touches
-  Index owner = -1;   ///< triangle whose list holds it
+  Face face;          ///< the face that v touches
+  Index owner = -1;   ///< triangle whose list holds the contact
   friend auto operator<=>(const VertexFacetContact&, const VertexFacetContact&) = default;
 };
 
@@ -23,13 +23,13 @@ struct DetectVertexFacetOut {
   std::vector<float> d_min_triangle;  ///< min over non-adjacent vertices, at most r_q [m], never above the exact value
 };
 
-/// The exact answer: contacts decided without rounding, smallest distances rounded down to single precision; each grey
-/// decision.
+/// The exact answer: contacts decided without rounding, smallest distances rounded down to single precision; and each
+/// grey decision.
 struct DetectVertexFacetTruth {
   DetectVertexFacetOut exact;                          ///< in canonical order, distances rounded down
-  std::vector<GreyDecision<VertexFacetContact>> grey;  ///< all there are
+  std::vector<GreyDecision<VertexFacetContact>> grey;  ///< all grey decisions
   std::size_t pairs = 0;                               ///< candidates within r_q, the denominator of the grey share
-  std::size_t near = 0;                                ///< vertices of which some decision lies within near_factor
+  std::size_t near = 0;                                ///< vertices with a decision within near_factor
 };
 
 }  // namespace ogc::compare

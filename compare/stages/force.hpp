@@ -1,6 +1,6 @@
-// What the energies of a sweep share: a question is a stencil and the vertex asked about. Lengths are 0 or at least
-// 2⁻⁵⁰ m (bending: 2⁻³⁰ m, whose fourth power is a normal number; springs and contacts: 2⁻⁶³ m, but of four vertices
-// that meet the longest distance is at least 2⁻³⁰ m). The reference gives the energy's derivative and the block of
+// Holds what the energies of a sweep share: a question is a stencil and one of its vertices. Lengths are 0 or at least
+// 2⁻⁵⁰ m (bending: 2⁻³⁰ m, whose fourth power is a normal number; springs and contacts: 2⁻⁶³ m, but the longest
+// distance of four vertices that meet is at least 2⁻³⁰ m). The reference gives the energy's derivative and the block of
 // method.md §4.
 #pragma once
 
@@ -13,31 +13,30 @@
 
 namespace ogc::compare {
 
-/// By case: force −∂E/∂x [N] and the symmetric 3×3 block of the sweep, xx, xy, xz, yy, yz, zz [N/m], both of the vertex
-/// asked about.
+/// The answer by case: force −∂E/∂x [N] and the symmetric 3×3 block of the sweep [N/m], both of the vertex `own`.
 struct ForceOut {
   std::vector<Vec3f> force;                 ///< [N]
   std::vector<std::array<float, 6>> block;  ///< xx, xy, xz, yy, yz, zz [N/m]
 };
 
-/// One acceptable answer, and the units of its errors: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil, where
-/// coordinates are vectors relative to one vertex (of a hinge: to the one that makes it largest, as a formula reads
-/// them relative to a vertex of its choice). It is what a relative change u of each input does to the answer, so no
-/// formula that reads single-precision differences can do much better.
+/// One accepted answer, and the units of its errors: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil, where coordinates
+/// are vectors relative to one vertex (for a hinge, the one that makes the sum largest, since a formula may choose any
+/// vertex). A relative change u of each input changes the answer by as much, so no formula that reads single-precision
+/// differences can do much better.
 struct ForceAnswer {
   Vec3 force;                               ///< [N]
   std::array<double, 6> block{};            ///< [N/m]
   double force_scale = 0, block_scale = 0;  ///< units of their errors [N], [N/m]
 };
 
-/// A force with `per_vertex` damping is known as well as the block, and the motion (1), the product of matrix and
-/// vector (3) and a sum on top of it.
+/// Roundings that `per_vertex` damping adds to those of the block: the motion (1), the product of matrix and vector (3)
+/// and a sum (1).
 inline constexpr double per_vertex_additions = 5;
 
-/// accepted[i][0] is the exact answer of case i; more than one where the case is grey: an answer on the other side of a
-/// jump. near[i] is 1 where a decision of case i lies within near_factor: of contact_force and friction_force the
-/// features of the closest points, d = r, and d = τ of an activation with two stages. The other energies decide nothing
-/// that their answers would show.
+/// accepted[i][0] is the exact answer of case i; a grey case has more than one: answers on the other side of a jump.
+/// near[i] is 1 where a decision of case i lies within near_factor: in contact_force and friction_force the features of
+/// the closest points, d = r, and d = τ of an activation with two stages. The other energies have no decisions that
+/// show in their answers.
 struct ForceTruth {
   std::vector<std::vector<ForceAnswer>> accepted;  ///< by case, the exact one first
   std::vector<std::uint8_t> near;                  ///< by case

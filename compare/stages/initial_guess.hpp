@@ -1,4 +1,4 @@
-// Stage initial_guess: y of one vertex, and x ← y truncated about X_prev: one round of the guess loop (Eq. 27, 28;
+// Stage initial_guess: one round of the guess loop for one vertex, y, and x ← y truncated about X_prev (Eq. 27, 28;
 // method.md §5.2); and the frame of one segment of a rod, turned as the segment has turned (compare/rods.md).
 #pragma once
 
@@ -16,23 +16,23 @@ namespace ogc::compare {
 struct InitialGuessCase {
   Vec3f start, velocity, acceleration;  ///< xᵗ [m], vᵗ [m/s], a_ext [m/s²]
   float time_step = 0;                  ///< h [s]
-  Vec3f previous;                       ///< X_prev [m]; where x is, too
+  Vec3f previous;                       ///< X_prev [m]; x is here, too
   float bound = 0;                      ///< b_v [m]
-  std::uint8_t reserved = 0;            ///< 0: a byte of the plug-ins' structure that says nothing
+  std::uint8_t reserved = 0;            ///< 0: a byte of the plug-ins' structure without meaning
 };
 
-/// A segment with its frame. D and Dᵗ are 0, or within 2⁻⁵⁰ m … 2⁴⁰ m long, q is a unit quaternion within
-/// unit_quaternion_slack. Answer: q turned by the smallest rotation from Dᵗ to D; by half a turn about its own first
-/// axis, q i, where these are opposite; q itself where one of them is 0.
+/// A segment with its frame. D and Dᵗ are 0 or 2⁻⁵⁰ m … 2⁴⁰ m long, q is a unit quaternion within
+/// unit_quaternion_slack. The answer is q turned by the smallest rotation from Dᵗ to D; if these are opposite, by half
+/// a turn about its own first axis, q i; if one of them is 0, q itself.
 struct TurnCase {
   Vec3f before, now;                   ///< Dᵗ, D [m]
   Quaternion orientation{0, 0, 0, 1};  ///< qᵗ
 };
 
-/// The question: cases that have nothing to do with each other.
+/// The question: independent cases.
 struct InitialGuessIn {
-  std::vector<InitialGuessCase> cases;  ///< each by itself
-  std::vector<TurnCase> turns{};        ///< likewise
+  std::vector<InitialGuessCase> cases;  ///< independent of each other
+  std::vector<TurnCase> turns{};        ///< independent of each other
 };
 
 /// The position that is stored obeys ‖x − x_prev‖ ≤ b_v exactly.
@@ -43,22 +43,22 @@ struct InitialGuessOut {
 };
 
 /// Exact y with the sum of the moduli of its terms in each coordinate. Position and cut are those of the *given* y
-/// (stage truncate): the judge asks for them.
+/// (stage truncate); the judge requests them.
 struct InitialGuessTruth {
   std::vector<Vec3> target;          ///< exact y [m]
   std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
-  std::vector<std::array<double, 4>> orientation{};  ///< exact, of either sign as it comes from q's
-  /// 1/cos(θ/2), θ between Dᵗ and D: how an error of their directions counts; infinite where an answer may be any unit
-  /// quaternion, as an error of half a radian and more is within the tolerance
+  std::vector<std::array<double, 4>> orientation{};  ///< exact; the sign follows from q's
+  /// 1/cos(θ/2), θ between Dᵗ and D: the factor of an error of their directions; infinite where any unit quaternion is
+  /// accepted, as an error of half a radian or more is within the tolerance
   std::vector<double> orientation_scale{};
 };
 
-/// Largest error of y's coordinates in units of u · target_scale: h a passes four roundings (with h, with vᵗ, with h,
-/// with xᵗ), vᵗ three, xᵗ one.
+/// Largest error of y's coordinates in units of u · target_scale: h a is rounded four times (with h, with vᵗ, with h,
+/// with xᵗ), vᵗ three times, xᵗ once.
 inline constexpr double initial_guess_target_tolerance = 4;
 /// Largest error of a turned frame in units of u · orientation_scale. A direction's length is off by 5 u (a dot, a
 /// root, a quotient), its components by 1. (a × b, 1 + a·b) is 2 cos θ/2 long and off by twice the lengths (10) and its
-/// own roundings (a cross product 2, a dot and a sum 4): 16, half of which counts; a product of quaternions 8, unit
+/// own roundings (a cross product 2, a dot and a sum 4): 16, half of which counts. A product of quaternions 8, unit
 /// length twice, 4 each.
 inline constexpr double initial_guess_turn_tolerance = 24;
 

@@ -9,55 +9,54 @@
 
 namespace ogc::compare {
 
-/// F = Σ x_k ∇N_kᵀ = (f₁ f₂), G = (FᵀF − I)/2, ϕ(G) = λ/2 tr(G)² + μ ‖G‖². Asked about corner 0; with model `none`
-/// force and block are 0.
+/// F = Σ x_k ∇N_kᵀ = (f₁ f₂), G = (FᵀF − I)/2, ϕ(G) = λ/2 tr(G)² + μ ‖G‖². The question is about corner 0; with model
+/// `none` force and block are 0.
 ///
 /// E = A (ψ + k ϕ(G − Gᵗ)). St. Venant–Kirchhoff: ψ = ϕ(G). Stable Neo-Hookean: ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ +
 /// μ)/2 (J − 1)², J = ‖f₁ × f₂‖.
 ///
-/// Block. Damping: A k times the second derivative of ϕ along the derivatives of G. St. Venant–Kirchhoff: likewise with
-/// A, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S. Stable Neo-Hookean: the exact second derivative, A (μ b² I
-/// + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ) with b = ‖∇N₀‖, t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ = t × n,
-/// n = f₁ × f₂/J, of which only the eigenvalue along the normal n can be negative: it counts as max(0, ·).
+/// Block. Damping: A k times the second derivative of ϕ along the derivatives of G. St. Venant–Kirchhoff: the same with
+/// A for A k, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S. Stable Neo-Hookean: the exact second derivative, A
+/// (μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ) with b = ‖∇N₀‖, t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ =
+/// t × n, n = f₁ × f₂/J, of which only the eigenvalue along the normal n can be negative: it is replaced by max(0, ·).
 ///
-/// With `per_vertex` damping the energy is A ψ alone; with B, its block, and moved = x₀ − xᵗ₀ the force is less k B
-/// moved, and the block (1 + k) B.
+/// With `per_vertex` damping the energy is A ψ alone. With its block B and moved = x₀ − xᵗ₀, k B moved is subtracted
+/// from the force, and the block is (1 + k) B.
 ///
 /// A triangle that has collapsed (f₁ × f₂ = 0) has no normal: J is then taken to have no derivatives, and the block is
 /// A μ b² I. Where f₁ × f₂ cannot be told from 0, any normal is accepted.
 struct MembraneCase {
   std::array<Vec3f, 3> corner;                     ///< x [m]; a collapsed triangle is legal
-  std::array<Vec3f, 3> start;                      ///< xᵗ [m], of Gᵗ
+  std::array<Vec3f, 3> start;                      ///< xᵗ [m]; Gᵗ is computed from it
   std::array<std::array<float, 2>, 2> gradient{};  ///< ∇N₁, ∇N₂ [1/m]; ∇N₀ = −∇N₁ − ∇N₂
   float area = 0;                                  ///< A [m²]
   float lame_lambda = 0, lame_mu = 0;              ///< [N/m]
   float damping = 0;                               ///< k = k_d/h [1]
-  MembraneModel model = MembraneModel::st_venant_kirchhoff;  ///< which energy
-  DampingForm damping_form = DampingForm::strain;            ///< which damping
+  MembraneModel model = MembraneModel::st_venant_kirchhoff;  ///< the energy
+  DampingForm damping_form = DampingForm::strain;            ///< the damping
 };
 
-/// The question: cases that have nothing to do with each other.
+/// The question: independent cases.
 struct MembraneIn {
-  std::vector<MembraneCase> cases;  ///< each by itself
+  std::vector<MembraneCase> cases;  ///< independent of each other
 };
 
-/// In units of u · scale. On the longest way from an input to the force lie a difference (1), F (a product and a sum),
-/// G (a product, two sums, minus one; F enters twice: 3 more), a change of strain (1), a stress (a trace, a product, a
-/// sum), its damping (2), its product with ∇N₀ (1 + 2) and with F (2 + 3), the area (1): 24.
+/// Largest error in units of u · scale. On the longest way from an input to the force lie a difference (1), F (a
+/// product and a sum), G (a product, two sums, minus one; F enters twice: 3 more), a change of strain (1), a stress (a
+/// trace, a product, a sum), its damping (2), its product with ∇N₀ (1 + 2) and with F (2 + 3), the area (1): 24.
 inline constexpr double membrane_force_tolerance = 24;
 /// F (3), twice; with ∇N₀ (1 + 2), twice; an outer product (2), a weight (3), three sums.
 inline constexpr double membrane_block_tolerance = 20;
-/// Of the stable Neo-Hookean model, whose units of error are this much larger (its scales are multiplied by the ratio
-/// to the tolerances above). The normal of two edges (two differences, a product, a difference: 4), its length (2 · 4 +
-/// 3 halved by the root, the root: 7), the density ∇N₁ × ∇N₂ (2), J (10), (λ + μ)(J − 1) − μ (4), and beside it g: the
-/// third edge (2), n (4 + 8 + 1), a cross product (2), the density (3); the product of both (1), two sums, the area
-/// (1): 38.
+/// Errors of the stable Neo-Hookean model, whose scales are multiplied by the ratio to the tolerances above. The normal
+/// of two edges (two differences, a product, a difference: 4), its length (2 · 4 + 3 halved by the root, the root: 7),
+/// the density ∇N₁ × ∇N₂ (2), J (10), (λ + μ)(J − 1) − μ (4), and beside it g: the third edge (2), n (4 + 8 + 1), a
+/// cross product (2), the density (3); the product of both (1), two sums, the area (1): 38.
 inline constexpr double neo_hookean_force_tolerance = 38;
 /// (λ + μ)(J − 1) − μ (14), ‖g‖² (2 · 20 + 3), its quotient by J and the sum (13), n twice (26), an outer product (2),
 /// area and sums (3): 101.
 inline constexpr double neo_hookean_block_tolerance = 101;
-/// f₁ × f₂, the normal times the density, is known to 7 units of u · scale; where it is no longer than twice this many,
-/// the first order is off by a tenth and more.
+/// f₁ × f₂, the normal times the density, is known to 7 units of u · scale; if it is not longer than twice this many,
+/// first-order errors are off by a tenth and more.
 inline constexpr double neo_hookean_grey = 16;
 
 }  // namespace ogc::compare

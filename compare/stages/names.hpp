@@ -1,4 +1,4 @@
-// The questions, answers and truths of all stages, declared; compare/stages/STAGE.hpp has what they hold.
+// Declares the questions, answers and truths of all stages; compare/stages/STAGE.hpp defines them.
 #pragma once
 
 namespace ogc::compare {

@@ -1,4 +1,4 @@
-// The one unit of tolerances.
+// Defines the unit of all tolerances.
 #pragma once
 
 namespace ogc::compare {
@@ -12,8 +12,8 @@ inline constexpr double unit_roundoff = 0x1p-24;
 /// the input; a kernel with a larger error is at fault.
 inline constexpr double grey_factor = 16 * unit_roundoff;
 
-/// Likewise, of cases *near* a decision boundary: within 2¹⁰ ulp, an ulp being 2 u. No verdict depends on it; reports
-/// say how many cases are near.
+/// Cases *near* a decision boundary: the same with 2¹⁰ ulp, an ulp being 2 u. No verdict depends on it; reports count
+/// near cases.
 inline constexpr double near_factor = 0x1p11 * unit_roundoff;
 
 }  // namespace ogc::compare

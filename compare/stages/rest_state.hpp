@@ -1,6 +1,6 @@
-// Stage rest_state: what a simulation computes once of the rest shape: masses, membrane and hinge stencils, rest
-// lengths, materials of bodies that meet (method.md §4.5 to §4.10). Its Out is part of sweep's In: both sides then
-// sweep with the very same single-precision numbers.
+// Stage rest_state: what a simulation computes once from the rest shape: masses, membrane and hinge stencils, rest
+// lengths, materials of bodies that meet (method.md §4.5 to §4.10). Its Out is part of sweep's In: both contestants
+// then sweep with the same single-precision numbers.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace ogc::compare {
 /// A triangle with a membrane energy.
 struct RestTriangle {
   Triangle corner{};  ///< in the order of the mesh
-  Index body = -1;    ///< whose material it has
+  Index body = -1;    ///< gives the material
   float area = 0;     ///< A [m²]
   /// ∇N₁, ∇N₂ [1/m] in the frame whose first axis points from corner 0 to corner 1, corner 2 above it
   std::array<std::array<float, 2>, 2> gradient{};
@@ -22,54 +22,54 @@ struct RestTriangle {
 /// A hinge with a bending energy.
 struct RestHinge {
   std::array<Index, 4> vertex{};  ///< x0 < x1 of the edge, then Hinge::opposite
-  Index body = -1;                ///< whose material it has
-  float rest_angle = 0;           ///< θ₀ [rad], as θ of compare/stages/bending.hpp
+  Index body = -1;                ///< gives the material
+  float rest_angle = 0;           ///< θ₀ [rad], defined as θ of compare/stages/bending.hpp
   float stiffness = 0;            ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
-  /// Of the isometric quadratic model, otherwise 0: w of x1, o0, o1 [1/m]. With a = o0 − x0, b = o1 − x0: w(o0) =
-  /// −‖e‖/‖e × a‖, w(o1) = −‖e‖/‖e × b‖, w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖; that is K/‖e‖ of the sums K of
+  /// For the isometric quadratic model, otherwise 0: w of x1, o0, o1 [1/m]. With a = o0 − x0, b = o1 − x0: w(o0) =
+  /// −‖e‖/‖e × a‖, w(o1) = −‖e‖/‖e × b‖, w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖; that is K/‖e‖ with the sums K of
   /// cotangents.
   std::array<float, 3> weight{};
 };
 
-/// A tetrahedron of a solid. What the elastic energy reads (`weight`, `inverse`) and what else reads F (`gradient`,
-/// `volume`) is rounded each by itself.
+/// A tetrahedron of a solid. The numbers of the elastic energy (`weight`, `inverse`) and those of F (`gradient`,
+/// `volume`) are rounded independently.
 struct RestTetrahedron {
   Tetrahedron corner{};                            ///< in the order of the mesh
-  Index body = -1;                                 ///< whose material it has
+  Index body = -1;                                 ///< gives the material
   float volume = 0;                                ///< V [m³]
   float inverse = 0;                               ///< 1/(6V) [1/m³]
-  std::array<float, 6> weight{};                   ///< V ∇N_k·∇N_l of the pairs 01, 02, 03, 12, 13, 23 [m]
+  std::array<float, 6> weight{};                   ///< V ∇N_k·∇N_l for the pairs 01, 02, 03, 12, 13, 23 [m]
   std::array<std::array<float, 3>, 3> gradient{};  ///< ∇N₁, ∇N₂, ∇N₃ [1/m]
 };
 
-/// Two bodies that meet: harmonic mean of k_c [N/m] (0 where both are 0), arithmetic mean of μ [1].
+/// Material of two bodies that meet: harmonic mean of k_c [N/m] (0 where both are 0), arithmetic mean of μ [1].
 struct MeetingMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ_c
 };
 
-/// A segment of a rod, whether it is held or not. Of two segments, and no third, that share a vertex each is the
-/// other's neighbour there.
+/// A segment of a rod, held or not. If exactly two segments share a vertex, each is the other's neighbour there.
 ///
-/// Frames are those of a walk. A chain of neighbours begins at the lowest-numbered of its ends, a ring at its
+/// Frames are defined along a walk. A chain of neighbours begins at the lowest-numbered of its ends, a ring at its
 /// lowest-numbered segment, from x₀ to x₁. The first frame is the smallest rotation from e₃ to x₁ − x₀, half a turn
 /// about the first axis where that is −e₃. Each next one is the frame before it, turned by the smallest rotation from
-/// one direction of the walk to the next, and, where its own x₀ → x₁ is to the walk what that of the one before it is
-/// not, then by half a turn about its own first axis (q i).
+/// one direction of the walk to the next, and, where exactly one of the two segments points against the walk, then by
+/// half a turn about its own first axis (q i).
 struct RestSegment {
-  Edge end{};                              ///< x₀, x₁ as the scene's loose edge has them
-  Index body = -1;                         ///< whose material it has
+  Edge end{};                              ///< x₀, x₁ in the order of the scene's loose edge
+  Index body = -1;                         ///< gives the material
   float length = 0;                        ///< l [m]
-  std::array<Index, 2> neighbour{-1, -1};  ///< behind, ahead: numbers of segments; −1: there is none
-  std::array<float, 2> weight{};           ///< w = 4 k_b/l̄ [N m], l̄ = (l + l_f)/2; 0: there is no neighbour
-  std::array<Quaternion, 2> relative{};  ///< p° = q̄°_f q° of the one behind, q̄° q°_f of the one ahead; 0: none
-  Quaternion orientation{};              ///< q°; of either sign, as p°
+  std::array<Index, 2> neighbour{-1, -1};  ///< segments behind and ahead; −1: none
+  std::array<float, 2> weight{};           ///< w = 4 k_b/l̄ [N m], l̄ = (l + l_f)/2; 0 without a neighbour
+  /// p° = q̄°_f q° for the one behind, q̄° q°_f for the one ahead; 0 without one
+  std::array<Quaternion, 2> relative{};
+  Quaternion orientation{};  ///< q°; of either sign, as is p°
 };
 
-/// Scene: rounded (`round_to_single`) and valid (`validate`), but that k_c may be 0; every vertex that no motion and no
-/// fixed body holds has a triangle, a tetrahedron or a segment. Topology: `build_topology(scene)`.
+/// A scene, rounded (`round_to_single`) and valid (`validate`), except that k_c may be 0; every vertex that no motion
+/// and no fixed body holds has a triangle, a tetrahedron or a segment. Topology: `build_topology(scene)`.
 struct RestStateIn {
   const Scene* scene = nullptr;        ///< rounded
-  const Topology* topology = nullptr;  ///< of its mesh
+  const Topology* topology = nullptr;  ///< of the scene's mesh
 };
 
 /// Triangles and hinges in the order of the topology, without those of fixed bodies, of solids and of models `none`;
@@ -81,22 +81,22 @@ struct RestStateOut {
   std::vector<RestTriangle> triangles;     ///< in the order of the mesh
   std::vector<RestHinge> hinges;           ///< in the order of the topology
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
-  std::vector<MeetingMaterial> meetings;   ///< of bodies a and b, at a · bodies + b
+  std::vector<MeetingMaterial> meetings;   ///< for bodies a and b at a · bodies + b
   std::vector<RestTetrahedron> tetrahedra{};
   std::vector<RestSegment> segments{};  ///< of all rods, in the order of rod_segments (compare/problem/rods.hpp)
 };
 
 /// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one
-/// vertex. `gradient` units are of ∇N₁, ∇N₂, those of `weight` of all three; a mass's is the sum of those of its
-/// triangles or tetrahedra; a meeting's is its value.
+/// vertex. Units of `gradient` are separate for ∇N₁ and ∇N₂, one unit holds for all three of `weight`. The unit of a
+/// mass is the sum of the units of its triangles or tetrahedra, that of a meeting is its value.
 struct RestStateTruth {
   RestStateOut exact;                    ///< correctly rounded
   std::vector<double> mass, mass_scale;  ///< by vertex [kg]
   /// by triangle [m²]; by edge [m²]
   std::vector<double> area, area_scale, edge_length_squared, edge_length_squared_scale;
   std::vector<std::array<std::array<double, 2>, 2>> gradient;  ///< by triangle: ∇N₁, ∇N₂ [1/m]
-  std::vector<std::array<double, 2>> gradient_scale;           ///< by triangle: of ∇N₁, of ∇N₂
-  /// where |θ₀| is within its error of π either sign is accepted
+  std::vector<std::array<double, 2>> gradient_scale;           ///< by triangle: units of ∇N₁ and ∇N₂
+  /// either sign is accepted where |θ₀| is within its error of π
   std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;
   std::vector<std::array<double, 3>> weight;
   std::vector<double> weight_scale;
@@ -110,15 +110,15 @@ struct RestStateTruth {
   std::vector<std::array<double, 2>> segment_weight, segment_weight_scale;  ///< behind, ahead [N m]
   std::vector<std::array<double, 4>> segment_orientation;                   ///< q°
   std::vector<std::array<std::array<double, 4>, 2>> segment_relative;       ///< p° behind, ahead; 0: none
-  /// of q° and of p°: 1 + Σ 1/cos(θ/2) of the smallest rotations on the way there, each by its θ; infinite where that
-  /// exceeds 2²⁰, and with it any unit quaternion is accepted
+  /// unit of q° and p°: 1 + Σ 1/cos(θ/2) over the smallest rotations of the walk up to there, each with its θ; infinite
+  /// if that exceeds 2²⁰; any unit quaternion is then accepted
   std::vector<double> segment_frame_scale;
 };
 
-/// In units of u · scale. The one rounding to single precision: u of the value, and no scale is below its value but
-/// that of θ₀, for which |θ₀| ≤ π stands against at least 2 (each opposite vertex adds its distance from x0 over its
-/// height): π/2. Rest data are computed in double or better, so some thirty roundings of 2⁻⁵³, each of an input's size,
-/// add 2⁻²⁴ of the scale.
+/// Largest error in units of u · scale. The one rounding to single precision: u of the value, and no scale is below its
+/// value except for θ₀, where |θ₀| ≤ π and the scale is at least 2 (each opposite vertex adds its distance from x0 over
+/// its height): π/2. Rest data are computed in double or better, so some thirty roundings of 2⁻⁵³, each of an input's
+/// size, add 2⁻²⁴ of the scale.
 inline constexpr double rest_state_tolerance = 1 + 0x1p-20;
 inline constexpr double rest_state_angle_tolerance = 1.6;
 

@@ -1,4 +1,4 @@
-// The half-spaces of pairs that vertices bear: of the answers of stage plane and of what a simulation tells of itself.
+// Holds the half-spaces of pairs that vertices bear, in answers of stage plane and in snapshots of a simulation.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@ namespace ogc::compare {
 
 /// A pair of primitives that share no vertex: a vertex and a triangle, or two edges, the lower-numbered first.
 struct PrimitivePair {
-  enum class Kind : std::uint8_t { vertex_triangle, edge_edge };  ///< of what the pair consists
-  Kind kind = Kind::vertex_triangle;                              ///< what `first` and `second` count
+  enum class Kind : std::uint8_t { vertex_triangle, edge_edge };  ///< what the pair consists of
+  Kind kind = Kind::vertex_triangle;                              ///< the kinds that `first` and `second` count
   Index first = -1, second = -1;  ///< numbers of the vertex and the triangle, or of the edges
   friend bool operator==(const PrimitivePair&, const PrimitivePair&) = default;
 };
@@ -20,17 +20,17 @@ struct PrimitivePair {
 /// n·x ≤ o: one side of the plane of a pair, as one of its vertices bears it. The vertices of the pair's first side
 /// have the normal n, those of its second −n, bit by bit; n need not be a unit vector.
 struct VertexPlane {
-  PrimitivePair pair;  ///< whose sides the plane holds apart
+  PrimitivePair pair;  ///< the pair that the plane holds apart
   Vec3f normal;        ///< n, away from the vertex's side
   double offset = 0;   ///< [m] times the length of n
 };
 
-/// Row v, items[offsets[v] … offsets[v + 1]), is what vertex v bears. Empty where there are no planes.
+/// Row v, items[offsets[v] … offsets[v + 1]), holds the planes of vertex v. Empty without planes.
 struct VertexPlanes {
   std::vector<Index> offsets;      ///< [vertices + 1], or empty
   std::vector<VertexPlane> items;  ///< of all vertices, one after the other
 
-  /// What vertex v bears.
+  /// Returns the planes of vertex v.
   std::span<const VertexPlane> of(Index v) const {
     if (offsets.empty()) return {};
     const auto i = static_cast<std::size_t>(v);

@@ -1,5 +1,5 @@
-// The subcommands of `ogc`: one file each (commands/NAME.cpp), which declares its options and leaves its exit status in
-// the context.
+// Declares the subcommands of `ogc`. Each has a file, commands/NAME.cpp, which declares its options and leaves its exit
+// status in the context.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,14 +9,14 @@ namespace ogc::experiments {
 /// Exit statuses of `ogc`.
 enum ExitStatus : int { exit_success = 0, exit_check_failed = 1, exit_bad_input = 2, exit_out_of_resource = 3 };
 
-/// What all subcommands share.
+/// Holds what all subcommands share.
 struct CommandContext {
   bool json = false;          ///< machine-readable result on standard output
-  int status = exit_success;  ///< what the program returns; a command sets it, exceptions are mapped by main
+  int status = exit_success;  ///< what the program returns; a command sets it, main maps exceptions to it
   std::string command_line;   ///< as typed, for run.json
 };
 
-/// Each adds one subcommand of `ogc` (experiments/program/commands/).
+/// Each function adds one subcommand of `ogc` (experiments/program/commands/).
 void add_scenes_command(CLI::App& app, CommandContext& context);
 void add_run_command(CLI::App& app, CommandContext& context);
 void add_ablate_command(CLI::App& app, CommandContext& context);

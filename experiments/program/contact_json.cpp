@@ -1,5 +1,6 @@
-// The keys of contacts.schema.json, which says what they mean; a test validates this file's output by it. Contacts are
-// printed as they are made: held as JSON, those of 245,000 crowded vertices with their margins do not fit into 20 GB.
+// Writes the keys of contacts.schema.json, which explains them; a test validates this file's output against the schema.
+// Contacts are printed as they are computed: as one JSON value, those of 245,000 crowded vertices with their margins do
+// not fit into 20 GB.
 #include <algorithm>
 #include <utility>
 
@@ -44,14 +45,14 @@ Json to_json(const std::vector<reference::BlockMargin>& margins) {
   return json;
 }
 
-/// Standard output, filled in large pieces.
+/// Buffers standard output in large pieces.
 class Printer {
  public:
   void member(const std::string& key, const Json& value) {
     add(begin(key) + value.dump(-1, ' ', false, Json::error_handler_t::replace));
   }
 
-  /// An array of `count` items, one line each.
+  /// Writes an array of `count` items, one line each.
   template <class Item>
   void list(const std::string& key, std::size_t count, Item item) {
     add(begin(key) + "[");
@@ -71,7 +72,7 @@ class Printer {
   std::string text_, separator_ = "{\n  ";
 };
 
-/// The counts of each predicate that was asked.
+/// Returns the counts of each predicate that was evaluated.
 Json to_json(const reference::FilterCounts& filters) {
   Json json = Json::object();
   for (std::size_t k = 0; k < reference::filtered_predicates; ++k) {
@@ -129,7 +130,7 @@ Json sets_by_primitive(const ContactReport& report) {
   return json;
 }
 
-/// Where each edge lies in the mesh, by its number of triangles.
+/// Returns the place of each edge in the mesh, which its number of triangles determines.
 std::vector<std::string> edge_places(const Topology& topology) {
   constexpr std::array<const char*, 3> places{"loose", "boundary", "inner"};
   std::vector<std::string> all;
@@ -140,8 +141,8 @@ std::vector<std::string> edge_places(const Topology& topology) {
   return all;
 }
 
-/// Where each vertex lies in the mesh: the first that fits of the schema's list. A valid mesh has no vertex without an
-/// edge.
+/// Returns the place of each vertex in the mesh: the first of the schema's list that fits. A valid mesh has no vertex
+/// without an edge.
 std::vector<std::string> vertex_places(const Topology& topology) {
   const std::vector<std::string> edges = edge_places(topology);
   std::vector<std::string> all;

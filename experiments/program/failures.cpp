@@ -13,11 +13,11 @@ namespace ogc::experiments {
 
 namespace {
 
-// Failing cases that are saved of each generator.
+// Largest number of failing cases saved for each generator.
 constexpr std::ptrdiff_t saved_cases = 4;
-// Time for making all failing cases smaller, and for one of them [s].
+// Time for shrinking all failing cases, and for shrinking one [s].
 constexpr double shrinking_seconds = 30, shrinking_one = 2;
-// Cases that are told whole; nobody reads more.
+// Largest number of cases explained in full; nobody reads more.
 constexpr std::size_t most_explained = 5;
 
 }  // namespace
@@ -29,7 +29,8 @@ const compare::States* OpenStates::of(const std::string& folder) {
   return states.get();
 }
 
-/// A replayed case keeps its file's data; all others come back from their names.
+/// Returns the case of this name. A replayed case keeps its file's data; all others are generated again from their
+/// names.
 compare::TestCase Failures::case_again(const compare::CaseName& name) {
   for (const compare::TestCase& test : given_)
     if (test.name == name) return test;

@@ -1,4 +1,4 @@
-// What becomes of failing cases: made small, saved, told whole, and diagnosed.
+// Shrinks, saves, explains and diagnoses failing cases.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@
 
 namespace ogc::experiments {
 
-/// Run folders, each opened once.
+/// Holds run folders, each of which is opened once.
 class OpenStates {
  public:
   explicit OpenStates(const compare::Authority& authority) : authority_(authority) {}
-  /// Null for no folder.
+  /// Returns the states of a run folder; null if `folder` is empty.
   const compare::States* of(const std::string& folder);
 
  private:
@@ -26,28 +26,29 @@ class OpenStates {
   std::map<std::string, std::unique_ptr<compare::States>> open_;
 };
 
-/// Works on the failures of one comparison. `given`: its cases, where they were given one by one.
+/// Works on the failures of one comparison. `given`: the cases that the command line names one by one; empty otherwise.
 class Failures {
  public:
   Failures(const compare::Contestant& contestant, const compare::Authority& authority, OpenStates& states,
            std::span<const compare::TestCase> given)
       : contestant_(contestant), authority_(authority), states_(states), given_(given) {}
 
-  /// Saves the first failing cases of each generator, as small as they still fail, and their problem strings as a batch
-  /// file; returns the paths. Tells the first one of each stage whole.
+  /// Saves the first failing cases of each generator, shrunk, and their problem strings as a batch file. Returns the
+  /// paths. Explains the first failing case of each stage in full, unless the cases were given.
   std::vector<std::string> save(const std::vector<compare::StageReport>& reports, const std::filesystem::path& folder);
 
-  /// Tells a case that is given alone whole, right or wrong; of several those that fail.
+  /// Explains given cases in full: a single one whether it fails or not, of several ones those that fail.
   void explain_given(const std::vector<compare::StageReport>& reports);
 
-  /// Holds the failures of each stage to the known wrong forms. `seed`: of the cases that are asked beside them.
+  /// Compares the failures of each stage with the known wrong forms. `seed`: of the further cases that this draws.
   void diagnose(std::vector<compare::StageReport>& reports, std::uint64_t seed);
 
-  const std::vector<compare::Explanation>& explanations() const { return explanations_; }  ///< of all cases told so far
+  /// of all cases explained so far
+  const std::vector<compare::Explanation>& explanations() const { return explanations_; }
 
  private:
   compare::TestCase case_again(const compare::CaseName& name);
-  /// The smaller case, as long as there is time, and its message with what became of it.
+  /// Returns the shrunk case and its message, which then names the sizes; returns both unchanged if no time is left.
   std::pair<compare::TestCase, std::string> small(const compare::TestCase& test, const std::string& message);
   void explain(const compare::TestCase& test, const std::filesystem::path& file);
 

@@ -1,4 +1,4 @@
-// Ctrl-C asks a run to stop after the step that it computes, so that its folder stays whole; a second one ends the
+// Ctrl-C requests that a run stop after its current step, so that its folder stays complete. A second Ctrl-C ends the
 // program at once.
 #pragma once
 
@@ -6,13 +6,13 @@
 
 namespace ogc::experiments {
 
-/// Exit status of a command that was stopped so: what a shell reports for a program that Ctrl-C ended.
+/// Exit status of a command that was stopped in this way; a shell reports the same for a program that Ctrl-C ended.
 inline constexpr int exit_interrupted = 128 + SIGINT;
 
-/// From now on the first SIGINT or SIGTERM sets the flag, the second one does what it always does.
+/// Makes the first SIGINT or SIGTERM set a flag; the second one has its default effect.
 void catch_interrupts();
 
-/// Whether the flag is set.
+/// Returns whether the flag is set.
 bool interrupted();
 
 }  // namespace ogc::experiments

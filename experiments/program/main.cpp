@@ -1,5 +1,4 @@
-// The program `ogc`. What goes wrong anywhere below ends here, as one message that says what to do and one of four exit
-// statuses.
+// The program `ogc`. Every failure ends here as one message with a remedy and one of four exit statuses.
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -44,9 +43,9 @@ void add_commands(CLI::App& app, CommandContext& context) {
       command->add_flag("--json", context.json, "Print the result as JSON on standard output");
 }
 
-/// With OGC_PARSE_ONLY in the environment a command line is parsed, and nothing is run: so tests ask whether what
-/// documents print is still understood. It ends where callbacks of commands would begin: these own what options are
-/// written to, so that they stay.
+/// Makes the program parse its command line and run nothing. The environment variable OGC_PARSE_ONLY selects this;
+/// tests use it to check that the commands in documents are still valid. The program ends where the commands' callbacks
+/// would begin, because these own the variables that options are written to.
 void run_nothing(CLI::App& app) {
   experiments::log_line("ogc: OGC_PARSE_ONLY is set: the command line is parsed, and nothing is run");
   app.parse_complete_callback([] { throw CLI::Success(); });
@@ -90,7 +89,7 @@ int failure(const std::string& what, int status) {
   return status;
 }
 
-/// A path that the system refuses, wherever it was looked at.
+/// Reports a path that the system refuses, wherever that was found.
 int path_failure(const std::filesystem::filesystem_error& error) {
   try {
     compare::refuse_path(error.path1(), "use the path", error.code());
@@ -104,7 +103,7 @@ int path_failure(const std::filesystem::filesystem_error& error) {
 }  // namespace
 
 int main(int count, char** words) {
-  // A limit on the size of files is a full disk, to be reported, not a reason to be killed.
+  // A limit on the size of files is reported like a full disk; it must not kill the program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run_program(count, words);

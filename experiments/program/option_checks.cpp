@@ -10,7 +10,7 @@ namespace ogc::experiments {
 
 namespace {
 
-/// More than machines have, few enough to be made.
+/// More than machines have, and few enough to be created.
 constexpr std::uint64_t most_threads = 1024;
 
 template <class Number>
@@ -21,7 +21,8 @@ std::optional<Number> parsed(std::string_view text) {
   return value;
 }
 
-/// A check named by `range`. `accepts` sees the text without a plus sign, which the option's own parser then gets, too.
+/// Returns a check that is named by `range`. `accepts` gets the text without a plus sign; so does the option's own
+/// parser.
 template <class Accepts>
 CLI::Validator check(const std::string& range, Accepts accepts) {
   return {[range, accepts](std::string& text) -> std::string {

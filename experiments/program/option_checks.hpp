@@ -1,5 +1,6 @@
-// What a number on the command line may be. A check puts the option's range into its help, and refuses any other text
-// by the option's name, the text and the range; not-a-number, infinity and what a double can't hold are such texts.
+// Checks numbers on the command line. A check adds the option's range to its help and refuses every other text; the
+// message names the option, the text and the range. Refused are also not-a-number, infinity and numbers that a double
+// can't hold.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +12,19 @@
 
 namespace ogc::experiments {
 
-/// Steps, repetitions, entries of a list: what settings count to (compare/problem/settings.cpp).
+/// Upper limit of counts, such as steps, repetitions and entries of a list; settings have the same limit
+/// (compare/problem/settings.cpp).
 inline constexpr std::uint64_t most_counted = 1 << 30;
 
-/// A whole number from `least` to `most`.
+/// Accepts a whole number from `least` to `most`.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
-/// A number from `least` to `most`, in `unit`; with `or_zero` 0, too.
+/// Accepts a number from `least` to `most`, in `unit`; with `or_zero` also 0.
 CLI::Validator real_number(double least, double most, const std::string& unit, bool or_zero = false);
 
-/// Adds --threads, the number of the CPU's threads; 0 stays where it is not given.
+/// Adds --threads, the number of CPU threads; `threads` stays 0 without the option.
 void add_threads_option(CLI::App& command, int& threads);
-/// Holds the CPU to so many threads while it lives; null for 0: to none.
+/// Limits the CPU to this many threads for the lifetime of the result; returns null for 0, which means no limit.
 std::unique_ptr<tbb::global_control> limited_threads(int threads);
 
 }  // namespace ogc::experiments

@@ -9,7 +9,8 @@ namespace ogc::experiments {
 
 namespace {
 
-// Often enough to look alive, seldom enough to cost nothing; a log of a day's run stays below ten thousand lines.
+// Updates are frequent enough to show activity and rare enough to cost nothing; the log of a day's run stays below ten
+// thousand lines.
 constexpr std::chrono::milliseconds redraw_interval{100}, line_interval{10000};
 constexpr int bar_width = 24;
 

@@ -1,5 +1,5 @@
-// How far a long command is: a bar that is redrawn where a person watches, plain lines (at most one every few seconds)
-// where a file does.
+// Shows the progress of a long command: a bar that is redrawn on a terminal, plain lines (at most one every few
+// seconds) in a file.
 #pragma once
 
 #include <chrono>
@@ -8,15 +8,15 @@
 
 namespace ogc::experiments {
 
-/// How far one command is, told on standard error.
+/// Shows the progress of one command on standard error.
 class Progress {
  public:
-  /// From `first` to `last` (steps, frames), counted in `unit`.
+  /// Counts from `first` to `last` in `unit` (steps, frames).
   Progress(std::int64_t first, std::int64_t last, std::string unit);
-  /// At `current`; `detail` is put behind: "1.2 ms a step, 340 contacts". The end is shown once, however often it is
+  /// Shows `current`, followed by `detail`: "1.2 ms a step, 340 contacts". The end is shown once, however often it is
   /// reported.
   void show(std::int64_t current, const std::string& detail);
-  /// Ends the bar, so that what follows starts on a fresh line. Idempotent.
+  /// Ends the bar, so that the next output starts on a fresh line. Idempotent.
   void end();
   ~Progress() { end(); }
 

@@ -1,5 +1,5 @@
-// `ogc compare --list` and `--determinism`: what the registry of stages says, and whether the bits are as repeatable as
-// it says.
+// Implements `ogc compare --list` and `--determinism`: lists what the registry of stages declares, and checks whether
+// the bits are as repeatable as declared.
 #pragma once
 
 #include <span>
@@ -11,19 +11,19 @@
 
 namespace ogc::experiments {
 
-/// The table of compare/README.md: a row for each stage with its contract, its question, who answers it, its
-/// generators, agreement tests and determinism.
+/// Returns the table of compare/README.md: a row for each stage with its contract, its question, the implementations
+/// that have it, its generators, agreement tests and determinism.
 std::string stage_list_markdown();
 
-/// The same for a terminal, with each stage's generators and parameters by name.
+/// Returns the same list for a terminal, with the names of each stage's generators and parameters.
 std::string stage_list_text();
 
-/// Checks determinism of the stages on a backend; on the CPU with one and two threads beside all of them, on a
-/// device with other blocks and as on devices of other sizes.
+/// Checks the determinism of stages on a backend: on the CPU with one and two threads besides all of them, on a device
+/// with other block sizes and with the launches of devices of other sizes.
 std::vector<compare::DeterminismReport> determinism_of(fast::Backend backend, std::span<const compare::Stage> stages,
                                                        std::uint64_t cases, std::uint64_t seed);
 
-/// The report of `ogc compare --determinism --json`.
+/// Returns the report of `ogc compare --determinism --json`.
 Json determinism_json(std::span<const compare::DeterminismReport> reports);
 
 }  // namespace ogc::experiments

@@ -1,5 +1,5 @@
-// Numbers: the paper's Table 1, a radius as in cloth_on_sphere. Iterations: as many as a step may need, since each ends
-// at its tolerance.
+// Numbers are the paper's Table 1, with the radius of cloth_on_sphere. Iterations: as many as a step may need, because
+// each step ends at its tolerance.
 #include "experiments/scenes/activation_drop.hpp"
 
 #include "experiments/scenes/cloth_on_sphere.hpp"
@@ -13,7 +13,7 @@ compare::Scene activation_drop(const ActivationDropSizes& sizes) {
   append_body(scene, {.name = "ground", .fixed = true, .material = sphere_scene_material()},
               ground(sizes.vertices_a_side, -0.272));
   scene.settings.iterations = sizes.iterations;
-  scene.settings.redetect_fraction = 0;
+  scene.settings.detection_fraction = 0;
   set_setting(scene.settings, "newton_iterations", 200);
   return scene;
 }

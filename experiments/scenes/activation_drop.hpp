@@ -5,16 +5,16 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's. The contact radius follows the spacing: 5 mm on 70 × 70.
+/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing: 5 mm on 70 × 70.
 struct ActivationDropSizes {
-  compare::Index vertices_a_side = 70;  ///< of each cloth
+  compare::Index vertices_a_side = 70;  ///< of the cloth
   int sphere_subdivisions = 3;          ///< of an icosahedron
   std::int64_t steps = 40;              ///< of the run
   std::int64_t iterations = 500;        ///< of vbd
 };
 
-/// cloth_on_sphere with the ground: a fixed mesh of 4 m × 4 m at y = −0.272 m, its triangles at most a hundred times as
-/// large as the cloth's. Steps are solved to convergence: detection as soon as one vertex is cut.
+/// Returns cloth_on_sphere with a ground, which is a fixed mesh of 4 m × 4 m at y = −0.272 m with triangles at most a
+/// hundred times as large as the cloth's. Steps are solved to convergence: one cut vertex triggers a detection.
 compare::Scene activation_drop(const ActivationDropSizes& sizes = {});
 
 }  // namespace ogc::experiments

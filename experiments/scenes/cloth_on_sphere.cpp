@@ -1,4 +1,4 @@
-// Numbers: the paper's Table 1, the authors' published parameters, and damping as in their layers (decided here).
+// Numbers are the paper's Table 1, the authors' published parameters, and the damping of their layers (decided here).
 #include "experiments/scenes/cloth_on_sphere.hpp"
 
 #include "experiments/scenes/materials.hpp"

@@ -5,22 +5,22 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's. The contact radius follows the spacing, so that every size has the contact regime of r = 5 mm
-/// on 70 × 70.
+/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing, so that every size has the contact
+/// regime of r = 5 mm on 70 × 70.
 struct ClothOnSphereSizes {
-  compare::Index vertices_a_side = 70;  ///< of each cloth
+  compare::Index vertices_a_side = 70;  ///< of the cloth
   int sphere_subdivisions = 3;          ///< of an icosahedron
   std::int64_t steps = 100;             ///< of the run
   double sphere_radius = 0.262;         ///< [m]
 };
 
-/// Cloth, sphere and ground of the scenes with a sphere.
+/// Returns the material of cloth, sphere and ground in the scenes with a sphere.
 compare::Material sphere_scene_material();
-/// The fixed sphere of this radius [m] about (−0.15, 0, 0), as the next body of the scene.
+/// Appends the fixed sphere of this radius [m] about (−0.15, 0, 0) as the next body of the scene.
 void append_sphere(compare::Scene& scene, int subdivisions, double radius = 0.262);
 
-/// 1 m × 1 m of cloth at y = 0.30 m above a sphere about (−0.15, 0, 0). For IPC a barrier distance of 1 mm on 70 × 70
-/// and the tolerance of the codimensional scripts.
+/// Returns the scene: 1 m × 1 m of cloth at y = 0.30 m above a sphere about (−0.15, 0, 0). IPC has a barrier distance
+/// of 1 mm on 70 × 70 and the tolerance of the codimensional scripts.
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes = {});
 
 }  // namespace ogc::experiments

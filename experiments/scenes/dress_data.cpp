@@ -1,5 +1,5 @@
-// A reader of its own: stage.obj has statements that no other mesh has (stitch, seam), and of its faces it matters
-// which group they are in.
+// This reader is separate because stage.obj has statements that no other mesh has (stitch, seam), and because the
+// groups of its faces matter.
 #include "experiments/scenes/dress_data.hpp"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ class ObjReader {
   Obj obj_;
 };
 
-/// The first of these places that exists; the error names the most usual one.
+/// Returns the first of these places that exists; the error names the most usual one.
 std::filesystem::path found(const std::filesystem::path& folder, const std::string& subfolder,
                             const std::string& name) {
   for (const std::filesystem::path& place : {folder / subfolder / name, folder / name}) {
@@ -152,7 +152,7 @@ void check_stage(const std::filesystem::path& file, const Obj& stage, const Dres
   }
 }
 
-/// Garment and body of the start.
+/// Reads garment and body of the start.
 void take_start(DressData& data, const std::filesystem::path& file, const Obj& stage, const DressCounts& counts) {
   const Obj drape = ObjReader(file).read();
   check_count(file, "vertices", drape.positions.size(), counts.vertices + counts.body_vertices);
@@ -173,7 +173,7 @@ void take_start(DressData& data, const std::filesystem::path& file, const Obj& s
   }
 }
 
-/// From `to` to `from`: they must differ by it and nothing else, but for the last digits of the files.
+/// Returns the translation from `from` to `to`. Throws if they differ by more than it and the last digits of the files.
 Vec3 translation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, const std::filesystem::path& file) {
   constexpr double printed = 2e-6;  // [m]: seven digits of lengths below 2 m, of two files
   Vec3 mean;

@@ -1,5 +1,5 @@
-// Codimensional IPC's dress, as published (github.com/ipc-sim/Codim-IPC, Projects/FEMShell/input; its data are not part
-// of this repository).
+// Reads Codimensional IPC's dress, as published (github.com/ipc-sim/Codim-IPC, Projects/FEMShell/input; its data are
+// not part of this repository).
 #pragma once
 
 #include <filesystem>
@@ -9,33 +9,33 @@
 
 namespace ogc::experiments {
 
-/// Vertex `first` belongs to the point (1 − ratio) x_second + ratio x_third.
+/// Stitches vertex `first` to the point (1 − ratio) x_second + ratio x_third.
 struct Stitch {
   compare::Index first = -1, second = -1, third = -1;  ///< vertices of the garment
   double ratio = 0;                                    ///< from 0 to 1
 };
 
-/// What the files must hold, so that a file cut off is none; defaults: as published.
+/// Holds the counts that the files must have, so that a truncated file is refused; defaults: as published.
 struct DressCounts {
   std::size_t vertices = 15656, triangles = 29456, panels = 14, stitches = 851;  ///< of the garment
   std::size_t body_vertices = 12811, body_triangles = 25472, frames = 121;       ///< of the body, and its frames
 };
 
-/// The data set as one scene needs it.
+/// Holds the data set in the form that one scene needs.
 struct DressData {
   std::vector<std::array<double, 2>> pattern;     ///< rest shape by vertex [m]
   compare::Mesh garment;                          ///< at the start [m]
   std::vector<compare::Index> panel_of_triangle;  ///< from 0
   std::vector<Stitch> stitches;                   ///< of the garment
   compare::Mesh body;                             ///< at the start [m]
-  /// by frame, the body's vertices, moved to where the start has them [m]
+  /// the body's vertices by frame, moved to their place at the start [m]
   std::vector<std::vector<compare::Vec3>> motion;
 };
 
 /// Reads stage.obj (pattern in `vt`, panels, stitches), drape.obj (start: the garment, then the body) and shell0.obj …
-/// (the body every 0.04 s) from `folder`, or from its dress_knife and Rumba_Dancing. Throws compare::InputError that
-/// names the file: missing, unreadable, of other counts, a stitch to a vertex that does not exist, a motion that does
-/// not begin with the body of the start but for a translation.
+/// (the body every 0.04 s) from `folder`, or from its subfolders dress_knife and Rumba_Dancing. Throws
+/// compare::InputError that names the file: missing, unreadable, other counts, a stitch to a vertex that does not
+/// exist, or a motion that does not begin with the body of the start up to a translation.
 DressData read_dress_data(const std::filesystem::path& folder, const DressCounts& counts = {});
 
 }  // namespace ogc::experiments

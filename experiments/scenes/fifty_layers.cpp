@@ -1,5 +1,5 @@
-// Numbers: the paper's Table 1 and the authors' published parameters. The ground is a mesh, so that contact, bounds and
-// audit need no special code.
+// Numbers are the paper's Table 1 and the authors' published parameters. The ground is a mesh, so that contact, bounds
+// and audit need no special code.
 #include "experiments/scenes/fifty_layers.hpp"
 
 #include "compare/judge/cases/random.hpp"
@@ -14,7 +14,7 @@ compare::Material ground_material() {
   return material;
 }
 
-/// A sum of 12 uniforms − 6: mean 0, standard deviation 1, never beyond 6.
+/// Returns a sum of 12 uniforms − 6: mean 0, standard deviation 1, never beyond 6.
 double normal_deviate(compare::Random& random) {
   double sum = -6;
   for (int k = 0; k < 12; ++k) sum += random.unit();

@@ -6,30 +6,31 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's at 246,000 vertices. Heights follow the contact radius; the ground's triangles follow the
-/// cloth's.
+/// Holds the sizes; defaults: the paper's at 246,000 vertices. Heights follow the contact radius; the ground's
+/// triangles follow the cloth's.
 struct FiftyLayersSizes {
   std::string name = "fifty_layers";    ///< of the scene
-  compare::Index layers = 50;           ///< cloths
+  compare::Index layers = 50;           ///< number of cloths
   compare::Index vertices_a_side = 70;  ///< of each cloth
   double contact_radius = 3e-3;         ///< r [m]
   double shift = 3e-3;                  ///< standard deviation of each layer's shift in x and in z [m]
   CylinderCells cylinder{};             ///< of the cylinder's mesh
-  /// 4 s; until everything rests it takes more, which no setting can say: ogc run --steps
+  /// 4 s. The layers rest only later, for which `ogc run --steps` is needed.
   std::int64_t steps = 4800;
-  std::uint64_t seed = 0;  ///< of the shifts
+  std::uint64_t seed = 0;  ///< seed of the shifts
 };
 
-/// 1 m × 1 m each, 1.05 r apart from y = 0.30 m on, above a cylinder of radius 0.25 m and length 0.5 m along z about
-/// (−0.18, 0, 0) and a ground of 4 m × 4 m at y = −0.60 m. One body a layer, the lowest first. Start and rest shape are
-/// the same, intersection-free by construction.
+/// Returns the scene: layers of 1 m × 1 m, 1.05 r apart from y = 0.30 m on, above a cylinder of radius 0.25 m and
+/// length 0.5 m along z about (−0.18, 0, 0) and a ground of 4 m × 4 m at y = −0.60 m. Each layer is one body, the
+/// lowest first. Start and rest shape are equal and free of intersections by construction.
 compare::Scene fifty_layers(const FiftyLayersSizes& sizes = {});
 
-/// The sizes of Table 1's row of 1M vertices: 50 × (141 × 141), r = 2 mm.
+/// Returns the sizes of Table 1's row of 1M vertices: 50 × (141 × 141), r = 2 mm.
 FiftyLayersSizes fifty_layers_1m_sizes();
 
-/// Two hundred of its layers, 980,000 vertices: a scene of *Divide and Truncate* (Chen, Hsu, Ayman, Macklin, 2026),
-/// whose sheets we do not know. [D] Those of fifty_layers, with 7,200 steps: the stack is 0.94 m high.
+/// Returns the sizes of two hundred layers, 980,000 vertices: a scene of *Divide and Truncate* (Chen, Hsu, Ayman,
+/// Macklin, 2026), whose sheets we do not know. [D] Its layers are those of fifty_layers, with 7,200 steps: the stack
+/// is 0.94 m high.
 FiftyLayersSizes two_hundred_layers_sizes();
 
 }  // namespace ogc::experiments

@@ -1,5 +1,5 @@
-// Numbers: the authors' published curve and parameters. Start positions are rounded to 2⁻²⁰ m, so that the noise of a
-// normal where the curve is nearly straight leaves no trace.
+// Numbers are the authors' published curve and parameters. Start positions are rounded to 2⁻²⁰ m, because a normal is
+// noisy where the curve is nearly straight.
 #include "experiments/scenes/knot.hpp"
 
 #include <algorithm>
@@ -26,13 +26,14 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// A point of a coil of radius 0.09 m and step 0.12 m about an axis along x; `turn` in turns.
+/// Returns a point of a coil of radius 0.09 m and step 0.12 m about an axis along x; `turn` in turns.
 Vec3 coil(const Vec3& axis, double turn) {
   const double angle = 2 * std::numbers::pi * turn;
   return axis + Vec3{0.12 * turn, 0.09 * std::cos(angle), 0.09 * std::sin(angle)};
 }
 
-/// Through which points the curve goes: three coils, four overhand knots, three coils about the first ones' way on [m].
+/// Returns the points of the curve: three coils, four overhand knots, three coils about the first ones' continuation
+/// [m].
 std::vector<Vec3> control_points() {
   std::vector<Vec3> points{{-0.9, -0.4, 0.035}};
   for (int third = 4; third < 12; ++third) points.push_back(coil({-0.9, -0.3, 0.035}, third / 3.0));
@@ -49,7 +50,7 @@ std::vector<Vec3> control_points() {
   return points;
 }
 
-/// Centripetal Catmull–Rom curve: knots are the square roots of chords apart. The ends continue by reflection.
+/// A centripetal Catmull–Rom curve: knots are the square roots of chords apart. The ends continue by reflection.
 class Curve {
  public:
   explicit Curve(const std::vector<Vec3>& through) {
@@ -61,7 +62,7 @@ class Curve {
       knots_.push_back(knots_.back() + std::sqrt(length(points_[i] - points_[i - 1])));
   }
 
-  /// For `s` from 0 to segments(): each control point is at an integer.
+  /// Returns the point for `s` from 0 to segments(); each control point is at an integer.
   Vec3 at(double s) const {
     const std::size_t i = std::min(static_cast<std::size_t>(s), segments() - 1);
     const std::array<double, 4> k{knots_[i], knots_[i + 1], knots_[i + 2], knots_[i + 3]};
@@ -80,8 +81,8 @@ class Curve {
   std::vector<double> knots_;
 };
 
-/// `count` points of the curve, equally far apart along it: its length is that of a polyline of 48,000 points, and
-/// linear between them.
+/// Returns `count` points at equal distances along the curve. Its length is that of a polyline of 48,000 points;
+/// positions are interpolated linearly between these.
 std::vector<Vec3> equally_spaced(const Curve& curve, Index count) {
   constexpr int fine = 48'000;
   const auto parameter = [&](int k) { return static_cast<double>(curve.segments()) * k / (fine - 1); };
@@ -101,8 +102,8 @@ std::vector<Vec3> equally_spaced(const Curve& curve, Index count) {
   return points;
 }
 
-/// Across the strip, by row: normal × tangent, the normal being the change of the unit chords, without jumps of its
-/// sign.
+/// Returns the direction across the strip by row: normal × tangent. The normal is the change of the unit chords, with a
+/// sign that does not jump.
 std::vector<Vec3> across(const std::vector<Vec3>& centres) {
   std::vector<Vec3> chords;
   for (std::size_t i = 1; i < centres.size(); ++i) chords.push_back(unit(centres[i] - centres[i - 1]));

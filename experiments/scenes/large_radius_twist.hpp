@@ -5,14 +5,14 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's. The contact radius follows the spacing, so that every size has the regime of r = 5 mm on 200
-/// × 200: r is 0.995 edges.
+/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing, so that every size has the regime of
+/// r = 5 mm on 200 × 200: r is 0.995 edges.
 struct LargeRadiusTwistSizes {
-  compare::Index vertices_a_side = 200;  ///< of each cloth
+  compare::Index vertices_a_side = 200;  ///< of the cloth
   std::int64_t steps = 1200;             ///< a relative half turn in 4 s
 };
 
-/// Cloth and handles of twist, turned at ±π/8 rad/s. IPC's barrier distance is fixed at r.
+/// Returns the scene: cloth and handles of twist, turned at ±π/8 rad/s. IPC's barrier distance is fixed at r.
 compare::Scene large_radius_twist(const LargeRadiusTwistSizes& sizes = {});
 
 }  // namespace ogc::experiments

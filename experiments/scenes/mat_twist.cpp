@@ -1,5 +1,5 @@
-// Numbers: r, k_c, friction, steps and h from the paper's Table 1 and Fig. 19; size and material from IPC's mat scene
-// (Li et al. 2020); the rate of each end decided here (the paper says π/2 and not of what).
+// r, k_c, friction, steps and h are from the paper's Table 1 and Fig. 19; size and material from IPC's mat scene (Li et
+// al. 2020); the rate of each end is decided here, because the paper gives π/2 without saying of what.
 #include "experiments/scenes/mat_twist.hpp"
 
 #include <numbers>
@@ -10,10 +10,10 @@
 namespace ogc::experiments {
 namespace {
 
-constexpr double thickness = 8.333e-3, radius = 2e-3;  ///< [m], at the spacing of 88 vertices on 1 m
+constexpr double thickness = 8.333e-3, radius = 2e-3;  ///< [m], for 88 vertices on 1 m
 constexpr double young = 2e4, poisson = 0.4;           ///< [Pa], [1]
 
-/// The energies of a surface are left at their defaults: a solid's has none.
+/// Returns the material. The energies of a surface keep their defaults, because the surface of a solid has none.
 compare::Material soft_solid() {
   compare::Material material;
   material.solid_density = 1000;
@@ -23,7 +23,7 @@ compare::Material soft_solid() {
   return material;
 }
 
-/// All vertices of column `column` of 2 × `across`, turned about the x axis.
+/// Returns the motion of all vertices of column `column` of 2 × `across`, turned about the x axis.
 compare::PrescribedMotion handle(const char* name, compare::Index column, compare::Index across,
                                  double angular_velocity) {
   compare::PrescribedMotion motion;

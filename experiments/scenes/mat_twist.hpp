@@ -5,16 +5,16 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's, as far as it says. Thickness and contact radius follow the spacing along x, so that every
-/// size has the contact regime of 8.333 mm and r = 2 mm on 88 × 87.
+/// Holds the sizes; defaults: the paper's, as far as it gives them. Thickness and contact radius follow the spacing
+/// along x, so that every size has the contact regime of 8.333 mm and r = 2 mm on 88 × 87.
 struct MatTwistSizes {
   compare::Index along = 88,
                  across = 87;  ///< vertices along x, the axis of the twist, and z; two through the thickness
   std::int64_t steps = 3840;   ///< 16 s
 };
 
-/// Flat in the xz plane about the origin, no gravity; the outermost columns at x = ±0.5 m turn about the x axis at
-/// ±π/2 rad/s.
+/// Returns the scene: the mat lies flat in the xz plane about the origin, without gravity; the outermost columns at x =
+/// ±0.5 m turn about the x axis at ±π/2 rad/s.
 compare::Scene mat_twist(const MatTwistSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,4 +1,4 @@
-// Numbers: the paper's caption; sphere and frames decided here, materials as in cloth_on_sphere.
+// Numbers are those of the paper's caption; sphere and frames are decided here, materials are those of cloth_on_sphere.
 #include "experiments/scenes/one_iteration_drop.hpp"
 
 #include "experiments/scenes/cloth_on_sphere.hpp"

@@ -5,15 +5,16 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's; a frame is 10 steps. The contact radius follows the spacing: 5 mm on 70 × 70.
+/// Holds the sizes; defaults: the paper's; a frame is 10 steps. The contact radius follows the spacing: 5 mm on 70 ×
+/// 70.
 struct OneIterationDropSizes {
-  compare::Index vertices_a_side = 70;  ///< of each cloth
+  compare::Index vertices_a_side = 70;  ///< of the cloth
   int sphere_subdivisions = 3;          ///< of an icosahedron
   std::int64_t steps = 800;             ///< of the run
 };
 
-/// 1 m × 1 m of cloth at y = 0.30 m above a sphere of radius 0.10 m about (−0.15, 0, 0). One sweep of OGC, one
-/// iteration of IPC a step, neither to a tolerance.
+/// Returns the scene: 1 m × 1 m of cloth at y = 0.30 m above a sphere of radius 0.10 m about (−0.15, 0, 0). A step is
+/// one sweep of OGC or one iteration of IPC, neither to a tolerance.
 compare::Scene one_iteration_drop(const OneIterationDropSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,4 +1,4 @@
-// The one place that knows which sizes a scale means.
+// Defines the sizes of every scale, and nothing else does.
 #include "experiments/scenes/registry.hpp"
 
 #include <array>
@@ -32,8 +32,8 @@ compare::Scene cloth_on_sphere_at(Scale scale) {
   return cloth_on_sphere();
 }
 
-/// The paper's, with fewer layers of `vertices_a_side` vertices and a coarser cylinder; radius and shift follow the
-/// spacing.
+/// Returns the paper's scene with fewer layers of `vertices_a_side` vertices and a coarser cylinder; radius and shift
+/// follow the spacing.
 compare::Scene fewer_layers(FiftyLayersSizes sizes, compare::Index layers, compare::Index vertices_a_side,
                             CylinderCells cylinder, std::int64_t steps) {
   const double coarser = static_cast<double>(sizes.vertices_a_side - 1) / (vertices_a_side - 1);
@@ -105,7 +105,7 @@ compare::Scene dress_at(Scale scale) {
   return dress();
 }
 
-/// The data set has one size: scales differ in steps.
+/// Returns the dress of the data set. It has one size, so that scales differ in steps.
 compare::Scene dress_of(Scale scale, const std::filesystem::path& data) {
   switch (scale) {
     case Scale::smoke: return dress(read_dress_data(data), 6);
@@ -126,8 +126,7 @@ compare::Scene knot_at(Scale scale) {
 
 compare::Scene large_radius_twist_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke:
-      return large_radius_twist({.vertices_a_side = 16, .steps = 150});  // the first contacts: step 117
+    case Scale::smoke: return large_radius_twist({.vertices_a_side = 16, .steps = 150});  // contacts begin at step 117
     case Scale::small: return large_radius_twist({.vertices_a_side = 60, .steps = 1200});
     case Scale::paper: break;
   }
@@ -188,20 +187,20 @@ compare::Scene turning_rod_at(Scale scale) {
 
 compare::Scene twist_at(Scale scale) {
   switch (scale) {
-    case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 720});  // the first contacts: step 513
+    case Scale::smoke: return twist({.vertices_a_side = 20, .steps = 720});  // contacts begin at step 513
     case Scale::small: return twist({.vertices_a_side = 40, .steps = 2400});
     case Scale::paper: break;
   }
   return twist();
 }
 
-/// A run of so few steps with a handful of frames.
+/// Makes frames frequent enough that a short run has a handful of them.
 compare::Scene with_frames(compare::Scene scene) {
   scene.settings.frame_steps = 20;
   return scene;
 }
 
-/// Loops at the same spacing, pulled at the same rate of strain.
+/// Returns the scene with loops of the same spacing, pulled at the same rate of strain.
 compare::Scene yarn_stretch_at(Scale scale) {
   switch (scale) {
     case Scale::smoke:

@@ -1,4 +1,4 @@
-// Every scene of the paper that exists so far, each in three scales.
+// Registers every built-in scene at three scales.
 #pragma once
 
 #include <filesystem>
@@ -10,25 +10,26 @@
 
 namespace ogc::experiments {
 
-/// Seconds, minutes on two cores, the paper's sizes.
+/// Scales: a run takes seconds; it takes minutes on two cores; it has the paper's sizes.
 enum class Scale { smoke, small, paper };
 
-/// One row of the registry.
+/// Holds one row of the registry.
 struct SceneInfo {
-  std::string_view name, figure, summary;  ///< "twist"; where the paper shows it; one line
+  std::string_view name, figure, summary;  ///< "twist"; the figure of the paper; one line
   compare::Scene (*generate)(Scale);       ///< makes the scene
-  /// the same of a published data set in this folder, where there is one
+  /// makes the scene from a published data set in this folder; null if there is none
   compare::Scene (*generate_of)(Scale, const std::filesystem::path&) = nullptr;
 };
 
-/// In order of name.
+/// Returns all rows, ordered by name.
 std::span<const SceneInfo> scenes();
 
-/// Generates a scene, of a data set where `data` names its folder, rounded to single precision. Throws
-/// compare::InputError that lists the known names, or says what is wrong with the data, or that the scene has none.
+/// Generates a scene, rounded to single precision; with `data` from the data set in that folder. Throws
+/// compare::InputError that lists the known names, or describes what is wrong with the data, or says that the scene has
+/// none.
 compare::Scene make_scene(std::string_view name, Scale scale, const std::filesystem::path& data = {});
 
-/// "smoke", "small", "paper"; throws compare::InputError.
+/// Parses "smoke", "small" or "paper"; throws compare::InputError for other texts.
 Scale parse_scale(std::string_view text);
 
 }  // namespace ogc::experiments

@@ -1,4 +1,4 @@
-// Closed formulas only, so that a scene is the same wherever it is generated.
+// Only closed formulas are used, so that a scene is the same on every machine.
 #include "experiments/scenes/shapes.hpp"
 
 #include <algorithm>
@@ -57,8 +57,8 @@ Mesh split_in_four(const Mesh& coarse) {
   return fine;
 }
 
-/// `count` vertices of a circle about (centre.x, centre.y, z), against the clock as seen from +z. Sines are multiples
-/// of 2⁻⁴⁰, so that sin π is 0.
+/// Adds `count` vertices of a circle about (centre.x, centre.y, z), counter-clockwise as seen from +z. Sines are
+/// multiples of 2⁻⁴⁰, so that sin π is 0.
 void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double z) {
   const auto tidy = [](double sine) { return std::round(sine * 0x1p40) * 0x1p-40; };
   for (Index i = 0; i < count; ++i) {
@@ -67,8 +67,8 @@ void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double
   }
 }
 
-/// Two triangles a cell between rings of `count` vertices that begin at `from` and `to`; outward where the second ring
-/// lies towards +z, or inside.
+/// Adds two triangles a cell between rings of `count` vertices that begin at `from` and `to`. Normals point outward if
+/// the second ring lies towards +z, or inside.
 void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   for (Index i = 0; i < count; ++i) {
     const Index next = (i + 1) % count;
@@ -77,7 +77,7 @@ void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   }
 }
 
-/// From the pole to the ring that begins at `ring`; `up`: the pole lies towards +axis of the ring.
+/// Adds the triangles from the pole to the ring that begins at `ring`; `up`: the pole lies towards +axis of the ring.
 void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   for (Index i = 0; i < count; ++i) {
     const Index a = ring + i, b = ring + (i + 1) % count;
@@ -85,7 +85,7 @@ void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   }
 }
 
-/// From the ring that begins at `rim` to the centre of its disc; `up`: the disc looks towards +z.
+/// Adds the triangles from the ring that begins at `rim` to the centre of its disc; `up`: the disc faces +z.
 void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& centre, double z, Index rim, bool up) {
   Index outer = rim;
   for (Index k = 1; k <= cells.cap; ++k) {
@@ -99,7 +99,7 @@ void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& 
   add_fan(mesh, cells.around, outer, middle, up);
 }
 
-/// Unit vectors across `axis`, so that (first, second, axis) is right-handed.
+/// Returns two unit vectors across `axis`, so that (first, second, axis) is right-handed.
 std::array<Vec3, 2> across(const Vec3& axis) {
   const bool along_y = std::abs(axis.y) > 0.9;
   const Vec3 first = on_unit_sphere(along_y ? Vec3{0, -axis.z, axis.y} : Vec3{axis.z, 0, -axis.x});
@@ -108,13 +108,13 @@ std::array<Vec3, 2> across(const Vec3& axis) {
       {axis.y * first.z - axis.z * first.y, axis.z * first.x - axis.x * first.z, axis.x * first.y - axis.y * first.x}};
 }
 
-/// Numbers the lattice points of a box's surface as they are first asked for.
+/// Numbers the lattice points of a box's surface in the order of their first use.
 class BoxSurface {
  public:
   BoxSurface(const std::array<Index, 3>& cells, const Vec3& low, const Vec3& high)
       : cells_(cells), low_(low), high_(high) {}
 
-  /// The two sides across `axis`, with axes u, v so that (u, v, axis) is right-handed.
+  /// Adds the two sides across `axis`, with axes u, v so that (u, v, axis) is right-handed.
   void add_sides(int axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (const bool far : {false, true}) {
@@ -219,7 +219,8 @@ std::vector<Triangle> cross_diagonals(Index rows, Index columns) {
 
 Mesh ground(Index vertices_a_side, double height) {
   constexpr double side = 4;
-  const double largest_cell = 10.0 / (vertices_a_side - 1);  // ten cells of the cloth, so a hundred of its triangles
+  // ten cells of the cloth, so that a triangle has the area of a hundred of its triangles
+  const double largest_cell = 10.0 / (vertices_a_side - 1);
   return grid(static_cast<Index>(std::ceil(side / largest_cell)) + 1, side, height);
 }
 

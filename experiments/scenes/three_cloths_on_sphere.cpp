@@ -1,4 +1,4 @@
-// Numbers: the paper's Table 1; materials as in cloth_on_sphere. The figure's step is the last one.
+// Numbers are the paper's Table 1; materials are those of cloth_on_sphere. The figure shows the last step.
 #include "experiments/scenes/three_cloths_on_sphere.hpp"
 
 #include "experiments/scenes/cloth_on_sphere.hpp"

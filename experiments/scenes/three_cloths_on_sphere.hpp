@@ -5,7 +5,7 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's. The contact radius follows the spacing: 2 mm on 70 × 70.
+/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing: 2 mm on 70 × 70.
 struct ThreeClothsSizes {
   compare::Index vertices_a_side = 70;  ///< of each cloth
   int sphere_subdivisions = 3;          ///< of an icosahedron
@@ -13,7 +13,7 @@ struct ThreeClothsSizes {
   std::int64_t iterations = 500;        ///< sweeps a step
 };
 
-/// The sphere of cloth_on_sphere, three of its cloths at y = 0.30 m and 2 r and 4 r above.
+/// Returns the scene: the sphere of cloth_on_sphere and three of its cloths at y = 0.30 m and 2 r and 4 r above that.
 compare::Scene three_cloths_on_sphere(const ThreeClothsSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,4 +1,5 @@
-// A straight rod that turns freely about its middle: what an update of frames keeps of its angular momentum.
+// A straight rod turns freely about its middle. The scene shows how much of its angular momentum an update of frames
+// keeps.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +8,14 @@
 
 namespace ogc::experiments {
 
-/// A tenth of a metre of the yarn of yarn_stretch by default.
+/// Holds the sizes; defaults: a tenth of a metre of the yarn of yarn_stretch.
 struct TurningRodSizes {
   compare::Index segments = 100;  ///< of 1 mm each
   std::int64_t steps = 500;       ///< 0.2 s
   double rate = 10;               ///< about the z axis [rad/s]
 };
 
-/// Along the x axis, without gravity and far from everything.
+/// Returns the scene: the rod lies along the x axis, without gravity and far from everything.
 compare::Scene turning_rod(const TurningRodSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -5,14 +5,15 @@
 
 namespace ogc::experiments {
 
-/// Defaults: the paper's. The contact radius follows the spacing, so that every size has the contact regime of r = 2 mm
-/// on 100 × 100.
+/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing, so that every size has the contact
+/// regime of r = 2 mm on 100 × 100.
 struct TwistSizes {
-  compare::Index vertices_a_side = 100;  ///< of each cloth
+  compare::Index vertices_a_side = 100;  ///< of the cloth
   std::int64_t steps = 9600;             ///< 8 relative turns of 4 s
 };
 
-/// Flat in the xz plane, no gravity; the columns x = ±0.5 m turn about the x axis at ±π/4 rad/s.
+/// Returns the scene: the cloth lies flat in the xz plane, without gravity; the columns x = ±0.5 m turn about the x
+/// axis at ±π/4 rad/s.
 compare::Scene twist(const TwistSizes& sizes = {});
 
 }  // namespace ogc::experiments

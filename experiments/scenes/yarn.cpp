@@ -1,8 +1,8 @@
-// The curve of a row is Crane's (2023, A Simple Parametric Model of Plain-Knit Yarns), x = w t/2π + a sin 2t,
-// y = h cos t, z = d cos 2t, with lengths decided here so that neighbouring yarns start 2.95 mm apart, within their
-// contact radius of 3 mm; rows are joined in turn by half circles, so that the cloth is one rod, as knitted by hand.
-// Yarn of 1 g/m, contact radius and time step are the paper's (Table 1, §5.2); k_s, k_b, speeds and what is held are
-// those of the second author's public yarn code; 222 N/m is its k_c in this unit.
+// The curve of a row is Crane's (2023, A Simple Parametric Model of Plain-Knit Yarns), x = w t/2π + a sin 2t, y = h cos
+// t, z = d cos 2t, with lengths decided here so that neighbouring yarns start 2.95 mm apart, within their contact
+// radius of 3 mm. Half circles join the rows in turn, so that the cloth is one rod, as in hand knitting. Yarn of 1 g/m,
+// contact radius and time step are the paper's (Table 1, §5.2); k_s, k_b, speeds and the held vertices are those of the
+// second author's public yarn code; 222 N/m is its k_c in this unit.
 #include "experiments/scenes/yarn.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double loop_width = 0.4 / 33, row_height = 0.01, bow = 0.24 * loop_wid
 constexpr Index segments_a_loop = 49, segments_a_join = 15;
 constexpr double held_width = 0.01;  // of each edge [m]
 
-/// A loop of row 0, which begins at t = −π.
+/// Returns a point of a loop of row 0, which begins at t = −π.
 Vec3 on_loop(double t) {
   return {loop_width * t / (2 * pi) + bow * std::sin(2 * t), half_height * std::cos(t), depth * std::cos(2 * t)};
 }
@@ -32,8 +32,8 @@ double speed(double t) {
                     2 * depth * std::sin(2 * t));
 }
 
-/// Parameters of `segments_a_loop` + 1 points at equal arcs of a loop: the length is summed by Simpson's rule on a grid
-/// so fine that its error is below a rounding of single precision, and inverted by Newton's method.
+/// Returns the parameters of `segments_a_loop` + 1 points at equal arcs of a loop. Simpson's rule sums the length on a
+/// grid so fine that its error is below a rounding of single precision, and Newton's method inverts it.
 std::vector<double> equal_arcs() {
   constexpr int cells = 4096;
   const double cell = 2 * pi / cells;
@@ -56,10 +56,10 @@ std::vector<double> equal_arcs() {
   return parameters;
 }
 
-/// Below 1 nm: 0, so that exact arithmetic stays cheap.
+/// Sets numbers below 1 nm to 0, so that exact arithmetic stays cheap.
 double tidy(double x) { return std::abs(x) < 1e-9 ? 0 : x; }
 
-/// The yarn from end to end, in the plane z = 0 and centred there, its wales along y.
+/// Returns the yarn from end to end, centred in the plane z = 0, with its wales along y.
 std::vector<Vec3> knit(const YarnSizes& sizes) {
   const std::vector<double> parameters = equal_arcs();
   std::vector<Vec3> row;
@@ -102,7 +102,7 @@ compare::Material yarn() {
   return material;
 }
 
-/// All vertices within `held_width` of the lowest or the highest along y.
+/// Returns a motion of all vertices within `held_width` of the lowest or the highest one along y.
 compare::PrescribedMotion edge(const char* name, const std::vector<Vec3>& points, bool is_upper) {
   double most = is_upper ? points.front().y : -points.front().y;
   for (const Vec3& p : points) most = std::max(most, is_upper ? p.y : -p.y);

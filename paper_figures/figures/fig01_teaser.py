@@ -19,7 +19,7 @@ SIZE = (960, 640)
 
 
 def words(run, frame):
-    """The scene and its size, and when this is; cloth alone is counted."""
+    """Returns the scene with its size, and the time; only cloth is counted."""
     cloths = [body for body in run.manifest["scene"]["bodies"] if is_cloth(body)]
     count = f"{len(cloths)} cloths, " if len(cloths) > 1 else ""
     vertices = sum(body["vertex_count"] for body in cloths)
@@ -29,8 +29,8 @@ def words(run, frame):
 
 
 def draw(runs, out):
-    """A picture for each run, two in a row. Throws RunError for a run that is not finished, failed its audit, or is of
-    a scene without a camera."""
+    """Draws a picture for each run, two in a row. Throws RunError for a run that is not finished, failed its audit, or
+    is of a scene without a camera."""
     usable, reason = render.available()
     if not usable:
         raise RunError(reason)

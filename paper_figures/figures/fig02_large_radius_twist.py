@@ -23,8 +23,8 @@ def edges_of(triangles):
 
 
 def roughness(positions, triangles):
-    """Root mean square over inner vertices of the distance, along the normal, from the mean of the neighbours, in mean
-    edge lengths."""
+    """Returns the root mean square over inner vertices of the distance, along the normal, from the mean of the
+    neighbours, in mean edge lengths."""
     edges = edges_of(triangles)
     count, (mean, normal) = np.zeros(len(positions)), np.zeros((2, *positions.shape))
     for a, b in ((0, 1), (1, 0)):
@@ -37,7 +37,7 @@ def roughness(positions, triangles):
     used = np.zeros((len(positions),), dtype=int)
     for corner in range(3):
         np.add.at(used, triangles[:, corner], 1)
-    inner = (count == used) & (count > 0)  # as many triangles as neighbours: no boundary
+    inner = (count == used) & (count > 0)  # as many triangles as neighbours: not on a boundary
     unit = normal[inner] / np.linalg.norm(normal[inner], axis=1, keepdims=True)
     offset = np.einsum("ij,ij->i", positions[inner] - mean[inner] / count[inner, None], unit)
     length = np.linalg.norm(positions[edges[:, 0]] - positions[edges[:, 1]], axis=1).mean()
@@ -45,14 +45,14 @@ def roughness(positions, triangles):
 
 
 def stretch(positions, rest, triangles):
-    """Lengths of edges over their rest lengths: 1st percentile, median, 99th percentile."""
+    """Returns the ratio of edge lengths to their rest lengths: 1st percentile, median, 99th percentile."""
     edges = edges_of(triangles)
     length = [np.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1) for x in (positions, rest)]
     return np.percentile(length[0] / length[1], [1, 50, 99])
 
 
 def history(run, rest):
-    """Time [s], roughness and stretch of each stored frame; `rest`: positions of the rest shape."""
+    """Returns time [s], roughness and stretch of each stored frame; `rest`: positions of the rest shape."""
     triangles = run.bodies()[0]["triangles"]
     frames = [run.frame(path) for path in run.frames]
     return (np.array([f.time for f in frames]),
@@ -61,13 +61,13 @@ def history(run, rest):
 
 
 def draw(runs, out):
-    """The first two runs are shown, or the only one; curves of all."""
+    """Draws the first two runs, or the only one, and curves of all."""
     plt = style.use()
     figure = plt.figure(figsize=(11, 8))
     grid = figure.add_gridspec(2, 6, height_ratios=[1.2, 1])
     usable, reason = render.available()
     axes = [figure.add_subplot(grid[1, 2 * i:2 * i + 2]) for i in range(3)]
-    both_at = min(int(run.column("step")[-1]) for run in runs[:2])  # the last step that both came to
+    both_at = min(int(run.column("step")[-1]) for run in runs[:2])  # the last step that both reached
     shown_runs = runs[:2]
     for i, run in enumerate(shown_runs):
         picture = figure.add_subplot(grid[0, 3 * i:3 * i + 3] if len(shown_runs) > 1 else grid[0, :])
@@ -91,7 +91,7 @@ def draw(runs, out):
         steps = run.column("step")
         energies = dict(zip(steps.astype(int), run.column("kinetic_energy")))
         for at in sorted({np.searchsorted(time, min(both_at * h, time[-1]) - h / 2), len(time) - 1}):
-            energy = energies.get(round(time[at] / h), np.nan)  # a state that a run began with has none
+            energy = energies.get(round(time[at] / h), np.nan)  # the state with which a run began has none
             lines.append(f"{label(run)}: at t = {time[at]:.3g} s roughness {rough[at]:.3g} edges, stretch "
                          f"{stretched[at][0]:.3g} … {stretched[at][2]:.3g}, "
                          f"kinetic energy {energy:.3g} J")
@@ -114,8 +114,8 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """IPC's run and OGC's: whole, or at the paper's size, where it would take days, windows of 20 steps from states of
-    OGC's."""
+    """Returns IPC's run and OGC's. At the paper's size, where IPC's whole run would take days, it is windows of 20
+    steps from states of OGC's."""
     folder = Path(arguments.folder)
     ours, baseline = commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)
     ogc = run_job(arguments.ogc, ours, folder)

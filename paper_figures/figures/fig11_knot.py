@@ -6,12 +6,12 @@ import numpy as np
 from paper_figures.workflow.common import main
 
 CAMERA = ((-0.3, 0.0, 2.15), (-0.3, -0.13, 0), (0, 1, 0))
-REACH = 0.06  # of what is looked at from near, about as large as the tight knot [m]
-ROUNDS = 10  # of a mean shift, which stands still after a few
+REACH = 0.06  # size of the near view, about that of the tight knot [m]
+ROUNDS = 10  # of a mean shift, which converges after a few
 
 
 def near(positions):
-    """The camera that looks along −z at where most vertices lie close together."""
+    """Returns the camera that looks along −z at the place where most vertices lie close together."""
     _, cell, counts = np.unique(np.floor(positions / REACH), axis=0, return_inverse=True, return_counts=True)
     centre = positions[cell.ravel() == np.argmax(counts)].mean(axis=0)
     for _ in range(ROUNDS):

@@ -1,14 +1,14 @@
 """Fig. 17: the residual of Eq. 29 over iterations and over time, one step of three cloths on a sphere, by VBD in single
 and in double precision and by Newton.
 
-All start from the same state, that of VBD in single precision after the step before, whose steps were all solved to
-convergence (γ_e = 0); curves that name another step start from the state before that one. Contacts are detected again
-when one vertex in a hundred was cut (γ_e of the paper), or as soon as a single one was (γ_e = 0). With γ_e = 0 one
-curve has a hundredth of the printed ε_v, which may be in cm/s. Curves have the contacts of the solver's last detection
-(stale), as in the paper; the table adds the residual with contacts detected at the end (fresh). Newton's curve has the
-friction of its solve, too: it jumps where friction is lagged anew. --start-iterations gives the steps before fewer
-iterations. Curves can be left out (--without); picture and table name them, and `accept` takes them with --incomplete
-only.
+All start from the same state, that of VBD in single precision after the step before. Every step up to that state was
+solved to convergence (γ_e = 0); curves that name another step start from the state before that one. Contacts are
+detected again after one vertex in a hundred was cut (γ_e of the paper), or after a single one (γ_e = 0). With γ_e = 0
+one curve has a hundredth of the printed ε_v, which may be in cm/s. Curves have the contacts of the solver's last
+detection (stale), as in the paper; the table adds the residual with contacts detected at the end (fresh). Newton's
+curve also has the friction of its solve: it jumps where friction is lagged anew. --start-iterations gives the steps
+before fewer iterations. Curves can be left out (--without); picture and table name them, and `accept` takes them only
+with --incomplete.
 """
 
 import argparse
@@ -26,14 +26,14 @@ from plots import style
 from plots.run_folder import RunError, commits_in_words
 
 SCENE, STEPS = commands.THREE_CLOTHS, commands.THREE_CLOTHS_STEP
-# What is not as the paper has it, as folders are called and in words.
+# Deviations from the paper: their names in folders, and in words.
 CHOICES = {"any": "γ_e = 0", "slow": "ε_v = 1e-4 m/s", "planes": "half-spaces", "pairs": "pair by pair",
            "narrow": "γ_p = 0.2"}
 MARKS = (50, 500)  # iterations of the paper's curves of Newton and of VBD
 
 
 def label_of(name):
-    """vbd_cuda_any, vbd_cuda_any_at_25 and their like in words."""
+    """Returns names like vbd_cuda_any and vbd_cuda_any_at_25 in words."""
     kind, *more = name.split("_")
     where = "single, " + more[0] if kind == "vbd" and more[0] != "double" else "double"
     said = "".join(f", {words}" for word, words in CHOICES.items() if word in more)
@@ -42,7 +42,7 @@ def label_of(name):
 
 
 def curves(folder, ogc, jobs, without):
-    """The run of the steps before, and (label, run) of each curve."""
+    """Returns the run of the steps before, and (label, run) of each curve."""
     start, *solved = (run_job(ogc, job, folder) for job in jobs if job.name not in without)
     return start, list(zip((label_of(job.name) for job in jobs[1:] if job.name not in without), solved))
 
@@ -58,7 +58,7 @@ def first_below(rows, level, name):
 
 
 def smallest_in(rows, iterations):
-    """What the curve comes to in as many iterations as the paper's has."""
+    """Returns the smallest residual of a curve within as many iterations as the paper's has."""
     return f"{rows['residual'][rows['iteration'] <= iterations].min():.3g}"
 
 
@@ -114,11 +114,11 @@ def draw(runs, start, left_out, step, scale, claims, out):
 
 
 def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start_iterations=None, without=()):
-    """Does the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's
+    """Makes the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's
     path."""
     folder = Path(folder)
     claims = json.loads((CLAIMS / f"{SCENE}.json").read_text())["claims"]
-    # those that a curve can be held against: each names a cell of the table
+    # the curves that others are compared with: each names a cell of the table
     claims = [c for c in claims if isinstance(c["measure"], list)]
     single, double = commands.three_cloths(scale, list(dict.fromkeys(backends)), start_iterations)
     start, runs = curves(folder, ogc, [*single, *([] if single_only else double)], without)

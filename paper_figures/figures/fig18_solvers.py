@@ -1,6 +1,6 @@
 """Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames
-of the first run, and the ratios beside the paper's, each with the threads and devices that it is of. VBD-OGC on CUDA is
-a fourth curve where its run lies in the folder (or with --cuda).
+of the first run, and the ratios beside the paper's, each with its threads and devices. VBD-OGC on CUDA is a fourth
+curve if its run lies in the folder (or with --cuda).
 """
 
 import json
@@ -24,7 +24,7 @@ SCENE = "cloth_on_sphere"
 
 
 def label(run):
-    """The solver, what it ran on, and how far it came where it was stopped."""
+    """Returns the solver, its device, and its last step if it was stopped."""
     last, whole = int(run.column("step")[-1]), int(run.setting("steps"))
     return f"{solver_of(run)} ({run.manifest['device']})" + (f", first {last} of {whole} steps" if last < whole else "")
 
@@ -34,20 +34,21 @@ def detections(run):
 
 
 def processor_ms(run):
-    """Of the program, start and audit included; not-a-number where nobody measured it."""
+    """Returns the program's processor time, start and audit included; not-a-number if it was not measured."""
     path = run.folder / PROCESSOR_TIME
     return 1e3 * sum(json.loads(path.read_text()).values()) if path.is_file() else np.nan
 
 
 def processor_times(run):
-    """Of each step [ms]: the whole run's, where it was measured, shared out by time on the clock. Else not-a-number."""
+    """Returns the processor time of each step [ms]: that of the whole run, divided in proportion to time on the clock.
+    Not-a-number if it was not measured."""
     wall = run.column("wall")
     return wall * processor_ms(run) / np.sum(wall)
 
 
 def claimed(run):
-    """How much longer than this run IPC takes on average, as the paper says in the text beside Fig. 18; None where it
-    says nothing, as of CUDA."""
+    """Returns how much longer than this run IPC takes on average, from the paper's text beside Fig. 18; None if the
+    paper gives no number, as for CUDA."""
     if run.manifest["backend"] != "cpu":
         return None
     claims = json.loads((CLAIMS / f"{SCENE}.json").read_text())["claims"]
@@ -56,9 +57,9 @@ def claimed(run):
 
 
 def ratios(runs):
-    """[(label, IPC's time a step over this run's, what was measured, the paper's claim or None)] over the steps that
-    both have: on the clock, which says nothing where the machine does other work, and where it was measured of
-    processor time, which says nothing of a GPU and little of threads that wait."""
+    """Returns [(label, IPC's time a step over this run's, the kind of time, the paper's claim or None)] over the steps
+    that both have: for time on the clock, which means nothing if the machine does other work, and, where measured, for
+    processor time, which means nothing for a GPU and little for threads that wait."""
     baseline = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
     result = []
     for run in runs if baseline else []:
@@ -76,7 +77,7 @@ def ratios(runs):
 
 
 def summary(runs):
-    """A line a run, for the terminal and the title."""
+    """Returns a line for each run, for the terminal and the title."""
     lines = []
     for run in runs:
         wall, found = run.column("wall"), detections(run)
@@ -93,14 +94,14 @@ def summary(runs):
 
 
 def unequal(runs):
-    """A warning where solvers of the CPU ran on different numbers of threads; none where they ran on the same."""
+    """Returns a warning if solvers of the CPU ran on different numbers of threads; else nothing."""
     threads = sorted({run.manifest["device"] for run in runs if run.manifest["backend"] == "cpu"})
     warning = f"NOT ON THE SAME CORES ({', '.join(threads)}): a ratio of these says little about the methods"
     return [warning] if len(threads) > 1 else []
 
 
 def rows(runs):
-    """A row a run: where it comes from, and its means and shares."""
+    """Returns a row for each run: its provenance, and its means and shares."""
     result = []
     for run in runs:
         wall = run.column("wall")
@@ -140,7 +141,7 @@ def draw(runs, out):
     logarithmic.set(xlabel="step", ylabel=f"{time} a step [ms]", title=f"{time.capitalize()}, logarithmic",
                     yscale="log")
     counts.set(xlabel="step", ylabel="detections a step", title="Detections, continuous and discrete", ylim=(0, None))
-    for axes in (linear, counts):  # in the third it would lie on the curve of a GPU
+    for axes in (linear, counts):  # in the third it would cover the curve of a GPU
         axes.legend()
     words = figure.add_subplot(grid[2, 2:])
     words.axis("off")
@@ -150,7 +151,8 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """IPC's run first; VBD's on CUDA where it lies in the folder or is asked for. With --made those that there are."""
+    """Returns the runs, IPC's first; VBD's on CUDA if it lies in the folder or is requested. With --made the existing
+    ones."""
     folder = Path(arguments.folder)
     made = [name for name in commands.SOLVERS if (folder / name / "run.json").is_file()]
     if arguments.made and not made:

@@ -1,16 +1,16 @@
 """Fig. 21 and the ablation that the paper does not have: a cloth falls onto a sphere and the ground, 40 steps solved to
 convergence with each contact energy.
 
-All five energies are solved with Newton's method; one that does not converge (Eq. 19 as printed has a force that
-jumps at τ) keeps its row. Step 40 is then taken again from each energy's own state 39: by Newton with the condition
-number of each matrix, of it without friction and without contact, and, for the paper's two energies, by VBD in double
-and single precision, whose convergence is the paper's panel c. Both energies' states are compared vertex by vertex.
+Newton's method solves all five energies; one that does not converge (Eq. 19 as printed has a force that jumps at τ)
+keeps its row. Step 40 is then repeated from each energy's own state 39: by Newton with the condition number of each
+matrix, of it without friction and without contact, and, for the paper's two energies, by VBD in double and single
+precision, whose convergence is the paper's panel c. The states of both energies are compared vertex by vertex.
 
-Two choices are varied that the paper leaves open. κ: IPC's energy is −κ k_c (d − r)² ln(d/r). Weak contact: k_c so
-small that about half of OGC's contacts push with more than k_c r/2, where IPC's energy is the stiffest beside OGC's
-at equal force. How hard contacts push, and at how many IPC's is the softer energy there, is counted at each last
-state. With --without all but the paper's two at κ = 1 can be left out; picture and table then name what was not run,
-and `accept` takes them with --incomplete only.
+Two choices that the paper leaves open are varied. κ: IPC's energy is −κ k_c (d − r)² ln(d/r). Weak contact: k_c so
+small that about half of OGC's contacts push with more than k_c r/2, where IPC's energy is the stiffest beside OGC's at
+equal force. Each last state gives the forces of contacts, and the number of contacts at which IPC's is the softer
+energy. With --without all but the paper's two at κ = 1 can be left out; picture and table then name what was not run,
+and `accept` takes them only with --incomplete.
 """
 
 import argparse
@@ -44,8 +44,8 @@ CONDITIONS = {
 
 @dataclass(frozen=True)
 class Solved:
-    """The runs of a variant: all steps; the last one by Newton, by VBD in double and by VBD in single precision, None
-    where it is not done."""
+    """Holds the runs of a variant: all steps; the last one by Newton, by VBD in double and by VBD in single precision,
+    None if it is not made."""
 
     run: Run
     newton: Run = None
@@ -75,7 +75,7 @@ def solved(folder, ogc, scale, variant, backend):
 
 
 def curves(folder, ogc):
-    """The panels of `ogc illustrate fig21d`: {panel: {layer: (x, y)}}."""
+    """Returns the panels of `ogc illustrate fig21d`: {panel: {layer: (x, y)}}."""
     path = folder / "fig21d.json"
     if (
         subprocess.run([str(ogc), "illustrate", "fig21d", "--out", str(folder)], stdout=subprocess.DEVNULL).returncode
@@ -95,13 +95,14 @@ def largest_distance(first, second):
 
 
 def first_below(rows, level):
-    """The first iteration whose state has this residual, with the contacts of the last detection, or "never"."""
+    """Returns the first iteration whose state has this residual, with the contacts of the last detection, or
+    "never"."""
     below = np.flatnonzero(rows["residual"] <= level)
     return int(rows["iteration"][below[0]]) if len(below) else "never"
 
 
 def iterations_to(prefix, run, step):
-    """Columns of a solver: the iterations of the last step to each level, empty where it was not done."""
+    """Returns columns of a solver: the iterations of the last step to each level, empty if it was not made."""
     rows = iterations(run, step) if run else None
     return {
         f"{prefix}_iterations_to_{name} [1]": first_below(rows, level) if rows else "" for name, level in LEVELS.items()
@@ -109,8 +110,8 @@ def iterations_to(prefix, run, step):
 
 
 def conditions(newton, step):
-    """Columns of the last matrix of the step, and the median over its iterations; empty where Newton made none or gave
-    up: its last matrix is then of a state far from the end."""
+    """Returns columns of the last matrix of the step, and the median over its iterations; empty if Newton made none or
+    gave up, because its last matrix is then of a state far from the end."""
     rows = iterations(newton, step) if newton and newton.status == "finished" else None
     known = np.flatnonzero(np.isfinite(rows["condition_number"])) if rows else []
     if not len(known):
@@ -120,7 +121,8 @@ def conditions(newton, step):
 
 
 def pushing(forces):
-    """Columns about the contacts of the last state; empty for an energy that none of the two curves is about."""
+    """Returns columns about the contacts of the last state; empty for an energy that neither of the two curves
+    describes."""
     if forces is None:
         return dict.fromkeys(
             ("contacts [1]", "median_force [k_c r]", "share_above_half [1]", "share_where_ipc_is_softer [1]"), ""
@@ -134,13 +136,14 @@ def pushing(forces):
 
 
 def largest_residual(run):
-    """Of the steps with contacts: in free flight the force that VBD begins with, f*, is nothing but rounding."""
+    """Returns the largest residual of the steps with contacts: in free flight the force with which VBD begins, f*, is
+    only rounding."""
     touching = run.column("vertex_facet_contacts") + run.column("edge_edge_contacts") > 0
     return run.column("residual")[touching].max()
 
 
 def row_of(variant, found, forces, like, scale):
-    """`like`: the runs of OGC's energy with the same contact."""
+    """Returns the row of a variant. `like`: the runs of OGC's energy with the same contact."""
     run, step, newton = found.run, STEPS[scale], found.newton
     whole = run.status == "finished"
     return {
@@ -166,7 +169,7 @@ def row_of(variant, found, forces, like, scale):
 
 
 def ratio_rows(ratio):
-    """The table of curvature ratios: a row a force, a column a κ."""
+    """Returns the table of curvature ratios: a row for each force, a column for each κ."""
     chosen = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 100)
     return [
         {
@@ -181,7 +184,7 @@ def ratio_rows(ratio):
 
 
 def colour(variant):
-    """By κ, black for OGC."""
+    """Returns the colour of a κ; black for OGC."""
     return (
         style.COLOURS[-1] if variant.energy == "ogc" else style.COLOURS[commands.STIFFNESS_RATIOS.index(variant.ratio)]
     )
@@ -304,7 +307,7 @@ def draw_conditions(axes, rows):
 
 
 def over(rows, column, top=IPC, bottom=OGC):
-    """The quotient of two cells in words; a dash where one is no number."""
+    """Returns the quotient of two cells in words; a dash if one is not a number."""
     cells = {row["activation"]: row[column] for row in rows}
     try:
         return f"{float(cells[top.label]) / float(cells[bottom.label]):.3g}"
@@ -344,7 +347,7 @@ def draw(results, panels, states, rows, scale, out):
 
 
 def main(folder, ogc, scale="small", backend="cpu", without=()):
-    """Does the runs that are missing in `folder`, and writes fig21.png and the tables there; `backend`: of VBD in
+    """Makes the runs that are missing in `folder`, and writes fig21.png and the tables there; `backend`: of VBD in
     single precision, `without`: names of variants that are neither run nor drawn. Returns the picture's path."""
     folder = Path(folder)
     panels = curves(folder, ogc)

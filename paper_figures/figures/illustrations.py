@@ -1,5 +1,5 @@
-"""The paper's drawings (Fig. 2c to e, 3 to 9, 22) from what `ogc illustrate` computed: nothing here knows any geometry,
-it only draws points and lines."""
+"""Draws the paper's drawings (Fig. 2c to e, 3 to 9, 22) from the data of `ogc illustrate`. It computes no geometry; it
+only draws points and lines."""
 
 import argparse
 import json
@@ -13,7 +13,7 @@ import numpy as np
 from plots import style
 
 plt = style.use()
-from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402  (after the style has chosen its backend)
+from matplotlib.colors import BoundaryNorm, ListedColormap  # after the style has chosen its backend
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
 TITLES = {
@@ -32,7 +32,7 @@ SEGMENT_COLOURS = [style.COLOURS[0], style.COLOURS[3], style.COLOURS[2], style.C
 
 
 def wrapped(text, width=42):
-    """Lines of at most `width` characters, with N_v and M^e as mathematics."""
+    """Returns lines of at most `width` characters, with N_v and M^e as mathematics."""
     return re.sub(r"\b([A-Za-z])([_^])(\w+)", r"$\1\2{\\mathrm{\3}}$",
                   "\n".join(textwrap.wrap(text.replace("Eq. ", "Eq.\u00a0"), width)))
 
@@ -76,7 +76,7 @@ def draw_arrows(axes, layer):
         start, end = xy(layer, line)
         segment, whole = int(layer["values"][2 * k]), layer["values"][2 * k + 1] > 0
         colour = SEGMENT_COLOURS[segment % len(SEGMENT_COLOURS)] if whole else "black"
-        width = 0.35 if starts[k] in starts[k + 1:] else 0.12  # equal arrows stay visible one in the other
+        width = 0.35 if starts[k] in starts[k + 1:] else 0.12  # equal arrows stay visible inside each other
         shape = f"simple,head_length={0.5 + width},head_width={0.3 + 2 * width},tail_width={width}"
         axes.annotate("", end, start, zorder=4 + k,
                       arrowprops={"arrowstyle": shape, "mutation_scale": 10, "facecolor": colour, "edgecolor": "none",
@@ -84,7 +84,7 @@ def draw_arrows(axes, layer):
 
 
 def draw_face_sets(figure, panels):
-    """One row for each contact face set, one column for each situation."""
+    """Draws one row for each contact face set, one column for each situation."""
     grid = figure.subplots(3, len(panels))
     for column, panel in enumerate(panels):
         for row, name in enumerate(("IPC", "SDF", "OGC")):
@@ -161,7 +161,7 @@ def draw_path(figure, left, right, panels):
     right.legend(loc="upper center", ncols=2)
 
 
-# Steps that are cut; their lengths are metres, drawn as millimetres ---
+# Truncated steps; their lengths are metres, drawn as millimetres ---
 
 
 def millimetres(layer):
@@ -261,8 +261,8 @@ def lines_of(layer):
 
 
 def not_drawn_yet(lines, drawn):
-    """The parts of `lines` whose segments are not in `drawn`, which they enter: where two boundaries share an edge, its
-    dashes must not fill each other's gaps."""
+    """Returns the parts of `lines` whose segments are not in `drawn`, and adds them to it: where two boundaries share
+    an edge, the dashes of one must not fill the gaps of the other."""
     result = []
     for line in lines:
         part = [line[0]]
@@ -278,7 +278,7 @@ def not_drawn_yet(lines, drawn):
 
 
 def draw_layer(axes, layer, colour, alpha, line_width=1.0, line_colour=None, drawn=None):
-    """`drawn`: segments of lines that are there already, and are left out."""
+    """Draws a layer. `drawn`: segments of lines that exist already, and are left out."""
     points = np.array(layer["points"], dtype=float).reshape(-1, 3)
     if layer["triangles"]:
         axes.add_collection3d(Poly3DCollection(points[np.array(layer["triangles"])], facecolors=colour,
@@ -320,7 +320,7 @@ def draw_blocks(axes, panel, letter, azimuth):
 
 
 def fill_region(axes, points):
-    """The part of the sphere inside a closed curve, in rings towards its middle."""
+    """Fills the part of the sphere inside a closed curve, in rings towards its middle."""
     middle = points.mean(axis=0)
     rings = [(1 - k / 8) * points + k / 8 * middle for k in range(9)]
     rings = [ring / np.linalg.norm(ring, axis=1, keepdims=True) for ring in rings]
@@ -360,8 +360,8 @@ def draw_sphere(axes, panel, elevation, azimuth):
 
 
 def draw_space(figure, panels, spheres, elevation=22, azimuth=-62):
-    """Blocks above, and with `spheres` the unit spheres of the same faces below, seen from `elevation` degrees above
-    the horizon."""
+    """Draws blocks above, and with `spheres` the unit spheres of the same faces below, seen from `elevation` degrees
+    above the horizon."""
     rows = 2 if spheres else 1
     for column, panel in enumerate(panels):
         draw_blocks(figure.add_subplot(rows, len(panels), 1 + column, projection="3d"), panel, "abcd"[column], azimuth)

@@ -1,6 +1,6 @@
 """How far Vertex Block Descent in single precision ends from where Newton's method in double ends: the same step of the
-same state by both, each until nothing moves, of three scenes. Both detect contacts as they go; where a contact of one
-is none of the other, or friction lags otherwise, that is part of the distance. Not in the paper.
+same state by both, each until nothing moves, of three scenes. Both detect contacts during the step; where only one of
+them has a contact, or friction lags differently, that is part of the distance. Not in the paper.
 """
 
 import csv
@@ -18,7 +18,7 @@ DISTANCES = {"largest_distance [m]": "largest distance of a vertex", "rms_distan
 
 
 def row_of(folder, scene):
-    """The table's row of two finished runs of one step."""
+    """Returns the table's row of two finished runs of one step."""
     by_vbd, by_newton = (Run(folder / f"{scene}_{solver}") for solver in ("vbd", "newton"))
     ends = [run.frame(run.frames[-1]).positions.astype(float) for run in (by_vbd, by_newton)]
     apart = np.linalg.norm(ends[0] - ends[1], axis=1)

@@ -1,5 +1,5 @@
-"""One table and one picture of a sweep: the rows that `ogc ablate` wrote for each of its points. Usage: python3 -m
-paper_figures.figures.sweep FOLDER OUT.png; the table goes beside it."""
+"""Makes one table and one picture of a sweep from the rows that `ogc ablate` wrote for each of its points. Usage:
+python3 -m paper_figures.figures.sweep FOLDER OUT.png; the table lies beside the picture."""
 
 import csv
 import sys
@@ -9,15 +9,15 @@ from paper_figures.workflow.evidence import EvidenceError
 from paper_figures.workflow.runs import write_table
 from plots import style
 
-# What is drawn over the first key, with a colour for each value of the second and a dash for each of the third.
-KEYS = ("iterations", "bound_relaxation", "redetect_fraction")
+# Drawn over the first key, with a colour for each value of the second and a dash for each value of the third.
+KEYS = ("iterations", "bounds_relaxation", "detection_fraction")
 PANELS = (("detections_a_step [1]", "detections a step"), ("median_step [ms]", "median time a step [ms]"),
           ("smallest_distance [m]", "smallest distance [m]"))
 
 
 def gather(folder):
-    """Rows of all points; the folder's path is left out, its name says the point. Throws EvidenceError where there is
-    none."""
+    """Returns the rows of all points. The folder's path is left out, because its name tells the point. Throws
+    EvidenceError if there is none."""
     rows = []
     for path in sorted(Path(folder).glob("*/ablation.csv")):
         with path.open(newline="") as file:
@@ -28,7 +28,7 @@ def gather(folder):
 
 
 def curves(rows):
-    """{(second key, third key): its rows, ascending in the first}."""
+    """Returns {(second key, third key): its rows, ascending in the first}."""
     found = {}
     for row in sorted(rows, key=lambda row: float(row[KEYS[0]])):
         found.setdefault((row[KEYS[1]], row[KEYS[2]]), []).append(row)
@@ -36,7 +36,7 @@ def curves(rows):
 
 
 def draw(rows, out):
-    """Throws EvidenceError where a row lacks what is drawn."""
+    """Draws the rows. Throws EvidenceError if one lacks a drawn column."""
     missing = [name for name in (*KEYS, *(name for name, _ in PANELS)) if name not in rows[0]]
     if missing:
         raise EvidenceError(f"the sweep has no column {', '.join(missing)}; it has: {', '.join(rows[0])}")

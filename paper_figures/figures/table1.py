@@ -1,9 +1,9 @@
 """Table 1, rows of cloth, of the mat and of yarn: ours beside the paper's, as CSV, Markdown and HTML, from the runs
 that the runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
 
-Average and maximum are of whole steps as steps.csv times them. A step that was repeated because a list grew is in the
-average, not in the maximum, and counted. The CPU's average is that of its windows, each with the same weight. With
-several whole runs each number is the median of theirs. The standard library is enough.
+Average and maximum are those of whole steps as timed in steps.csv. A step that was repeated because a list grew counts
+in the average, not in the maximum, and is listed. The CPU's average is that of its windows with equal weights. With
+several whole runs each number is their median. The standard library is enough.
 """
 
 import argparse
@@ -21,30 +21,30 @@ from paper_figures.workflow.jobs import MEMORY
 
 ROWS = commands.ROWS
 TITLE = "Table 1, rows of cloth, of the mat and of yarn, with the paper's bounds and with planes"
-WINDOWS = 5  # on the CPU, of each row
+WINDOWS = 5  # on the CPU, for each row
 STALE, FRESH = "residual, last detection's contacts [1]", "residual, contacts of the end [1]"
 
 
 def runs_below(folder, pattern):
-    """Runs with at least one step. What else lies there is left out."""
+    """Returns runs with at least one step; other content of the folder is left out."""
     found = (run_at(path) for path in sorted(Path(folder).glob(pattern)))
     return [run for run in found if run and run.column("step")]
 
 
 def times(run):
-    """(average, maximum, repeated steps) of a run's steps [ms]."""
+    """Returns (average, maximum, repeated steps) of a run's steps [ms]."""
     wall, repeats = run.column("wall"), run.column("repeats")
     clean = [ms for ms, n in zip(wall, repeats) if n == 0] or wall
     return statistics.fmean(wall), max(clean), sum(1 for n in repeats if n > 0)
 
 
 def contacts(run):
-    """Vertex-facet and edge-edge contacts of each step."""
+    """Returns the vertex-facet and edge-edge contacts of each step."""
     return [a + b for a, b in zip(run.column("vertex_facet_contacts"), run.column("edge_edge_contacts"))]
 
 
 def residuals(folder):
-    """What a step leaves at each state that one was measured from: `first state: residual`, by column."""
+    """Returns the residual that a step leaves at each measured state: `first state: residual`, by column."""
     runs = sorted(runs_below(folder, "residual_*"), key=lambda run: run.column("step")[0])
     found = {STALE: [], FRESH: []}
     for run in runs:
@@ -57,7 +57,7 @@ def residuals(folder):
 
 
 def paper(scene, backend, quantity):
-    """(number, machine) of the claim, or (None, "") where the paper says nothing."""
+    """Returns (number, machine) of the claim, or (None, "") if the paper gives none."""
     path = CLAIMS / f"{scene}.json"
     for claim in json.loads(path.read_text())["claims"] if path.is_file() else ():
         if claim["id"] == f"{scene}.{backend}_{quantity}":
@@ -72,7 +72,7 @@ def origin(run):
 
 
 def beside(run, average, maximum):
-    """Ours, the paper's and the quotients; at a smaller scale than the paper's ours alone."""
+    """Returns our numbers, the paper's and the quotients; below the paper's scale ours alone."""
     row = {"average [ms]": average, "maximum [ms]": maximum}
     m = run.manifest
     for name, ours in (("average", average), ("maximum", maximum)):
@@ -83,8 +83,8 @@ def beside(run, average, maximum):
 
 
 def penetration(run):
-    """Share of vertices that end a step cut, how far prescribed ones lag, and of bodies that are entered who is inside,
-    as the solver counts it."""
+    """Returns the share of vertices that end a step cut, the lag of prescribed vertices, and, for bodies that may be
+    entered, the vertices inside them as counted by the solver."""
     columns = {"at bound, most [1]": "share_cut", "largest lag [m]": "largest_lag",
                "vertices inside, most": "vertices_inside", "deepest [m]": "deepest"}
     return {name: max(run.column(column)) if run and column in run.columns else "" for name, column in columns.items()}
@@ -98,7 +98,8 @@ def sizes(run):
 
 
 def device_row(scene, runs, memory="", left=None):
-    """Of the whole runs on the device, which must be as long as each other; `left`: what `residuals` found."""
+    """Returns the row of the whole runs on the device, which must have equal lengths; `left`: the result of
+    `residuals`."""
     if len({len(run.column("step")) for run in runs}) > 1:
         raise EvidenceError(f"{scene}: whole runs of different lengths ({', '.join(run.source for run in runs)}): "
                             "finish them, or remove the shorter ones")
@@ -116,7 +117,7 @@ def device_row(scene, runs, memory="", left=None):
 
 
 def cpu_row(scene, windows, wanted):
-    """Of the windows on the CPU, by their share of the run."""
+    """Returns the row of the windows on the CPU, by their share of the run."""
     windows = sorted(windows, key=lambda run: run.column("step")[0])
     if len({(run.manifest["commit"], run.manifest["device"]) for run in windows}) > 1:
         raise EvidenceError(f"{scene}: CPU windows of different programs or machines: remove the old ones and make "
@@ -197,7 +198,7 @@ def page(rows):
 
 
 def write(rows, out):
-    """table1_SCALE.csv, .md and .html; returns their paths."""
+    """Writes table1_SCALE.csv, .md and .html; returns their paths."""
     scales = {row["scale"] for row in rows}
     if len(scales) > 1:
         raise EvidenceError(f"runs of different scales ({', '.join(sorted(scales))}) can't stand in one table: remove "

@@ -1,6 +1,6 @@
-"""The page of the report where two settings of an ablation are laid over each other: of every metric both ranges on
-one axis, the ratio of medians, and whether the ranges are apart. Its script reads the tables that stand in the page and
-asks the network nothing."""
+"""Builds the page of the report that compares two settings of an ablation: for every metric both ranges on one axis,
+the ratio of medians, and whether the ranges are apart. Its script reads the tables inside the page and needs no
+network."""
 
 import csv
 import html
@@ -63,7 +63,8 @@ tables();
 
 
 def tables(folder=RESULTS):
-    """{table: {study: {scene: {point: {metric [unit]: [median, smallest, largest]}}}}} of the accepted tables."""
+    """Returns {table: {study: {scene: {point: {metric [unit]: [median, smallest, largest]}}}}} of the accepted
+    tables."""
     found = {}
     for name, words in TABLES.items():
         with opened(folder / name) as file:
@@ -77,8 +78,8 @@ def tables(folder=RESULTS):
 
 
 def body(folder=RESULTS):
-    """HTML of the page, without its frame."""
-    # a table is data, not marks: nothing in it may end the script element that holds it
+    """Returns the HTML of the page without its frame."""
+    # A table is data, not markup: nothing in it may end the script element that holds it.
     data = json.dumps(tables(folder), allow_nan=False).replace("<", "\\u003c")
     chosen = "".join(f'<p><label>{words} <select id="{name}"></select></label></p>' for name, words in
                      (("table", "runs"), ("study", "study"), ("scene", "scene"), ("first", "first setting"),

@@ -10,7 +10,7 @@ from paper_figures.workflow.evidence import RESULTS, opened
 
 FILES = {"smoke": "two_cores/ablations_smoke.csv.gz", "small": "h200/ablations_small.csv.gz",
          "paper": "h200/ablations_paper.csv.gz"}  # the largest size last
-# Metric -> its title and factor. A column that a study has no number for is left out.
+# Titles and factors by metric. A column without a number in a study is left out.
 COLUMNS = {"guarantee_kept": ("kept [runs]", 1), "detections_a_step": ("detections a step", 1),
            "contacts_a_step": ("contacts a step", 1), "median_step": ("step [ms]", 1),
            "smallest_distance": ("smallest distance [mm]", 1e3), "largest_share_cut": ("vertices cut [%]", 100),
@@ -36,7 +36,7 @@ POINTS_OF_RODS = re.compile(r"(?!.*iterations=)|.*iterations=(1|16|64)$")
 
 
 def largest_runs(study, folder=RESULTS):
-    """(scene, size) -> {point: {metric: row}} of a study."""
+    """Returns (scene, size) -> {point: {metric: row}} of a study."""
     found = {}
     for size, name in FILES.items():
         with opened(folder / name) as file:
@@ -49,13 +49,13 @@ def largest_runs(study, folder=RESULTS):
 
 
 def rounded(value):
-    """To three digits, with commas between 1,000 and 100,000."""
+    """Returns a number with three digits, with commas between 1,000 and 100,000."""
     short = f"{value:.3g}"
     return f"{float(short):,.0f}" if 1e3 <= abs(value) < 1e5 else short
 
 
 def cell(metric, row, first):
-    """The median of a metric's row; bold where the runs lie apart from those of the row `first`."""
+    """Returns the median of a metric's row; in bold if the runs lie apart from those of the row `first`."""
     if row is None:
         return ""
     low, high = float(row["smallest"]), float(row["largest"])
@@ -68,7 +68,7 @@ def cell(metric, row, first):
 
 
 def table(study, folder=RESULTS):
-    """The lines of a study's table in Markdown, and the sentence that every run kept the guarantee where it is so."""
+    """Returns the lines of a study's table in Markdown, and a sentence if every run kept the guarantee."""
     runs = largest_runs(study, folder)
     there = {metric for points in runs.values() for metrics in points.values() for metric in metrics}
     columns = [metric for metric in SHOWN[study] if metric in there]

@@ -1,10 +1,10 @@
 """Accepts what figures made: copies small data, pictures and movies of finished figures into results/MACHINE, each with
-a row in provenance.csv (command, program, device, digest) and the time it took in durations.csv. `experiments/reproduce
-… --accept MACHINE` calls it.
+a row in provenance.csv (command, program, device, digest) and its duration in durations.csv. `experiments/reproduce …
+--accept MACHINE` calls it.
 
-What is kept is small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
+The kept files are small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
 
-Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of the
+Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of
 runs of several commits.
 """
 
@@ -25,26 +25,26 @@ from paper_figures.workflow.jobs import ENDED_BY_TIME
 from paper_figures.workflow.kept import AcceptError, bytes_of, run_files
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
-LARGEST = 2**20  # bytes of a file; tests hold the folder as a whole to 10 MB
+LARGEST = 2**20  # bytes of a file; tests limit the whole folder to 10 MB
 
 
 def manifests(folder):
-    """(run folder's name below the figure's, manifest) of each run of a figure; an audit after the run counts as one
-    beside it."""
+    """Returns (run folder's name below the figure's, manifest) of each run of a figure; an audit after the run counts
+    like one beside it."""
     paths = sorted(folder.rglob("run.json"))
     return [("_".join(path.parent.relative_to(folder).parts), manifest_at(path)) for path in paths]
 
 
 def manifest_at(path):
     run, manifest = run_at(path.parent), json.loads(path.read_text())
-    if (path.parent / ENDED_BY_TIME).is_file():  # it was given so long, and is whole
+    if (path.parent / ENDED_BY_TIME).is_file():  # it was given a limit of time, and is complete
         manifest["status"] = "finished"
     return {**manifest, "guarantee_kept": run.guarantee_kept} if run and run.afterwards else manifest
 
 
 def check(name, manifest):
-    """Throws AcceptError where the run is no evidence. An ablation keeps the energies that did not converge: they
-    failed, but no audit did."""
+    """Throws AcceptError if the run is no evidence. An ablation keeps the energies that did not converge: they failed,
+    but no audit did."""
     if manifest.get("dirty") is not False:
         raise AcceptError(f"{name} was made by a program with uncommitted changes: commit, build, and run again")
     if manifest.get("guarantee_kept") is False:
@@ -56,7 +56,7 @@ def check(name, manifest):
 
 
 def program(ogc):
-    """Commit and compiler of the program, as it says itself."""
+    """Returns commit and compiler of the program, as it prints them."""
     said = subprocess.run([ogc, "--version"], capture_output=True, text=True, check=True).stdout
     words = dict(line.split(" ", 1) for line in said.splitlines() if line.startswith(("commit ", "compiler ")))
     if "dirty" in words["commit"] or words["commit"] == "unknown":
@@ -65,8 +65,8 @@ def program(ogc):
 
 
 def origin(recipe, folder, ogc, backend=None):
-    """Commit, compiler, device and end of the figure's runs, or of the program where it has none; of the last run by
-    `backend`, where there is one: windows on the CPU beside it are not what the picture shows."""
+    """Returns commit, compiler, device and end of the figure's runs, or of the program if it has none. With `backend`,
+    those of the last run by it, if there is one: windows on the CPU beside it are not what the picture shows."""
     runs = manifests(folder) if "illustration" not in recipe.body else []
     for name, manifest in runs:
         check(f"{folder.name}/{name}", manifest)
@@ -82,12 +82,12 @@ def origin(recipe, folder, ogc, backend=None):
 
 
 def not_run(key, name, columns):
-    """The row about a run that was left out of a figure: its name, that it was not run, and nothing else."""
+    """Returns the row about a run that was left out of a figure: its name and that it was not run."""
     return {**dict.fromkeys(columns, ""), key: name, "status": NOT_RUN, "commit": "-"}
 
 
 def left_out(folder):
-    """The names in such rows of a figure's tables: it is not whole."""
+    """Returns the names in these rows of a figure's tables; a figure with any is incomplete."""
     for path in sorted(folder.glob("*.csv")):
         with path.open(newline="") as file:
             rows = [row for row in csv.DictReader(file) if row.get("status") == NOT_RUN]
@@ -95,8 +95,8 @@ def left_out(folder):
 
 
 def pieces(recipe, scale, backend, runs, incomplete=False):
-    """(name in results, bytes) of what is kept of a figure; `incomplete`: it may lack its movie, which too few frames
-    were brought home for."""
+    """Returns (name in results, bytes) of what is kept of a figure. `incomplete`: it may lack its movie, if too few
+    frames were unpacked for one."""
     folder, picture = runs / recipe.folder(scale, backend), runs / recipe.picture(scale, backend)
     if not picture.is_file():
         raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
@@ -120,20 +120,21 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
 
 
 def keeps(recipe, name):
-    """Whether the files of the run of this name are kept; of others the row in the figure's table is."""
+    """Returns whether the files of the run of this name are kept; other runs have only their row in the figure's
+    table."""
     return "kept" not in recipe.body or any(fnmatch(name, pattern) for pattern in recipe.body["kept"])
 
 
 def run_name(path, folder):
-    """The folders from the figure's to the run's, but for those that every run lies in."""
+    """Returns the folders from the figure's to the run's, without those that every run has."""
     return "_".join(part for part in path.parent.relative_to(folder).parts if part != "runs")
 
 
 def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
-    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written where one of
-    them can't be accepted; `incomplete`: one that says itself that runs were left out can be; `by_hand`: the command
-    that makes it again, where it was not the workflow's. Of a picture of other figures' runs it makes the picture
-    alone: they keep what was said of them."""
+    """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written if one of them
+    can't be accepted. `incomplete`: also accepts a figure that itself names the runs left out. `by_hand`: the command
+    that makes it again, if it was not the workflow's. Of a picture of other figures' runs only the picture is made,
+    because those figures keep the runs."""
     folder, kept, rows, scenes = Path(results) / machine, [], [], {}
     before = {(row["file"], row["sha256"]): row["redo"] for row in rows_of(folder / "provenance.csv")}
     shown = {name for recipe in chosen for name in recipe.body.get("of", ())}
@@ -178,8 +179,8 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
 
 
 def unlike_others(found, folder, figure, rows):
-    """The (name, bytes) of `found` without the runs that another figure keeps: in the folder, or in `rows`, about those
-    accepted with it."""
+    """Returns the (name, bytes) of `found` without the runs that another figure keeps: in the folder, or in `rows`,
+    about those accepted with it."""
     others = {row["sha256"] for row in (*rows_of(folder / "provenance.csv"), *rows) if row["figure"] != figure}
     twice = [name.removesuffix("run.json") for name, data in found
              if name.endswith("run.json") and hashlib.sha256(data).hexdigest()[:16] in others]
@@ -188,7 +189,7 @@ def unlike_others(found, folder, figure, rows):
 
 
 def drop_scenes(results):
-    """Removes the scenes that no accepted manifest names any more."""
+    """Removes the scenes that no accepted manifest names."""
     named = {json.loads(path.read_text())["scene"].get("sha256") for path in results.glob("*/**/*run.json")}
     for path in results.glob(f"{SCENES}/*.json"):
         if path.stem not in named:
@@ -196,7 +197,7 @@ def drop_scenes(results):
 
 
 def composed(recipe, chosen, scale, backend, runs, ogc):
-    """Origin of a picture of other figures' runs: theirs, if it is one."""
+    """Returns the origin of a picture of other figures' runs: theirs, if they have only one."""
     found = [origin(other, Path(runs) / other.folder(scale, backend), ogc) for other in chosen
              if other.name in recipe.body["of"]]
     if len({words["commit"] for words in found}) > 1:
@@ -206,7 +207,7 @@ def composed(recipe, chosen, scale, backend, runs, ogc):
 
 
 def rows_of(table):
-    """The rows of a table, none where there is no such file."""
+    """Returns the rows of a table; none if there is no such file."""
     if not table.is_file():
         return []
     with table.open(newline="") as file:
@@ -214,8 +215,8 @@ def rows_of(table):
 
 
 def earlier_files(provenance, rows):
-    """The files of an earlier acceptance of the figures in `rows`, at the same scale by the same backend, that have no
-    successor there."""
+    """Returns the files of an earlier acceptance of the figures in `rows`, at the same scale by the same backend, that
+    have no successor there."""
     about = {tuple(row[key] for key in ("figure", "scale", "backend")) for row in rows}
     names = {row["file"] for row in rows}
     return [row["file"] for row in rows_of(provenance) if (row["figure"], row["scale"], row["backend"]) in about
@@ -223,8 +224,8 @@ def earlier_files(provenance, rows):
 
 
 def merge(path, columns, rows, key, gone=()):
-    """Rows of a table replaced by those of the same key, without those `gone`; sorted, so that a new acceptance changes
-    its own lines alone."""
+    """Replaces rows of a table by those of the same key and removes the rows in `gone`. The table is sorted, so that a
+    new acceptance changes only its own lines."""
     old = {tuple(row[name] for name in key): row for row in rows_of(path)}
     old = {name: row for name, row in old.items() if name not in gone}
     old.update({tuple(row[name] for name in key): row for row in rows})

@@ -1,10 +1,10 @@
 """Audits the stored states of a finished run exactly, after the run: what the audit takes is no part of the run's time.
-It goes through them in rounds, so that what is known at any time is spread evenly over the run, and keeps what each
-round found. Where time runs out it stops, and goes on with the others when it is called again.
+It audits them in rounds, so that the audited states are spread evenly over the run at any time, and keeps the findings
+of each round. If time runs out it stops, and continues when it is called again.
 
-Usage: python3 -m paper_figures.workflow.audited PROGRAM RUN [--seconds N]; RUN/audit.json says what was found. Exit
-status 0: no state has an intersection, 1: one has, 2: the run can't be audited, 75: time ran out. Python's own library
-is enough.
+Usage: python3 -m paper_figures.workflow.audited PROGRAM RUN [--seconds N]; RUN/audit.json has the findings. Exit status
+0: no state has an intersection, 1: one has, 2: the run can't be audited, 75: time ran out. Needs only Python's own
+library.
 """
 
 import argparse
@@ -20,11 +20,11 @@ from pathlib import Path
 from paper_figures.workflow.jobs import AUDIT, CALL_AGAIN, FINISHED, KEPT, STOPPED, Limit, RunFailure, command_in
 
 INTERRUPTED = (130, -signal.SIGINT)
-SHORT_ROUND = 10.0  # [s]; the next one has twice as many states, because each round reads the scene anew
+SHORT_ROUND = 10.0  # [s]; the next round has twice as many states, because each round reads the scene again
 
 
 def found_before(run):
-    """What earlier calls found of this run; of a run that was made anew, nothing."""
+    """Returns what earlier calls found of this run; nothing if the run was made again."""
     path = run / AUDIT
     if not path.is_file() or path.stat().st_mtime < (run / "run.json").stat().st_mtime:
         return {"states": 0, "steps": [], "intersections": 0, "clean": True, "complete": False, "seconds": 0.0}
@@ -36,7 +36,8 @@ def step_of(frame):
 
 
 def spread(frames):
-    """The frames in an order any beginning of which is spread evenly over them: first, last, middle, quarters, …"""
+    """Returns the frames in an order whose every beginning is spread evenly over them: first, last, middle, quarters,
+    …"""
     bits = max(1, (len(frames) - 1).bit_length())
     halves = sorted(range(len(frames)), key=lambda i: int(f"{i:0{bits}b}"[::-1], 2))
     order = dict.fromkeys([*halves[:1], len(frames) - 1, *halves]) if frames else {}
@@ -44,7 +45,7 @@ def spread(frames):
 
 
 def shown_alone(run, frames, folder):
-    """The folder, as a run that has these frames of `run` alone."""
+    """Fills the folder, as a run that has only these frames of `run`."""
     (folder / "frames").mkdir()
     for path in (run / "run.json", run / "scene"):
         (folder / path.name).symlink_to(path)
@@ -54,7 +55,7 @@ def shown_alone(run, frames, folder):
 
 
 def ask(program, run, frames, limit):
-    """(what `ogc audit --json` says of these frames, exit status), asked to stop at the limit."""
+    """Returns (output of `ogc audit --json` for these frames, exit status); the command must stop at the limit."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         said, errors = folder / "said.json", folder / "errors"
@@ -67,7 +68,7 @@ def ask(program, run, frames, limit):
 
 
 def together(before, said, seconds, frames):
-    """What was found before and now; `frames`: how many states the run has."""
+    """Returns what was found before and now; `frames`: the number of the run's states."""
     steps = [int(state["state"].split()[-1]) for state in said.get("states", [])]
     wrong = [int(state["state"].split()[-1]) for state in said.get("states", []) if state["count"]]
     found = before["intersections"] + said.get("intersections", 0)
@@ -79,7 +80,7 @@ def together(before, said, seconds, frames):
 
 
 def audit(program, run, limit=Limit()):
-    """Exit status, and what is known now; kept in RUN/audit.json after each round of some seconds."""
+    """Returns the exit status, and what is known now, which RUN/audit.json keeps after each round of some seconds."""
     run = Path(run).resolve()
     frames, found = sorted((run / "frames").glob("frame_*.h5")), found_before(run)
     size = len(os.sched_getaffinity(0))
@@ -113,7 +114,7 @@ def in_words(found):
 
 @dataclass(frozen=True)
 class Audit:
-    """The job that audits the stored states of the finished run `of`."""
+    """Audits the stored states of the finished run `of` as a job."""
 
     of: str
     on_device = False
@@ -133,7 +134,7 @@ class Audit:
         return STOPPED if status == CALL_AGAIN else FINISHED
 
     def results(self, _root, _frames, _last):
-        """None of its own: what it found lies beside the run's manifest."""
+        """Returns nothing: the findings lie beside the run's manifest."""
         return iter(())
 
 

@@ -1,13 +1,14 @@
-"""Holds new runs against the accepted results of the same question (scene, settings, scale, solver, backend), and
-claims against their verdicts. `experiments/reproduce … --check` calls it.
+"""Compares new runs with the accepted results of the same question (scene, settings, scale, solver, backend), and
+claims with their verdicts. `experiments/reproduce … --check` calls it.
 
   bits     a run of the commit, device and compiler of the accepted one ends with its bits, and an illustration of the
     exact reference is the same data
   bands    otherwise it has as many steps, keeps the guarantee, and the means of its columns lie within
     results/bands.json of the accepted ones
-  claims   a claim that the accepted results reproduce is reproduced again, and what was set as printed is so again; at
-           a smaller scale than the claim's, its number lies in the claim's band, moved from the printed number to the
-           accepted one. Times are not held against an accepted run's: they say more about the hour than the program
+  claims   a claim that the accepted results reproduce is reproduced again, and a setting that was as printed is so
+           again; at a smaller scale than the claim's, its number lies in the claim's band, moved from the printed
+           number to the accepted one. Times are not compared with an accepted run's: they depend more on the hour
+           than on the program
 """
 
 import gzip
@@ -22,40 +23,40 @@ from paper_figures.workflow.verdicts import STATES, band_in_words, judge_all, wi
 BANDS = RESULTS / "bands.json"
 QUESTION = ("settings", "scale", "solver", "backend", "scene", "jitter", "jitter_seed")
 SAME_BITS = ("device", "commit", "compiler")
-# Words of a measure that is a time, or a share of it, or a size of the scene.
+# Words in the name of a measure that is a time, or a share of it, or a size of the scene.
 NOT_COMPARED = ('"wall"', "[ms]", "time", "stage_", '"scene"')
 
 
 def bands(path=BANDS):
-    """column -> relative band of its mean."""
+    """Returns column -> relative band of its mean."""
     document = json.loads(Path(path).read_text())
     return {name: document["factor"] * entry["spread"] for name, entry in document["columns"].items()}
 
 
 def counterpart(run, accepted):
-    """The newest accepted run of the same question, one of the same program and machine first."""
+    """Returns the newest accepted run of the same question; runs of the same program and machine come first."""
     alike = [old for old in accepted if question(run) == question(old) and run.first_step == old.first_step]
     same = [old for old in alike if all(run.manifest.get(key) == old.manifest.get(key) for key in SAME_BITS)]
     return (same or alike or [None])[-1]
 
 
 def question(run):
-    """What a run was asked: of settings their values, whatever words explain them."""
+    """Returns the question of a run: its settings by value, without their explanations."""
     asked = {key: run.manifest.get(key) for key in QUESTION}
-    bodies = [{**body, "contact": contact_of(body), "material": material_of(body)} for body in asked["scene"]["bodies"]]
+    bodies = [{**body, "body_contact": contact_of(body), "material": material_of(body)}
+              for body in asked["scene"]["bodies"]]
     return {**asked, "settings": {name: entry["value"] for name, entry in asked["settings"].items()},
             "scene": {**asked["scene"], "bodies": bodies}}
 
 
 def material_of(body):
-    """Without the membrane where the body has no triangles, or tetrahedra: nothing reads it."""
+    """Returns the material without the membrane if the body has no triangles, or has tetrahedra: nothing reads it."""
     has_membrane = body.get("triangle_count") and not body.get("tetrahedron_count")
     return {key: value for key, value in body["material"].items() if has_membrane or key != "membrane"}
 
 
 def differences(run, old, allowed):
-    """Sentences about what differs between a run and its accepted counterpart by more than is allowed; none where all
-    is well."""
+    """Returns sentences about differences between a run and its accepted counterpart that exceed the allowed ones."""
     m, kept = run.manifest, old.manifest
     if run.guarantee_kept is False:
         return ["its audit FAILED"]
@@ -77,7 +78,7 @@ def differences(run, old, allowed):
 
 
 def compare_runs(new, accepted, allowed):
-    """(line, met) for each new run that has an accepted counterpart."""
+    """Returns (line, met) for each new run that has an accepted counterpart."""
     for run in new:
         old = counterpart(run, accepted)
         if old is not None:
@@ -88,7 +89,7 @@ def compare_runs(new, accepted, allowed):
 
 
 def compare_illustrations(runs, results):
-    """(line, met) for each illustration's data; the exact reference gives the same numbers everywhere."""
+    """Returns (line, met) for each illustration's data; the exact reference gives the same numbers everywhere."""
     for path in sorted(Path(runs).glob("illustrations/fig*.json")):
         for old in sorted(Path(results).glob(f"*/{path.name}.gz")):
             same = gzip.decompress(old.read_bytes()) == path.read_bytes()
@@ -97,7 +98,7 @@ def compare_illustrations(runs, results):
 
 
 def compare_claims(new, kept):
-    """(line, met) for each claim that the new runs say something about."""
+    """Returns (line, met) for each claim that the new runs can judge."""
     accepted = {j.claim["id"]: j for j in judge_all(kept)}
     for judgement in judge_all(new):
         before = accepted[judgement.claim["id"]].verdict
@@ -111,8 +112,8 @@ def compare_claims(new, kept):
 
 
 def movable(claim):
-    """Whether the claim's band says something at another scale: not of times, nor of sizes, which are part of the
-    question, nor where the printed number is an end of it."""
+    """Returns whether the claim's band is meaningful at another scale: not for times, nor for sizes, which are part of
+    the question, nor if the printed number is an end of the band."""
     band, value = claim.get("band"), claim["value"]
     if not isinstance(band, list) or None in band or not value:
         return False
@@ -122,14 +123,15 @@ def movable(claim):
 
 
 def compare_smaller(claim, new, kept):
-    """The claim's number at a smaller scale, new and accepted: its band, moved to the accepted number."""
+    """Compares the claim's number at a smaller scale, new and accepted, with the claim's band moved to the accepted
+    number."""
     wanted = {key: value for key, value in {"scene": claim["scene"], **claim.get("run", {})}.items()
               if key not in ("steps", "device", "audited", "audited_states")}
     for scale in STATES:
         found = new.measure(claim["measure"], {**wanted, "scale": scale})
         try:
             before = kept.measure(claim["measure"], {**wanted, "scale": scale}) if found else None
-        except EvidenceError as error:  # an accepted table older than the column
+        except EvidenceError as error:  # an accepted table without the column, because it is older
             yield f"{claim['id']} at {scale}: not compared: {error}", True
             continue
         if found and before and math.isnan(before.value):
@@ -143,7 +145,7 @@ def compare_smaller(claim, new, kept):
 
 
 def check(runs, results=RESULTS):
-    """Words about all below `runs`, and whether everything is met."""
+    """Returns text about all runs below `runs`, and whether everything is met."""
     new, kept = runs_in(runs), Evidence(results)
     found = [*compare_runs(new, kept.runs, bands()), *compare_illustrations(runs, results),
              *compare_claims(Evidence(runs), kept)]
@@ -154,7 +156,7 @@ def check(runs, results=RESULTS):
 
 
 def main(runs):
-    """Prints the words; exit status 1 where something is not met."""
+    """Prints the text; exit status 1 if something is not met."""
     try:
         lines, met = check(runs)
     except EvidenceError as error:

@@ -1,8 +1,8 @@
-"""The runs of figures and tables that are made of several, as data: their scripts draw them, the runner makes them
-where nothing but Python itself is installed.
+"""Lists, as data, the runs of figures and tables that need several. Their scripts draw them; the runner makes them on
+machines with nothing but Python.
 
 Every function returns jobs in an order in which they can be done; names are folders below the figure's. Scales are
-those of `ogc run`; `backend` is that of VBD in single precision, all else runs on the CPU.
+those of `ogc run`; `backend` is that of VBD in single precision, everything else runs on the CPU.
 """
 
 from dataclasses import dataclass
@@ -14,41 +14,41 @@ from paper_figures.workflow.jobs import Job, Share, Step
 
 TWIST, THREE_CLOTHS = "large_radius_twist", "three_cloths_on_sphere"
 ONE_ITERATION, ACTIVATIONS = "one_iteration_drop", "activation_drop"
-NEO_HOOKEAN = "stable_neo_hookean"  # of all scenes (compare/deviations.md)
+NEO_HOOKEAN = "stable_neo_hookean"  # in all scenes (compare/deviations.md)
 
 TWIST_STEPS, TWIST_WINDOWS = 1200, (300, 600, 900, 1180)  # at scales small and paper
 
 THREE_CLOTHS_STEP = {"smoke": 24, "small": 40, "paper": 50}
-THREE_CLOTHS_OTHERS = {"paper": (25, 41)}  # of which the start stores the states before
+THREE_CLOTHS_OTHERS = {"paper": (25, 41)}  # for these the start stores the states before
 # The paper draws 500 and 50.
 THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd": 1000, "newton": 150},
                            "paper": {"vbd": 1000, "newton": 150}}
-ANY = ("--set", "redetect_fraction=0")
+ANY = ("--set", "detection_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
-PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "truncation=pair")  # what Newton's step is cut to
-NARROW = ("--set", "bound_relaxation=0.2")  # gaps close by two fifths at most until the next detection
+PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "newton_truncation=pair")  # how Newton's step is truncated
+NARROW = ("--set", "bounds_relaxation=0.2")  # gaps close by two fifths at most until the next detection
 NEWTON = ("--solver", "newton", "--residual",
-          *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "friction_solves=50")
+          *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "newton_friction_solves=50")
                                                for word in ("--set", value)))
 
 ACTIVATION_STEPS = {"smoke": 30, "small": 40, "paper": 40}
 ENERGIES = ("ogc", "ipc_log", "quadratic", "cubic", "ogc_as_printed")
 PAPER_ENERGIES = ENERGIES[:2]
-# The scene's limit of 200 iterations cut off step 35 at the paper's size two short of its end.
+# The scene's limit of 200 iterations ended step 35 at the paper's size two iterations too early.
 TOLERANCE = ("--set", "newton_tolerance=1e-6", "--set", "newton_iterations=2000")
 WEAK_TOLERANCE = ("--set", "newton_tolerance=1e-4", "--set", "newton_iterations=500")  # 308 at small
 FRAMES = ("--set", "frame_steps=1", "--audit", "end")
 ABLATION = ("--solver", "newton", *TOLERANCE, *FRAMES)
-BY_VBD = ("--set", "redetect_every=10")  # γ_e = 0 is the scene's
+BY_VBD = ("--set", "detection_every=10")  # γ_e = 0 is the scene's
 # κ: k_c of IPC's energy over k_c of OGC's. In the paper's drawing (Fig. 21d) both are 1.
 STIFFNESS_RATIOS = (1, 2, 7, 40)
 PRINTED_STIFFNESS = 10  # N/m
-# 16 N/m² r, rounded: a contact carries the weight of a cell, whose area goes as r²; k_c r must follow.
+# 16 N/m² r, rounded: a contact carries the weight of a cell, whose area is proportional to r²; k_c r must be, too.
 WEAK_STIFFNESS = {"smoke": 0.5, "small": 0.2, "paper": 0.08}
 
 
 def shared(scale, membrane=NEO_HOOKEAN):
-    """Options that all runs beside IPC's share."""
+    """Returns the options that all runs beside IPC's share."""
     return ("--scale", scale, *(() if membrane == NEO_HOOKEAN else ("--set", f"membrane={membrane}")))
 
 
@@ -57,24 +57,24 @@ def on(backend):
 
 
 def beside_ipc(scene, scale, backend="cpu", membrane=NEO_HOOKEAN):
-    """OGC's run and IPC's of Fig. 2 and 20."""
+    """Returns OGC's run and IPC's of Fig. 2 and 20."""
     base, profile = (scene, *shared(scale, membrane), "--audit", "frame"), ("--profile",) if scene == TWIST else ()
     return Job("vbd", (*base, *on(backend))), Job("ipc", (*base, "--solver", "ipc", *profile))
 
 
 def ipc_windows(scene, whole, starts, last, scale, membrane=NEO_HOOKEAN, steps=20):
-    """IPC on windows of so many steps from states of the run `whole`, which ends at step `last`, where it is too slow
-    for the run itself."""
+    """Returns windows of IPC with so many steps from states of the run `whole`, which ends at step `last`, because IPC
+    is too slow for the whole run."""
     return [Job(f"ipc_{start}", (scene, *shared(scale, membrane), "--solver", "ipc", "--profile", "--steps",
                                  min(last, start + steps)), (whole, Step(start)))
             for start in starts]
 
 
 def three_cloths(scale, backends, start_iterations=None):
-    """Fig. 17: the run up to the step before, each step solved to convergence (γ_e = 0); then that step by VBD in
-    single precision; and by VBD and Newton in double. With γ_e = 0 also with a hundredth of ε_v, which the paper may
-    have printed in cm/s, and other steps, because the paper does not say which it draws; Newton also with other bounds
-    than balls. `start_iterations`: of each step before, where the scene's own take too long."""
+    """Returns the runs of Fig. 17: the run up to the step before, each step solved to convergence (γ_e = 0); then that
+    step by VBD in single precision, and by VBD and Newton in double. With γ_e = 0 also with a hundredth of ε_v, which
+    the paper may have printed in cm/s, and other steps, because the paper does not name the one that it draws; Newton
+    also with other bounds than balls. `start_iterations`: of each step before, if the scene's own take too long."""
     step, iterations = THREE_CLOTHS_STEP[scale], THREE_CLOTHS_ITERATIONS[scale]
     base = (THREE_CLOTHS, "--scale", scale, "--audit", "end")
     before = ("--set", f"iterations={start_iterations or iterations['vbd']}")
@@ -106,8 +106,8 @@ def three_cloths(scale, backends, start_iterations=None):
 
 @dataclass(frozen=True)
 class Variant:
-    """A run of Fig. 21: the energy, how many times the contact stiffness is that of OGC's run beside it (κ), and
-    whether that one is the printed k_c or so weak that half of OGC's contacts lie above f = k_c r/2."""
+    """Describes a run of Fig. 21: the energy, the ratio κ of its contact stiffness to that of OGC's run beside it, and
+    whether the latter is the printed k_c or so weak that half of OGC's contacts lie above f = k_c r/2."""
 
     energy: str
     ratio: int = 1
@@ -123,12 +123,12 @@ class Variant:
         return self.energy + (f"_kappa{self.ratio}" if self.ratio != 1 else "") + ("_weak" if self.weak else "")
 
     def stiffness(self, scale):
-        """k_c [N/m]."""
+        """Returns k_c [N/m]."""
         return self.ratio * (WEAK_STIFFNESS[scale] if self.weak else PRINTED_STIFFNESS)
 
     def options(self, scale):
         return (*(("--set", f"contact_stiffness={self.stiffness(scale):g}") if self.ratio != 1 or self.weak else ()),
-                "--set", f"activation={self.energy}")
+                "--set", f"contact_activation={self.energy}")
 
 
 PRINTED = tuple(map(Variant, ENERGIES))
@@ -138,23 +138,25 @@ VARIANTS = (*PRINTED, *RATIOS, *WEAK)
 
 
 def compared(variant):
-    """Whether the variant is one of the paper's two energies: VBD, too, solves its last step."""
+    """Returns whether the variant is one of the paper's two energies, whose last step VBD solves, too."""
     return variant.energy in PAPER_ENERGIES
 
 
 def ablation(scale, variant):
-    """Fig. 21: all steps, by Newton, as `ogc ablate` runs them; a run that does not converge is a result, too. With
-    weak contact by VBD: layers come so near there that Newton takes thousands of iterations for a step."""
+    """Returns the job of Fig. 21 with all steps, by Newton, as `ogc ablate` runs them; a run that does not converge is
+    a result, too. With weak contact it uses VBD: layers come so near there that Newton takes thousands of iterations
+    for a step."""
     steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
     solver = (*BY_VBD, "--residual", *FRAMES) if variant.weak else ABLATION
-    return Job(f"runs/activation={variant.name}", (*steps, *solver, *variant.options(scale)), may_fail=not variant.weak)
+    return Job(f"runs/contact_activation={variant.name}", (*steps, *solver, *variant.options(scale)),
+               may_fail=not variant.weak)
 
 
 def last_step(scale, variant, name, options, may_fail=False):
-    """Fig. 21: the last step again from the variant's own state before it."""
+    """Returns the job of Fig. 21 that repeats the last step from the variant's own state before it."""
     steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
     arguments = (*steps, *variant.options(scale), "--iterations", "--audit", "end", *options)
-    return Job(f"{name}_{variant.name}", arguments, (f"runs/activation={variant.name}", -2), may_fail=may_fail)
+    return Job(f"{name}_{variant.name}", arguments, (f"runs/contact_activation={variant.name}", -2), may_fail=may_fail)
 
 
 def by_newton(scale, variant):
@@ -171,43 +173,43 @@ def by_vbd_on(scale, variant, backend):
 
 
 def activations(scale, backend):
-    """Fig. 21: a chain a variant."""
+    """Returns the runs of Fig. 21: a chain for each variant."""
     for variant in VARIANTS:
         solved = [by_vbd(scale, variant), by_vbd_on(scale, variant, backend)] if compared(variant) else []
         yield [ablation(scale, variant), by_newton(scale, variant), *solved]
 
 
-# Table 1: each row's whole run, its audit, one step from five of its states, and windows on the CPU from the same.
-# Steps between stored, audited states: as many as go into 1/60 s, one where a step is longer than half of that.
+# Table 1: for each row the whole run, its audit, one step from five of its states, and windows on the CPU from the same
+# states. Steps between stored, audited states: as many as fit into 1/60 s, one if a step is longer than half of that.
 MAT, MAT_PLANES = "mat_twist", "mat_twist_planes"
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
                "robot_shirt": 10, MAT: 4, "yarn_stretch": 41, "yarn_twist": 41}
-WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # end a row's name
+WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # ends of a row's name
 # With balls, twisted cloth that can't collapse locks unless the query radius is r (ablations.md, membranes).
-NEAR_PAIRS = {"twist": ("--set", "query_radius_cap=1")}
-VOLUMES = ("dress", "robot_shirt")  # scenes whose body, as a default, may be entered and pushes out
+NEAR_PAIRS = {"twist": ("--set", "detection_radius_cap=1")}
+VOLUMES = ("dress", "robot_shirt")  # scenes whose body is a volume by default
 ROWS = tuple(scene + end for scene in FRAME_STEPS
              for end in ("", WITH_PLANES, *([WITH_VOLUMES] if scene in (*VOLUMES, MAT) else [])))
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
 
 
 def scene_of(row):
-    """Each scene has a row with the paper's bounds, called as it is, and one with planes; a body that moves, and the
-    solid mat, are surfaces in both, and volumes in a third."""
+    """Returns the scene of a row. Each scene has a row with the paper's bounds, which has its name, and one with
+    planes. A driven body, and the solid mat, are surfaces in both, and volumes in a third row."""
     return row.removesuffix(WITH_PLANES).removesuffix(WITH_VOLUMES)
 
 
 def of_row(row, data):
-    """The dress is a stand-in without the data of Codimensional IPC."""
+    """Returns the options of a row. The dress is a stand-in without the data of Codimensional IPC."""
     own = PLANES if row.endswith(WITH_PLANES) else NEAR_PAIRS.get(row, ())
     if scene_of(row) in VOLUMES or row.endswith(WITH_VOLUMES):
-        own += ("--set", "contact=" + ("volume" if row.endswith(WITH_VOLUMES) else "surface"))
+        own += ("--set", "body_contact=" + ("volume" if row.endswith(WITH_VOLUMES) else "surface"))
     return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *own)
 
 
 def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data="", folder=""):
-    """So many times the row's scene to its end, or to step `steps`; the audit comes after the run, in time of its own,
-    or beside it (`audit`: every, frame, end, off). They lie in `folder`, or that of the row."""
+    """Returns so many runs of the row's scene to its end, or to step `steps`. The audit comes after the run, outside
+    its time, or beside it (`audit`: every, frame, end, off). They lie in `folder`, or in that of the row."""
     beside = "off" if audit == "afterwards" else audit
     options = (*(("--steps", steps) if steps else ()), *of_row(row, data),
                "--set", f"frame_steps={FRAME_STEPS[scene_of(row)]}")
@@ -219,7 +221,7 @@ def whole_runs(row, scale, backend, runs=1, steps=0, audit="afterwards", data=""
 
 
 def from_states(row, kind, more_steps, scale, options, data="", shares=SHARES):
-    """So many steps from states of the row's whole run, without frames of their own."""
+    """Returns runs of so many steps from states of the row's whole run, without frames of their own."""
     every = ("--audit", "off", "--set", "frame_steps=1000000", *of_row(row, data), *options)
     for share in shares:
         state = (f"{row}/whole", Share(share, FRAME_STEPS[scene_of(row)]))
@@ -228,34 +230,34 @@ def from_states(row, kind, more_steps, scale, options, data="", shares=SHARES):
 
 
 def residuals(row, scale, backend, data=""):
-    """One step whose residual is measured. A row an iteration has the contacts of the last detection, and takes the
-    reference a second at 100,000 vertices; of the million vertices nothing is measured."""
+    """Returns runs of one step whose residual is measured. Each iteration has a row with the contacts of the last
+    detection; this takes the reference a second at 100,000 vertices, so that the million vertices are not measured."""
     if scene_of(row) == "fifty_layers_1m":
         return []
     options = ("--backend", backend, "--residual", *(() if scene_of(row) == "fifty_layers" else ("--iterations",)))
     return from_states(row, "residual", 1, scale, options, data)
 
 
-# Time to quality: one step from the states where something moves, of four times the scene's iterations. The reference
-# measures a residual an iteration, half a second of a core for knot's 48,000 vertices, so it has twice as many, and
-# the layers as many as in the scene.
+# Time to quality: one step with four times the scene's iterations, from the states with motion. The reference measures
+# a residual for each iteration, half a second of a core for knot's 48,000 vertices, so knot has twice the scene's, and
+# the layers have the scene's.
 QUALITY_SHARES = (25, 50, 75)
 QUALITY_ITERATIONS = {"twist": 40, "cloth_on_sphere": 160, "knot": 100, "fifty_layers": 40, "dress": 80,
                       "robot_shirt": 40, MAT: 80}
-QUALITY_TIMED_STEPS = 5  # without a look at each iteration, which takes time of its own
+QUALITY_TIMED_STEPS = 5  # timed without residuals, which take time of their own
 QUALITY_ROWS = tuple(row for row in ROWS
                      if scene_of(row) in QUALITY_ITERATIONS and not row.endswith(WITH_VOLUMES))
 
 
 def quality(row, scale, backend, data=""):
-    """The residual after each iteration, and steps of the same state that are timed."""
+    """Returns jobs for the residual after each iteration, and for timed steps of the same state."""
     options = ("--backend", backend, "--set", f"iterations={QUALITY_ITERATIONS[scene_of(row)]}")
     yield from from_states(row, "quality", 1, scale, (*options, "--residual", "--iterations"), data, QUALITY_SHARES)
     yield from from_states(row, "quality_timed", QUALITY_TIMED_STEPS, scale, options, data, QUALITY_SHARES)
 
 
 def to_quality(scale, backend):
-    """Both rows of each scene, from the runs of Table 1, which are done once where they are at hand."""
+    """Returns both rows of each scene, from the runs of Table 1, which are used if they exist."""
     for row in QUALITY_ROWS:
         yield from (job for job in whole_runs(row, scale, backend) if isinstance(job, Job))
         yield from quality(row, scale, backend)
@@ -265,36 +267,37 @@ def cpu_windows(row, steps, scale, data=""):
     return from_states(row, "cpu", steps, scale, ("--backend", "cpu"), data)
 
 
-# Fig. 19: the mat with both kinds of bounds, with friction and without (as GIPC was measured); windows on the CPU and
-# single steps from states of the run with planes, whose ends do not lag.
+# Fig. 19: the mat with both kinds of bounds, with friction and without (like GIPC's measurements); windows on the CPU
+# and single steps from states of the run with planes, whose ends do not lag.
 MAT_BOUNDS = {"ball": (MAT, ()), "planes": (MAT_PLANES, PLANES)}  # row of Table 1, options
-GIPC_STEPS = {"smoke": 216, "small": 576, "paper": 2303}  # at the paper's size as many as were measured of GIPC
+GIPC_STEPS = {"smoke": 216, "small": 576, "paper": 2303}  # at the paper's size the number of GIPC's measured steps
 MAT_WINDOWS = (0, 25, 50, 75)  # of the run's steps [%]: t = 0, 4, 8 and 12 s
 MAT_WINDOW_STEPS = {"smoke": 4, "small": 20, "paper": 20}
 MAT_ITERATIONS = {"smoke": (20, 80), "small": (20, 40, 80, 160), "paper": (20, 40, 80, 160, 320)}
-# IPC does as many steps as so long gives, and at least two; Newton's step is given up then.
+# IPC makes as many steps as this time allows, and at least two; then Newton's step is abandoned.
 WINDOW_SECONDS, IPC_STEPS = {"smoke": 5, "small": 120, "paper": 120}, 2
-# Pair by pair, and one vertex that is cut asks for a detection, so that nothing but its contacts keeps a step from its
-# minimum. Contacts that a new detection finds change the residual again, by 10⁻⁴ to 10⁻³ where the mat is tight: no
-# tolerance below is always met (method.md, Fig. 22a).
+# Truncation pair by pair, and a detection after one cut vertex, so that nothing but its contacts keeps a step from its
+# minimum. Contacts found by a new detection change the residual again, by 10⁻⁴ to 10⁻³ where the mat is tight: no
+# tolerance below that is always met (method.md, Fig. 22a).
 MAT_NEWTON = ("--solver", "newton", "--set", "newton_tolerance=1e-3", "--set", "newton_iterations=2000", *ANY, *PAIRS)
 
 
 def mat_whole(scale, backend):
-    """The runs of Table 1's two rows, which are done once where the table's are at hand."""
+    """Returns the runs of Table 1's two rows, which are used if they exist."""
     for bounds, (row, _) in MAT_BOUNDS.items():
         yield from whole_runs(row, scale, backend, folder=bounds)
 
 
 MAT_VOLUMES = f"{MAT}{WITH_VOLUMES}"
-# Steps between stored, audited states where the mat is a volume: who is inside of its own body takes the oracle long.
+# Steps between stored, audited states if the mat is a volume: the oracle takes long to find which vertices are inside
+# their own body.
 MAT_VOLUMES_FRAME_STEPS = {"smoke": 4, "small": 10, "paper": 40}
-# At paper until 5.5 s: from 3 s on hundreds of vertices are inside, and a step takes the volume a second.
+# At paper until 5.5 s: from 3 s on hundreds of vertices are inside, and the volume takes a second of each step.
 MAT_VOLUMES_STEPS = {"paper": 1320}
 
 
 def mat_as_volume(scale, backend):
-    """The mat as a volume, and with both kinds of bounds."""
+    """Returns the mat as a volume, and with both kinds of bounds."""
     steps = ("--steps", MAT_VOLUMES_STEPS[scale]) if scale in MAT_VOLUMES_STEPS else ()
     for row in (MAT_VOLUMES, MAT, MAT_PLANES):
         yield Job(f"{row}/begin", (MAT, "--scale", scale, "--backend", backend, "--audit", "frame", *of_row(row, ""),
@@ -302,7 +305,7 @@ def mat_as_volume(scale, backend):
 
 
 def mat_without_friction(scale, backend):
-    """A state every 1/15 s is audited."""
+    """Returns the runs without friction; a state every 1/15 s is audited."""
     for bounds, (_, options) in MAT_BOUNDS.items():
         name = f"{bounds}/free"
         yield Job(name, (MAT, "--scale", scale, "--backend", backend, "--audit", "off", *options, "--set", "friction=0",
@@ -317,7 +320,7 @@ def from_mat(share, name, options, more_steps, scale, **more):
 
 
 def mat_windows(scale, seconds=0):
-    """VBD on the CPU with both kinds of bounds, then IPC for so long, from each state."""
+    """Returns VBD on the CPU with both kinds of bounds, then IPC for so many seconds, from each state."""
     steps = MAT_WINDOW_STEPS[scale]
     for share in MAT_WINDOWS:
         yield from (from_mat(share, f"vbd_{bounds}", ("--backend", "cpu", *options), steps, scale, pictured=False)
@@ -327,7 +330,7 @@ def mat_windows(scale, seconds=0):
 
 
 def mat_one_step(scale, seconds=0):
-    """One step from each state, by VBD with more and more iterations, and by Newton until nothing is left."""
+    """Returns one step from each state, by VBD with more and more iterations, and by Newton to convergence."""
     for share in MAT_WINDOWS:
         yield from_mat(share, "newton", (*MAT_NEWTON, "--residual"), 1, scale, may_fail=True,
                        seconds=seconds or WINDOW_SECONDS[scale])
@@ -336,10 +339,10 @@ def mat_one_step(scale, seconds=0):
                     for n in MAT_ITERATIONS[scale])
 
 
-# Fig. 18's solvers. Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut: held by its ball
-# it would never slow down. OGC's force jumps at block boundaries, so that a step may never get there: after 100
-# iterations it ends as it is, as a step of VBD does.
-NEWTON_AS_IPC = ("newton_tolerance=0", "newton_step_tolerance=1e-3", "redetect_fraction=0", "newton_iterations=100")
+# Fig. 18's solvers. Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut, because a vertex
+# held by its ball would never slow down. OGC's force jumps at block boundaries, so that a step may never converge: it
+# ends after 100 iterations, like a step of VBD.
+NEWTON_AS_IPC = ("newton_tolerance=0", "newton_step_tolerance=1e-3", "detection_fraction=0", "newton_iterations=100")
 SOLVERS = {"ipc": ("--solver", "ipc", "--profile"),  # the baseline
            "newton": ("--solver", "newton", "--profile",
                       *(word for value in NEWTON_AS_IPC for word in ("--set", value))),
@@ -347,8 +350,8 @@ SOLVERS = {"ipc": ("--solver", "ipc", "--profile"),  # the baseline
 
 
 def solvers(scale, cuda=False, membrane=NEO_HOOKEAN):
-    """Fig. 18: the same run by each solver, with its processor time; one after the other, because each wants all
-    cores."""
+    """Returns the same run of Fig. 18 by each solver, with its processor time; one after the other, because each uses
+    all cores."""
     base = ("cloth_on_sphere", *shared(scale, membrane), "--audit", "end")
     return [Job(name, (*base, *options), processor_time=True) for name, options in SOLVERS.items()
             if cuda or name != "vbd_cuda"]
@@ -361,29 +364,29 @@ GROWTH_STEPS = 14
 
 
 def sizes(scale, backend):
-    """A run a size, audited at its end."""
+    """Returns a run for each size, audited at its end."""
     return [Job(f"{backend}_{layers.vertices(side)}", ("--backend", backend, "--audit", "end"),
                 scene=layers.Stack(side, GROWTH_STEPS)) for side in SIDES[scale]]
 
 
 def threads(scale, cores):
-    """The same run by one thread, two, four … up to all cores; nothing but the time may differ."""
+    """Returns the same run with one thread, two, four … up to all cores; nothing but the time may differ."""
     numbers = sorted({*(2**k for k in range(cores.bit_length()) if 2**k <= cores), cores})
     scene = layers.Stack(SIDE_OF_THREADS[scale], GROWTH_STEPS)
     return [Job(f"threads_{n}", ("--threads", n, "--audit", "off"), scene=scene) for n in numbers]
 
 
-# Where VBD and Newton end in the step after this one: cloths in the middle of their impact and at Fig. 17's
-# step, twist after its first turn, before triangles collapse (fast/PERFORMANCE.md): afterwards the energy is not convex
-# between the two states.
+# Where VBD and Newton end in the step after this one: cloths in the middle of their impact and at Fig. 17's step, twist
+# after its first turn, before triangles collapse (fast/PERFORMANCE.md): afterwards the energy is not convex between the
+# two states.
 MINIMISER_STEPS = {"smoke": {"cloth_on_sphere": 22, "three_cloths_on_sphere": 22, "twist": 600},
                    "small": {"cloth_on_sphere": 40, "three_cloths_on_sphere": 39, "twist": 1200},
                    "paper": {"cloth_on_sphere": 50, "three_cloths_on_sphere": 49, "twist": 1200}}
 
 
 def minimiser(scale, backend):
-    """Runs to the state that is looked at, and its next step twice, each time until nothing moves: by VBD and by
-    Newton. Profiled, so that nobody takes their times for a result."""
+    """Returns runs to the state, and its next step twice, each time until nothing moves: by VBD and by Newton. They are
+    profiled, so that their times are not mistaken for results."""
     for scene, step in MINIMISER_STEPS[scale].items():
         shared_words = (scene, "--scale", scale, "--audit", "end", "--profile", "--set", "frame_steps=" + str(step))
         yield Job(scene, (*shared_words, "--backend", backend, "--steps", step))
@@ -393,8 +396,9 @@ def minimiser(scale, backend):
             yield Job(f"{scene}_{solver}", (*last, *options), (scene, Step(step)), 1)
 
 
-# What the parts of a step do to energy and momentum, by balls and by planes: of so many steps after a step of a plain
-# run, where truncation takes most (a ledger of a step costs many steps); vertices on a side of the sheet that slides.
+# What the parts of a step do to energy and momentum, by balls and by planes: so many steps after a step of a plain run
+# where truncation takes most, because a ledger of a step costs many steps; and the number of vertices along a side of
+# the sliding sheet.
 LEDGER_STEPS = {"smoke": {"twist": (600, 120), "fifty_layers": (80, 30), "slide": (0, 100)},
                 "small": {"twist": (1700, 120), "fifty_layers": (240, 30), "slide": (0, 150)},
                 "paper": {"twist": (4500, 60), "fifty_layers": (960, 10), "slide": (0, 150)}}
@@ -402,7 +406,8 @@ LEDGER_SIDES = {"smoke": 8, "small": 20, "paper": 70}
 
 
 def ledgers(scale, backend):
-    """A run a scene and kind of bounds, audited at its end, where it must from a plain run's last state."""
+    """Returns a run for each scene and kind of bounds, audited at its end; where necessary it starts from a plain run's
+    last state."""
     for scene, (first, steps) in LEDGER_STEPS[scale].items():
         sheet = slide.Slide(LEDGER_SIDES[scale], steps) if scene == "slide" else None
         words = () if sheet else (scene, "--scale", scale)
@@ -416,25 +421,26 @@ def ledgers(scale, backend):
             yield Job(name, (*shared_words, "--ledger", "--audit", "end"), scene=sheet, **state)
 
 
-# Fig. 15 and 16. The baseline is the same sweep without bounds and with a force that no distance makes infinite: the
-# paper's "Newton". What decides is the tension of the yarn against k_c r, so that Fig. 15 has two weaker k_c, too,
+# Fig. 15 and 16. The baseline is the same sweep without bounds and with a force that stays finite at every distance:
+# the paper's "Newton". The ratio of the yarn's tension to k_c r decides, so that Fig. 15 also has two weaker k_c,
 # pulled as far as a mean stretch of 1 needs.
 STRETCH, YARN_TWIST = "yarn_stretch", "yarn_twist"
-YARN_KINDS = {"ogc": (), "baseline": ("--set", "bounds=off", "--set", "activation=quadratic")}
+YARN_KINDS = {"ogc": (), "baseline": ("--set", "bounds=off", "--set", "contact_activation=quadratic")}
 YARN_STIFFNESS = (222, 22, 2)  # N/m, the scene's first
 YARN_STEPS = {STRETCH: {"smoke": 100, "small": 16250, "paper": 16250},
               YARN_TWIST: {"smoke": 100, "small": 7500, "paper": 27500}}
 WEAK_YARN_STEPS = {"smoke": 100, "small": 6250, "paper": 6250}  # at rest, then pulled for 2 s
 YARN_FRAME_STEPS = {"smoke": 5, "small": 125, "paper": 125}
 RELEASE_STEPS = {"smoke": 60, "small": 7500, "paper": 25000}  # at paper 10 s
-# Whether threads meet on the way of a step is asked exactly, which takes 0.3 s of a core for 65,000 segments: of every
-# step but at the paper's size, where it is asked in windows of so many steps from states at these shares of a run [%].
+# Meetings of threads on the way of a step are counted exactly, which takes 0.3 s of a core for 65,000 segments: in
+# every step, but at the paper's size only in windows of so many steps from states at these shares of a run [%].
 MEETING_STEPS, MEETING_SHARES = {"paper": 50}, (0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 99)
-WINDOW_OF = "_window_"  # between the name of a run and the share, or the step that a window begins after
+WINDOW_OF = "_window_"  # between the name of a run and the share, or the step after which a window begins
 
 
 def yarn(scene, kind, scale, backend, name, more=(), steps=0):
-    """One run and its windows; meetings of the baseline are a result, and so is where its numbers end."""
+    """Returns one run and its windows. Meetings of the baseline are a result, and so is the step at which its numbers
+    end."""
     steps, every, may_fail = steps or YARN_STEPS[scene][scale], YARN_FRAME_STEPS[scale], kind == "baseline"
     shared_words = (scene, "--scale", scale, "--backend", backend, *YARN_KINDS[kind], *more)
     asked, in_windows = ("--audit-meetings", f"1:{steps}"), scale in MEETING_STEPS
@@ -457,7 +463,7 @@ def yarn(scene, kind, scale, backend, name, more=(), steps=0):
 
 
 def yarn_stretched(scale, backend):
-    """Fig. 15: a chain a run."""
+    """Returns the runs of Fig. 15: a chain for each run."""
     for stiffness in YARN_STIFFNESS:
         scenes_own = stiffness == YARN_STIFFNESS[0]
         more = () if scenes_own else ("--set", f"contact_stiffness={stiffness}")
@@ -467,7 +473,8 @@ def yarn_stretched(scale, backend):
 
 
 def yarn_twisted(scale, backend):
-    """Fig. 16: a chain a run that is twisted and let go, and one of the cloth that hangs as it is."""
+    """Returns the runs of Fig. 16: a chain for each run that is twisted and let go, and one for the cloth that hangs
+    untwisted."""
     let_go = ("--backend", backend, "--audit-meetings", "off", "--set", f"frame_steps={YARN_FRAME_STEPS[scale]}")
     scene, steps = release.Release(scale), RELEASE_STEPS[scale]
     for kind, options in YARN_KINDS.items():
@@ -480,12 +487,12 @@ def yarn_twisted(scale, backend):
 
 
 # Whether the twisted cloth returns: let go as in Fig. 16, then braked until it hangs still, beside the cloth that hangs
-# as it is. With the scene's 4 iterations it never does, braked or not: sweeps of so few do not follow friction, whose
-# block is a thousand times m/h², and go round in circles of a centimetre (results/two_cores/yarn_rest_iterations.csv).
-# Friction holds threads where they are, so that there are many states at rest; in the next runs, of both cloths, there
-# is none, and the energy alone decides. Eight iterations of an eighth of the time step are as many sweeps a second as
-# those of 64 iterations of the whole one, and follow better: of a step an eighth as long the stiffness of a segment is
-# half of m/h², for 30 times.
+# untwisted. With the scene's 4 iterations it never does, braked or not: so few sweeps do not follow friction, whose
+# block is a thousand times m/h², and move in circles of a centimetre (results/two_cores/yarn_rest_iterations.csv).
+# Friction holds threads in place, so that there are many states at rest; the next runs, of both cloths, have none, and
+# the energy alone decides. Eight iterations of an eighth of the time step are as many sweeps a second as 64 iterations
+# of the whole one, and follow better: in a step an eighth as long the stiffness of a segment is half of m/h², in place
+# of 30 times.
 REST_STEPS = {"smoke": 480, "small": 90000, "paper": 90000}
 REST_FRAME_STEPS = {"smoke": 240, "small": 5000, "paper": 5000}
 RELEASE_FRAME_STEPS = {"smoke": 30, "small": 1250, "paper": 1250}  # until they are braked
@@ -496,7 +503,7 @@ AT_REST = {"released": "hanging", f"released{FRICTIONLESS}": f"hanging{FRICTIONL
 
 
 def yarn_at_rest(scale, backend):
-    """Fig. 16's cloths at rest: a chain a cloth."""
+    """Returns Fig. 16's cloths at rest: a chain for each cloth."""
     common = ("--backend", backend, "--audit", "frame", "--audit-meetings", "off", "--set")
     loose = (*common, f"frame_steps={RELEASE_FRAME_STEPS[scale]}")
     held = (*common, f"frame_steps={REST_FRAME_STEPS[scale]}", *BRAKED)

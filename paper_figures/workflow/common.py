@@ -1,4 +1,4 @@
-"""What the figure scripts share: arguments, claims, and an error in words instead of a traceback."""
+"""Provides what the figure scripts share: arguments, claims, and errors in words instead of a traceback."""
 
 import argparse
 import sys
@@ -12,15 +12,15 @@ from plots.scene_figure import draw, draw_movie, load_claims
 
 
 def label(run):
-    """A solver as the paper names it, and where it ran."""
+    """Returns the name of a solver in the paper, and where it ran."""
     names = {"ipc": "IPC", "newton": "Newton-OGC", "vbd": "VBD-OGC", "reference_vbd": "VBD-OGC in double"}
     solver, backend = run.manifest["solver"], run.manifest["backend"]
     return names.get(solver, solver) + (", CUDA" if backend == "cuda" else "")
 
 
 def baseline_arguments(description, scales=("smoke", "small", "paper"), backends=("cpu",)):
-    """Parser of the figures that compare IPC with OGC: a folder for the runs and the figure, the program, the scale,
-    the membrane of all solvers."""
+    """Returns the parser of the figures that compare IPC with OGC: a folder for the runs and the figure, the program,
+    the scale, the membrane of all solvers."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("folder", help="where the runs are, or go, and the figure")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
@@ -33,7 +33,8 @@ def baseline_arguments(description, scales=("smoke", "small", "paper"), backends
 
 
 def ipc_windows(arguments, scene, whole, starts, steps=20):
-    """IPC on windows of so many steps from states of the run `whole`, where it is too slow for the run itself."""
+    """Returns windows of IPC with so many steps from states of the run `whole`, because IPC is too slow for the whole
+    run."""
     last = int(whole.column("step")[-1])
     jobs = commands.ipc_windows(scene, whole.folder.name, [start for start in starts if start < last], last,
                                 arguments.scale, arguments.membrane, steps)
@@ -41,10 +42,10 @@ def ipc_windows(arguments, scene, whole, starts, steps=20):
 
 
 def main(scene, frames, camera, driven=False, near=None):
-    """Draws the figure of one run of `scene`; `frames` are steps, moved together where the run is shorter than the last
-    of them. `camera`: eye, target, up, or a function that says so of a run. `driven`: by a motion that may be faster
-    than bounds allow; its lag is shown in place of detections. `near`: a camera for the last frame, as a function of
-    its positions."""
+    """Draws the figure of one run of `scene`. `frames` are steps, moved together if the run is shorter than the last of
+    them. `camera`: eye, target, up, or a function that computes these from a run. `driven`: a motion that may be faster
+    than bounds allow drives a body, whose lag is shown in place of detections. `near`: a camera for the last frame, as
+    a function of its positions."""
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
     parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")

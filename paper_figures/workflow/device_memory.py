@@ -1,5 +1,5 @@
-"""Memory that runs take on a device, sampled from outside, because the driver's own share (context, code of the
-kernels) counts as well."""
+"""Samples the memory that runs use on a device from outside, because the driver's own share (context, code of the
+kernels) counts, too."""
 
 import json
 import os
@@ -9,8 +9,8 @@ import threading
 
 class DeviceMemory:
     """Samples the memory in use on the device that CUDA counts first [MiB] once a second while its block runs, and
-    keeps the first and the largest number in a file; nothing where nvidia-smi can't be had. One process asks all the
-    time: its start takes locks of the driver, which would show in a step."""
+    keeps the first and the largest number in a file; does nothing without nvidia-smi. One process samples all the time,
+    because its start takes locks of the driver, which would show in a step."""
 
     COMMAND = ("nvidia-smi", "--query-gpu=memory.used", "--format=csv,noheader,nounits", "--loop=1")
 
@@ -28,7 +28,7 @@ class DeviceMemory:
         if self.process:
             self.reader = threading.Thread(target=self.read)
             self.reader.start()
-            self.first.wait(10)  # what is in use before anything begins
+            self.first.wait(10)  # memory in use before anything begins
 
     def read(self):
         for line in self.process.stdout:
@@ -46,7 +46,7 @@ class DeviceMemory:
         self.process.stdout.close()
         if self.samples:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            # of a run that goes on
+            # of a run that continues
             earlier = json.loads(self.path.read_text())["largest [MiB]"] if self.path.is_file() else 0
             self.path.write_text(json.dumps({"before [MiB]": self.samples[0],
                                              "largest [MiB]": max(earlier, *self.samples),
@@ -54,7 +54,7 @@ class DeviceMemory:
 
 
 def taken(path):
-    """What was in use at most beyond what was in use before [MiB]; "" where nobody sampled it, or only once: before the
-    run took any."""
+    """Returns the most memory in use beyond the memory in use before [MiB]; "" if it was not sampled, or only once,
+    before the run used any."""
     sampled = json.loads(path.read_text()) if path.is_file() else None
     return sampled["largest [MiB]"] - sampled["before [MiB]"] if sampled and sampled["samples"] > 1 else ""

@@ -1,8 +1,8 @@
-"""What claims are judged by: accepted runs and tables, or a run folder, read with the standard library alone so that a
-judgement needs no package.
+"""Provides the evidence that claims are judged by: accepted runs and tables, or a run folder, read with the standard
+library alone so that a judgement needs no package.
 
 A run is a manifest (`run.json`, or `X_run.json` of an accepted result) with its rows (`steps.csv`; of an accepted
-result `X_steps.csv`, of a long one `X_hundreds.csv`, see thinned.py; compressed ones end in `.gz`); a table is
+result `X_steps.csv`, of a long one `X_hundreds.csv`, see thinned.py; compressed ones end in `.gz`). A table is
 `figNN_SCALE.csv`, `tableN_SCALE.csv` or an ablation's (TABLES), with a commit and a device in each row. An accepted
 manifest names its scene by the hash of `results/scenes/HASH.json`. Runs that are unfinished, of a changed tree, or that
 failed their audit are no evidence.
@@ -28,20 +28,20 @@ RESULTS, CLAIMS = ROOM / "results", ROOM / "claims"
 SCENES = "scenes"  # folder below the results: the scenes of accepted manifests, each named by its hash
 ROWS = ("steps.csv", "hundreds.csv")  # a run's rows: of each step, or thinned
 PAPER_BOUNDS = "ball"
-SURFACE, VOLUME = "surface", "volume"  # what a body is to others
-NOT_RUN = "not run"  # the status of a table's row about a run that its figure was drawn without
+SURFACE, VOLUME = "surface", "volume"  # kinds of contact of a body
+NOT_RUN = "not run"  # the status of a table's row about a run that its figure lacks
 TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "ablations*.csv.gz", "radius*.csv", "sphere_off*.csv",
           "yarn_return*.csv")
 
 
 class EvidenceError(Exception):
-    """A result that can't be read as its claim wants it; the message says which, what and what to do."""
+    """Raised for a result that does not have what its claim needs; the message names it, the lack and a remedy."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A number and where it comes from; `source` is a path below the folder of the results, `about` what else must be
-    known to read it, `membrane` the model of its cloth, empty where it has none or nobody says."""
+    """Holds a number and its origin. `source` is a path below the folder of the results, `about` is what a reader must
+    know besides, `membrane` is the model of its cloth, empty if there is none or it is not known."""
 
     value: float
     source: str
@@ -53,12 +53,12 @@ class Measured:
 
 
 def opened(path):
-    """A file of rows, compressed or not."""
+    """Opens a file of rows, compressed or not."""
     return (gzip.open if path.suffix == ".gz" else open)(path, "rt", newline="")
 
 
 class Columns(Mapping):
-    """Columns of a file of rows by name without unit; numbers are made of a column when it is asked for."""
+    """Maps names without units to columns of a file of rows; a column is converted to numbers when it is used."""
 
     def __init__(self, path):
         with opened(path) as file:
@@ -82,29 +82,29 @@ class Columns(Mapping):
 
 @lru_cache(maxsize=None)
 def columns_of(path, stamp):
-    """The columns of a file; `stamp` tells its versions apart."""
+    """Returns the columns of a file; `stamp` distinguishes its versions."""
     return Columns(path)
 
 
 def is_driven(body):
-    """Whether nothing of the body is simulated: it is fixed, or all of it follows a prescribed motion."""
+    """Returns whether nothing of the body is simulated: it is fixed, or follows a prescribed motion as a whole."""
     return body["fixed"] or body.get("prescribed_vertices") == body["vertex_count"]
 
 
 def membranes_of(manifest):
-    """Models of the membranes that are simulated: nothing else than cloth reads a body's, and two figures may have one
-    scene with different materials."""
+    """Returns the models of the simulated membranes: only cloth uses a body's model, and two figures may have one scene
+    with different materials."""
     return {body["material"]["membrane"] for body in manifest["scene"]["bodies"] if not is_driven(body)
             and body.get("triangle_count") and not body.get("tetrahedron_count")}
 
 
 def contact_of(body):
-    """A manifest that does not say it is from before there were volumes."""
-    return body.get("contact", SURFACE)
+    """Returns a body's kind of contact; a manifest without it is from before there were volumes."""
+    return body.get("body_contact", SURFACE)
 
 
 def manifest_at(path):
-    """The manifest with its scene, wherever that is kept. Throws EvidenceError where it is not."""
+    """Returns the manifest with its scene, wherever that is kept. Throws EvidenceError if it does not exist."""
     manifest = json.loads(path.read_text())
     digest = manifest.get("scene", {}).get("sha256")
     if digest is None:
@@ -116,7 +116,7 @@ def manifest_at(path):
 
 
 class RunEvidence:
-    """A run: its manifest, and the columns of its rows without units."""
+    """Holds a run: its manifest, and the columns of its rows without units."""
 
     def __init__(self, manifest, rows, source):
         self.manifest, self.rows, self.source = manifest_at(Path(manifest)), Path(rows), source
@@ -130,13 +130,14 @@ class RunEvidence:
 
     @cached_property
     def thinned(self):
-        """Statistics of a run whose rows are thinned; None where every row is there."""
+        """Returns statistics of a run whose rows are thinned; None if every row is there."""
         if ROWS[1] not in self.rows.name:
             return None
         return Hundreds(self.columns.texts, self.manifest["whole_run"])
 
     def column(self, name):
-        """A number for each step. Throws EvidenceError where there is no such column, or no row of every step."""
+        """Returns a number for each step. Throws EvidenceError if there is no such column, or not a row for every
+        step."""
         if self.thinned:
             raise EvidenceError(f"{self.source} keeps a row of each hundred steps: ask for its mean, largest or course")
         return self._checked(name, self.columns)[name]
@@ -152,7 +153,8 @@ class RunEvidence:
 
     @property
     def first_step(self):
-        """The number of the first row's step; None where there is no row. A thinned run begins at 1 or says so."""
+        """Returns the number of the first row's step; None if there is no row. A thinned run begins at 1, or at the
+        step that it names."""
         if self.thinned:
             return self.thinned.of("smallest", "step")[0]
         return next(iter(self.column("step")), None)
@@ -164,7 +166,7 @@ class RunEvidence:
         return self._checked(name, self.thinned).largest(name) if self.thinned else max(self.column(name))
 
     def course(self, name):
-        """(steps, values): of every row, or of each hundredth."""
+        """Returns (steps, values): of every row, or of each hundred."""
         if self.thinned:
             return self.thinned.of("row", "step"), self._checked(name, self.thinned).of("row", name)
         return self.column("step"), self.column(name)
@@ -175,28 +177,30 @@ class RunEvidence:
 
     @property
     def sound(self):
-        """Usable but for what made it: a program with uncommitted changes, maybe."""
+        """Returns whether the run is usable apart from its program, which may have uncommitted changes."""
         return self.manifest.get("status") == "finished" and self.guarantee_kept is not False
 
     @property
     def failed_audit(self):
-        """A run of which an audit found an intersection: evidence against the guarantee, and for nothing else."""
+        """Returns whether an audit of the run found an intersection: it is evidence against the guarantee, and for
+        nothing else."""
         return self.manifest.get("dirty") is False and self.guarantee_kept is False
 
     @property
     def audited_states(self):
-        """How many states were audited exactly, while the run went on or afterwards."""
+        """Returns how many states were audited exactly, during the run or afterwards."""
         return int(self.manifest.get("audited_states", 0)) + self.afterwards.get("states", 0)
 
     @property
     def guarantee_kept(self):
-        """False where any audit found an intersection, True where one looked and none did, else None."""
+        """Returns False if any audit found an intersection, True if there was one and none did, else None."""
         found = [self.manifest.get("guarantee_kept"), self.afterwards.get("clean")]
         return False if False in found else True if True in found and self.audited_states else None
 
     @property
     def is_certified(self):
-        """Whether the run's own certificate of motion held: IPC has none, and audits of stored states know no ways."""
+        """Returns whether the run's own certificate of motion held. IPC has none, and audits of stored states do not
+        check motion."""
         return self.manifest.get("guarantee_kept") is True and self.manifest["solver"] != "ipc"
 
     @property
@@ -204,32 +208,32 @@ class RunEvidence:
         return f"{self.audited_states} states audited, {self.step_count} steps"
 
     def matches(self, wanted):
-        """Whether the run is the one that a claim wants; `wanted`: keys of the manifest, and profiled, audited,
-        audited_states (at least so many), membrane, activation, bounds, contact, redetect_fraction (rounded to single
-        precision in the manifest), and steps: so many from the scene's start, not a window. A start that --jitter moved
-        is another question, and so are bounds other than the paper's, and bodies that may be entered, where the claim
-        does not name them."""
+        """Returns whether the run is the one that a claim wants. `wanted`: keys of the manifest, and profiled, audited,
+        audited_states (at least so many), membrane, contact_activation, bounds, body_contact, detection_fraction
+        (rounded to single precision in the manifest), and steps: so many from the scene's start, not a window. A start
+        moved by --jitter, bounds other than the paper's, and bodies that may be entered match only if the claim names
+        them."""
         m = self.manifest
         bounds = m["settings"].get("bounds", {}).get("value", PAPER_BOUNDS)
         if "jitter" in m and "jitter" not in wanted or bounds != wanted.get("bounds", PAPER_BOUNDS):
             return False
-        if self.contact != wanted.get("contact", SURFACE):
+        if self.contact != wanted.get("body_contact", SURFACE):
             return False
         special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
                    "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
-                   "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
+                   "contact_activation": lambda name: m["settings"].get("contact_activation", {}).get("value") == name,
                    "bounds": lambda name: bounds == name,
-                   "contact": lambda name: self.contact == name,
-                   "redetect_fraction":
-                       lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
+                   "body_contact": lambda name: self.contact == name,
+                   "detection_fraction":
+                       lambda share: math.isclose(m["settings"]["detection_fraction"]["value"], share, rel_tol=2**-23),
                    "audited_states": lambda n: self.audited_states >= n,
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,
                    "scene": lambda name: m["scene"]["name"] == name}
         return all(special[key](value) if key in special else m.get(key) == value for key, value in wanted.items())
 
     def first(self, steps):
-        """The run up to this step: beyond the end of its scene a run is no evidence of it."""
+        """Returns the run up to this step: beyond the end of its scene a run is no evidence of it."""
         if self.step_count <= steps:
             return self
         cut = copy.copy(self)
@@ -247,7 +251,7 @@ class RunEvidence:
 
     @property
     def contact(self):
-        """Of its bodies: VOLUME where others may enter any of them (compare/volumes.md)."""
+        """Returns the contact of its bodies: VOLUME if others may enter any of them (compare/volumes.md)."""
         return VOLUME if any(contact_of(body) == VOLUME for body in self.manifest["scene"]["bodies"]) else SURFACE
 
     @property
@@ -261,14 +265,14 @@ class RunEvidence:
 
 
 def run_at(folder):
-    """The run in a run folder; None where it has no manifest or no rows."""
+    """Returns the run in a run folder; None if it has no manifest or no rows."""
     manifest, rows = folder / "run.json", folder / "steps.csv"
     return RunEvidence(manifest, rows, folder.as_posix()) if manifest.is_file() and rows.is_file() else None
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table of results: name (figNN, tableN), scale, rows; `ended`: when its runs did, empty where nobody says so."""
+    """Holds a table of results: name (figNN, tableN), scale, rows; `ended`: when its runs ended, empty if not known."""
 
     name: str
     scale: str
@@ -278,14 +282,15 @@ class Table:
 
 
 def table_name(path):
-    """(figure, scale) of `figNN_SCALE.csv`, or of `figNN.csv` in the folder FIGURE-SCALE-BACKEND of a figure's runs."""
+    """Returns (figure, scale) of `figNN_SCALE.csv`, or of `figNN.csv` in the folder FIGURE-SCALE-BACKEND of a figure's
+    runs."""
     name, _, scale = path.name.removesuffix(".gz").removesuffix(".csv").rpartition("_")
     folder = path.parent.name.split("-")
     return (name, scale) if name else (scale, folder[1] if len(folder) == 3 else "")
 
 
 def runs_in(folder):
-    """Every run below `folder` that has rows, finished or not, by the name of its manifest."""
+    """Returns every run below `folder` that has rows, finished or not, by the name of its manifest."""
     found = []
     for path in sorted(Path(folder).rglob("*run.json")):
         stem = path.name.removesuffix("run.json")
@@ -297,7 +302,7 @@ def runs_in(folder):
 
 
 def ended_of(path):
-    """When the runs of an accepted table ended, as the provenance beside it says; empty where there is none."""
+    """Returns when the runs of an accepted table ended, from the provenance beside it; empty if there is none."""
     provenance = path.with_name("provenance.csv")
     if not provenance.is_file():
         return ""
@@ -306,8 +311,8 @@ def ended_of(path):
 
 
 class Evidence:
-    """All usable runs and tables below `folder`: accepted results, or run folders; `changed`: of a changed program
-    too."""
+    """Holds all usable runs and tables below `folder`: accepted results, or run folders; `changed`: also those of a
+    changed program."""
 
     def __init__(self, folder=RESULTS, changed=False):
         folder = Path(folder)
@@ -323,7 +328,8 @@ class Evidence:
         self._earlier = {}
 
     def before(self, moment):
-        """What of this was there at a moment, as manifests write it (2026-11-21T12:40:00Z)."""
+        """Returns the part of this evidence that existed at a moment, in the form of manifests
+        (2026-11-21T12:40:00Z)."""
         if moment not in self._earlier:
             earlier = self._earlier[moment] = copy.copy(self)
             was_there = lambda run: run.manifest.get("ended", "") < moment  # noqa: E731
@@ -332,8 +338,8 @@ class Evidence:
         return self._earlier[moment]
 
     def measure(self, spec, wanted):
-        """The number that `spec` describes from the newest run that is as `wanted`, or the newest table, or None where
-        there is none."""
+        """Returns the number that `spec` describes from the newest run that matches `wanted`, or from the newest table;
+        None if there is none."""
         if isinstance(spec, list):
             return next((found for found in (self.measure(each, wanted) for each in spec) if found), None)
         if "table" in spec:
@@ -357,7 +363,8 @@ class Evidence:
         return [run.first(wanted["steps"]) for run in found] if "steps" in wanted else found
 
     def _ratio(self, spec, wanted):
-        """Of two runs of one commit and of the same materials, and of one machine unless the ratio is about two."""
+        """Returns the ratio of two runs of one commit and the same materials, and of one machine unless the ratio is
+        about two."""
         over, under = (self.runs_as({**wanted, **part.get("run", {})}) for part in spec["ratio"])
         alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"]
                  and a.membranes == b.membranes
@@ -373,9 +380,9 @@ class Evidence:
         return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on, found.membrane)
 
     def _of_table(self, spec, scale):
-        """A cell, or the quotient of two; `column` is then one for both, or a list of one for each: where runs vary,
-        [smallest, largest] says what every run of the first is of every run of the second. `membrane`: that of the
-        rows."""
+        """Returns a cell, or the quotient of two; `column` is then one for both, or a list of one for each. If runs
+        vary, [smallest, largest] bounds the ratio of every run of the first to every run of the second. `membrane`:
+        that of the rows."""
         asked = {"membrane": spec["membrane"]} if "membrane" in spec else {}
         for table in reversed([t for t in self.tables if t.name == spec["table"] and t.scale == scale]):
             places = ("over", "under") if "over" in spec else ("where",)
@@ -388,7 +395,7 @@ class Evidence:
                 raise EvidenceError(f"{table.source} mixes commits "
                                     f"{', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one "
                                     "program")
-            if len({row["device"] for row in rows}) > 1:  # a ratio of two machines says nothing
+            if len({row["device"] for row in rows}) > 1:  # a ratio of two machines means nothing
                 continue
             value = cells[0] / cells[1] if len(cells) > 1 else cells[0]
             is_time = "[ms]" in spec["column"] or rows[0].get("unit") == "ms"
@@ -414,7 +421,7 @@ def _cell(table, row, column):
 
 
 def value_of(run, spec):
-    """A number of one run: statistics of its rows, a setting, a count of its scene."""
+    """Returns a number of one run: statistics of its rows, a setting, a count of its scene."""
     m = run.manifest
     if "steps" in spec:
         return _statistic(run, spec) * spec.get("times", 1)
@@ -460,7 +467,7 @@ def _statistic(run, spec):
 
 
 def _largest(run, names):
-    """The largest of the sums of columns."""
+    """Returns the largest of the sums of columns."""
     if len(names) == 1:
         return run.largest(names[0])
     return max(sum(row) for row in zip(*(run.column(name) for name in names)))

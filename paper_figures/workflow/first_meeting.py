@@ -1,5 +1,5 @@
-"""In which step of a run threads first met, where not every step was asked. A window in which they met says how far to
-look; all steps before are asked, from one stored state to the next. Python's own library is enough.
+"""Finds the step of a run in which threads first met, if not every step was checked. A window in which they met limits
+the search; all steps before it are checked, from one stored state to the next. Needs only Python's own library.
 """
 
 import csv
@@ -12,7 +12,7 @@ from paper_figures.workflow.jobs import FINISHED, KEPT, STOPPED, Limit
 
 
 def met_at(run):
-    """First step of a window on whose way threads met, or None."""
+    """Returns the first step of a window on whose way threads met, or None."""
     rows = run / "steps.csv"
     if not rows.is_file():
         return None
@@ -23,8 +23,8 @@ def met_at(run):
 
 @dataclass(frozen=True)
 class FirstMeeting:
-    """A job of jobs. `windows` are far apart, and made before; `window_after(step)` is the job of the `every` steps
-    after a stored state."""
+    """Finds the first meeting as a job (jobs.py). `windows` are far apart, and made before; `window_after(step)` is the
+    job of the `every` steps after a stored state."""
 
     name: str
     windows: tuple
@@ -36,7 +36,7 @@ class FirstMeeting:
         return self.windows[0].on_device
 
     def before(self, root):
-        """The windows up to the first meeting that is known; none where there is none."""
+        """Returns the windows up to the first known meeting; none if there is no meeting."""
         known = [step for step in (met_at(root / window.name) for window in self.windows) if step is not None]
         return [self.window_after(step) for step in range(0, min(known, default=0), self.every)]
 

@@ -1,8 +1,8 @@
-"""Runs the command of one step of the workflow with a log; where it fails, shows the command and the log's last lines.
-Beside the log a record says the command, and at its end how long it took.
+"""Runs the command of one step of the workflow with a log; if it fails, shows the command and the log's last lines.
+Beside the log a record keeps the command and, at its end, its duration.
 
-Usage: python3 -m paper_figures.workflow.job LOG OUTPUT COMMAND …; if OUTPUT is the manifest of a run that was cut off,
-it goes on from its checkpoint, or its folder is removed first.
+Usage: python3 -m paper_figures.workflow.job LOG OUTPUT COMMAND …; if OUTPUT is the manifest of an interrupted run, the
+run continues from its checkpoint, or its folder is removed first.
 """
 
 import json
@@ -17,7 +17,7 @@ LINES = 20
 
 
 class StepFailure(Exception):
-    """A step that failed; the message has its command and its last words."""
+    """Raised if a step failed; the message has its command and the last lines of its log."""
 
     def __init__(self, status, words):
         super().__init__(words)
@@ -25,20 +25,20 @@ class StepFailure(Exception):
 
 
 def clear(output):
-    """A run folder that holds an earlier attempt goes as a whole: `ogc` starts from nothing."""
+    """Removes a run folder with an earlier attempt as a whole: `ogc` needs an empty place."""
     if Path(output).name == "run.json":
         remove(Path(output).parent)
 
 
 def record(log):
-    """The command of a step's last attempt, and how long it took [s] if it came to its end; {} where there was none."""
+    """Returns the command of a step's last attempt, and its duration [s] if it ended; {} if there was none."""
     path = Path(f"{log}.json")
     return json.loads(path.read_text()) if path.is_file() else {}
 
 
 def run(log, output, command, limit=Limit()):
-    """What the command took [s]; of a run that was cut off its last attempt. Throws StepFailure, also where the command
-    made no output."""
+    """Returns the duration of the command [s]; of an interrupted run that of its last attempt. Throws StepFailure, also
+    if the command made no output."""
     log, command = Path(log), list(map(str, command))
     kept, before = log.with_name(log.name + ".json"), record(log)
     kept.parent.mkdir(parents=True, exist_ok=True)

@@ -1,7 +1,7 @@
-"""Jobs of `ogc` under a limit of time: what is finished is kept, what was cut off goes on from its checkpoint, and at
-the limit a job is asked to stop. Python's own library is enough.
+"""Runs jobs of `ogc` under a limit of time: finished ones are kept, interrupted ones continue from their checkpoint,
+and at the limit a job is told to stop. Needs only Python's own library.
 
-A job is a command with a folder or a file of its own below the folder of its part. `make` makes it, or goes on with it,
+A job is a command with a folder or a file of its own below the folder of its part. `make` makes it, or continues it,
 and returns how that ended (KEPT, FINISHED, STOPPED); it throws RunFailure. `results` yields the files that are packed.
 """
 
@@ -18,24 +18,25 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-SECONDS_TO_STOP = 60  # for the step at hand, and its checkpoint
+SECONDS_TO_STOP = 60  # for the current step, and its checkpoint
 KEPT, FINISHED, STOPPED, FAILED = "kept", "finished", "stopped at the limit; call again to go on", "FAILED"
-CALL_AGAIN = 75  # exit status where a limit came first (EX_TEMPFAIL of sysexits.h)
+CALL_AGAIN = 75  # exit status if a limit came first (EX_TEMPFAIL of sysexits.h)
 STOPPED_BY_US = (130, -signal.SIGINT, -signal.SIGKILL)  # exit status
 LINES = 5
-PROCESSOR_TIME = "processor_time.json"  # beside the manifest of a run whose processor time was asked for [s]
-MEMORY = "_device_memory.json"  # ends the name of what was sampled while a run was on a device
-ENDED_BY_TIME = "ended_by_time.json"  # beside the manifest of a run that was given so many seconds, and took them
+PROCESSOR_TIME = "processor_time.json"  # beside the manifest of a run whose processor time was requested [s]
+MEMORY = "_device_memory.json"  # end of the name of samples taken while a run was on a device
+ENDED_BY_TIME = "ended_by_time.json"  # beside the manifest of a run that reached its limit of seconds
 AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run found (paper_figures.workflow.audited)
 
 
 class RunFailure(Exception):
-    """A job that did not end as it should, or that can't begin; the message has its command and the log's last
+    """Raised for a job that did not end properly, or that can't begin; the message has its command and the log's last
     lines."""
 
 
 def parser_of_figure(description, scales=(), scale="small", has_backend=True):
-    """Of a figure that makes its runs itself: folder, ogc, and where there is a choice scale and backend."""
+    """Returns the parser of a figure that makes its runs itself: folder, ogc, and, if there is a choice, scale and
+    backend."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("folder", type=Path, help="where the runs are, or go, and table and picture")
     parser.add_argument("--ogc", default="build/default/ogc", help="the program")
@@ -47,14 +48,15 @@ def parser_of_figure(description, scales=(), scale="small", has_backend=True):
 
 
 def options_of_figure(description, scales):
-    """Of a figure whose runs and table need Python's own library alone: folder, ogc, scale, backend, no_picture."""
+    """Returns the options of a figure whose runs and table need only Python's own library: folder, ogc, scale, backend,
+    no_picture."""
     parser = parser_of_figure(description, scales)
     parser.add_argument("--no-picture", action="store_true", help="runs and table alone")
     return parser.parse_args()
 
 
 class Limit:
-    """A moment on the clock, not after that of `within`; without seconds it never comes."""
+    """Holds a moment on the clock, not after that of `within`; without seconds it never comes."""
 
     def __init__(self, seconds=None, within=None):
         self.end = time.monotonic() + seconds if seconds is not None else math.inf
@@ -65,28 +67,28 @@ class Limit:
         return min(own, self.within.left()) if self.within else own
 
     def stop(self):
-        """It comes now."""
+        """Makes the moment come now."""
         self.end = time.monotonic()
 
 
 @dataclass(frozen=True)
 class Step:
-    """The frame after this step."""
+    """Selects the frame after this step."""
 
     number: int
 
 
 @dataclass(frozen=True)
 class Share:
-    """The frame at so many hundredths of a run's steps, rounded down to one that is stored every `frame_steps` steps;
-    the last one at 100."""
+    """Selects the frame at so many hundredths of a run's steps, rounded down to one that is stored every `frame_steps`
+    steps; the last one at 100."""
 
     percent: int
     frame_steps: int
 
 
 def last_step(run):
-    """The step of the last row of a run. Throws RunFailure where it has none."""
+    """Returns the step of the last row of a run. Throws RunFailure if it has none."""
     rows = run / "steps.csv"
     last = rows.read_text().splitlines()[-1].partition(",")[0] if rows.is_file() else ""
     if not last.isdigit():
@@ -95,7 +97,7 @@ def last_step(run):
 
 
 def frame_of(run, place):
-    """(path, step) of a run's frame: a place in their order, a Step or a Share. Throws RunFailure where it is
+    """Returns (path, step) of a run's frame: a place in their order, a Step or a Share. Throws RunFailure if it is
     missing."""
     if isinstance(place, Share):
         last = last_step(run)
@@ -111,12 +113,12 @@ def frame_of(run, place):
 
 @dataclass(frozen=True)
 class Job:
-    """`ogc run ARGUMENTS --out FOLDER/name`.
+    """Runs `ogc run ARGUMENTS --out FOLDER/name`.
 
-    `state`: (another job's name, frame) that it begins with, `more_steps` long where that is not 0. `scene`: a file
-    that it writes first (layers.Stack). `may_fail`: to fail is a result. `processor_time`: what it uses of it is kept
-    beside the run. `pictured`: frames of it are packed, the `first` ones among them. `seconds`: it is asked to stop
-    after so long, and is whole then; where it must have `least` steps, not before it has them."""
+    `state`: (another job's name, frame) with which it begins; it is `more_steps` long if that is not 0. `scene`: a file
+    that it writes first (layers.Stack). `may_fail`: a failure is a result. `processor_time`: its processor time is kept
+    beside the run. `pictured`: frames of it are packed, the `first` ones among them. `seconds`: it is stopped after
+    this time, and is then complete; with `least`, not before it has so many steps."""
 
     name: str
     arguments: tuple
@@ -131,7 +133,8 @@ class Job:
     least: int = 0
 
     def words(self, root):
-        """What follows the program's name. Throws RunFailure where the state that it begins with is missing."""
+        """Returns the words after the program's name. Throws RunFailure if the state with which it begins is
+        missing."""
         words = ["run", *([str(root / self.scene.path)] if self.scene else []), *map(str, self.arguments)]
         if self.state:
             frame, step = frame_of(root / self.state[0], self.state[1])
@@ -144,14 +147,14 @@ class Job:
         return ("--backend", "cuda") in zip(self.arguments, self.arguments[1:])
 
     def done(self, root):
-        """Whether the folder holds the run of this command by this program, at its end."""
+        """Returns whether the folder holds the run of this command by this program, at its end."""
         status = manifest_of(root / self.name).get("status", "")
         ended = status == "finished" or self.may_fail and status.startswith("failed")
         ended = ended or bool(status) and (root / self.name / ENDED_BY_TIME).is_file()
         return ended and same_command(root / self.name, self.words(root))
 
     def make(self, program, root, limit=Limit(), shown=False):
-        """`shown`: with its progress on the screen."""
+        """Makes or continues the run. `shown`: with its progress on the screen."""
         folder = root / self.name
         if self.done(root):
             return KEPT
@@ -175,7 +178,7 @@ class Job:
         return self.end(folder, code, limit, command, log)
 
     def end_by_time(self, program, root, limit, shown):
-        """It was asked to stop, and not by the limit."""
+        """Ends a run that was stopped by its own limit of seconds, and not by `limit`."""
         rows = root / self.name / "steps.csv"
         steps = rows.read_text().count("\n") - 1 if rows.is_file() else 0
         if steps < self.least:
@@ -203,7 +206,8 @@ class Job:
         raise RunFailure(f"{' '.join(command)}: exit status {code}\n  {last_lines(log)}")
 
     def results(self, root, frames, last):
-        """Manifest, rows and so many frames, evenly over the run, and the last ones; of a run that has ended alone."""
+        """Yields manifest, rows and so many frames, evenly over the run, and the last ones; only if the run has
+        ended."""
         folder = root / self.name
         by_time = (folder / ENDED_BY_TIME).is_file()
         if not by_time and not manifest_of(folder).get("status", "").startswith(("finished", "failed: Newton")):
@@ -223,20 +227,20 @@ def manifest_of(folder):
 
 
 def remove(folder):
-    """A run folder as a whole, or a link to one."""
+    """Removes a run folder as a whole, or a link to one."""
     if folder.is_symlink():
         folder.unlink()
     shutil.rmtree(folder, ignore_errors=True)
 
 
 def without_paths(words):
-    """Words without the folders that their files lie in."""
+    """Returns words without the folders of their files."""
     return [str(word).rpartition("/")[2] for word in words]
 
 
 def same_command(folder, words):
-    """Whether `folder` holds a run of these words by this program. The workflow names in OGC_STAMP a file that is
-    rewritten when the program changes."""
+    """Returns whether `folder` holds a run of these words by this program. The workflow names in OGC_STAMP a file that
+    is rewritten when the program changes."""
     manifest, stamp = folder / "run.json", os.environ.get("OGC_STAMP", "")
     changed = stamp and Path(stamp).is_file() and Path(stamp).stat().st_mtime > manifest.stat().st_mtime
     command = manifest_of(folder)["command"]
@@ -245,21 +249,21 @@ def same_command(folder, words):
 
 
 def is_of(folder, program):
-    """Whether this program's commit made the run: no other can go on with it."""
+    """Returns whether this program's commit made the run: no other program can continue it."""
     said = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=False).stdout
     return f"commit {manifest_of(folder)['commit']}" in said
 
 
 def can_go_on(folder, words, program):
-    """Whether the folder holds a part of the run of these words from which this program can go on."""
+    """Returns whether the folder holds a part of the run of these words that this program can continue."""
     status = manifest_of(folder).get("status", "failed")
     return (not status.startswith("failed") and (folder / "checkpoint.h5").is_file() and same_command(folder, words)
             and is_of(folder, program))
 
 
 def taken_before(folder):
-    """Processor time of a run's earlier attempts [s], taken out of its file until it is added to; None where one of
-    them was killed with whoever measured it."""
+    """Returns the processor time of a run's earlier attempts [s], and removes it from its file until it is added to;
+    None if one of them was killed together with the process that measured it."""
     path = folder / PROCESSOR_TIME
     if not path.is_file():
         return None
@@ -269,18 +273,18 @@ def taken_before(folder):
 
 
 def chosen_frames(folder, frames, last, first=0):
-    """So many frames of a run, the first, evenly on to the last, and the `first` and the `last` ones."""
+    """Returns so many frames of a run: the first, evenly on to the last, and the `first` and the `last` ones."""
     found = sorted((folder / "frames").glob("frame_*.h5"))
     spread = {round(i * (len(found) - 1) / (frames - 1)) for i in range(frames)} if frames > 1 and found else set()
     return [frame for i, frame in enumerate(found) if i in spread or i < first or i >= len(found) - last]
 
 
 def command_in(command, limit=Limit(), log=None, out=None, seconds=0, waits=False):
-    """(exit status, processor time) of a command that is asked to stop at the limit, or after so many `seconds`, and
-    killed a minute later; `waits`: asked before the limit, it has until then. What it prints goes to the file `log`;
-    its standard output to `out` where that is named; without both, errors and progress to the screen."""
+    """Returns (exit status, processor time) of a command that is told to stop at the limit, or after so many `seconds`,
+    and is killed a minute later; `waits`: told before the limit, it may continue until then. Its output goes to the
+    file `log`; its standard output to `out` if that is named; without both, errors and progress go to the screen."""
     command = list(map(str, command))
-    apart = {"start_new_session": True}  # an interrupt of ours, told once: a second one kills
+    apart = {"start_new_session": True}  # an interrupt reaches it only from us, and once: a second one kills
     if log is None:
         return waited(subprocess.Popen(command, stdout=subprocess.DEVNULL, **apart), limit, seconds, waits)
     log.parent.mkdir(parents=True, exist_ok=True)
@@ -289,7 +293,8 @@ def command_in(command, limit=Limit(), log=None, out=None, seconds=0, waits=Fals
 
 
 def waited(process, limit, seconds=0, waits=False):
-    """(exit status, processor time by kind [s]) of a process, which is asked to stop; see command_in."""
+    """Waits for a process, which is told to stop as in command_in; returns (exit status, processor time by kind
+    [s])."""
     asked = Limit(seconds, limit) if seconds else limit
     for stop, until in ((None, asked), (signal.SIGINT, None), (signal.SIGKILL, Limit())):
         until = until or Limit((limit.left() if waits else 0) + SECONDS_TO_STOP)
@@ -307,7 +312,7 @@ def waited(process, limit, seconds=0, waits=False):
 
 
 def ended(process, limit):
-    """What `waited` returns, or None where the process goes on at the limit."""
+    """Returns the result of `waited`, or None if the process continues at the limit."""
     pause = 1e-3
     while True:
         pid, status, used = os.wait4(process.pid, os.WNOHANG)

@@ -1,10 +1,10 @@
-"""The judge's large counts: every stage of `ogc compare`, chunk by chunk, one process at a time (two on one device take
-turns of milliseconds, and a mesh stage waits for each answer). Python's own library is enough.
+"""Runs the judge's large counts: every stage of `ogc compare`, chunk by chunk, one process at a time (two on one device
+alternate every few milliseconds, and a mesh stage waits for each answer). Needs only Python's own library.
 
 A chunk is a run of its own with its own seed (1000 × `seed` + number). The next chunk is of the stage that lacks the
-largest part of what is wanted, so that a limit cuts all stages alike; a first, small one says how fast a stage is. In
-the folder there are a JSON line a chunk, counts.md (their sums as a table), counts.json, and of failed chunks what they
-printed and saved. Counts go on where they were stopped, with the same program.
+largest part of its wanted cases, so that a limit affects all stages alike; a first, small one measures the speed of a
+stage. The folder gets a JSON line for each chunk, counts.md (their sums as a table), counts.json, and the output and
+files of failed chunks. Counts continue where they were stopped, with the same program.
 """
 
 import json
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from paper_figures.workflow.jobs import FINISHED, KEPT, STOPPED, Limit, RunFailure, command_in
 
-# Cases wanted, and cases of the first chunk. A sweep is a question of some twenty cases (vertices).
+# Wanted cases, and cases of the first chunk. A question of the stage sweep has some twenty cases (vertices).
 STAGES = {
     "truncate": (450_000_000, 20_000_000),
     "closest_face": (440_000_000, 20_000_000),
@@ -41,7 +41,7 @@ STAGES = {
     "rest_state": (300_000, 30_000),
     "step": (300_000, 20_000),
 }
-# What is aimed at: the sum over these stages, counted in cases or in questions.
+# Aims: the sum over these stages, counted in cases or in questions.
 STENCILS = ("initial_guess", "spring", "tetrahedron", "rod", "orientation", "contact_force", "friction_force",
             "volume_force", "bending", "activation", "membrane")
 AIMS = (
@@ -60,20 +60,20 @@ CHUNK_SECONDS = 20  # of a chunk after the first: what a limit may cost
 
 @dataclass(frozen=True)
 class Counts:
-    """The job that counts; `share`: of the cases wanted; `stages`: those of STAGES that are asked."""
+    """Counts cases as a job; `share`: of the wanted cases; `stages`: those of STAGES that are counted."""
 
     backend: str
     share: float = 1
     seed: int = 1
     stages: tuple = tuple(STAGES)
     name: str = "counts"
-    on_device = False  # its memory says nothing about a run
+    on_device = False  # its memory is not that of a run
 
     def make(self, program, root, limit=Limit(), _shown=False):
         self.clear_if_of_another(program, root)
         if not self.next_stage(root):
             return self.verdict(root, KEPT)
-        begun = False  # a call makes one chunk at least, so that short ones come to an end, too
+        begun = False  # a call makes at least one chunk, so that short calls make progress, too
         while limit.left() > 0:
             stage = self.next_stage(root)
             if not stage:
@@ -87,7 +87,7 @@ class Counts:
         return STOPPED
 
     def clear_if_of_another(self, program, root):
-        """Counts of another program are no part of this one's."""
+        """Removes counts of another program."""
         said = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=False)
         asked = {"program": said.stdout, "backend": self.backend, "seed": self.seed}
         path = root / "asked.json"
@@ -97,7 +97,7 @@ class Counts:
             path.write_text(json.dumps(asked))
 
     def chunks(self, root):
-        """What there is of each stage's chunks, in the order of their names."""
+        """Returns the existing chunks of each stage, in the order of their names."""
         return [json.loads(path.read_text()) for path in sorted(root.glob("*.chunk.json"))]
 
     def sums(self, root):
@@ -111,8 +111,8 @@ class Counts:
         return max(1, int(STAGES[stage][0] * self.share))
 
     def next_stage(self, root):
-        """The stage that lacks the largest part of its cases, None where none lacks any; one that gave no result is not
-        asked again."""
+        """Returns the stage that lacks the largest part of its cases, None if none lacks any; a stage that gave no
+        result is not run again."""
         sums, dead = self.sums(root), {chunk["stage"] for chunk in self.chunks(root) if "cases" not in chunk}
         parts = {stage: sums[stage]["cases"] / self.wanted(stage) for stage in self.stages if stage not in dead}
         stage = min(parts, key=parts.get, default=None)
@@ -122,8 +122,8 @@ class Counts:
         return max(1, int(STAGES[stage][1] * self.share))
 
     def size_of_chunk(self, stage, done, limit):
-        """Cases of the next chunk, 0 where there is no time for one; never below the first's, because a short run has
-        small meshes alone."""
+        """Returns the number of cases of the next chunk, 0 if there is no time for one; never below the first's,
+        because a short run has only small meshes."""
         least = self.least(stage)
         if not done["wall_seconds"]:
             return least
@@ -134,7 +134,8 @@ class Counts:
         return max(least, min(cases, self.wanted(stage) - done["cases"]))
 
     def chunk(self, program, root, stage, cases, limit):
-        """One run, kept as a line, with what it said where it failed; one that the limit cut off leaves nothing."""
+        """Makes one chunk, kept as a line, with its output if it failed; one that the limit interrupted leaves
+        nothing."""
         name = f"{stage}.s{1000 * self.seed + len(list(root.glob(f'{stage}.s*.chunk.json')))}"
         folder, log, begun = root / name, root / f"{name}.log", time.monotonic()
         words = ["compare", stage, "--backend", self.backend, "--cases", cases, "--seed", name.rpartition(".s")[2]]
@@ -153,21 +154,21 @@ class Counts:
         print(f"  {name}: {counted} in {took:.1f} s, exit status {status}", flush=True)
 
     def failed(self, root):
-        """A line for each chunk that did not end well."""
+        """Returns a line for each chunk that did not end well."""
         for path in sorted(root.glob("*.chunk.json")):
             status, name = json.loads(path.read_text())["exit_status"], path.name.removesuffix(".chunk.json")
             if status != 0:
                 yield f"{name}: exit status {status}, see {root / name} and {root / name}.log"
 
     def verdict(self, root, end):
-        """`end`, if no chunk failed. Throws RunFailure."""
+        """Returns `end` if no chunk failed. Throws RunFailure."""
         problems = list(self.failed(root))
         if problems:
             raise RunFailure("\n  ".join(problems))
         return end
 
     def write(self, root):
-        """counts.md and counts.json of the chunks that there are."""
+        """Writes counts.md and counts.json of the existing chunks."""
         sums = self.sums(root)
         text = markdown(sums) + "\n\n" + "\n".join(f"- {line}" for line in totals(sums)) + "\n"
         (root / "counts.md").write_text(text)
@@ -176,7 +177,7 @@ class Counts:
         (root / "counts.json").write_text(json.dumps({**about, "failed": list(self.failed(root))}, indent=1) + "\n")
 
     def results(self, root, _frames, _last):
-        """The sums, and all that failed chunks left."""
+        """Returns the sums, and all that failed chunks left."""
         kept = [root / name for name in ("counts.md", "counts.json") if (root / name).is_file()]
         failed = [path for path in root.glob("*.log") if path.is_file()]
         left = [path for folder in root.iterdir() if folder.is_dir()
@@ -185,7 +186,7 @@ class Counts:
 
 
 def markdown(counts):
-    """The sums as a table, a row a stage."""
+    """Returns the sums as a table, a row for each stage."""
     rows = ["| stage | " + " | ".join(COLUMNS) + " |", "|---" * (len(COLUMNS) + 1) + "|"]
     for stage, sums in counts.items():
         cells = [f"{sums[key]:,}" for key in (*SUMS[:5], "mismatches")]
@@ -195,7 +196,7 @@ def markdown(counts):
 
 
 def totals(counts):
-    """What was aimed at and reached, a line an aim, and all cases."""
+    """Returns aims and what was reached, a line for each aim, and all cases."""
     lines = []
     for name, wanted, unit, stages in AIMS:
         reached = sum(counts[stage][unit] for stage in stages if stage in counts)

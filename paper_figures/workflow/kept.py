@@ -1,5 +1,5 @@
-"""How results keep the files of a run and pictures: rows of a long run thinned (thinned.py), a scene once for all
-manifests that name its hash, settings without what they mean, pictures with a palette.
+"""Prepares the files of runs and pictures for results: rows of a long run thinned (thinned.py), a scene once for all
+manifests that name its hash, settings without their explanations, pictures with a palette.
 """
 
 import gzip
@@ -12,33 +12,33 @@ from paper_figures.workflow import thinned
 from paper_figures.workflow.evidence import ROWS, SCENES, EvidenceError, run_at
 from paper_figures.workflow.jobs import AUDIT, PROCESSOR_TIME
 
-LONG = 2**15  # bytes of rows; more are kept compressed
+LONG = 2**15  # bytes of rows; larger files are compressed
 COLOURS = 64  # of a picture's palette
-REFINEMENTS = 4  # of it by k-means, so that large areas keep their colour
+REFINEMENTS = 4  # refinements of the palette by k-means, so that large areas keep their colour
 
 
 class AcceptError(Exception):
-    """Why a figure's files can't become accepted results; the message says which, and what to do."""
+    """Raised if a figure's files can't become accepted results; the message names the file and a remedy."""
 
 
 def relative(text):
-    """A command without the folders of absolute paths: they say nothing on another machine."""
+    """Returns a command without the folders of absolute paths, which mean nothing on another machine."""
     return re.sub(r"(?<![^\s=])/\S*/", "", text)
 
 
 def compressed(name, data):
-    """(name, data) as they are kept: long rows with gzip, which evidence.py reads as well."""
+    """Returns (name, data) as kept: long rows with gzip, which evidence.py reads as well."""
     return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LONG else (name, data)
 
 
 def bytes_of(path):
-    """What is kept of a figure's file: of a picture one with a palette."""
+    """Returns what is kept of a figure's file; a picture gets a palette."""
     return in_palette(path.read_bytes()) if path.suffix == ".png" else path.read_bytes()
 
 
 def in_palette(picture):
-    """The PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: about a quarter of the
-    size. Throws AcceptError."""
+    """Returns the PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: about a quarter
+    of the size. Throws AcceptError."""
     from PIL import Image, UnidentifiedImageError
 
     try:
@@ -52,7 +52,7 @@ def in_palette(picture):
 
 
 def run_files(path, stem):
-    """Manifest, scene, rows, iterations and processor time of the run whose manifest is `path`."""
+    """Returns manifest, scene, rows, iterations and processor time of the run whose manifest is `path`."""
     rows = path.with_name("steps.csv")
     text = rows.read_text() if rows.is_file() else ""
     manifest, scene = compact(json.loads(path.read_text()))
@@ -67,14 +67,14 @@ def run_files(path, stem):
               if path.with_name(name).is_file()]
     if path.with_name(AUDIT).is_file():
         audit = json.loads(path.with_name(AUDIT).read_text())
-        audit.pop("steps", None)  # `states` counts them
+        audit.pop("steps", None)  # `states` is their number
         found.append((f"{stem}_{AUDIT}", (json.dumps(audit) + "\n").encode()))
     return [(f"{stem}_run.json", (json.dumps(manifest, indent=1) + "\n").encode()), *found]
 
 
 def compact(manifest):
-    """The manifest without folders of the machine, what settings mean, and the scene, which the file beside it holds:
-    (manifest, [(name, bytes)])."""
+    """Returns the manifest without folders of the machine, explanations of settings, and the scene, which the file
+    beside it holds: (manifest, [(name, bytes)])."""
     manifest = dict(manifest)
     manifest.update({key: relative(manifest[key]) for key in ("command", "from_state") if key in manifest})
     manifest["settings"] = {name: {key: value for key, value in entry.items() if key != "meaning"}
@@ -86,8 +86,8 @@ def compact(manifest):
 
 
 def costs_of(folder):
-    """Where the time of the run's steps goes, which the thinned rows can't tell any more; nothing where every row
-    can't."""
+    """Returns the costs of the run's steps, which can't be computed from thinned rows; nothing if they can't be
+    computed from all rows either."""
     from paper_figures.workflow.step_costs import costs
 
     try:

@@ -1,16 +1,16 @@
-"""Scenes of any size at one contact density, as scene files: LAYERS square sheets of `fifty_layers` (its spacing,
-radius and materials), pressed together between a fixed ground and a fixed lid, each sheet as large as the number of its
-vertices asks for.
+"""Writes scenes of any size at one contact density as scene files: LAYERS square sheets of `fifty_layers` (its spacing,
+radius and materials), pressed together between a fixed ground and a fixed lid. The number of vertices determines the
+size of the sheets.
 
-Why the density is the same: two sheets differ in size by rows and columns added at the rim, of the same cells. Each
-layer's shift in the plane is drawn with the layer's number alone, so that an inner vertex meets the same neighbours at
-the same distances whatever the size, in the first step and, because a step's forces are local, in later ones. Only the
-rim has fewer contacts: 4 / side of the vertices. The measured density stands in growth.py's table.
+The density is the same for all sizes: two sheets differ in size by rows and columns of the same cells added at the rim.
+Each layer's shift in the plane is drawn with the layer's number alone, so that an inner vertex meets the same
+neighbours at the same distances whatever the size, in the first step and, because a step's forces are local, in later
+ones. Only the rim has fewer contacts: 4 / side of the vertices. The measured density stands in growth.py's table.
 
 Sheets lie 0.9 r apart, so that all touch their neighbours from the first step on; ground and lid keep them there. With
-the scene's own time step of 1/1200 s such a stack cuts one vertex in a hundred in every iteration (k_c exceeds m/h²,
-fast/PERFORMANCE.md) and detects 41 times a step; with 1/5000 s it detects once and keeps its contacts, which is what a
-growth over the number of vertices alone needs. Python's own library is enough.
+the scene's own time step of 1/1200 s a stack like that cuts one vertex in a hundred in every iteration (k_c exceeds
+m/h², fast/PERFORMANCE.md) and detects 41 times a step; with 1/5000 s it detects once and keeps its contacts, which is
+sufficient for the growth over the number of vertices. Needs only Python's own library.
 """
 
 import json
@@ -32,12 +32,12 @@ MARGIN = 0.05  # [m] that the ground reaches beyond the sheets
 
 
 def vertices(side):
-    """Of all sheets."""
+    """Returns the number of vertices of all sheets."""
     return LAYERS * side * side
 
 
 def positions(side, spacing, height, shift=(0, 0)):
-    """x, y, z of a square grid of side × side vertices about the origin, row by row."""
+    """Returns x, y, z of a square grid of side × side vertices about the origin, row by row."""
     at = [(i - (side - 1) / 2) * spacing for i in range(side)]
     result = array("d")
     for x in at:
@@ -47,12 +47,12 @@ def positions(side, spacing, height, shift=(0, 0)):
 
 
 def face(a, b, c):
-    """As binary PLY has it."""
+    """Returns a face in binary PLY."""
     return struct.pack("<Biii", 3, a, b, c)
 
 
 def triangles(side):
-    """Two a cell, with diagonals that alternate, as the faces of a binary PLY file."""
+    """Returns two triangles a cell, with alternating diagonals, as the faces of a binary PLY file."""
     result = []
     for i in range(side - 1):
         for j in range(side - 1):
@@ -70,13 +70,13 @@ def write_mesh(path, points, faces):
 
 
 def shift_of(layer):
-    """x, z [m] from the layer's number alone: normal deviates, as sums of twelve uniforms."""
+    """Returns x, z [m] from the layer's number alone: normal deviates, as sums of twelve uniforms."""
     uniform = random.Random(layer).random
     return [SHIFT * (sum(uniform() for _ in range(12)) - 6) for _ in range(2)]
 
 
 def template(program, folder):
-    """The scene file of fifty_layers, as the program writes it."""
+    """Returns the scene file of fifty_layers, as the program writes it."""
     subprocess.run([str(program), "scenes", "fifty_layers", "--scale", "smoke", "--write", str(folder)], check=True,
                    stdout=subprocess.DEVNULL)
     return json.loads((folder / "fifty_layers.json").read_text())
@@ -107,7 +107,7 @@ def write(program, folder, side, steps):
 
 @dataclass(frozen=True)
 class Stack:
-    """The scene of so many steps as a file below the folder of the runs (jobs.Job)."""
+    """Holds the scene of so many steps, written to a file below the folder of the runs (jobs.Job)."""
 
     side: int
     steps: int
@@ -117,7 +117,7 @@ class Stack:
         return f"scenes/{self.side}/scene.json"
 
     def write(self, program, root):
-        """Where it is missing."""
+        """Writes the scene if it is missing."""
         path = root / self.path
         if not path.is_file():
             write(program, path.parent, self.side, self.steps)

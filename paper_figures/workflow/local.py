@@ -1,16 +1,16 @@
 """Does the steps of figures that are due, on this machine, and says in our own words how far it is: which figure, which
-step of how many, how long yet. Figures go on side by side as far as there are cores; a step that uses all of them is
-alone.
+step of how many, and the time left. Figures run at the same time as far as there are cores; a step that uses all of
+them runs alone.
 
-A step is due if its output is missing, if it was interrupted, if its command is another than the one that made the
-output, or if an input is newer or made anew. Interrupted and called again, what is finished is kept. A figure whose
-step fails stops there; the others go on.
+A step is due if its output is missing, if it was interrupted, if its command is not the one that made the output, or if
+an input is newer or made again. When it is interrupted and called again, finished steps are kept. A figure whose step
+fails stops there; the others continue.
 
 Usage: python3 -m paper_figures.workflow.local RUNS OGC SCALE BACKEND [FIGURE …] [--jobs N] [--dry-run]. Exit status: 0
 all is done, 1 a step failed, 130 it was interrupted.
 
-Times are those that a step took here before, or the figure's on another machine (results/*/durations.csv), or follow
-from how far the running program says it is in its log.
+A time is that of the step here before, or of the figure on another machine (results/*/durations.csv), or an estimate
+from the progress in the log of the running program.
 """
 
 import argparse
@@ -30,16 +30,16 @@ from pathlib import Path
 from paper_figures.workflow import job, recipes
 from paper_figures.workflow.jobs import Limit
 
-LOOK = 0.3  # seconds between looks at the steps, and redraws of a terminal's line
-SAY = 30  # seconds between lines where nobody watches
+LOOK = 0.3  # seconds between checks of the steps, and redraws of a terminal's line
+SAY = 30  # seconds between lines if the output is not a terminal
 FAR = re.compile(r"\b(\d+)/(\d+)\b")
-RUN = re.compile(r"\((\d+) of (\d+)\)$", re.M)  # behind the name of each that `ogc ablate` makes
+RUN = re.compile(r"\((\d+) of (\d+)\)$", re.M)  # follows the name of each run that `ogc ablate` makes
 SCENE = re.compile(r"\((\d+) of (\d+)\): ogc ", re.M)  # of a study, before its runs
 RUNS_SAID = 2**16  # bytes at the end of a log in which its last run and scene are looked for
 
 
 def verb(step, recipe, points):
-    """What a step of a recipe does, in words; `points`: how many a sweep has."""
+    """Describes what a step of a recipe does; `points`: the number of points of a sweep."""
     body, part = recipe.body, step.name.removeprefix(recipe.name).strip("_")
     if "illustration" in body:
         return "computing it exactly" if part else "drawing"
@@ -53,7 +53,7 @@ def verb(step, recipe, points):
 
 
 def why_due(step, made):
-    """Why a step is to be done, in words; empty where it is not. `made`: outputs of steps that will be done before."""
+    """Returns in words why a step is due; empty if it is not. `made`: outputs of steps that will be done before."""
     output = Path(step.output)
     record = job.record(step.log)
     if not output.is_file():
@@ -68,7 +68,7 @@ def why_due(step, made):
 
 
 def due_of(chosen, scale, backend, ogc):
-    """(recipe, its steps that are due, each with the reason in words), in an order in which they can be done."""
+    """Returns (recipe, its due steps, each with the reason in words), in an order in which they can be done."""
     made, found = set(), []
     for recipe in chosen:
         steps = []
@@ -81,8 +81,8 @@ def due_of(chosen, scale, backend, ogc):
 
 
 class Known:
-    """What is known of the steps that may be due, by name: figure, words, log, and how long it takes [s], None where
-    nobody knows."""
+    """Holds what is known of the steps that may be due, by name: figure, words, log, and duration [s], None if not
+    known."""
 
     def __init__(self, runs, scale, backend, names):
         measured = recipes.measured_times()
@@ -100,7 +100,7 @@ class Known:
 
 
 class Course:
-    """Which steps are due (their names), at work and done; `said` are lines that are worth keeping."""
+    """Holds the names of the steps that are due, running and done; `said` are lines that are worth keeping."""
 
     def __init__(self, known, due, clock=time.monotonic):
         self.known, self.due, self.clock = known, due, clock
@@ -124,8 +124,8 @@ class Course:
         return f"Step {number} of {len(self.due)}, {self.known.figure[name]}"
 
     def far(self, name):
-        """(steps done, of how many) as the running program says in its log, or None; of a study runs, as if each of
-        its scenes had as many."""
+        """Returns (steps done, of how many) from the log of the running program, or None; for a study it counts runs,
+        as if each of its scenes had as many."""
         log = self.known.logs[name]
         if not log.is_file():
             return None
@@ -140,7 +140,7 @@ class Course:
         return far if 0 < far[0] <= far[1] else None
 
     def left(self):
-        """(seconds that are left as far as one knows, whether that is all)."""
+        """Returns (the seconds left as far as they are known, whether that covers everything)."""
         total, whole = 0.0, True
         for name in self.due:
             if name in self.done or name in self.failed:
@@ -156,8 +156,8 @@ class Course:
         return total, whole
 
     def line(self):
-        """Where it is now; empty while nothing is at work."""
-        begun = dict(self.begun)  # steps end beside us
+        """Returns the current state in words; empty if nothing is running."""
+        begun = dict(self.begun)  # other threads end steps meanwhile
         if not begun:
             return ""
         name = min(begun, key=begun.get)
@@ -171,7 +171,7 @@ class Course:
 
 
 class Screen:
-    """A line that is redrawn where a person watches, plain lines every SAY seconds where a file does."""
+    """Shows a line that is redrawn on a terminal, and plain lines every SAY seconds in a file."""
 
     def __init__(self, stream):
         self.stream, self.terminal, self.said, self.drawn = stream, stream.isatty(), time.monotonic(), False
@@ -181,7 +181,7 @@ class Screen:
         print(line, file=self.stream, flush=True)
 
     def show(self, line, fresh):
-        """`fresh`: another step is at work than before, which is said at once."""
+        """Shows the line. `fresh`: a new step has begun, which is shown at once."""
         if self.terminal:
             self.stream.write("\r" + line[:shutil.get_terminal_size().columns - 1] + "\x1b[K")
             self.stream.flush()
@@ -197,14 +197,14 @@ class Screen:
 
 
 def tail(path, size):
-    """The last `size` bytes of a file as text."""
+    """Returns the last `size` bytes of a file as text."""
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - size))
         return file.read().decode(errors="replace")
 
 
 class Cores:
-    """The cores that steps share out among themselves."""
+    """Distributes the cores among the steps."""
 
     def __init__(self, count):
         self.count = self.free = count
@@ -225,7 +225,7 @@ class Cores:
 
 
 def do(steps, course, cores, limit):
-    """The due steps of one figure, until one fails or the limit comes."""
+    """Does the due steps of one figure, until one fails or the limit comes."""
     for step, _ in steps:
         with cores.taken(step):
             if limit.left() == 0:
@@ -240,7 +240,7 @@ def do(steps, course, cores, limit):
 
 
 def do_all(found, course, screen, jobs, limit):
-    """All due steps; pictures of other figures' runs come after them. Says how far it is."""
+    """Does all due steps; pictures of other figures' runs come after these. Shows the progress."""
     cores, at_work = Cores(jobs), None
     for later in (False, True):
         with ThreadPoolExecutor(max_workers=max(1, len(found))) as pool:
@@ -260,14 +260,14 @@ def do_all(found, course, screen, jobs, limit):
 
 
 def epilogue(course, seconds):
-    """How it ended, in words."""
+    """Describes in words how it ended."""
     if course.failed:
         return f"{len(course.failed)} of {len(course.due)} steps FAILED, {len(course.done)} done"
     return f"All {len(course.done)} steps done in {recipes.in_words(seconds)}"
 
 
 def run(options, stream=sys.stderr):
-    """Exit status."""
+    """Does the due steps and returns the exit status."""
     chosen = recipes.choose(options.figures, recipes.load(), options.backend)
     ogc, limit, begun = str(Path(options.ogc).resolve()), Limit(), time.monotonic()
     recipes.program_stamp(options.runs, ogc)

@@ -1,5 +1,5 @@
-"""Packs what jobs made into an archive, small enough to be taken to where it is drawn, and unpacks it there. Of a run
-there are manifest, rows, audit and some frames. Python's own library is enough.
+"""Packs what jobs made into an archive that is small enough to be moved to the machine that draws it, and unpacks it
+there. Of a run it has manifest, rows, audit and some frames. Needs only Python's own library.
 """
 
 import itertools
@@ -14,16 +14,16 @@ from paper_figures.workflow import parts
 from paper_figures.workflow.jobs import AUDIT, remove
 
 MIB = 2**20
-PACKED = "packed.json"  # beside the runs: file -> when it was changed last [ns], of those that were packed
+PACKED = "packed.json"  # beside the runs: packed file -> its last change [ns]
 
 
 class UnpackError(Exception):
-    """What in the archive is refused, and why; nothing of it was written."""
+    """Raised for what an archive may not contain, with the reason; nothing of the archive was written."""
 
 
 class Archive:
-    """The archive of one call: FOLDER/runs_NN.tar.gz with the first number that is free, written anew whenever a part
-    is finished, so that nothing is lost where the machine goes away."""
+    """Writes the archive of one call: FOLDER/runs_NN.tar.gz with the first free number. It is rewritten whenever a part
+    is finished, so that nothing is lost if the machine is taken away."""
 
     def __init__(self, folder, out):
         self.folder, self.out, self.before = folder, out, packed_before(out)
@@ -51,7 +51,7 @@ class Archive:
         return [*lines, f"{self.path.stat().st_size / MIB:.1f} MiB in {self.path}"]
 
     def new_files(self, part):
-        """Those of a part's jobs that no earlier call has packed as they are."""
+        """Returns the files of a part's jobs that no earlier call packed in their current form."""
         root, files = self.out / part.folder, {}
         for job in part.jobs:
             files.update(dict.fromkeys(job.results(root, part.frames, part.last)))
@@ -65,9 +65,9 @@ def packed_before(out):
 
 
 def extract(path, out):
-    """Names of what an archive holds, written below `out`. Throws UnpackError, before anything is written, where a
-    member is no plain file or would be written elsewhere, and where the archive is cut. Python's own data filter is
-    not in Debian 12's."""
+    """Writes the members of an archive below `out` and returns their names. Throws UnpackError, before anything is
+    written, if a member is not a plain file or would be written elsewhere, or if the archive is truncated. Python's own
+    data filter is not in Debian 12's."""
     try:
         with tarfile.open(path) as archive:
             members = archive.getmembers()
@@ -89,8 +89,8 @@ def extract(path, out):
 
 
 def unpack(folder, out, program):
-    """Unpacks every archive in `folder`, and assembles what draws meshes (trajectory.vtkhdf) of the frames that came
-    along; returns the runs. Throws UnpackError, with nothing of that archive written."""
+    """Unpacks every archive in `folder`, and assembles the file that meshes are drawn from (trajectory.vtkhdf) from the
+    unpacked frames; returns the runs. Throws UnpackError, with nothing of that archive written."""
     out.mkdir(parents=True, exist_ok=True)
     names = [name for path in sorted(folder.glob("runs_*.tar.gz")) for name in extract(path, out)]
     runs = sorted({(out / name).parent for name in names if name.endswith(("/run.json", f"/{AUDIT}"))})
@@ -101,7 +101,7 @@ def unpack(folder, out, program):
 
 
 def assemble(program, run):
-    """trajectory.vtkhdf of a run's frames: `ogc export` makes it on its way."""
+    """Assembles trajectory.vtkhdf from a run's frames; `ogc export` makes it as a by-product."""
     if not any((run / "frames").glob("*")) or (run / "trajectory.vtkhdf").is_file():
         return
     scratch = run / "exported"
@@ -111,7 +111,8 @@ def assemble(program, run):
 
 
 def show(out, run):
-    """Copies the whole run of a row to where the workflow of its scene's figure looks; returns that folder, if any."""
+    """Copies the whole run of a row to the folder where the workflow of its scene's figure looks for it; returns that
+    folder, if any."""
     table, row, name = run.relative_to(out).parts if len(run.relative_to(out).parts) == 3 else ("", "", "")
     figure = parts.ROWS.get(row, ("",))[0]
     if not table.startswith("table1-") or name != "whole" or not figure:

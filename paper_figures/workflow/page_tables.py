@@ -24,13 +24,13 @@ NOTHING = ("", "nan", "inf")
 
 
 def name_of(row, label):
-    """The cells of a row that name it; a whole number has no decimals, another has four digits."""
+    """Returns the cells of a row that name it; a whole number has no decimals, another has four digits."""
     cells = [row[column] for column in label]
     return ", ".join(f"{float(cell):.4g}" if re.fullmatch(r"\d+\.\d+", cell) else cell for cell in cells if cell)
 
 
 def cell(texts):
-    """The number or word that the texts share, or the range of their numbers."""
+    """Returns the number or word that the texts share, or the range of their numbers."""
     texts = [text for text in texts if text not in NOTHING]
     try:
         numbers = sorted(float(text) for text in texts)
@@ -41,7 +41,7 @@ def cell(texts):
 
 
 def chosen(listed, folder):
-    """Name -> rows of the files that a listed table chooses, in its order."""
+    """Returns name -> rows of the files that a listed table chooses, in its order."""
     named = {}
     for file_name in listed["files"]:
         with opened(folder / file_name) as file:
@@ -52,7 +52,7 @@ def chosen(listed, folder):
 
 
 def table(listed, folder):
-    """The lines in Markdown of a table that tables.json lists."""
+    """Returns the lines in Markdown of a table that tables.json lists."""
     columns = listed["columns"]
     lines = [f"| {listed['title']} | {' | '.join(columns)} |", "|---" * (1 + len(columns)) + "|"]
     return lines + [f"| {name} | " + " | ".join(cell([row[column] for row in rows]) for column in columns.values())
@@ -60,7 +60,7 @@ def table(listed, folder):
 
 
 def rewritten(path, text):
-    """The text of a document with its tables made anew."""
+    """Returns the text of a document with its tables rebuilt."""
     listed = LISTED.get(path.relative_to(RESULTS).as_posix(), {}) if path.is_relative_to(RESULTS) else {}
 
     def made(place):

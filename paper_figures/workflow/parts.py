@@ -1,7 +1,6 @@
-"""What the runner can be asked for, by name: the runs of a figure, a row of Table 1 or a measurement, as chains of
-jobs.
+"""Names the parts that the runner can make: the runs of a figure, a row of Table 1 or a measurement, as chains of jobs.
 
-A chain's jobs are made one after the other; chains of one part may go on side by side. Folders below that of the runs
+A chain's jobs are made one after the other; chains of one part may run at the same time. Folders below that of the runs
 are those of the workflow (FIGURE-SCALE-BACKEND).
 """
 
@@ -11,21 +10,21 @@ from dataclasses import dataclass
 from paper_figures.workflow import commands
 from paper_figures.workflow.judge_counts import STAGES, Counts
 
-# Rows of Table 1, the most wanted first: the figure that is drawn of the row, and the frames that are packed of it.
+# Rows of Table 1, the most wanted first: the figure drawn from the row, and the frames that are packed of it.
 OF_SCENES = {"twist": ("", 2), "fifty_layers_1m": ("", 0), "cloth_on_sphere": ("fig18", 21),
              "fifty_layers": ("fig10", 3), "knot": ("", 2), "dress": ("fig13", 20), "robot_shirt": ("fig14", 20),
              commands.MAT: ("fig19", 17)}
 DRAWN_WITH_PLANES = {"twist_planes": ("fig12", 40), "knot_planes": ("fig11", 17), commands.MAT_PLANES: ("fig19", 17)}
 ROWS = {**OF_SCENES, **{row: ("", 2) for row in commands.ROWS if row not in OF_SCENES}, **DRAWN_WITH_PLANES}
-# Where the figure of several runs looks for the row's run; a figure of one looks for `run`.
+# The folder in which the figure of several runs looks for the row's run; a figure of one run looks for `run`.
 SHOWN = {row: f"{bounds}/whole" for bounds, (row, _) in commands.MAT_BOUNDS.items()}
 WINDOW = {"smoke": 20, "small": 20, "paper": 200}  # steps on the CPU
 
 
 @dataclass(frozen=True)
 class Part:
-    """`recipe`: the figure that its runs are of. Of each run `frames` are packed, evenly over it, and the `last` ones.
-    `shown_as`: the folder where the figure's workflow looks for the run of the part's first job."""
+    """Holds a part. `recipe`: the figure of its runs. Of each run `frames` are packed, evenly over it, and the `last`
+    ones. `shown_as`: the folder where the figure's workflow looks for the run of the part's first job."""
 
     folder: str
     chains: tuple
@@ -41,8 +40,8 @@ class Part:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What all parts are made of; `window`, `runs`, `steps`, `audit` and `data` concern Table 1, `window_seconds` Fig.
-    19, `share`, `seed` and `stages` (none: all) the judge's counts."""
+    """Holds the choices for all parts; `window`, `runs`, `steps`, `audit` and `data` concern Table 1, `window_seconds`
+    Fig. 19, `share`, `seed` and `stages` (none: all) the judge's counts."""
 
     scale: str = "paper"
     backend: str = "cuda"
@@ -65,7 +64,8 @@ class Wanted:
 
 
 def book(wanted):
-    """name -> Part, the most wanted first; what times a CPU, and so wants the machine for itself, comes last."""
+    """Returns name -> Part, the most wanted first. Parts that time a CPU, and so need the machine for themselves, come
+    last."""
     figures, rows = of_figures(wanted), of_table(wanted)
     first = {name: figures.pop(name) for name in ("fig02", "fig20", "fig17")}
     return {"twist": rows.pop("twist"), **first, **rows, **of_growth(wanted), **figures, **whole_figures(wanted),
@@ -73,7 +73,7 @@ def book(wanted):
 
 
 def of_figures(wanted):
-    """Those that are made of several runs."""
+    """Returns the parts of figures that are made of several runs."""
     scale, backend, folder = wanted.scale, wanted.backend, wanted.folder
     single, double = commands.three_cloths(scale, wanted.backends)
     half_turn, half_turn_ipc = commands.beside_ipc(commands.TWIST, scale, backend)
@@ -95,7 +95,7 @@ def of_figures(wanted):
         "fig02_ipc": Part(folder("fig02"), one_by_one(by_ipc), "fig02", frames=2),
         "fig20_ipc": Part(folder("fig20"), ((ipc,),), "fig20", frames=25),
         "fig17_double": Part(folder("fig17"), one_by_one(double), "fig17", frames=0, last=1),
-        # A figure of the CPU, as its recipe says: a ratio is of the same cores, and of nothing beside them.
+        # For a figure on the CPU, as its recipe states: its ratios are of the same cores, with nothing running beside.
         "fig18_solvers": Part(folder("fig18_solvers", "cpu"), (solvers,), "fig18_solvers", frames=21),
         **of_mat(wanted),
         "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0, last=1),
@@ -109,7 +109,7 @@ def of_figures(wanted):
 
 
 def of_mat(wanted):
-    """Fig. 19 after Table 1's whole runs of the mat, which it begins with."""
+    """Returns Fig. 19 after Table 1's whole runs of the mat, from whose states it begins."""
     folder, whole_mat = wanted.folder("fig19"), tuple(commands.mat_whole(wanted.scale, wanted.backend))
     free = tuple(commands.mat_without_friction(wanted.scale, wanted.backend))
     return {"fig19": Part(folder, (whole_mat,), "fig19", frames=17),
@@ -125,7 +125,7 @@ def whole(row, wanted):
 
 
 def of_table(wanted):
-    """A row's whole runs, and one step from their states."""
+    """Returns a row's whole runs, and one step from their states."""
     jobs = {row: (*whole(row, wanted), *commands.residuals(row, wanted.scale, wanted.backend, wanted.data))
             for row in ROWS}
     folder = wanted.folder("table1")
@@ -135,14 +135,14 @@ def of_table(wanted):
 
 
 def whole_figures(wanted):
-    """Figures of a row's scene, whose picture is drawn of the row's whole run."""
+    """Returns the figures of a row's scene that are drawn from the row's whole run."""
     folder = wanted.folder("table1")
     return {figure: Part(folder, (tuple(whole(row, wanted)),), figure, frames, shown_as=f"{wanted.folder(figure)}/run")
             for row, (figure, frames) in ROWS.items() if figure and row not in SHOWN}
 
 
 def windows(wanted):
-    """Steps on the CPU from states of whole runs; the million vertices come last."""
+    """Returns steps on the CPU from states of whole runs; the million vertices come last."""
     steps, folder = wanted.window or WINDOW[wanted.scale], wanted.folder("table1")
     rows = sorted(ROWS, key=lambda row: commands.scene_of(row) == "fifty_layers_1m")
     return {f"windows_{row}": Part(folder, (tuple(commands.cpu_windows(row, steps, wanted.scale, wanted.data)),),
@@ -157,14 +157,14 @@ def of_growth(wanted):
 
 
 def measurements(wanted):
-    """What belongs to no figure."""
+    """Returns the parts that belong to no figure."""
     counts = Counts(wanted.backend, wanted.share, wanted.seed, wanted.stages or tuple(STAGES))
     return {"judge": Part(f"judge-{wanted.backend}", ((counts,),))}
 
 
 def chosen(parts, names=(), figures=()):
-    """The parts of these names, then those of these figures; without both, those of all figures. Throws KeyError with a
-    name that is neither."""
+    """Returns the parts of these names, then those of these figures; without both, those of all figures. Throws
+    KeyError with a name that is neither."""
     there = {part.recipe for part in parts.values()}
     for name in [*(name for name in names if name not in parts), *(name for name in figures if name not in there)]:
         raise KeyError(name)

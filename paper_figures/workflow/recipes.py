@@ -1,14 +1,14 @@
-"""Figures as steps: which command makes which file out of which. One YAML file a figure (figNN.yaml) says what is run
-and drawn; `local.py` does the steps on this machine, Snakemake (paper_figures/workflow/Snakefile) on a Slurm cluster.
-Paths are relative to the folder of the runs.
+"""Describes figures as steps: the command that makes a file from other files. One YAML file a figure (figNN.yaml) lists
+what is run and drawn; `local.py` does the steps on this machine, Snakemake (paper_figures/workflow/Snakefile) on a
+Slurm cluster. Paths are relative to the folder of the runs.
 
 Keys of a YAML file: `illustrations`, with a title for each; or `title` with `scene`, `script` (a module of
 paper_figures.figures) and `run` (options of `ogc run`; without it the script makes its runs itself, with `options`), or
-`scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes` where
-the script makes one of its run; or `study` (figures/ablations/study.py says what is in it); or `rows` of Table 1;
-`backends` where not both make sense; `kept` where results hold only the runs whose names match one of these patterns,
-and of the others their rows in the figure's table. A figure that is not there yet has `title`, `scene` and `missing`:
-what the program lacks for it.
+`scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes` if the
+script makes one of its run; or `study` (figures/ablations/study.py describes its keys); or `rows` of Table 1;
+`backends` if only one makes sense; `kept` if results hold only the runs whose names match one of these patterns, and of
+the others their rows in the figure's table. A figure that is not implemented has `title`, `scene` and `missing`: what
+the program lacks for it.
 """
 
 import argparse
@@ -31,22 +31,22 @@ FIGURES, RESULTS, ROOT = ROOM / "figures", ROOM / "results", ROOM.parent
 SCALES = ("smoke", "small", "paper")
 PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
-RUNS = ("commands.py", "layers.py", "release.py", "slide.py")  # what runs are made of, where a figure has several
-# What decides a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
+RUNS = ("commands.py", "layers.py", "release.py", "slide.py")  # modules that define the runs of figures with several
+# Files that determine a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
 KEYS = {"title", "illustrations", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends",
         "missing", "kept", "study"}
-STUDIES = "ablations"  # their folder, and the name of all of them
+STUDIES = "ablations"  # the studies' folder, and the name for all of them
 
 
 class RecipeError(Exception):
-    """A figure that does not exist or can't be made so; the message says what there is."""
+    """Raised for a figure that does not exist or can't be made in this way; the message lists what there is."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """A command (list of words) that makes `output` out of `inputs`; `gpu`: how many devices it needs; `all_cores`: it
-    uses every core that there is."""
+    """Holds a command (list of words) that makes `output` out of `inputs`; `gpu`: number of devices it needs;
+    `all_cores`: it uses every core."""
 
     name: str
     output: str
@@ -57,7 +57,8 @@ class Step:
 
     @property
     def log(self):
-        """Beside the output, or beside the folder of a run, which is removed where it begins anew."""
+        """Returns the log's path, beside the output, or beside the folder of a run, which is removed when the run
+        begins anew."""
         here = Path(self.output).parent
         return f"{here.parent if Path(self.output).name == 'run.json' else here}/{self.name}.log"
 
@@ -72,7 +73,7 @@ class Recipe:
 
     @property
     def file(self):
-        """The YAML file that says all this."""
+        """Returns the YAML file of the recipe."""
         if "illustration" in self.body:
             return "illustrations.yaml"
         return f"{STUDIES}/{self.name}.yaml" if "study" in self.body else f"{self.name}.yaml"
@@ -81,22 +82,22 @@ class Recipe:
         return "illustrations" if "illustration" in self.body else f"{self.name}-{scale}-{backend}"
 
     def picture(self, scale, backend):
-        """The last file that the recipe makes."""
+        """Returns the last file that the recipe makes."""
         return f"{self.folder(scale, backend)}/{self.name}" + (f"_{scale}.csv" if "rows" in self.body else ".png")
 
     def movie(self, scale, backend):
-        """The movie that the recipe makes besides, or None."""
+        """Returns the movie that the recipe makes besides, or None."""
         return f"{self.folder(scale, backend)}/{self.name}.mp4" if self.body.get("movie") else None
 
     def outputs(self, scale, backend):
-        """Every file that the workflow is asked for."""
+        """Returns every file that the workflow has to make."""
         if "missing" in self.body:
             return []
         return [path for path in (self.picture(scale, backend), self.movie(scale, backend)) if path]
 
 
 def load(folder=FIGURES):
-    """name -> Recipe. Throws RecipeError where a file has a key that nobody reads."""
+    """Returns name -> Recipe. Throws RecipeError if a file has a key that nothing reads."""
     bodies = {}
     for path in sorted([*Path(folder).glob("*.yaml"), *Path(folder).glob(f"{STUDIES}/*.yaml")]):
         body = yaml.safe_load(path.read_text())
@@ -112,8 +113,8 @@ def load(folder=FIGURES):
 
 
 def choose(names, recipes, backend):
-    """Recipes by figure, scene, `illustrations`, `ablations` or `all` (but sweeps and studies). Throws RecipeError for
-    a name that is none of these, is not there yet, or has no such backend."""
+    """Returns recipes by figure, scene, `illustrations`, `ablations` or `all` (without sweeps and studies). Throws
+    RecipeError for a name that is none of these, is not implemented, or has no such backend."""
     chosen, apart = [], {"vary", "missing", "study"}
     for name in names or [REPRESENTATIVE]:
         found = [r for r in recipes.values() if r.name == name] or [r for r in recipes.values() if r.scene == name][:1]
@@ -137,12 +138,12 @@ def choose(names, recipes, backend):
                               "--backend out")
         chosen += [r for r in found if r not in chosen]
     needed = [recipes[name] for r in chosen for name in r.body.get("of", [])]
-    # what draws other figures' runs comes after them
+    # figures that draw other figures' runs come after these
     return sorted([*chosen, *(r for r in needed if r not in chosen)], key=lambda r: "of" in r.body)
 
 
 def steps(recipe, scale, backend, ogc, python=sys.executable):
-    """The steps of a figure, in an order in which they can be done; none of one that is not there yet."""
+    """Returns the steps of a figure, in an order in which they can be done; none for one that is not implemented."""
     if "missing" in recipe.body:
         return []
     here, gpu = recipe.folder(scale, backend), int(backend == "cuda")
@@ -172,7 +173,7 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
         return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots),
                      (*drawing, picture, *drawn))]
     options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
-    # A study's runs follow from its own file; a figure's of several runs from what lists them.
+    # A study's runs follow from its own file; those of a figure with several runs from the modules that list them.
     made_by = (*script, *((str(FIGURES / recipe.file),) if "study" in recipe.body
                           else (str(HERE / name) for name in RUNS)))
     movie = recipe.movie(scale, backend)
@@ -199,7 +200,8 @@ def _sweep(recipe, scale, backend, ogc, python, plots):
 
 
 def _table(recipe, scale, backend, ogc, python):
-    """A row's last run is its output: the others are gone on with where they were cut off."""
+    """Returns the steps of Table 1. The output of a row's step is the row's last run: the others continue where they
+    were interrupted."""
     here, scripts = recipe.folder(scale, backend), tuple(str(HERE / name) for name in RUNS)
     runner = (python, "-m", "paper_figures.workflow.runner", "--program", ogc, "--out", ".", "--scale", scale)
     rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100/run.json", (PROGRAM, *scripts),
@@ -212,8 +214,8 @@ def _table(recipe, scale, backend, ogc, python):
 
 
 def program_stamp(runs, ogc):
-    """Writes PROGRAM into the folder of the runs, rewritten only where it changed: a digest of the sources, so that a
-    new build of the same sources reruns nothing, or of the program itself where it was not built here."""
+    """Writes PROGRAM into the folder of the runs, only if it changed. It is a digest of the sources, so that a new
+    build of the same sources reruns nothing, or of the program itself if it was not built here."""
     digest, ogc = hashlib.sha256(), Path(ogc).resolve()
     ours = ogc.is_relative_to(ROOT / "build")
     files = sorted(p for room in SOURCES for p in (ROOT / room).rglob("*")
@@ -227,8 +229,8 @@ def program_stamp(runs, ogc):
 
 
 def seconds_of(recipe, scale, backend, runs):
-    """What the steps of a finished figure took here [s], or None; at least what its runs took, because a script that
-    found them done was quick. Unpacked runs have no logs of steps: what they took alone."""
+    """Returns the duration of a finished figure's steps here [s], or None. It is at least that of its runs, because a
+    script that found them done was quick. Unpacked runs have no logs of steps: their own duration alone counts."""
     records = [json.loads(path.read_text()) for path in (runs / f"{step.log}.json" for step in
                                                          steps(recipe, scale, backend, "ogc")) if path.is_file()]
     took = [record["seconds"] for record in records if "seconds" in record]
@@ -239,15 +241,16 @@ def seconds_of(recipe, scale, backend, runs):
 
 
 def seconds_of_run(path):
-    """From a run's start to its end [s]; 0 where it has not ended."""
+    """Returns the time from a run's start to its end [s]; 0 if it has not ended."""
     manifest = json.loads(path.read_text())
-    if not manifest.get("ended"):  # "" while it is running, and where it was stopped for good
+    if not manifest.get("ended"):  # "" while it is running, and if it was stopped for good
         return 0.0
     return (datetime.fromisoformat(manifest["ended"]) - datetime.fromisoformat(manifest["started"])).total_seconds()
 
 
 def durations(chosen, scale, backend, runs, machine):
-    """Rows of results/MACHINE/durations.csv: what the finished ones of the `chosen` figures took here."""
+    """Returns rows of results/MACHINE/durations.csv: the durations of the finished ones of the `chosen` figures
+    here."""
     for recipe in chosen:
         took, drawn = seconds_of(recipe, scale, backend, runs), "illustration" in recipe.body
         if took is not None:
@@ -256,7 +259,7 @@ def durations(chosen, scale, backend, runs, machine):
 
 
 def measured_times():
-    """(figure, scale, backend) -> (seconds, machine) of results/*/durations.csv."""
+    """Returns (figure, scale, backend) -> (seconds, machine) of results/*/durations.csv."""
     result = {}
     for path in sorted(RESULTS.glob("*/durations.csv")):
         with path.open(newline="") as file:
@@ -272,7 +275,7 @@ def in_words(seconds):
 
 
 def table(recipes, scale, backend, runs):
-    """Lines of --list."""
+    """Returns the lines of --list."""
     times, lines = measured_times(), [f"{'figure':22} {'scene':23} {'scale':6} {'time (measured on)':34} done  title"]
     for recipe in recipes.values():
         used = backend if backend in recipe.backends else recipe.backends[0]
@@ -301,7 +304,7 @@ def arguments():
 
 
 def asked(options):
-    """Lines that answer what main was asked. Throws RecipeError."""
+    """Carries out the options that end main before any step, and returns the lines to print. Throws RecipeError."""
     book, scale, backend = load(), options.scale, options.backend
     if options.stamp:
         program_stamp(options.runs, options.stamp)

@@ -1,8 +1,8 @@
-"""`yarn_twist` as scene files: twisted otherwise (Twist), or without the motion that turns it (Release), so that what
-was twisted is let go, or hangs as it is from the start. The first row, which the motion held, is cast on: bights are
-joined by springs, each to the next, and each loop is closed at its neck. Nothing else holds the first row of a knit,
-and it runs out under its own weight, twisted or not. Threads can pass through a spring, but not between two others that
-it keeps as near as a loop's neck is, the yarn's thickness. Python's own library is enough.
+"""Writes `yarn_twist` as scene files: twisted in another way (Twist), or without the motion that turns it (Release), so
+that the twisted cloth is let go, or hangs untwisted from the start. The first row, which the motion held, is cast on:
+springs join each bight to the next, and each loop is closed at its neck. Without that nothing holds the first row of a
+knit, and it runs out under its own weight, twisted or not. Threads can pass through a spring, but not between two
+threads that it keeps as near as a loop's neck is, the yarn's thickness. Needs only Python's own library.
 """
 
 import json
@@ -13,20 +13,20 @@ SCENE, TURNED, YARN = "yarn_twist", "lower", "yarn"
 BIGHT = 0.4 / 33  # [m] between two bights of a row (experiments/scenes/yarn.cpp)
 STIFFNESS = 10  # N/m: 33 of them side by side bear the cloth, 0.7 N, and lengthen by 2 mm each
 LOOP = 49  # segments of a loop, the first of which begins with the yarn (experiments/scenes/yarn.cpp)
-NECK, NECK_WIDTH = 7, 2.95e-3  # vertices from a loop's ends to where its legs are nearest, and how near [m]
+NECK, NECK_WIDTH = 7, 2.95e-3  # vertices from a loop's ends to where its legs are nearest, and their distance there [m]
 NECK_STIFFNESS = 100  # N/m, of a segment of the yarn: k_s/l
 # Damping by vertex resists with k_d times the stiffness of the segments at the vertex, 2 k_s/l, against a mass of ρ l:
 # velocities decay at 2 k_s k_d/(ρ l²). Twice the frequency of the slowest swing, 1.2 √(g/L) of a rope as long as the
-# cloth, L = 0.8 m once its own weight has stretched it, is 8.4 1/s, which brings it to rest soonest. Steps
-# that are solved brake so; those of few iterations less.
+# cloth, L = 0.8 m once its own weight has stretched it, is 8.4 1/s, which brings it to rest soonest. Solved steps brake
+# at this rate; steps of few iterations brake less.
 BRAKE_RATE = 8.4  # 1/s
 SEGMENT = 1.04e-3  # l [m] (experiments/scenes/yarn.cpp: 51.03 mm a loop of 49)
 
 
 def bights(vertices):
-    """The yarn's end, and the middle vertex of each bight of the first row, in order: of each run of consecutive
-    vertices but short ones between bights, where the next row reaches down to the edge. Half a bight ends the yarn;
-    were it left out, the first loop would be open, and its wale could run."""
+    """Returns the yarn's end, and the middle vertex of each bight of the first row, in order. A bight is a run of
+    consecutive vertices, except short ones between bights, where the next row reaches down to the edge. Half a bight
+    ends the yarn; without it the first loop would be open, and its wale could run."""
     runs, run = [], []
     for v in sorted(vertices):
         if run and v != run[-1] + 1:
@@ -44,7 +44,7 @@ def spring(a, b, stiffness, rest_length):
 
 
 def cast_on(motion):
-    """Springs between the bights that the motion held, and at the necks of their loops."""
+    """Returns springs between the bights that the motion held, and at the necks of their loops."""
     held = bights(v for part in motion["vertices"] for v in part["indices"])
     loops = range(0, LOOP * (len(held) - 1), LOOP)
     return [*(spring(a, b, STIFFNESS, BIGHT) for a, b in zip(held, held[1:])),
@@ -52,7 +52,8 @@ def cast_on(motion):
 
 
 def brake(rod):
-    """k_d of this material [s] with which, in runs with `damping=per_vertex`, velocities decay at BRAKE_RATE."""
+    """Returns the k_d of this material [s] with which, in runs with `damping=per_vertex`, velocities decay at
+    BRAKE_RATE."""
     return BRAKE_RATE * rod["density"] * SEGMENT**2 / (2 * rod["stretch"])
 
 
@@ -61,7 +62,7 @@ def rod_of(scene):
 
 
 def stiffen(scene, factor):
-    """Against stretch and bend alike."""
+    """Stiffens stretch and bend alike."""
     rod = rod_of(scene)
     for name in ("stretch", "bend"):
         rod[name] *= factor
@@ -72,10 +73,10 @@ def motion_that_turns(scene):
 
 
 class Changed:
-    """The scene of a `scale`, changed, as a file at `path` below the folder of the runs (jobs.Job)."""
+    """Holds the scene of a `scale`, changed, as a file at `path` below the folder of the runs (jobs.Job)."""
 
     def write(self, program, root):
-        """Where it is missing."""
+        """Writes the scene if it is missing."""
         path = root / self.path
         if path.is_file():
             return
@@ -88,8 +89,8 @@ class Changed:
 
 @dataclass(frozen=True)
 class Twist(Changed):
-    """The scene of a scale, `turns` times turned, at `pace` times its speed, by yarn of `stiffness` times its own, and
-    then held so many seconds."""
+    """Holds the scene of a scale, `turns` times turned, at `pace` times its speed, with yarn of `stiffness` times its
+    own, and then held for so many seconds."""
 
     scale: str
     turns: float
@@ -99,7 +100,7 @@ class Twist(Changed):
 
     @property
     def seconds(self):
-        """Until it is let go."""
+        """Returns the time until it is let go."""
         return 2 * self.turns / self.pace + self.held
 
     @property
@@ -115,8 +116,8 @@ class Twist(Changed):
 
 @dataclass(frozen=True)
 class Release(Changed):
-    """The scene of a scale as a file below the folder of the runs (jobs.Job). `braked`: its motion is damped, for runs
-    with `damping=per_vertex`; where it comes to rest no damping decides. `stiffness` as in Twist."""
+    """Holds the scene of a scale as a file below the folder of the runs (jobs.Job). `braked`: its motion is damped, for
+    runs with `damping=per_vertex`; this does not change where it comes to rest. `stiffness` as in Twist."""
 
     scale: str
     braked: bool = False

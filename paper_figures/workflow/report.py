@@ -1,9 +1,9 @@
 """The report: index.html with every figure, table and claim, a page a scene with its curves, and one of the ablations;
-each file holds its pictures and style itself and needs no network.
+each file contains its pictures and style and needs no network.
 
-It is made of claims, accepted results and recipes, and never edited: the verdicts in it are those of verdicts.py, which
-a test holds it to. Runs that were just made stand beside the accepted ones: their numbers, judged where they are of the
-size that the claim needs, their pictures and their curves.
+It is generated from claims, accepted results and recipes, and never edited: its verdicts are those of verdicts.py,
+which a test checks. New runs are shown beside the accepted ones: their numbers, judged if they have the size that the
+claim needs, their pictures and their curves.
 """
 
 import argparse
@@ -38,7 +38,7 @@ PAPER_ORDER = [f"fig{number:02d}" for number in range(1, 23)]
 
 @dataclass(frozen=True)
 class JustMade:
-    """Run folders of the workflow, and what it was asked for."""
+    """Holds the run folders of the workflow, and the scale and backend of the call."""
 
     folder: Path
     scale: str
@@ -46,12 +46,12 @@ class JustMade:
     evidence: Evidence
 
     def picture(self, recipe):
-        """The picture of a figure that is there, or None."""
+        """Returns the picture of a figure if it exists, or None."""
         path = self.folder / recipe.picture(self.scale, self.backend)
         return path if path.suffix == ".png" and path.is_file() else None
 
     def about(self, claim):
-        """What these runs say about a claim, as HTML; empty where they say nothing."""
+        """Returns what these runs show about a claim, as HTML; empty if nothing."""
         judged = verdicts.judge(claim, self.evidence) if "measure" in claim else None
         if judged and judged.measured:
             return f'{judged.measured.value:.4g}<br><small class="fresh">{escape(judged.verdict)}</small>'
@@ -73,7 +73,7 @@ def embedded(data, words):
 
 
 def shown(path, words):
-    """A picture or a movie as HTML."""
+    """Returns a picture or a movie as HTML."""
     if path.suffix != ".mp4":
         return embedded(path.read_bytes(), words)
     data = base64.b64encode(path.read_bytes()).decode()
@@ -108,7 +108,7 @@ def rows_table(judgements, band, evidence, fresh):
 
 
 def claim_table(judgements, fresh=None):
-    """Results, and below them what whoever set the run up decided."""
+    """Returns a table of results, and below them the settings that the experimenter chose."""
     results, given = verdicts.apart(judgements)
     below = rows_table(given, "as printed where within, and why", "run", fresh)
     heading = "<h3>Settings and counts of meshes</h3>" if below else ""
@@ -116,19 +116,19 @@ def claim_table(judgements, fresh=None):
 
 
 def numbered(text):
-    """fig02_x and fig2 alike -> fig02."""
+    """Returns fig02 for fig02_x and fig2 alike."""
     found = re.match(r"fig(\d+)", text)
     return f"fig{int(found[1]):02d}" if found else text
 
 
 def pictures_of(figure, folder=RESULTS):
-    """Accepted pictures of a figure, and its movies after them."""
+    """Returns the accepted pictures of a figure, and then its movies."""
     return [path for suffix in ("png", "mp4") for path in sorted(folder.rglob(f"*.{suffix}"))
             if numbered(path.stem) == figure]
 
 
 def origin_of(path):
-    """What the provenance beside an accepted file says about it, in words."""
+    """Returns in words what the provenance beside an accepted file states about it."""
     table = path.parent / "provenance.csv"
     if table.is_file():
         with table.open(newline="") as file:
@@ -140,7 +140,7 @@ def origin_of(path):
 
 
 def pictures_just_made(figure, mine, fresh):
-    """What the workflow just drew of a figure, beside the accepted pictures."""
+    """Returns what the workflow just drew of a figure, for display beside the accepted pictures."""
     if not fresh:
         return ""
     how = f"{escape(fresh.scale)}, {escape(fresh.backend)}</small></figcaption></figure>"
@@ -151,7 +151,7 @@ def pictures_just_made(figure, mine, fresh):
 
 
 def commands_of(evidence, scene):
-    """The commands that made the accepted runs of a scene, each once, with machine and commit."""
+    """Returns the commands that made the accepted runs of a scene, each once, with machine and commit."""
     lines = dict.fromkeys((run.manifest["command"], run.manifest["device"], run.manifest["commit"][:10])
                           for run in evidence.runs if run.manifest["scene"]["name"] == scene)
     return "".join(f"<li><code>{escape(command)}</code> – {escape(device)}, commit {escape(commit)}</li>"
@@ -159,7 +159,7 @@ def commands_of(evidence, scene):
 
 
 def how_to_redo(recipe):
-    """The command that makes a figure, and where its parameters stand."""
+    """Returns the command that makes a figure, and the place of its parameters."""
     scale = "" if "illustration" in recipe.body else " --scale paper"
     options = shlex.join(map(str, recipe.body.get("run", recipe.body.get("options", [])))) or "those of the scene"
     return (f"<li><code>experiments/reproduce {escape(recipe.name)}{scale}</code> (parameters: "
@@ -172,7 +172,7 @@ def accepted_picture(figure, path):
 
 
 def what_it_says(mine, claims):
-    """What is to be known of a figure without claims, or that is not there yet."""
+    """Returns the text for a figure that has no claims or is not implemented."""
     words = "" if claims else "No claim in numbers."
     if mine and "illustration" in mine[0].body:
         words = "Drawn from the exact reference; it makes no claim in numbers."
@@ -181,7 +181,7 @@ def what_it_says(mine, claims):
 
 
 def figure_section(figure, book, judgements, evidence, fresh=None):
-    """Pictures, claims, parameters and commands of one figure."""
+    """Returns pictures, claims, parameters and commands of one figure."""
     mine = [recipe for recipe in book.values() if numbered(recipe.name) == figure]
     claims = [j for j in judgements if j.claim["figures"][0] == figure]
     scenes = sorted({j.claim["scene"] for j in claims} | {recipe.scene for recipe in mine} - {""})
@@ -201,7 +201,8 @@ def figure_section(figure, book, judgements, evidence, fresh=None):
 
 
 def table1_section(judgements):
-    """Table 1 has its claims with the figures' scenes: here a row a scene, with a link to them; results first."""
+    """Returns the section of Table 1, whose claims are shown with the figures' scenes: here a row for each scene, with
+    a link to them; results first."""
     scenes = dict.fromkeys(j.claim["scene"] for j in judgements if "table1" in j.claim["figures"])
     rows, columns = "", (verdicts.VERDICTS, verdicts.AS_SET)
     for scene in scenes:
@@ -218,7 +219,7 @@ def table1_section(judgements):
 
 
 def inline(text):
-    """Inline marks of the list of deviations: code and emphasis."""
+    """Returns a text of the list of deviations as HTML, with its inline markup: code and emphasis."""
     return re.sub(r"\*([^*]+)\*", r"<em>\1</em>", re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text)))
 
 
@@ -232,11 +233,11 @@ def deviations_section(path=DEVIATIONS):
 
 
 def curves(run):
-    """PNG of a run's time, detections, contacts and smallest distance over its steps."""
+    """Returns a PNG of a run's time, detections, contacts and smallest distance over its steps."""
     from plots import style
 
     plt = style.use()
-    # a layout that is computed doubles the time of the report
+    # a computed layout doubles the time of the report
     figure, axes = plt.subplots(2, 2, figsize=(10, 5.2), layout="none")
     figure.subplots_adjust(left=0.07, right=0.98, bottom=0.09, top=0.98, wspace=0.18, hspace=0.25)
     panels = (("wall", "time a step [ms]", 1), ("discrete_detections", "detections a step", 1),
@@ -252,7 +253,7 @@ def curves(run):
 
 
 def from_the_start(run):
-    """Whether the run has a course that is worth curves: a window of another run, or a single step of it, has none."""
+    """Returns whether a run's curves are worth drawing; those of a window or of a single step are not."""
     return run.step_count > 1 and run.first_step == 1
 
 
@@ -276,8 +277,8 @@ def scene_page(scene, judgements, evidence, fresh=None):
 
 
 def write(out, evidence=None, fresh=None):
-    """index.html at `out` and the scenes' pages beside it, with what was just made (JustMade) if given. Returns
-    paths."""
+    """Writes index.html at `out` and the scenes' pages beside it, with the new runs in `fresh` (JustMade) if given.
+    Returns paths."""
     evidence, book, out = evidence or Evidence(), recipes.load(), Path(out)
     judgements = verdicts.judge_all(evidence)
     figures = [f for f in PAPER_ORDER if any(numbered(n) == f for n in book)

@@ -28,13 +28,14 @@ from paper_figures.workflow.judge_counts import STAGES
 
 
 class Runner:
-    """Makes parts of a book below one folder, by one program."""
+    """Makes parts of a book below one folder, with one program."""
 
     def __init__(self, program, out, limit, part_limit=None, jobs=1):
         self.program, self.out, self.limit, self.part_limit, self.jobs = program, out, limit, part_limit, jobs
 
     def chain(self, part, chain, limit):
-        """How its jobs ended, the worst of them; one that begins with the state of a run that failed is left out."""
+        """Makes a chain's jobs and returns the worst way in which one ended; a job that begins with the state of a
+        failed run is left out."""
         root, ends = self.out / part.folder, [KEPT]
         for job in chain:
             state = getattr(job, "state", ())
@@ -48,7 +49,8 @@ class Runner:
         return FINISHED if FINISHED in ends else KEPT
 
     def part(self, part):
-        """How a part ended. Throws RunFailure with what its chains say, when all have ended."""
+        """Makes a part and returns how it ended. Throws RunFailure with the messages of its chains, when all have
+        ended."""
         limit = Limit(self.part_limit, self.limit)
         with ThreadPoolExecutor(max_workers=self.jobs) as pool:
             tasks = [pool.submit(self.chain, part, chain, limit) for chain in part.chains]
@@ -63,7 +65,8 @@ class Runner:
         return next(end for end in (STOPPED, FINISHED, KEPT) if end in ends)
 
     def show(self, part):
-        """Links the run of the part's first job to where the workflow looks for it, if nothing is there."""
+        """Links the run of the part's first job to the folder where the workflow looks for it, if that does not
+        exist."""
         link, run = self.out / part.shown_as, self.out / part.folder / part.chains[0][0].name if part.shown_as else None
         if run and manifest_of(run).get("status") == "finished" and not link.exists():
             link.parent.mkdir(parents=True, exist_ok=True)
@@ -123,7 +126,7 @@ def arguments():
 
 
 def unpacked(options):
-    """Exit status."""
+    """Unpacks archives and returns the exit status."""
     try:
         for path in packing.unpack(options.unpack, options.out, options.program):
             print(path)
@@ -134,7 +137,7 @@ def unpacked(options):
 
 
 def made(options, chosen):
-    """Exit status."""
+    """Makes the chosen parts and returns the exit status."""
     limit = Limit(options.time_limit)
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, lambda *_: limit.stop())

@@ -1,4 +1,5 @@
-"""Runs of `ogc` that a figure needs, each done once: a folder that holds a finished run is used as it is."""
+"""Provides the runs of `ogc` that a figure needs, each made once: a folder that holds a finished run is used as it
+is."""
 
 import csv
 import re
@@ -15,7 +16,7 @@ from plots.run_folder import Run, RunError
 
 @dataclass
 class Iterations:
-    """iterations.csv of one step: column name without unit -> array."""
+    """Holds iterations.csv of one step: column name without unit -> array."""
 
     columns: dict
 
@@ -24,7 +25,7 @@ class Iterations:
 
 
 def run_job(ogc, job, folder):
-    """The run of a job (paper_figures.workflow.commands) below `folder`. Throws RunError."""
+    """Returns the run of a job (paper_figures.workflow.commands) below `folder`. Throws RunError."""
     try:
         job.make(ogc, Path(folder), shown=True)
     except RunFailure as error:
@@ -33,7 +34,7 @@ def run_job(ogc, job, folder):
 
 
 def iterations(run, step):
-    """Rows of one step. Throws RunError where the run has none."""
+    """Returns the rows of one step. Throws RunError if the run has none."""
     path = run.folder / "iterations.csv"
     if not path.is_file():
         raise RunError(f"{path} is missing: run with --iterations")
@@ -47,7 +48,7 @@ def iterations(run, step):
 
 
 def provenance(run):
-    """What a row of an accepted result must say about where it comes from. Of paths in the command the last part is
+    """Returns the provenance that a row of an accepted result must have. Of paths in the command the last part is
     kept."""
     m = run.manifest
     command = m["command"] if isinstance(m["command"], str) else " ".join(m["command"])
@@ -58,7 +59,7 @@ def provenance(run):
 
 
 def write_table(path, rows):
-    """Rows (dictionaries with the same keys, units in their names) as CSV."""
+    """Writes rows (dictionaries with the same keys, units in their names) as CSV."""
     with Path(path).open("w", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
         writer.writeheader()

@@ -1,6 +1,6 @@
-"""A sheet of cloth that slides down an inclined plane without friction, as a scene file: the plane is level, and
-gravity is inclined. Nothing but the plane's normal force acts on the sheet, so that its centre moves along the plane as
-a free body does. Python's own library is enough.
+"""Writes a scene file with a sheet of cloth that slides down an inclined plane without friction: the plane is level,
+and gravity is inclined. Only gravity and the plane's normal force act on the sheet, so that its centre moves along the
+plane like a free body. Needs only Python's own library.
 """
 
 import json
@@ -11,22 +11,22 @@ from pathlib import Path
 from paper_figures.workflow import layers
 
 RADIUS = 3e-3  # [m]
-SPACING = 1 / 69  # [m] of the sheet's vertices, as in fifty_layers
+SPACING = 1 / 69  # [m] between the sheet's vertices, as in fifty_layers
 ANGLE = math.radians(20)
 GRAVITY = 9.81  # [m/s²]
 ALONG, ACROSS = GRAVITY * math.sin(ANGLE), GRAVITY * math.cos(ANGLE)  # [m/s²]
 TIME_STEP = 1 / 300  # [s]
 DENSITY, STIFFNESS = 0.2, 100  # [kg/m²], [N/m]
-CELL = 10 * SPACING  # [m] of the plane's
+CELL = 10 * SPACING  # [m] of the plane's cells
 
 
 def resting_height():
-    """Where one contact a vertex carries it: k_c (r − d) = m g cos."""
+    """Returns the height at which one contact carries a vertex: k_c (r − d) = m g cos."""
     return RADIUS - DENSITY * SPACING**2 * ACROSS / STIFFNESS
 
 
 def plane(side, steps):
-    """(positions, faces) of a plane that reaches farther than the sheet comes."""
+    """Returns (positions, faces) of a plane that extends farther than the sheet slides."""
     way = 0.5 * ALONG * (steps * TIME_STEP)**2 + side * SPACING
     cells = 2 * (int(way / CELL) + 2)
     return layers.positions(cells + 1, CELL, 0.0), layers.triangles(cells + 1)
@@ -50,7 +50,7 @@ def write(folder, side, steps, on=None):
 
 @dataclass(frozen=True)
 class Slide:
-    """The scene of so many steps as a file below the folder of the runs (jobs.Job)."""
+    """Holds the scene of so many steps, written to a file below the folder of the runs (jobs.Job)."""
 
     side: int
     steps: int
@@ -60,7 +60,7 @@ class Slide:
         return f"scenes/slide_{self.side}_{self.steps}/slide.json"
 
     def write(self, program, root):
-        """Where it is missing."""
+        """Writes the scene if it is missing."""
         path = root / self.path
         if not path.is_file():
             write(path.parent, self.side, self.steps)

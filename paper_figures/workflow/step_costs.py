@@ -14,8 +14,9 @@ from paper_figures.workflow.evidence import EvidenceError, runs_in
 
 
 def costs(run):
-    """(step, detection, 10⁵ contacts, residual), all in ms; the residual is a root mean square. Throws EvidenceError
-    where the rows can't tell these apart. Of an accepted run whose rows are thinned: what `accept` computed before."""
+    """Returns (step, detection, 10⁵ contacts, residual), all in ms; the residual is a root mean square. Throws
+    EvidenceError if the rows don't separate these costs. Of an accepted run with thinned rows it returns what `accept`
+    computed."""
     if run.thinned:
         if "step_costs" not in run.manifest["whole_run"]:
             raise EvidenceError(f"{run.source}: no costs were computed from its rows before they were thinned")
@@ -31,14 +32,14 @@ def costs(run):
 
 
 def described(run):
-    """A line of a Markdown table."""
+    """Returns a line of a Markdown table."""
     numbers = (run.mean("wall"), run.largest("wall"), run.mean("discrete_detections"), *costs(run))
     cells = " | ".join(f"{number:.3g}" for number in numbers)
     return f"| {run.manifest['scene']['name']}, {run.step_count} steps | {cells} |"
 
 
 def named(words):
-    """The runs of folders and manifests. Throws EvidenceError where there is none."""
+    """Returns the runs of folders and manifests. Throws EvidenceError if there is none."""
     for word in map(Path, words):
         found = [run for run in runs_in(word if word.is_dir() else word.parent) if word.is_dir()
                  or run.source == word.name]

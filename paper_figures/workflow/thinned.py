@@ -1,8 +1,8 @@
-"""The rows of a long run as results keep them: of each hundred steps the last row, and mean, smallest, median and
-largest of every column (`X_hundreds.csv`), with the statistics of the whole run beside its manifest (`whole_run`),
-computed from every row. Short runs keep every row.
+"""Thins the rows of a long run for results: of each hundred steps it keeps the last row, and mean, smallest, median and
+largest of every column (`X_hundreds.csv`), with the statistics of the whole run, computed from every row, in its
+manifest (`whole_run`). Short runs keep every row.
 
-A statistic of the first N steps can be had from the hundreds where N is a multiple of a hundred, or the whole run.
+A statistic of the first N steps is available if N is a multiple of a hundred, or the whole run.
 """
 
 import csv
@@ -13,24 +13,24 @@ import statistics
 from plots.columns import FORMER_COLUMNS, column_and_unit
 
 BLOCK = 100  # steps
-LONGEST = 200  # rows; a longer run is thinned
+LONGEST = 200  # rows; longer runs are thinned
 QUANTITIES = ("row", "mean", "smallest", "median", "largest")
-HEAD = ("of", "rows [1]")  # what stands before the columns of steps.csv: one of QUANTITIES, and of how many rows
+HEAD = ("of", "rows [1]")  # columns before those of steps.csv: one of QUANTITIES, and the number of rows
 
 
 def is_long(text):
-    """Whether the rows (the text of steps.csv) are more than results keep."""
+    """Returns whether the rows (the text of steps.csv) are more than results keep."""
     return text.count("\n") > LONGEST + 1
 
 
 def parsed(text):
-    """(titles, rows as texts) of steps.csv; a row that was cut off is left out."""
+    """Returns (titles, rows as texts) of steps.csv; a truncated row is left out."""
     titles, *rows = [row for row in csv.reader(io.StringIO(text)) if row]
     return titles, [row for row in rows if len(row) == len(titles)]
 
 
 def hundreds(text):
-    """The text of X_hundreds.csv for the text of steps.csv."""
+    """Returns the text of X_hundreds.csv for the text of steps.csv."""
     titles, rows = parsed(text)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -44,7 +44,8 @@ def hundreds(text):
 
 
 def _quantities(values):
-    """Mean, smallest, median and largest as texts, to the nine digits that tell numbers of single precision apart."""
+    """Returns mean, smallest, median and largest as texts, with the nine digits that distinguish numbers of single
+    precision."""
     if any(map(math.isnan, values)):
         return ("nan",) * 4
     found = (statistics.fmean(values), min(values), statistics.median(values), max(values))
@@ -52,7 +53,7 @@ def _quantities(values):
 
 
 def whole_run(text):
-    """Statistics of all rows, and the program that computed them, for the manifest."""
+    """Returns statistics of all rows, and the program that computed them, for the manifest."""
     titles, rows = parsed(text)
     columns = {column_and_unit(name)[0]: [float(cell or "nan") for cell in column]
                for name, column in zip(titles, zip(*rows))}
@@ -67,11 +68,11 @@ def _by_name_of_today(values):
 
 
 class Hundreds:
-    """Statistics of the first `steps` steps of a thinned run, by the names of columns without their units. Throws
-    ValueError where `steps` ends between two hundreds, KeyError where no such column is kept."""
+    """Holds statistics of the first `steps` steps of a thinned run, by the names of columns without their units. Throws
+    ValueError if `steps` ends between two hundreds, KeyError if no column of that name is kept."""
 
     def __init__(self, columns, whole, steps=None):
-        """`columns`: of X_hundreds.csv, as texts by name; `whole`: the manifest's `whole_run`."""
+        """Reads `columns`, those of X_hundreds.csv, as texts by name, and `whole`, the manifest's `whole_run`."""
         self._columns, self._whole = columns, {"rows": whole["rows"], **{kind: _by_name_of_today(whole[kind])
                                                                          for kind in ("mean", "largest")}}
         self.count = whole["rows"] if steps is None else min(steps, whole["rows"])
@@ -85,12 +86,12 @@ class Hundreds:
         return name in self._columns and name not in ("of", "rows")
 
     def of(self, quantity, name):
-        """This quantity (one of QUANTITIES) of the column, a number for each hundred steps."""
+        """Returns this quantity (one of QUANTITIES) of the column, a number for each hundred steps."""
         cells = [(kind, cell) for kind, cell in zip(self._columns["of"], self._columns[name]) if kind == quantity]
         return [float(cell or "nan") for _, cell in cells[:math.ceil(self.count / BLOCK)]]
 
     def of_rows(self):
-        """How many rows each hundred has: the last may have fewer."""
+        """Returns the number of rows of each hundred; the last may have fewer."""
         return [int(n) for kind, n in zip(self._columns["of"], self._columns["rows"]) if kind == QUANTITIES[0]]
 
     def mean(self, name):

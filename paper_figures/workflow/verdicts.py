@@ -30,8 +30,8 @@ from paper_figures.workflow.evidence import CLAIMS, RESULTS, Evidence, EvidenceE
 
 KEPT = RESULTS / "verdicts.csv"
 RESULT, SETTING, MESH_COUNT = KINDS = ("result", "setting", "mesh count")
-# What a claim is about follows from what is measured (evidence.value_of). How long a run simulates is its number of
-# steps times the time step: both are set.
+# The measure (evidence.value_of) determines what a claim is about. The simulated time of a run is its number of steps
+# times the time step: both are set.
 KIND_OF_MEASURE = {"setting": SETTING, "material": SETTING, "simulated": SETTING, "scene": MESH_COUNT,
                    "steps": RESULT, "guarantee": RESULT, "real_time": RESULT, "ratio": RESULT, "table": RESULT}
 COLUMNS_THAT_ARE_SET = ("steps [1]",)
@@ -45,8 +45,8 @@ SINGLE = 2.0**-24
 
 @dataclass(frozen=True)
 class Judgement:
-    """A claim (as its file has it, with scene, figures and kind), its verdict, our number or None, and what else must
-    be said; `late`: whether a run that answers it was known when its band was set."""
+    """Holds a claim (as in its file, with scene, figures and kind), its verdict, our number or None, and further
+    remarks; `late`: whether a run that answers it was known when its band was set."""
 
     claim: dict
     verdict: str
@@ -56,8 +56,8 @@ class Judgement:
 
 
 def load(folder=CLAIMS):
-    """All claims; each knows its scene, its figures and when its band was set. Throws EvidenceError where a file is
-    wrong."""
+    """Returns all claims with their scene, figures and the time when their band was set. Throws EvidenceError if a file
+    is wrong."""
     result = []
     for path in sorted(Path(folder).glob("*.json")):
         document = json.loads(path.read_text())
@@ -78,7 +78,7 @@ def load(folder=CLAIMS):
 
 
 def kind_of(claim):
-    """One of KINDS, by what is measured; where nothing is, the claim says it itself. Throws EvidenceError."""
+    """Returns one of KINDS, from what is measured; if nothing is, from the claim itself. Throws EvidenceError."""
     specs = claim.get("measure", [])
     kinds = {_kind_of_measure(spec) for spec in (specs if isinstance(specs, list) else [specs])} or {claim.get("kind")}
     if len(kinds) != 1 or not kinds <= set(KINDS):
@@ -107,8 +107,8 @@ def _check(claim, path):
 
 
 def within(value, printed, band):
-    """Whether `value` lies in the band; "stored" is the printed number rounded to single precision, None an open
-    end."""
+    """Returns whether `value` lies in the band; "stored" is the printed number rounded to single precision, None an
+    open end."""
     if band == "stored":
         return abs(value - printed) <= SINGLE * abs(printed)
     low, high = band
@@ -116,7 +116,7 @@ def within(value, printed, band):
 
 
 def _is_empty(measure, measured):
-    """Whether it is a cell of a table that says nothing."""
+    """Returns whether the measured value is an empty cell of a table."""
     return "table" in measure and math.isnan(measured.value)
 
 
@@ -151,9 +151,9 @@ def judge(claim, evidence):
 
 
 def _other_choices(claim, varied):
-    """What the measure gives where a choice that the paper leaves open is made otherwise (`choices` of the claim:
-    `says`, and what is other in the measure): no verdict, but a claim that fails as printed may hold so. And which of
-    them no run made."""
+    """Returns sentences about the measure with other choices where the paper leaves one open (`choices` of the claim:
+    `says`, and what differs in the measure), and about choices that no run made. This is no verdict, but a claim that
+    fails as printed may hold with another choice."""
     missing = [says for says, value in varied if value is None]
     made = [each for each in varied if each[1] is not None and not math.isnan(each[1])]
     hits = [each for each in made if within(each[1], claim["value"], claim["band"])]
@@ -165,19 +165,19 @@ def _other_choices(claim, varied):
 
 
 def _measured_with(choice, claim, evidence, wanted):
-    """A number, NaN where a run that made this choice gave none, or None where no run made it."""
+    """Returns a number, NaN if a run that made this choice gave none, or None if no run made it."""
     try:
         otherwise = {key: other for key, other in choice.items() if key != "says"}
         printed = claim["measure"][0] if isinstance(claim["measure"], list) else claim["measure"]
         found = evidence.measure({**printed, **otherwise}, wanted)
-    except EvidenceError:  # a table older than the column
+    except EvidenceError:  # a table without the column, because it is older
         return None
     return found.value if found else None
 
 
 def _known_before(claim, evidence, wanted):
-    """The number that a run had given when the claim's band was set, in words; empty where there was none, or where the
-    band leaves no choice."""
+    """Returns in words the number that a run had given when the claim's band was set; empty if there was none, or if
+    the band leaves no choice."""
     if claim["band"] == "stored":
         return ""
     earlier = evidence.before(claim["band_set"])
@@ -186,7 +186,7 @@ def _known_before(claim, evidence, wanted):
 
 
 def _elsewhere(claim, evidence):
-    """What the same measure gives at a smaller scale: no verdict, but worth knowing."""
+    """Returns the value of the same measure at a smaller scale. This is no verdict, but worth knowing."""
     notes = [claim["waits_for"]] if "waits_for" in claim else []
     for scale in STATES:
         found = at_another_scale(claim, evidence, scale)
@@ -196,12 +196,12 @@ def _elsewhere(claim, evidence):
 
 
 def at_another_scale(claim, evidence, scale):
-    """What the claim's measure gives at another scale than the claim is about, or None: no verdict."""
+    """Returns the value of the claim's measure at another scale than the claim's, or None. This is no verdict."""
     wanted = {"scene": claim["scene"], **claim.get("run", {}), "scale": scale}
     wanted = {key: value for key, value in wanted.items() if key not in ("steps", "device", "audited_states")}
     try:
         return evidence.measure(claim["measure"], wanted)
-    except EvidenceError:  # a table older than the column
+    except EvidenceError:  # a table without the column, because it is older
         return None
 
 
@@ -215,12 +215,12 @@ def counts(judgements, names=VERDICTS):
 
 
 def apart(judgements):
-    """(about results, about what was set)."""
+    """Returns (judgements about results, judgements about settings)."""
     return [[j for j in judgements if (j.claim["kind"] == RESULT) == wanted] for wanted in (True, False)]
 
 
 def headline(judgements):
-    """The first line of the report: results alone count; what was set stands beside them."""
+    """Returns the first line of the report: results alone count; settings stand beside them."""
     results, given = apart(judgements)
     found, settings = counts(results), counts(given, AS_SET)
     late = sum(j.late for j in results if j.verdict == "reproduced")
@@ -233,8 +233,8 @@ def headline(judgements):
 
 
 def unjudged(judgements):
-    """Claims not yet run of a scene that has accepted results, unless they say what they wait for, or what is
-    not varied; and claims that say so although they are judged."""
+    """Returns claims that are not yet run, of scenes with accepted results, unless they name what they wait for or what
+    is not varied; and claims that name it although they are judged."""
     judged = {j.claim["scene"] for j in judgements if j.measured or "not judged" in j.note}
     silent = [j.claim["id"] for j in judgements if j.verdict == "not yet run" and j.claim["scene"] in judged
               and not {"waits_for", "not_varied"} & set(j.claim)]
@@ -256,7 +256,7 @@ def band_in_words(claim):
 
 
 def as_table(judgements):
-    """CSV with a row a claim: results first, settings and counts of meshes below them."""
+    """Returns CSV with a row for each claim: results first, settings and counts of meshes below them."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["claim", "kind", "verdict", "paper", "unit", "band", "band set after a run",

@@ -2,8 +2,8 @@
 time of a step goes, how a run's first quarter differs from its last, how many states were audited.
 
 Usage: python3 -m paper_figures.workflow.whole_runs MACHINE [--write]. `--write` keeps results/MACHINE/whole_runs.csv;
-the standard library is enough. What a detection and contacts cost stands in the manifests of thinned runs (`accept`
-computes it); of a run whose rows are all kept it needs numpy.
+the standard library is enough. The costs of a detection and of contacts are in the manifests of thinned runs (`accept`
+computes them); for a run with all rows they need numpy.
 """
 
 import argparse
@@ -20,7 +20,8 @@ COSTS = ("step alone [ms]", "a detection [ms]", "10⁵ contacts [ms]", "residual
 
 
 def quarters(run, name):
-    """Means of a column over the first and the last quarter of a run's rows, in whole hundreds where it is thinned."""
+    """Returns the means of a column over the first and the last quarter of a run's rows, in whole hundreds if it is
+    thinned."""
     values = run.thinned.of("mean", name) if run.thinned else run.column(name)
     quarter = len(values) // 4
     return statistics.fmean(values[:quarter]), statistics.fmean(values[-quarter:])
@@ -37,7 +38,7 @@ def row_of(row, run):
         parts = costs(run)
     except EvidenceError:
         parts = ()
-    if not parts or min(parts) < 0:  # the fit can't tell them apart
+    if not parts or min(parts) < 0:  # the fit can't separate them
         parts = ("",) * len(COSTS)
     return {"scene": row, "membrane": " and ".join(sorted(run.membranes)), "vertices": scene["vertices"],
             "steps": run.step_count,
@@ -54,18 +55,19 @@ def row_of(row, run):
 
 
 def newest(runs):
-    """The newest run with each membrane, the newest of all first."""
+    """Returns the newest run with each membrane, the newest of all first."""
     found = {tuple(run.membranes): run for run in runs}
     return [run for run in reversed(runs) if run in found.values()]
 
 
 def table(folder):
-    """Of each row of Table 1 the run on a GPU that judges its claims, and the newest with another membrane, as CSV."""
+    """Returns as CSV, for each row of Table 1, the run on a GPU that judges its claims, and the newest one with another
+    membrane."""
     evidence = Evidence(folder)
     asked = {claim["scene"]: claim["run"] for claim in verdicts.load() if claim["id"].endswith(".cuda_average")}
     wanted = {row: {"scene": commands.scene_of(row), **asked[commands.scene_of(row)],
                     "bounds": "planes" if row.endswith(commands.WITH_PLANES) else "ball",
-                    "contact": "volume" if row.endswith(commands.WITH_VOLUMES) else "surface"} for row in ROWS}
+                    "body_contact": "volume" if row.endswith(commands.WITH_VOLUMES) else "surface"} for row in ROWS}
     found = {row: evidence.runs_as(wanted[row]) for row in ROWS}
     rows = [row_of(row, run) for row, runs in found.items() for run in newest(runs)]
     if not rows:

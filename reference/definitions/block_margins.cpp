@@ -1,4 +1,4 @@
-// Boundaries as visit_block lists them: what `positive` asks for is open, the rest closed.
+// Lists boundaries in the order of visit_block: conditions with `positive` are open, all others closed.
 #include "reference/definitions/block_margins.hpp"
 
 namespace ogc::reference {

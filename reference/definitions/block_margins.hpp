@@ -1,4 +1,4 @@
-// How deep inside a block a point is, boundary by boundary: exact signs, and lengths to print and to draw.
+// How deep inside a block a point is, boundary by boundary: exact signs, and lengths for printing and drawing.
 #pragma once
 
 #include <vector>
@@ -9,24 +9,24 @@ namespace ogc::reference {
 
 /// One boundary of a block.
 struct BlockMargin {
-  /// What the boundary is part of.
+  /// The kind of boundary.
   enum class Kind : std::uint8_t {
     sphere,  ///< dis(x, a) ≤ r; the length is Eq. 13's penetration depth r − dis(x, a)
     end,     ///< the plane through a vertex, perpendicular to an edge (Eq. 8, 9, 14, 15)
     wall,    ///< the plane through an edge, perpendicular to a triangle (Eq. 9, 10)
   };
   Kind kind = Kind::sphere;  ///< of this boundary
-  Face across;               ///< the face whose block begins there; the face itself for the sphere
+  Face across;               ///< the face whose block begins there; for the sphere the face itself
   int sign = 0;              ///< exact: 1 inside, 0 on the boundary, −1 outside
   double length = 0;         ///< distance to the boundary [m] with this sign, within 1 ulp of double
-  bool closed = false;       ///< as printed: the boundary belongs to the block
-  /// Whether the point is on the inner side of this boundary.
+  bool closed = false;       ///< whether the boundary belongs to the block, as printed
+  /// Returns whether the point is on the inner side of this boundary.
   bool holds() const { return sign > 0 || (sign == 0 && closed); }
 };
 
-/// All boundaries of U_a (Eq. 8, 9, 10) or, with `edge_only`, of U_a^E (Eq. 14, 15), the sphere first; x is in the
-/// block where all hold. The sphere of an edge or a triangle is the cylinder's wall or the pair of planes at distance
-/// r.
+/// Returns all boundaries of U_a (Eq. 8, 9, 10) or, with `edge_only`, of U_a^E (Eq. 14, 15), the sphere first; x is in
+/// the block where all hold. The sphere of an edge or a triangle is the cylinder's wall or the pair of planes at
+/// distance r.
 std::vector<BlockMargin> block_margins(const Complex& mesh, Face face, const Vec3f& x, float contact_radius,
                                        bool edge_only = false);
 

@@ -1,4 +1,4 @@
-// A distance rounded down times γ_p is exact in double and decides nearly always; exact numbers are asked only where
+// A distance rounded down times γ_p is exact in double and decides nearly always; exact numbers are needed only where
 // b_v lies above that product.
 #include "reference/definitions/bound_check.hpp"
 
@@ -13,7 +13,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Not b ≤ γ d. A bound that is not a number is above, and so is an infinite one.
+/// Returns whether b ≤ γ d does not hold; true for a bound that is not a number or infinite.
 bool is_above(float b, const Margin& distance, float relaxation) {
   if (static_cast<double>(b) <= static_cast<double>(relaxation) * distance_below(distance)) return false;
   return !std::isfinite(b) || scaled_distance_less(distance, relaxation, b);
@@ -21,7 +21,7 @@ bool is_above(float b, const Margin& distance, float relaxation) {
 
 }  // namespace
 
-std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, float bound_relaxation,
+std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, float bounds_relaxation,
                                                std::span<const float> bounds) {
   if (bounds.size() != in.positions.size()) {
     throw compare::InputError("bounds_above_exact: " + std::to_string(bounds.size()) + " bounds for " +
@@ -33,7 +33,7 @@ std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, floa
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t v = range.begin(); v < range.end(); ++v)
                         above[v] = in.topology->on_surface(static_cast<compare::Index>(v)) &&
-                                   is_above(bounds[v], limits[v], bound_relaxation);
+                                   is_above(bounds[v], limits[v], bounds_relaxation);
                     });
   std::vector<compare::Index> result;
   for (std::size_t v = 0; v < above.size(); ++v) {

@@ -1,4 +1,4 @@
-// Why a vertex may ask an edge: N_v is a convex cone that meets the star's cone in the vertex alone, so all of its
+// An edge can decide for a vertex: N_v is a convex cone that meets the star's cone in the vertex alone, so all of its
 // directions lie on one side of the surface (a flat vertex has two opposite ones, each of which touches every edge).
 // From a direction g of N_v that is perpendicular to a spoke, the way along that spoke stays off the star: for its
 // points g·w > 0, for those of the star g·w ≤ 0. Hence v + ε g and the point above the spoke lie on the same side.
@@ -17,24 +17,25 @@ ExactVector normal(const Complex& mesh, Index t) {
   return cross(exact(mesh.at(b)) - exact(mesh.at(a)), exact(mesh.at(c)) - exact(mesh.at(a)));
 }
 
-/// Whether the triangle runs through edge (a, b), a < b, from a to b.
+/// Returns whether the triangle runs through edge (a, b), a < b, from a to b.
 bool runs_along(const compare::Triangle& triangle, const compare::Edge& edge) {
   for (std::size_t k = 0; k < 3; ++k)
     if (triangle[k] == edge[0] && triangle[(k + 1) % 3] == edge[1]) return true;
   return false;
 }
 
-/// < 0 where the edge is a ridge seen from outside, > 0 where it is a valley, 0 where its triangles are coplanar.
+/// Returns < 0 where the edge is a ridge seen from outside, > 0 where it is a valley, 0 where its triangles are
+/// coplanar.
 int bend(const Complex& mesh, Index edge) {
   const auto triangles = mesh.triangles_of(edge);
   const ExactVector a = exact(mesh.at(mesh.edge(edge)[0]));
   return sign_of(dot(normal(mesh, triangles[0]), exact(mesh.at(mesh.opposite(triangles[1], edge))) - a));
 }
 
-/// An edge of one triangle.
+/// Returns whether the edge has only one triangle.
 bool is_rim(const Complex& mesh, Index edge) { return mesh.triangles_of(edge).size() == 1; }
 
-/// The edge's two triangles lie on the same side of it in one plane.
+/// Returns whether the edge's two triangles lie on the same side of it in one plane.
 bool is_folded(const Complex& mesh, Index edge) {
   const auto triangles = mesh.triangles_of(edge);
   return bend(mesh, edge) == 0 && sign_of(dot(normal(mesh, triangles[0]), normal(mesh, triangles[1]))) < 0;
@@ -109,7 +110,7 @@ bool outward_of_vertex(const Complex& mesh, Index vertex, const Vec3f& x) {
   return sense < 0 || (sense == 0 && sign_of(dot(normal(mesh, mesh.triangles_of(*spoke)[0]), g)) > 0);
 }
 
-/// The closed triangle holds x; n is its normal, not zero.
+/// Returns whether the closed triangle holds x; n is its normal, not zero.
 bool holds_point(const std::array<ExactVector, 3>& corners, const ExactVector& n, const ExactVector& x) {
   if (!dot(n, x - corners[0]).is_zero()) return false;
   for (std::size_t k = 0; k < 3; ++k)
@@ -117,15 +118,15 @@ bool holds_point(const std::array<ExactVector, 3>& corners, const ExactVector& n
   return true;
 }
 
-/// The sign of a · (1, ε, ε²) for a vanishing ε > 0.
+/// Returns the sign of a · (1, ε, ε²) for a vanishing ε > 0.
 int generic_sign(const ExactVector& a) {
   for (const Exact* component : {&a.x, &a.y, &a.z})
     if (!component->is_zero()) return sign_of(*component);
   return 0;
 }
 
-/// 1 where the ray from x leaves through the triangle, −1 where it enters, 0 where it passes by. x is not on the
-/// triangle.
+/// Returns 1 where the ray from x leaves through the triangle, −1 where it enters, 0 where it passes by. x must not be
+/// on the triangle.
 int crossing(const std::array<ExactVector, 3>& corners, const ExactVector& n, const ExactVector& x) {
   const int direction = generic_sign(n);
   for (std::size_t k = 0; k < 3; ++k)

@@ -1,5 +1,5 @@
-// Nothing here is shared with the detections but the predicates that Algorithms 1 and 2 name themselves; the
-// definitions share not even those.
+// Shares with the detections only the predicates that Algorithms 1 and 2 use themselves; the definitions share not even
+// those.
 #include "reference/definitions/contact_sets.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -22,7 +22,7 @@ Corners corners_of(const Complex& mesh, Index t) {
   return {mesh.at(a), mesh.at(b), mesh.at(c)};
 }
 
-/// The corners, edges and interior of a triangle.
+/// Returns the corners, edges and interior of a triangle.
 std::array<Face, 7> faces_of(const Complex& mesh, Index t) {
   const auto [a, b, c] = mesh.triangle(t);
   const auto [ab, bc, ca] = mesh.topology.triangle_edges[static_cast<std::size_t>(t)];
@@ -34,14 +34,14 @@ bool contains(std::span<const Index> vertices, Index v) {
   return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
 }
 
-/// The lowest-numbered triangle that contains a face.
+/// Returns the lowest-numbered triangle that contains a face.
 Index owner_of(const Complex& mesh, Face face) {
   const auto i = static_cast<std::size_t>(face.index);
   if (face.kind == FaceKind::vertex) return mesh.topology.vertex_triangles[i].front();
   return face.kind == FaceKind::edge ? mesh.topology.edge_triangles[i].front() : face.index;
 }
 
-/// Neither does the triangle contain the vertex, nor are they in one rigid group, and both are on the surface.
+/// Returns whether both are on the surface, the triangle does not contain the vertex, and the pair is not excluded.
 bool is_candidate(const compare::DetectIn& in, Index v, Index t) {
   if (!in.topology->on_surface(v)) return false;
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
@@ -54,13 +54,13 @@ bool in_planes(const Complex& mesh, Face face, const Vec3f& x) {
   return inside;
 }
 
-/// The distance of x and a closed triangle, as a gap.
+/// Returns the distance of x and a closed triangle, as a gap.
 Margin triangle_gap(const Complex& mesh, Index t, const Vec3f& x, float contact_radius) {
   const Corners corners = corners_of(mesh, t);
   return with_radius(feature_gap(corners, closest_feature(corners, x), x), contact_radius);
 }
 
-/// Alg. 1 lines 7–20 for one vertex and one triangle.
+/// Does lines 7–20 of Alg. 1 for one vertex and one triangle.
 void enter(const compare::DetectIn& in, const Complex& mesh, Index v, Index t, std::set<VertexFacetContact>& entered) {
   if (!is_candidate(in, v, t) || sign(triangle_gap(mesh, t, mesh.at(v), in.contact_radius)) >= 0) return;
   const auto feature = static_cast<std::size_t>(closest_feature(corners_of(mesh, t), mesh.at(v)));
@@ -76,7 +76,7 @@ std::vector<Box> triangle_boxes(const Complex& mesh) {
   return boxes;
 }
 
-/// Squared distance as an exact quotient.
+/// Returns the squared distance as an exact quotient.
 Quotient<Exact> exact_squared_distance(const Complex& mesh, Index t, const Vec3f& x) {
   Quotient<Exact> smallest{Exact(-1), Exact(1)};
   for (const Face face : faces_of(mesh, t)) {
@@ -101,8 +101,8 @@ std::vector<VertexFacetContact> vertex_facet_by_definition(const compare::Detect
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
       if (!in.topology->on_surface(mesh.triangle(t)) || is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
       for (const Face face : faces_of(mesh, t)) {
-        // A face without v is a face of some triangle without v, or of triangles with v only; Eq. 12 asks about v ⊄ a
-        // alone.
+        // A face without v is a face of some triangle without v, or only of triangles with v; Eq. 12 requires only v ⊄
+        // a.
         if (!contains(mesh.vertices(face).span(), v) && blocks.in_contact(face, mesh.at(v), in.contact_radius))
           found.insert({v, face, owner_of(mesh, face)});
       }

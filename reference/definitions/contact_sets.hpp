@@ -1,5 +1,5 @@
 // The contact sets of the paper as plain definitions, for comparison with the detections and with each other. Every
-// function looks at all pairs, but the two with a tree.
+// function visits all pairs, except the two with a tree.
 #pragma once
 
 #include <span>
@@ -11,48 +11,48 @@
 
 namespace ogc::reference {
 
-/// F_OGC by Eq. 12 over all faces of triangles, by DefinedBlocks: canonical, with d < r. Quadratic.
+/// Returns F_OGC by Eq. 12 over all faces of triangles, by DefinedBlocks: canonical, with d < r. Takes quadratic time.
 std::vector<compare::VertexFacetContact> vertex_facet_by_definition(const compare::DetectIn& in);
 
-/// F_OGC by Algorithm 1 over all pairs, line by line, with the constructive equations.
+/// Returns F_OGC by Algorithm 1 over all pairs, line by line, with the constructive equations.
 std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compare::DetectIn& in);
 
-/// F_OGC by Algorithm 1 with its sphere query (line 3) of CGAL's tree, line by line, threaded.
+/// Returns F_OGC by Algorithm 1 with its sphere query (line 3) by CGAL's tree, line by line, threaded.
 std::vector<compare::VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in);
 
-/// E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): exact closest points as quotients, by comparing the distances of
-/// all pairs of features, then DefinedBlocks.
+/// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): exact closest points as quotients, by comparing the
+/// distances of all pairs of features, then DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
-/// E_OGC by Algorithm 2 (corrected likewise) over all pairs, with the constructive equations.
+/// Returns E_OGC by Algorithm 2 (with the same corrections) over all pairs, with the constructive equations.
 std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in);
 
-/// E_OGC by Algorithm 2 (corrected likewise) with its sphere query (line 3) of CGAL's tree, threaded.
+/// Returns E_OGC by Algorithm 2 (with the same corrections) with its sphere query (line 3) by CGAL's tree, threaded.
 std::vector<compare::EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in);
 
-/// V_OGC(t): by triangle, the vertices that are in contact with a face that the triangle owns, ascending, one entry for
-/// each contact.
+/// Returns V_OGC(t): for each triangle the vertices in contact with a face that the triangle owns, ascending, one entry
+/// for each contact.
 std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology,
                                                      std::span<const compare::VertexFacetContact> contacts);
 
-/// E_OGC(e): by edge, the contacts (numbers in `contacts`) of which the edge is the lowest-numbered generator on its
-/// side.
+/// Returns E_OGC(e): for each edge the contacts (numbers in `contacts`) of which the edge is the lowest-numbered
+/// generator on its side.
 std::vector<std::vector<std::size_t>> contacts_of_edges(const compare::Topology& topology,
                                                         std::span<const compare::EdgeEdgeContact> contacts);
 
-/// |F_OGC(v)| by vertex, the number of layers (§3.3).
+/// Returns |F_OGC(v)| by vertex, the number of layers (§3.3).
 std::vector<Index> layers(const compare::Topology& topology, std::span<const compare::VertexFacetContact> contacts);
 
-/// Eq. 13: r − d for each contact [m], within 1 ulp of double.
+/// Returns r − d (Eq. 13) for each contact [m], within 1 ulp of double.
 std::vector<double> penetration_depths(const Complex& mesh, std::span<const compare::VertexFacetContact> contacts,
                                        float contact_radius);
 
-/// F_IPC(v) (Eq. 3): triangles without v nearer than r, ascending.
+/// Returns F_IPC(v) (Eq. 3): triangles without v nearer than r, ascending.
 std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float contact_radius);
 
-/// F_SDF (Eq. 4) of a point in space: the closest triangles where they are nearer than r; all of them where several are
-/// equally near (the printed argmin is then not one). Triangles that contain the point are included, as printed: of a
-/// vertex of the mesh these are its own.
+/// Returns F_SDF (Eq. 4) of a point in space: the closest triangles where they are nearer than r; all of them where
+/// several are equally near (the printed argmin is then not one). Triangles that contain the point are included, as
+/// printed: for a vertex of the mesh these are its own.
 std::vector<Index> sdf_face_set(const Complex& mesh, const Vec3f& x, float contact_radius);
 
 }  // namespace ogc::reference

@@ -7,12 +7,13 @@
 
 namespace ogc::reference {
 
-/// The foot of the perpendicular in the interior of the face, the connection in the cone of normals, which is given by
-/// its generators. Exact, and independent of `in_block`. The points of the interior itself (w = 0) belong to a block
-/// even where the face has no normals, as Eq. 8 and 9 say and Eq. 7, read to the letter, does not (see `has_normals`).
+/// Decides whether the foot of the perpendicular lies in the interior of the face and the connection in the cone of
+/// normals, which is given by its generators. Exact, and independent of `in_block`. The points of the interior itself
+/// (w = 0) belong to a block even where the face has no normals: Eq. 8 and 9 say so, Eq. 7, read literally, does not
+/// (see `has_normals`).
 class DefinedBlocks {
  public:
-  /// Finds the normals of all faces. What the mesh views must outlive it.
+  /// Finds the normals of all faces. What the mesh views must outlive this.
   explicit DefinedBlocks(const Complex& mesh);
   ~DefinedBlocks();
   DefinedBlocks(const DefinedBlocks&) = delete;

@@ -1,4 +1,4 @@
-// Eq. 7 for points that are quotients, for the .cpp files of this room (it shows CGAL's number type).
+// Eq. 7 for points that are quotients, for the .cpp files of this folder (it exposes CGAL's number type).
 #pragma once
 
 #include <optional>
@@ -15,21 +15,23 @@ struct Connection {
   Exact weight;       ///< > 0
 };
 
-/// Nothing where the foot is not in the interior of the face, or the face has none.
+/// Returns the connection of x and a face; empty where the foot is not in the interior of the face, or the face has no
+/// interior.
 std::optional<Connection> connection(const Complex& mesh, Face face, const ExactPoint& x);
 
-/// Whether d = r is inside.
+/// Whether points at d = r are inside.
 enum class Sphere { closed, open };
 
 /// The cones of normals of all faces of a mesh.
 struct DefinedBlocks::Cones {
-  Complex mesh;                                        ///< whose faces they are
+  Complex mesh;                                        ///< the mesh of the faces
   std::vector<NormalCone> vertices, edges, triangles;  ///< by number of the face
 
-  /// N_a of one face.
+  /// Returns N_a of one face.
   const NormalCone& of(Face face) const;
   bool contains(Face face, const ExactPoint& x, float contact_radius, Sphere boundary) const;
-  /// In M^e a vertex has the same neighbours as in M, and every perpendicular of an edge is a normal.
+  /// Checks whether x is in the face's block of M^e. There a vertex has the same neighbours as in M, and every
+  /// perpendicular of an edge is a normal.
   bool contains_edge_only(Face face, const ExactPoint& x, float contact_radius) const;
 };
 

@@ -1,4 +1,4 @@
-// E_OGC three times: as a definition over quotients, and as Algorithm 2 over all pairs and with a tree.
+// Computes E_OGC three times: by its definition over quotients, and by Algorithm 2 over all pairs and with a tree.
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -79,7 +79,7 @@ ExactPoint point_at(const Segment& segment, const Parameter& p) {
   return {plus(times(p.weight, segment.a), times(p.s, segment.d)), p.weight};
 }
 
-/// Closest points of two features, if they lie inside what is called interior.
+/// Closest points of two features; those on interiors lie inside them.
 struct Candidate {
   ExactPoint first, second;
 };
@@ -130,7 +130,7 @@ struct Closest {
   Quotient<Exact> squared;
 };
 
-/// The nearest of all pairs of features: several where the edges are parallel, in the order of edge_features.
+/// Returns the nearest of all pairs of features: several where the edges are parallel, in the order of edge_features.
 std::vector<Closest> closest_of(const Segment& e, const Segment& f) {
   std::vector<Closest> best;  // never empty: two ends always are a candidate
   for (int k = 0; k < edge_feature_pairs; ++k) {
@@ -144,7 +144,7 @@ std::vector<Closest> closest_of(const Segment& e, const Segment& f) {
   return best;
 }
 
-/// method.md §1.4: ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖², projections that overlap in more than a point.
+/// Tests the rule of method.md §1.4: ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖², and projections that overlap in more than a point.
 bool by_rule_parallel(const Segment& e, const Segment& f) {
   const ExactVector n = cross(e.d, f.d);
   const Exact ee = dot(e.d, e.d);
@@ -164,8 +164,8 @@ bool are_in_blocks(const Complex& mesh, const FacePair& faces) {
   return inside;
 }
 
-/// Whether some closest points of nearly parallel edges lie in each other's blocks: such conditions hold of features
-/// that are the closest only, at each end of the overlap where the edges are exactly parallel.
+/// Returns whether some closest points of nearly parallel edges lie in each other's blocks. These conditions hold only
+/// for features that are closest; exactly parallel edges have such features at each end of the overlap.
 bool is_some_end_in_blocks(const Complex& mesh, Index e, Index f) {
   for (int k = 0; k < edge_feature_pairs; ++k) {
     const auto [first, second] = edge_features(k);
@@ -174,7 +174,7 @@ bool is_some_end_in_blocks(const Complex& mesh, Index e, Index f) {
   return false;
 }
 
-/// Alg. 2 lines 6–10 (corrected) for the candidate of edges e < f.
+/// Does lines 6–10 of Alg. 2 (corrected) for the candidate of edges e < f.
 void enter_if_active(const compare::DetectIn& in, const Complex& mesh, Index e, Index f, Entered& entered) {
   const EdgePair pair{ends_of(mesh, e), ends_of(mesh, f)};
   const EdgeFeatures closest = closest_features(pair);
@@ -188,14 +188,14 @@ void enter_if_active(const compare::DetectIn& in, const Complex& mesh, Index e, 
   if (are_in_blocks(mesh, faces)) enter(entered, faces, {e, f});
 }
 
-/// Alg. 2 line 3: a ball about the middle of the edge with radius r_q + l/2.
+/// The ball of Alg. 2 line 3: about the middle of the edge with radius r_q + l/2.
 struct Ball {
   std::array<double, 3> centre;
   double squared_radius;
 };
 
-/// The middle may be rounded, for the radius reaches from it to the farther end. The radius takes eight roundings of
-/// 2⁻⁵³ at most; the factor is more.
+/// The middle may be rounded, because the radius reaches from it to the farther end. The radius has at most eight
+/// roundings of 2⁻⁵³; the factor is larger.
 Ball ball_about(const std::array<Vec3f, 2>& ends, double query_radius) {
   const std::array<double, 3> a{ends[0].x, ends[0].y, ends[0].z}, b{ends[1].x, ends[1].y, ends[1].z};
   Ball ball{};

@@ -1,4 +1,4 @@
-// What is decided is decided on the exact generators of the cone; only then do they become unit vectors.
+// Decides everything on the exact generators of the cone; only then converts them to unit vectors.
 #include "reference/definitions/gauss_map.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Unit normalised(const Unit& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// Through the largest component, so that neither squares nor the conversion leave the range of double.
+/// Divides by the largest component, so that neither squares nor the conversion leave the range of double.
 Unit unit(const ExactVector& a) {
   const auto size = [](const Exact& x) { return sign_of(x) < 0 ? -x : x; };
   const Exact largest = std::max({size(a.x), size(a.y), size(a.z)});
@@ -51,7 +51,7 @@ void sort_around(std::vector<Unit>& units, const Unit& axis, const Unit& zero) {
   std::sort(units.begin(), units.end(), [&](const Unit& a, const Unit& b) { return angle(a) < angle(b); });
 }
 
-/// An arc, or a circle, in the plane of its generators.
+/// Orders an arc, or a circle, in the plane of its generators.
 void order_arc(GaussMap& map, bool circle) {
   map.closed = circle;
   const auto tilted = std::max_element(map.corners.begin() + 1, map.corners.end(), [&](const Unit& a, const Unit& b) {
@@ -72,13 +72,13 @@ void order_region(GaussMap& map, int lineality) {
   sort_around(map.corners, centre, normalised(minus(first, {along * centre[0], along * centre[1], along * centre[2]})));
 }
 
-/// Signed area of the spherical triangle (van Oosterom and Strackee).
+/// Returns the signed area of the spherical triangle (van Oosterom and Strackee).
 double triangle_area(const Unit& a, const Unit& b, const Unit& c) {
   return 2 * std::atan2(inner(a, outer(b, c)), 1 + inner(a, b) + inner(b, c) + inner(c, a));
 }
 
-/// The spokes of a vertex in order around it, from one end of the fan to the other; empty where its triangles are not
-/// one fan. A closed fan repeats its first spoke at the end.
+/// Returns the spokes of a vertex in order around it, from one end of the fan to the other; empty where its triangles
+/// are not one fan. A closed fan repeats its first spoke at the end.
 std::vector<Index> spokes_in_order(const Complex& mesh, Index vertex) {
   const auto triangles = mesh.topology.vertex_triangles[static_cast<std::size_t>(vertex)];
   const auto rim = [&](Index t) {

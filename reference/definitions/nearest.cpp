@@ -1,5 +1,5 @@
-// A distance rounded down decides between two pairs nearly always; where both round to one number, the quotients are
-// compared. Which pair wins depends on no order of threads: distances are exact and ties go to the lowest number.
+// A distance rounded down nearly always decides between two pairs; where both round to one number, the quotients are
+// compared. The order of threads does not change which pair wins: distances are exact and ties go to the lowest number.
 #include "reference/definitions/nearest.hpp"
 
 #include <tbb/blocked_range.h>
@@ -18,13 +18,14 @@
 namespace ogc::reference {
 namespace {
 
-/// The nearest partner of each of many primitives, offered by many threads.
+/// The nearest partner of each of many primitives; many threads offer partners.
 class NearestOfEach {
  public:
   NearestOfEach(std::size_t count, float query_radius)
       : items_(count, Nearest{-1, gap_points({}, {query_radius, 0, 0})}), below_(count, query_radius) {}
 
-  /// `below`: the distance of the gap, rounded down. At r_q it is not below r_q, for r_q is a single-precision number.
+  /// Offers a partner. `below`: the distance of the gap, rounded down. A distance of r_q is not below r_q, because r_q
+  /// is a single-precision number.
   void offer(Index primitive, Index partner, const Margin& gap, float below) {
     const auto i = static_cast<std::size_t>(primitive);
     const std::atomic_ref<float> smallest(below_[i]);
@@ -145,11 +146,11 @@ std::vector<Margin> limiting_distances(const compare::Topology& topology, const 
   return limits;
 }
 
-ExactSquares exact_squares(const compare::DetectIn& in, float bound_relaxation) {
+ExactSquares exact_squares(const compare::DetectIn& in, float bounds_relaxation) {
   const NearestPrimitives nearest = nearest_primitives(in);
   ExactSquares result{squares(nearest.vertex), squares(nearest.edge), squares(nearest.triangle), {}};
   for (const Margin& limit : limiting_distances(*in.topology, nearest))
-    result.bound.push_back(squared_distance(limit, bound_relaxation));
+    result.bound.push_back(squared_distance(limit, bounds_relaxation));
   return result;
 }
 

@@ -1,6 +1,6 @@
-// A cone of dimension 3 is bounded by planes n·d = 0, so its extreme rays lie on two of them; of smaller rank the
-// directions leave a line or plane of normals free, and what remains is found in the plane or on the line that they
-// span.
+// A cone of dimension 3 is bounded by planes n·d = 0, so its extreme rays lie on two of them. With smaller rank the
+// directions leave a line or plane of normals free, and the remaining generators lie in the plane or on the line that
+// the directions span.
 #include "reference/definitions/normal_cone.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ bool same_ray(const ExactVector& a, const ExactVector& b) { return sign_of(dot(a
 
 ExactVector opposite(const ExactVector& a) { return times(Exact(-1), a); }
 
-/// Some vector perpendicular to d ≠ 0.
+/// Returns some vector perpendicular to d ≠ 0.
 ExactVector perpendicular(const ExactVector& d) {
   const ExactVector x{Exact(1), Exact(0), Exact(0)}, y{Exact(0), Exact(1), Exact(0)};
   const ExactVector n = cross(d, x);
@@ -38,7 +38,7 @@ bool on_three(const ExactVector& g, const ExactVector& h, const ExactVector& k, 
          sign_of(determinant(g, h, n)) * d >= 0;
 }
 
-/// A direction that is not parallel to `first`, or nullptr.
+/// Returns a direction that is not parallel to `first`, or nullptr.
 const ExactVector* second_direction(const ExactVector& first, std::span<const ExactVector> directions) {
   const auto it = std::find_if(directions.begin(), directions.end(),
                                [&](const ExactVector& d) { return !is_zero(cross(first, d)); });
@@ -100,7 +100,7 @@ bool NormalCone::contains(const ExactVector& n) const {
       if (on_two(g[i], g[j], n)) return true;
     }
   }
-  // A pointed cone is the union of the triangles that its first corner makes with two others; one with lines has few
+  // A pointed cone is the union of the triangles that its first corner makes with two others; a cone with lines has few
   // generators.
   const std::size_t roots = lineality_ == 0 ? std::min<std::size_t>(1, g.size()) : g.size();
   for (std::size_t i = 0; i < roots; ++i) {

@@ -1,6 +1,6 @@
 // The set of normals of a face as a convex cone, given by its generators: the corners of the polyhedral Gauss map. It
-// answers the same questions as the half-spaces of blocks.hpp from the other side, and shares no formula with them, so
-// each can be tested by the other. Only .cpp files of this room include this header: it shows CGAL's number type.
+// answers the same questions as the half-spaces of blocks.hpp, but shares no formula with them, so each can be tested
+// against the other. Only .cpp files of this folder include this header: it exposes CGAL's number type.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -13,7 +13,7 @@
 
 namespace ogc::reference {
 
-/// Sums and products of floating-point numbers without rounding, of any size.
+/// A floating-point number of any size, whose sums and products are not rounded.
 using Exact = CGAL::Mpzf;
 /// A point or a vector in exact numbers.
 using ExactVector = Point<Exact>;
@@ -24,32 +24,33 @@ struct ExactPoint {
   Exact weight = Exact(1);  ///< > 0
 };
 
-/// The point without rounding.
+/// Converts a point without rounding.
 inline ExactVector exact(const Vec3f& x) {
   return {Exact(static_cast<double>(x.x)), Exact(static_cast<double>(x.y)), Exact(static_cast<double>(x.z))};
 }
-/// s a.
+/// Returns s a.
 inline ExactVector times(const Exact& s, const ExactVector& a) { return {s * a.x, s * a.y, s * a.z}; }
-/// a + b.
+/// Returns a + b.
 inline ExactVector plus(const ExactVector& a, const ExactVector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-/// Exact.
+/// Returns whether a vector is 0, exactly.
 inline bool is_zero(const ExactVector& a) { return a.x.is_zero() && a.y.is_zero() && a.z.is_zero(); }
-/// −1, 0 or 1; exact.
+/// Returns −1, 0 or 1, exactly.
 inline int sign_of(const Exact& a) { return static_cast<int>(a.sign()); }
 
 /// {n : n·d ≤ 0 for all d}, the polar cone of the directions in which a surface leaves a point, as the set of sums of
-/// non-negative multiples of `generators()`. No generators: {0}, the point has no normal (Eq. 8's saddle).
+/// non-negative multiples of `generators()`. Without generators it is {0}: the point has no normal (Eq. 8's saddle).
 class NormalCone {
  public:
   NormalCone() = default;
   explicit NormalCone(std::span<const ExactVector> directions);
 
-  /// By Carathéodory's theorem: n ≠ 0 is a non-negative combination of at most three independent generators.
+  /// Returns whether n is in the cone. By Carathéodory's theorem n ≠ 0 is then a non-negative combination of at most
+  /// three independent generators.
   bool contains(const ExactVector& n) const;
 
-  /// Vectors whose non-negative combinations are the cone.
+  /// Returns vectors whose non-negative combinations are the cone.
   const std::vector<ExactVector>& generators() const { return generators_; }
-  /// Generators come in opposite pairs that span this many dimensions: 0 for a pointed cone, 3 for all space.
+  /// Returns the number of dimensions that opposite pairs of generators span: 0 for a pointed cone, 3 for all space.
   int lineality() const { return lineality_; }
 
  private:
@@ -58,8 +59,8 @@ class NormalCone {
   int lineality_ = 0;
 };
 
-/// The directions in which the star of a face leaves its interior, along the face itself in both senses. Faces of the
-/// surface (§3.1) or, with `edge_only`, of M^e (§3.5; vertices and edges only).
+/// Returns the directions in which the star of a face leaves its interior; along the face itself in both senses. For
+/// faces of the surface (§3.1) or, with `edge_only`, of M^e (§3.5; vertices and edges only).
 std::vector<ExactVector> star_directions(const Complex& mesh, Face face, bool edge_only = false);
 
 }  // namespace ogc::reference

@@ -8,12 +8,12 @@
 namespace ogc::reference {
 namespace {
 
-/// The point of a line through a along d at the parameter s / weight, weight > 0.
+/// Returns the point of a line through a along d at the parameter s / weight, weight > 0.
 ExactPoint point_at(const ExactVector& a, const ExactVector& d, const Exact& s, const Exact& weight) {
   return {plus(times(weight, a), times(s, d)), weight};
 }
 
-/// The point of a face closest to the other face's point or line; their lines are not parallel.
+/// Returns the point of a face closest to the other face's point or line; their lines are not parallel.
 ExactPoint closest_on(const Complex& mesh, Face face, Face other) {
   const auto ends = mesh.vertices(face).items, others = mesh.vertices(other).items;
   const ExactVector a = exact(mesh.at(ends[0])), c = exact(mesh.at(others[0]));
@@ -24,8 +24,8 @@ ExactPoint closest_on(const Complex& mesh, Face face, Face other) {
   return point_at(a, u, dot(cross(c - a, v), n), dot(n, n));
 }
 
-/// The margin of x from the plane through `at` across the line to `towards`; inside is where the direction is met
-/// (`inward` 1) or left behind (−1).
+/// Returns the margin of x from the plane through `at` across the line to `towards`. With `inward` 1 the inner side is
+/// the one towards `towards`, with −1 the other one.
 BlockMargin end_plane(const Complex& mesh, Index at, Index towards, int inward, Face across, const ExactPoint& x) {
   const ExactVector p = exact(mesh.at(at)), d = exact(mesh.at(towards)) - p;
   const Exact m = dot(x.numerator - times(x.weight, p), d);

@@ -17,7 +17,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Faces are in order of dimension, then number.
+/// Returns the nearest face of a part; faces are ordered by dimension, then number.
 Face nearest_face(const Complex& mesh, const std::vector<Index>& part, const Vec3f& x) {
   std::optional<std::pair<Face, Margin>> nearest;
   for (const Index t : part) {
@@ -62,7 +62,7 @@ ExactVector normal(const Complex& mesh, Index t) {
   return cross(exact(mesh.at(b)) - exact(mesh.at(a)), exact(mesh.at(c)) - exact(mesh.at(a)));
 }
 
-/// x − c for a vertex or an edge, times a positive number.
+/// Returns x − c for a vertex or an edge, times a positive number.
 ExactVector offset_of(const Complex& mesh, Face face, const Vec3f& x) {
   if (face.kind == FaceKind::vertex) return exact(x) - exact(mesh.at(face.index));
   const auto [a, b] = mesh.edge(face.index);
@@ -82,7 +82,7 @@ compare::Vec3 direction_of(const Complex& mesh, Index t, Face face, const Vec3f&
   return unit(inside ? times(Exact(-1), offset) : offset);
 }
 
-/// Faces of a part, each once.
+/// Returns the faces of a part, each once.
 std::vector<Face> faces_of(const Complex& mesh, const std::vector<Index>& part) {
   std::vector<Face> faces;
   for (const Index t : part) {
@@ -95,7 +95,7 @@ std::vector<Face> faces_of(const Complex& mesh, const std::vector<Index>& part) 
   return faces;
 }
 
-/// How far x is from the box of a triangle, and from the nearest of its corners, each rounded.
+/// The distances of x from the box of a triangle and from the nearest of its corners, each rounded.
 struct Reach {
   double box = 0, corner = INFINITY;
 };
@@ -115,11 +115,11 @@ Reach reach_of(const Complex& mesh, Index t, const Vec3f& x) {
   return reach;
 }
 
-/// Rounding in double moves a reach by less than this part of it.
+/// Rounding in double changes a reach by less than this part of it.
 constexpr double reach_slack = 0x1p-40;
 
-/// The triangles of a part whose boxes x is no farther from than from some triangle, and those within the radius: no
-/// others can be nearest, or touch.
+/// The triangles of a part that can be nearest to x, because x is no farther from their box than from some triangle's
+/// corner; and those whose box is within the radius, which alone can touch.
 struct Within {
   std::vector<Index> nearest, touching;
 
@@ -169,7 +169,7 @@ PartContact part_contact(const Complex& volume, Face face, const Vec3f& x, float
 std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius,
                                        std::span<const Index> part) {
   const std::span<const Index> number = part.empty() ? std::span<const Index>(volume.topology.component) : part;
-  std::map<Index, std::vector<Index>> parts;  // by number, from which no edge leads to another
+  std::map<Index, std::vector<Index>> parts;  // by number of the part; no edge leads from one part to another
   for (std::size_t t = 0; t < volume.topology.triangles.size(); ++t)
     parts[number[at(volume.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
   std::vector<PartContact> contacts;

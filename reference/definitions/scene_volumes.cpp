@@ -23,7 +23,7 @@ VolumeContact rounded(VolumeContact contact, const std::array<double, 3>& weight
   return contact;
 }
 
-/// Of parts of triangles alone; points are numbered as they ask.
+/// Returns the contacts with parts of triangles alone; points are numbered in the order of the askers.
 std::vector<VolumeContact> contacts_of_triangles(const compare::VolumeDepthIn& in) {
   const Complex mesh{*in.topology, in.positions};
   const std::vector<compare::Index> part = compare::joined_components(*in.topology, {}, in.cavities);
@@ -42,7 +42,7 @@ std::vector<VolumeContact> contacts_of_triangles(const compare::VolumeDepthIn& i
   return all;
 }
 
-/// Of parts of any kind.
+/// Returns the contacts with parts of any kind.
 compare::VolumeDepthOut exact_of(const compare::VolumeDepthIn& in) {
   const compare::VolumeDepthTruth truth = volume_depth(in);
   compare::VolumeDepthOut out;

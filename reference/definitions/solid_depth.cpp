@@ -1,11 +1,11 @@
-// What is grey: 16 u of a tetrahedron's coordinates move each weight of a point by 16 u Σ|∂w/∂δ||δ|, which is at most
-// three times the sum of the moduli of its terms, as they are of degree three; a way's end is off by as much as its
-// triangle's normal turns (normal_scale), and so is all that follows from it. Within that a segment passes, perhaps, by
-// each triangle, edge and vertex that it comes near to, and a way is certain only if on none of them it could leave the
-// body: then whichever tetrahedra rounding makes it pass, it arrives. Through inner edges and vertices it is certain.
+// The grey zone: 16 u of a tetrahedron's coordinates change each weight of a point by 16 u Σ|∂w/∂δ||δ|. The sum is at
+// most three times the sum of the moduli of the weight's terms, which are of degree three. A way's end is off by as
+// much as its triangle's normal turns (normal_scale), and so is everything that depends on it. Within this error a
+// segment may pass each triangle, edge and vertex near it. A way is certain only if it can leave the body at none of
+// them: then it arrives, whichever tetrahedra rounding makes it pass. Through inner edges and vertices it is certain.
 //
-// Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is nothing beside 16 u. The exact ways are
-// walked in rational numbers, through the tetrahedra that a grey one reaches.
+// Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 u. The exact ways are
+// walked in rational numbers, through the tetrahedra that a grey way reaches.
 #include "reference/definitions/solid_depth.hpp"
 
 #include <algorithm>
@@ -36,13 +36,13 @@ double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z 
 Vec3 normal(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// As `normal`, each term with its modulus.
+/// Returns `normal` with the modulus of each term.
 Vec3 normal_moduli(const Vec3& a, const Vec3& b) {
   const Vec3 p = moduli(a), q = moduli(b);
   return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
 }
 
-/// Terms of degree three: Σ|∂m/∂δ||δ| is at most three times the sum of their moduli.
+/// Factor for terms of degree three: Σ|∂m/∂δ||δ| is at most three times the sum of their moduli.
 constexpr double grey_part = 3 * compare::grey_factor;
 
 bool has(const Tetrahedron& t, Index v) { return std::ranges::find(t, v) != t.end(); }
@@ -56,7 +56,7 @@ Triangle sorted(Triangle t) {
 struct Piece {
   double low = 0, high = 1;
 
-  /// Keeps where from + s (to − from) ≥ least.
+  /// Keeps the part where from + s (to − from) ≥ least.
   void keep(double from, double to, double least) {
     const double slope = to - from;
     if (slope == 0) {
@@ -116,13 +116,13 @@ Triangle Solid::side(Index t, std::size_t corner) const {
 struct SolidPart::Passage {
   std::array<double, 4> start{}, end{}, grey{};
 
-  /// Where the segment may be in the tetrahedron.
+  /// Returns where the segment may be in the tetrahedron.
   Piece inside() const {
     Piece piece;
     for (std::size_t k = 0; k < 4; ++k) piece.keep(start[k], end[k], -grey[k]);
     return piece;
   }
-  /// Of that, where it may be on the triangle opposite to a corner.
+  /// Keeps the part of `piece` where the segment may be on the triangle opposite to a corner.
   void keep_on(std::size_t k, Piece& piece) const { piece.keep(-start[k], -end[k], -grey[k]); }
 };
 
@@ -143,7 +143,7 @@ std::vector<SolidPart::Group> SolidPart::groups(Index component) const {
   struct Holder {
     Index tetrahedron;
     Passage passage;
-    std::vector<Index> carrier;  ///< corners whose weights are positive for certain
+    std::vector<Index> carrier;  ///< corners whose weights are certainly positive
   };
   std::vector<Holder> holders;
   for (std::size_t i = 0; i < solid_.tetrahedra().size(); ++i) {
@@ -254,7 +254,7 @@ SolidPart::Way SolidPart::way(const Group& group, Face face, double condition) c
       if (!solid_.is_closed(t, k)) continue;
       const Triangle side = solid_.side(t, k);
       const auto on_side = [&](Index v) { return std::ranges::find(side, v) != side.end(); };
-      // where it ends it may touch; before that, nowhere
+      // at its end the way may touch the boundary; before that, nowhere
       if (std::ranges::all_of(ends.span(), on_side) && passage_of(t).start[k] > passage_of(t).grey[k]) continue;
       Piece touching = passage_of(t).inside();
       passage_of(t).keep_on(k, touching);
@@ -264,7 +264,7 @@ SolidPart::Way SolidPart::way(const Group& group, Face face, double condition) c
   return way;
 }
 
-/// `way`: a possible one to the face, which holds the point of the triangle that is closest to x.
+/// `way`: a possible way to the face; the face holds the point of the triangle that is closest to x.
 bool SolidPart::is_exact_way(const std::vector<Index>& sheet, const Way& way, Face face, Index triangle) const {
   const auto corner = [&](std::size_t k) { return rational(mesh_.at(mesh_.triangle(triangle)[k])); };
   const RationalPoint start = rational(x_), end = closest_point({corner(0), corner(1), corner(2)}, start);
@@ -314,7 +314,7 @@ VolumeSheetTruth SolidPart::sheets_of(const Group& group, const std::vector<Inde
   };
   std::vector<Offered> offered;
   std::vector<Nearest> exact(group.sheets.size());
-  double reach = INFINITY;  // no way that is longer for certain is the shortest
+  double reach = INFINITY;  // a way that is certainly longer is not the shortest
   std::map<Face, Way> ways;
   for (const Index t : order) {
     if (low(t) > reach) break;
@@ -359,7 +359,8 @@ VolumeSheetTruth SolidPart::sheets_of(const Group& group, const std::vector<Inde
   return truth;
 }
 
-/// Where some triangle around it is of a tetrahedron without positive volume, or perhaps.
+/// Either side is accepted where some triangle around the face belongs to a tetrahedron that has no positive volume, or
+/// may have none.
 bool SolidPart::is_vague(Face face) const {
   return std::ranges::any_of(around(face), [&](Index t) {
     return !solid_.is_positive(solid_.owner(t)) || solid_.is_doubtful(solid_.owner(t));

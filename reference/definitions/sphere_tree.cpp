@@ -1,4 +1,4 @@
-// The tree's data are boxes, not triangles: CGAL asks its kernel about each datum and wants no degenerate ones.
+// The tree's data are boxes, not triangles: CGAL calls its kernel for each datum and requires that none is degenerate.
 // Splitting compares coordinates, and a ball against a box is a filtered exact predicate of the kernel, so no step of a
 // query rounds.
 #include "reference/definitions/sphere_tree.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// What CGAL calls a primitive: a number, its box, and a point of it.
+/// A primitive in CGAL's sense: a number, its box, and a point of it.
 struct NumberedBox {
   using Id = Index;
   using Point = Kernel::Point_3;
@@ -39,7 +39,8 @@ struct SphereTree::Tree : CGAL::AABB_tree<CGAL::AABB_traits<Kernel, NumberedBox>
 
 SphereTree::SphereTree(std::span<const Box> boxes) : tree_(std::make_unique<Tree>()) {
   for (std::size_t i = 0; i < boxes.size(); ++i) tree_->insert(NumberedBox(static_cast<Index>(i), boxes[i]));
-  if (!boxes.empty()) tree_->build();  // a query would do it otherwise, and several may ask at once
+  // built here, because a query would build it otherwise, and several may run at once
+  if (!boxes.empty()) tree_->build();
 }
 
 SphereTree::~SphereTree() = default;

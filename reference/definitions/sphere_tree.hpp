@@ -1,5 +1,5 @@
-// BVH_SphereQuery of Algorithms 1 and 2 by CGAL's AABB tree. The detections cull with box_tree.hpp; this one is for the
-// independent third way to the contact sets.
+// BVH_SphereQuery of Algorithms 1 and 2 by CGAL's AABB tree. The detections cull with box_tree.hpp; this tree serves
+// the independent third computation of the contact sets.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ class SphereTree {
   SphereTree(const SphereTree&) = delete;
   SphereTree& operator=(const SphereTree&) = delete;
 
-  /// Every primitive whose box meets the closed ball, in no particular order. Decided exactly on the given doubles:
-  /// none is lost to rounding.
+  /// Returns every primitive whose box meets the closed ball, in no particular order. Decided exactly on the given
+  /// doubles: rounding loses none.
   std::vector<Index> within(const std::array<double, 3>& centre, double squared_radius) const;
 
  private:

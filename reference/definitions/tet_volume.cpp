@@ -1,6 +1,6 @@
 // The walk keeps, for each tetrahedron, the earliest parameter at which a path from the start can be in it. Inside a
-// tetrahedron the segment is one stretch, so earlier is better: whoever can be there at t can be there at every later
-// parameter of the stretch.
+// tetrahedron the segment is one stretch, so the earliest parameter is enough: a path that can be there at t can be
+// there at every later parameter of the stretch.
 #include "reference/definitions/tet_volume.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Adjacent doubles around an exact number ≥ 0.
+/// Returns adjacent doubles around an exact number ≥ 0.
 std::array<double, 2> enclosing(const Rational& square) {
   double low = CGAL::to_interval(square).first;
   for (double next = std::nextafter(low, HUGE_VAL); Rational(next) <= square; next = std::nextafter(low, HUGE_VAL))
@@ -27,22 +27,22 @@ std::array<double, 2> enclosing(const Rational& square) {
   return {low, Rational(low) == square ? low : std::nextafter(low, HUGE_VAL)};
 }
 
-/// The largest double whose square is not above an exact number ≥ 0.
+/// Returns the largest double whose square is not above an exact number ≥ 0.
 double root_below(const Rational& square) {
   double root = std::sqrt(CGAL::to_interval(square).second);
   while (Rational(root) * Rational(root) > square) root = std::nextafter(root, 0.0);
   return root;
 }
 
-/// Which corners of a tetrahedron the other one has too.
+/// Marks the corners of a tetrahedron that the other one has, too.
 std::array<bool, 4> shared(const Tetrahedron& one, const Tetrahedron& other) {
   std::array<bool, 4> marked{};
   for (std::size_t k = 0; k < 4; ++k) marked[k] = std::ranges::find(other, one[k]) != other.end();
   return marked;
 }
 
-/// The corners with positive weight at x, sorted: the simplex that holds x in its interior; empty where the tetrahedron
-/// does not hold x.
+/// Returns the corners with positive weight at x, sorted: the simplex that holds x in its interior; empty where the
+/// tetrahedron does not hold x.
 std::vector<Index> carrier(std::span<const Vec3f> positions, const Tetrahedron& tetrahedron, const RationalPoint& x) {
   const auto w = weights(corners_of(positions, tetrahedron), x);
   std::vector<Index> vertices;
@@ -54,7 +54,7 @@ std::vector<Index> carrier(std::span<const Vec3f> positions, const Tetrahedron& 
   return vertices;
 }
 
-/// The tetrahedra that a path along one segment can reach.
+/// Finds the tetrahedra that a path along one segment can reach.
 class Walk {
  public:
   Walk(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra,
@@ -96,7 +96,7 @@ class Walk {
 
 }  // namespace
 
-/// A candidate before anything is rounded.
+/// A candidate in exact numbers.
 struct TetVolume::Candidate {
   RationalPoint end;
   Rational square;

@@ -1,6 +1,6 @@
 // The volumetric variant of §3.9, inside the body: the penetration depth of Chen, Diaz and Yuksel 2023, "Shortest Path
-// to Boundary for Self-Intersecting Meshes", as its definition, by brute force over all boundary triangles, so that a
-// fast version can be judged.
+// to Boundary for Self-Intersecting Meshes", by its definition and by brute force over all boundary triangles, so that
+// a fast version can be judged.
 //
 // A tetrahedral mesh is a complex M with a map to space. Where the map is locally injective, space may still be covered
 // more than once: the body overlaps itself. A point of the body is then a point in space together with a *sheet*, one
@@ -31,55 +31,56 @@ using compare::Vec3f;
 /// Four vertices; positive where the fourth lies on the side of the first three's normal (right hand).
 using Tetrahedron = std::array<Index, 4>;
 
-/// A triangle of one tetrahedron only, its normal outward.
+/// A triangle of only one tetrahedron, its normal outward.
 struct BoundaryTriangle {
   compare::Triangle vertices{-1, -1, -1};  ///< counterclockwise as seen from outside
-  Index tetrahedron = -1;                  ///< whose face it is
+  Index tetrahedron = -1;                  ///< the tetrahedron whose face it is
 };
 
 /// The closest point of one boundary triangle to a point in a sheet.
 struct BoundaryPath {
   Index triangle = -1;          ///< number in `boundary()`
-  bool valid = false;           ///< the segment to it lies in M
+  bool valid = false;           ///< whether the segment to it lies in M
   std::array<double, 3> end{};  ///< the closest point [m], each coordinate within 1 ulp
   double length = 0;            ///< its distance, rounded down [m]
-  /// adjacent doubles, or twice the same one, that enclose the exact square [m²]
+  /// Adjacent doubles, or twice the same one, that enclose the exact square [m²].
   std::array<double, 2> squared_length{0, 0};
 };
 
-/// Depth of a point in a sheet.
+/// The depth of a point in a sheet.
 struct BoundaryDepth {
-  /// the shortest valid one; of several equally short ones that with the lowest triangle
+  /// The shortest valid path; of several equally short ones that with the lowest triangle.
   BoundaryPath path;
   std::vector<Index> equally_near;  ///< all boundary triangles with a valid path exactly that short, ascending
-  /// boundary triangles strictly nearer than that without a valid path: what Euclid's distance would have given
+  /// Boundary triangles strictly nearer than that without a valid path: those that Euclid's distance would have given.
   std::size_t refused = 0;
 };
 
-/// A body of tetrahedra. Plain arrays, viewed: they must outlive it.
+/// A body of tetrahedra. Views plain arrays, which must outlive it.
 class TetVolume {
  public:
-  /// Throws compare::InputError, naming the element, where a tetrahedron has an index that is no vertex, is inverted or
-  /// flat, where a triangle has more than two tetrahedra or two on the same side, and where tetrahedra wind more than
-  /// once around an inner edge: the map is not locally injective there and a shortest path may bend. Inverted
-  /// tetrahedra are refused, not handled.
+  /// Throws compare::InputError, with the element, where a tetrahedron has an index that is no vertex, is inverted or
+  /// flat, where a triangle has more than two tetrahedra or two on the same side, where tetrahedra wind around an inner
+  /// edge other than once, and where tetrahedra are joined by an inner vertex alone: the map is not locally injective
+  /// there and a shortest path may bend. Inverted tetrahedra are refused, not handled.
   TetVolume(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra);
 
-  /// The boundary triangles, by tetrahedron, then by the corner that is left out.
+  /// Returns the boundary triangles, by tetrahedron, then by the corner that is left out.
   const std::vector<BoundaryTriangle>& boundary() const { return boundary_; }
 
-  /// Whether the vertex is one of its four corners.
+  /// Returns whether the vertex is one of the tetrahedron's corners.
   bool has_vertex(Index tetrahedron, Index vertex) const;
 
-  /// The sheets at a point of space: of each its tetrahedra, ascending; several where the point lies on a shared
-  /// triangle, edge or vertex. None: outside.
+  /// Returns the sheets at a point of space, each as its tetrahedra, ascending; a sheet has several where the point
+  /// lies on a shared triangle, edge or vertex. Empty outside.
   std::vector<std::vector<Index>> sheets(const Vec3f& x) const;
 
-  /// The candidates of all boundary triangles, in their order, for x in the sheet of a tetrahedron that holds it.
-  /// Throws compare::InputError where it does not.
+  /// Returns the candidates of all boundary triangles, in their order, for x in the sheet of a tetrahedron that holds
+  /// it. Throws compare::InputError where it does not hold x.
   std::vector<BoundaryPath> boundary_paths(const Vec3f& x, Index tetrahedron) const;
 
-  /// The depth d_p (zero on the boundary). §3.9's depth in the offset geometry is d_p + r. Throws as `boundary_paths`.
+  /// Returns the depth d_p (zero on the boundary). §3.9's depth in the offset geometry is d_p + r. Throws like
+  /// `boundary_paths`.
   BoundaryDepth shortest_path_to_boundary(const Vec3f& x, Index tetrahedron) const;
 
  private:

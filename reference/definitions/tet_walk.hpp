@@ -1,4 +1,5 @@
-// Tetrahedra along a segment, in rational numbers, for tet_volume.cpp: what the walk needs to know of one tetrahedron.
+// Tetrahedra along a segment, in rational numbers, for tet_volume.cpp: the geometry of one tetrahedron that the walk
+// needs.
 #pragma once
 
 #include <CGAL/Exact_rational.h>
@@ -10,23 +11,23 @@
 
 namespace ogc::reference {
 
-/// Numbers in which a walk is decided.
+/// The numbers in which a walk is decided.
 using Rational = CGAL::Exact_rational;
 using RationalPoint = Point<Rational>;
 
-/// The point without rounding.
+/// Converts a point without rounding.
 RationalPoint rational(const Vec3f& x);
 
-/// The corners of a tetrahedron, in the order of its vertices.
+/// Returns the corners of a tetrahedron, in the order of its vertices.
 std::array<RationalPoint, 4> corners_of(std::span<const Vec3f> positions, const Tetrahedron& tetrahedron);
 
-/// Six times the barycentric weights of x; their sum is six times the volume.
+/// Returns six times the barycentric weights of x; their sum is six times the volume.
 std::array<Rational, 4> weights(const std::array<RationalPoint, 4>& corners, const RationalPoint& x);
 
-/// The closest point of a triangle with positive area.
+/// Returns the closest point of a triangle with positive area.
 RationalPoint closest_point(const std::array<RationalPoint, 3>& corners, const RationalPoint& x);
 
-/// ‖a − b‖² [m²].
+/// Returns ‖a − b‖² [m²].
 Rational squared_distance(const RationalPoint& a, const RationalPoint& b);
 
 /// An interval of the parameter of a segment, both ends included.
@@ -34,13 +35,13 @@ struct Stretch {
   Rational low = 0, high = 1;
 };
 
-/// A segment of space, seen from one tetrahedron: weights are affine in the parameter.
+/// A segment of space relative to one tetrahedron: weights are affine in the parameter.
 class Crossing {
  public:
   Crossing(const std::array<RationalPoint, 4>& corners, const RationalPoint& start, const RationalPoint& end)
       : at_start_(weights(corners, start)), at_end_(weights(corners, end)) {}
 
-  /// Where the segment lies in the closed face of the corners that are marked (all four: in the tetrahedron).
+  /// Returns where the segment lies in the closed face of the marked corners (all four: in the tetrahedron).
   std::optional<Stretch> within(const std::array<bool, 4>& marked) const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// What a grey distance is off at most, over the moduli of its coordinates.
+/// Largest error of a grey distance, over the moduli of its coordinates.
 constexpr double doubt_factor = compare::grey_factor;
 
 double norm_1(const Vec3f& a, const Vec3f& b) {
@@ -45,7 +45,7 @@ bool VolumeFaces::contains(Face face, Index vertex) const {
 
 double VolumeFaces::doubt(Index t) const { return doubt_factor * std::max(faces_.distance[at(t)], spread(t)); }
 
-/// Σ|δ| of the case that triangle t and x are.
+/// Returns Σ|δ| of the case of triangle t and x.
 double VolumeFaces::spread(Index t) const {
   const auto [a, b, c] = mesh_.triangle(t);
   const Vec3f& origin = mesh_.at(a);
@@ -103,7 +103,7 @@ std::vector<Face> VolumeFaces::possible_faces(const std::vector<Index>& candidat
   return faces;
 }
 
-/// Whether the point of t that is closest to x may lie on the face, which is one of t's.
+/// Returns whether the point of t that is closest to x may lie on the face, which is one of t's.
 bool VolumeFaces::accepts(Index t, Face face) const {
   for (int f = 0; f < 7; ++f)
     if (face_of(t, f) == face) return (faces_.accepted[at(t)] >> f & 1) != 0;
@@ -187,7 +187,7 @@ VolumeAnswer VolumeFaces::answer(Face face, bool inside) const {
   result.contact.inside = inside;
   result.contact.triangle = exact.triangle;
   result.contact.face = face;
-  // where the foot lies perhaps beyond the face, a kernel takes its end
+  // where the foot may lie beyond the face, a kernel takes the face's end
   for (std::size_t k = 0; k < 3; ++k) result.weights[k] = std::clamp(exact.weights[k], 0.0, 1.0);
   result.direction = exact.direction;
   result.depth = exact.depth;
@@ -204,7 +204,7 @@ double VolumeFaces::normal_scale(Index t) const {
   const auto [a, b, c] = mesh_.triangle(t);
   const double first = length(mesh_.at(a), mesh_.at(b)), second = length(mesh_.at(a), mesh_.at(c)),
                third = length(mesh_.at(b), mesh_.at(c)), half = (first + second + third) / 2;
-  // Heron's product, of the differences as they are
+  // Heron's product, of differences
   const double area = std::sqrt(std::max(0.0, half * (half - first) * (half - second) * (half - third)));
   const double longest = std::max({first, second, third});
   return std::max(1.0, longest * longest / area);

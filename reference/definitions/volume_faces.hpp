@@ -1,5 +1,5 @@
-// A point before the triangles of a volume: how far it is from each, what of that is grey, and what the contact at a
-// face of theirs would be. For volume_depth.cpp and solid_depth.cpp.
+// A point and the triangles of a volume: how far it is from each, which of that is grey, and the contact at each of
+// their faces. For volume_depth.cpp and solid_depth.cpp.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace ogc::reference {
 
-/// Views; what it looks at must outlive it.
+/// Holds views; their owners must outlive this.
 class VolumeFaces {
  public:
   /// `own`: the vertex that x is, whose faces it does not touch, or −1.
@@ -18,12 +18,13 @@ class VolumeFaces {
   VolumeFaces(const VolumeFaces&) = default;
   virtual ~VolumeFaces() = default;
 
-  bool grey = false, near = false;  ///< of anything asked so far
+  bool grey = false, near = false;  ///< whether any decision so far is grey, or near one
 
  protected:
-  /// What a distance is off at most where it is grey: 16 u of the coordinates relative to the triangle's first corner.
+  /// Returns the largest error of a distance where it is grey: 16 u of the coordinates relative to the triangle's first
+  /// corner.
   double doubt(Index t) const;
-  /// The smallest distance to triangles, and those that may have it.
+  /// The smallest distance to triangles, and the triangles that may have it.
   struct Candidates {
     double least;
     std::vector<Index> triangles;
@@ -32,26 +33,26 @@ class VolumeFaces {
   bool is_on_surface(const std::vector<Index>& candidates) const;
   Face exactly_nearest(const std::vector<Index>& triangles) const;
   Face face_of(Index t, int feature) const;
-  /// The exact one first. A face is possible if every triangle around it says so: where the foot on one of them lies
-  /// off the face for certain, that triangle is nearer, by however little. But a foot that is off by 16 u moves a
-  /// distance that it is the smallest of by (16 u)² at most, and by less nobody need tell them apart: four times that,
-  /// as the distances here are known to half of it.
+  /// Returns the faces that may be nearest, the exact one first. A face is possible if every triangle around it accepts
+  /// it: where the foot on one of them certainly lies off the face, that triangle is nearer, if only slightly. But a
+  /// foot that is off by 16 u changes a distance that is smallest there by at most (16 u)², and smaller differences
+  /// need not be told apart. The limit is four times that, since distances are known here only to half of it.
   std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest, double least) const;
   std::vector<Index> around(Face face) const;
   bool is_rim(Face face) const;
   bool contains(Face face, Index vertex) const;
-  /// `nearest_inside`: what the exactly nearest face says.
+  /// `nearest_inside`: whether x is on the inner side of the exactly nearest face.
   bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const;
-  /// Whether a face has no side that must be told.
+  /// Returns whether either side of a face is accepted.
   virtual bool is_vague(Face) const { return false; }
-  /// Outside: faces in whose outward block x lies nearer than r, for certain or perhaps. `faces_in`: what the nearest
-  /// face says.
+  /// Adds contacts outside: faces in whose outward block x lies nearer than r, certainly or possibly. `faces_in`:
+  /// whether x is on the inner side of the nearest face.
   void touch(const std::vector<Index>& triangles, Face nearest, bool faces_in, compare::VolumePartTruth& truth);
-  /// Unless it is there already, or x lies farther than r for certain.
+  /// Adds a contact at a face, unless it is listed already or x is certainly farther than r.
   void add_touching(Face face, compare::VolumePartTruth& truth) const;
-  /// The contact at a face.
+  /// Returns the contact at a face.
   compare::VolumeAnswer answer(Face face, bool inside) const;
-  /// Of a normal: Σ‖∂n̂/∂δ‖‖δ‖, δ two sides: ‖e₁‖‖e₂‖/‖e₁ × e₂‖ for each.
+  /// Returns the scale of a normal: Σ‖∂n̂/∂δ‖‖δ‖, δ two sides: ‖e₁‖‖e₂‖/‖e₁ × e₂‖ for each.
   double normal_scale(Index t) const;
 
   const Complex& mesh_;

@@ -6,17 +6,17 @@
 
 namespace ogc::reference {
 
-/// Values from multiprecision; scales are the moduli of the terms, of the two stages' energy as Eq. 18 and 20 print
-/// them (logarithms of metres included). Zero, with scale zero, for d ≥ r.
+/// Computes values in multiprecision. Scales are the moduli of the terms; the energy with two stages has the terms that
+/// Eq. 18 and 20 print (logarithms of metres included). Value and scale are zero for d ≥ r.
 compare::ActivationTruth activation(const compare::ActivationIn& in);
 
 /// One value of the activation and its derivatives by d, from multiprecision.
 struct ActivationValue {
   double energy = 0, slope = 0, curvature = 0;  ///< g [J], g' [N], g'' [N/m]
-  /// units of their errors, as of compare::ActivationTruth
+  /// Units of their errors, as in compare::ActivationTruth.
   double energy_scale = 0, slope_scale = 0, curvature_scale = 0;
 };
-/// At one distance d ≥ 0 [m]; r [m], k_c [N/m].
+/// Returns the activation at one distance d ≥ 0 [m]; r [m], k_c [N/m].
 ActivationValue activation_at(compare::ContactActivation kind, double distance, double contact_radius,
                               double stiffness);
 

@@ -25,7 +25,7 @@ Hinge<ByVertex> now_of(const compare::BendingCase& q, Inputs& inputs) {
 const Input& at_vertex(const ByVertex& x) { return x.value; }
 const Input& at_vertex(const Input& x) { return x; }
 
-/// The angle, and where it cannot be told from ±π also the one on the other side.
+/// Returns the angle; where it can't be told from ±π also the one on the other side.
 template <class T>
 std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   const Input& value = at_vertex(angle);
@@ -34,8 +34,8 @@ std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   return {angle, angle + T(Input(value.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi))};
 }
 
-/// What is left of the scales where first derivatives vanish: errors of n u · cond in the gradient, twice in the block,
-/// and in the force beside one of the moment, which takes the other roundings of a force.
+/// The scales that remain where first derivatives vanish. The gradient errs by n u · cond; the block has the square of
+/// that error, the force its product with the error of the moment, which takes the other roundings of a force.
 struct SecondOrder {
   double force, block;
 };
@@ -49,15 +49,15 @@ SecondOrder second_order(const Inputs& inputs, const HingeTermOf<Input>& term, c
   return {moment_share * error * inputs.condition(energy.slope), error * energy.bend(0).value * gradient};
 }
 
-/// What is asked, as numbers that know their inputs.
+/// The question in Input numbers.
 struct Question {
   const compare::BendingCase& asked;
   Inputs inputs;
   Hinge<ByVertex> x;
   Fold<Input> before;
   HingeTermOf<Input> term;  ///< with damping of the angle
-  Input damping;            ///< whatever it acts on
-  Triple<Input> moved;      ///< of the vertex, with damping by vertex
+  Input damping;            ///< in either form of damping
+  Triple<Input> moved;      ///< motion of the vertex, with damping by vertex
 
   explicit Question(const compare::BendingCase& q)
       : asked(q), x(now_of(q, inputs)), before(inputs.stencil(q.start, 0)) {
@@ -72,7 +72,7 @@ struct Question {
     }
   }
   bool by_vertex() const { return !damps_strain(asked.damping_form); }
-  /// The term with this angle at the start.
+  /// Returns the term with this angle at the start.
   HingeTermOf<Input> from(const Input& start) const {
     HingeTermOf<Input> result = term;
     result.start = start;
@@ -80,7 +80,8 @@ struct Question {
   }
 };
 
-/// The answers over the angles that are accepted now and at the start, and none where the hinge may count as collapsed.
+/// Returns the answers for the angles that are accepted now and at the start; also a zero answer where the hinge may
+/// count as collapsed.
 template <class AnswerAt>
 std::vector<ForceAnswer> over_angles(const Question& q, bool damped, AnswerAt answer_at) {
   const Fold<ByVertex> now(q.x);

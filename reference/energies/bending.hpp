@@ -5,10 +5,10 @@
 
 namespace ogc::reference {
 
-/// The exact answer, then those with an angle near ±π on the other side of the cut.
+/// Returns the exact answer; where an angle is near ±π also those on the other side of the cut.
 std::vector<compare::ForceAnswer> bending(const compare::BendingCase& question);
 
-/// All cases, in parallel over them.
+/// Computes all cases, in parallel over them.
 compare::ForceTruth bending(const compare::BendingIn& in);
 
 }  // namespace ogc::reference

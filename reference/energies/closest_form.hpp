@@ -1,6 +1,6 @@
-// Where the contact points of two closed faces lie, in double, and their distance over any number type. Newton's
-// positions are doubles between two detections, so the exact predicates of reference/geometry do not apply; they are
-// not needed either: the distance is continuous, with its slope, across the features.
+// The contact points of two closed faces, in double, and their distance over any number type. Newton's positions are
+// doubles between two detections, so the exact predicates of reference/geometry do not apply. They are not needed
+// either: the distance is continuous, with its slope, across the features.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace ogc::reference {
 
-/// What the distance is measured between, by places in the vertices of the contact.
+/// The features between which the distance is measured, by places in the vertices of the contact.
 enum class FormKind : std::uint8_t {
   points,        ///< 0, 1
   point_line,    ///< 0; 1 2
@@ -23,16 +23,17 @@ enum class FormKind : std::uint8_t {
 /// The contact points: x_first = Σ of the positive weights, x_second = −Σ of the negative ones.
 struct ClosestForm {
   FormKind kind = FormKind::points;  ///< which faces hold the closest points
-  std::array<std::uint8_t, 4> at{};  ///< which vertices the places are
-  std::array<double, 4> weight{};    ///< by vertex of the contact; each side's add up to 1 and −1
+  std::array<std::uint8_t, 4> at{};  ///< the vertices at the places of the form
+  /// by vertex of the contact; the weights of one side add up to 1, those of the other to −1
+  std::array<double, 4> weight{};
 };
 
-/// A collapsed edge or triangle counts as the lower face that holds the closest point.
+/// Returns the form of a contact. A collapsed edge or triangle counts as the lower face that holds the closest point.
 ClosestForm closest_form(compare::ContactSides sides, const std::array<Triple<double>, 4>& x);
-/// Of two edges without the rule for nearly parallel ones: never `fixed_weights`.
+/// Returns the form of two edges without the rule for nearly parallel ones: never `fixed_weights`.
 ClosestForm closest_edges(const std::array<Triple<double>, 4>& x);
 
-/// Σ w_i x_i, the vector from the second contact point to the first.
+/// Returns Σ w_i x_i, the vector from the second contact point to the first.
 template <class Number, class T, std::size_t N>
 Triple<T> separation(const std::array<Number, 4>& weight, const std::array<Triple<T>, N>& x) {
   Triple<T> sum = weight[0] * x[0];
@@ -40,14 +41,14 @@ Triple<T> separation(const std::array<Number, 4>& weight, const std::array<Tripl
   return sum;
 }
 
-/// |h|/‖n‖ for a height times ‖n‖.
+/// Returns |h| for a height h that is given times ‖n‖.
 template <class T>
 T height(const T& scaled, const Triple<T>& normal) {
   using std::sqrt;
   return sign_of(plain(scaled)) * scaled / sqrt(dot(normal, normal));
 }
 
-/// The distance of a form's points, lines or planes [m].
+/// Returns the distance of a form's points, lines or planes [m].
 template <class T, std::size_t N>
 T form_distance(const ClosestForm& form, const std::array<Triple<T>, N>& x) {
   using std::sqrt;

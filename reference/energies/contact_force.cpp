@@ -9,7 +9,7 @@ namespace {
 using ByDistance = Derivative<Input, 1>;
 using ByDistanceTwice = Derivative<ByDistance, 1>;
 
-/// d as a function of a vertex with this weight, at the origin of its displacements.
+/// Returns d as a function of a vertex with this weight, at the origin of its displacements.
 ByVertex distance_of(const Meeting& meeting, const Input& weight) {
   Triple<ByVertex> apart = fixed(meeting.separation());
   apart = apart + ByVertex(weight) * own_vertex();
@@ -22,7 +22,7 @@ struct Slopes {
 };
 
 Slopes slopes(const Meeting& meeting) {
-  // Whose curvature is 0 at r, exactly: a logarithm of r/r in double is not quite.
+  // These activations have curvature 0 at r, exactly; a logarithm of r/r in double is not quite 0.
   if (meeting.is_beyond() && form_of(meeting.activation).ends_flat) return {};
   const ByDistanceTwice variable(ByDistance(meeting.acting_distance(meeting.distance), 0), 0);
   const ByDistanceTwice energy = meeting.energy(variable);

@@ -6,11 +6,11 @@
 
 namespace ogc::reference {
 
-/// The exact answer, then those of the features, stages and ends of action that a decision in its grey zone could give
-/// instead.
+/// Returns the exact answer, then those for the features, stages and ends of action that a decision in its grey zone
+/// could give instead.
 std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question);
 
-/// All cases, in parallel over them.
+/// Computes all cases, in parallel over them.
 compare::ForceTruth contact_force(const compare::ContactForceIn& in);
 
 }  // namespace ogc::reference

@@ -1,6 +1,6 @@
 // Forward differentiation. A number carries its derivatives by N directions; the type nests, which gives second
 // derivatives and, with the inputs of a question as the innermost directions, the condition of every derivative. No
-// derivative of an energy is written by hand in this room.
+// derivative of an energy is written by hand here.
 #pragma once
 
 #include <algorithm>
@@ -11,21 +11,21 @@
 
 namespace ogc::reference {
 
-/// The number without its derivatives.
+/// Returns the number without its derivatives.
 inline double plain(double x) { return x; }
 
-/// `count`: slopes from this direction on are 0. Most factors of an energy do not move, or with few of its inputs, and
-/// what is 0 need not be computed.
+/// A number with its derivatives by N inputs. Slopes from `count` on are 0: most factors of an energy depend on few of
+/// its inputs, or on none, and zeros need not be computed.
 template <class T, std::size_t N>
 struct Derivative {
   T value{};                 ///< of the expression
-  std::size_t count = 0;     ///< slopes that may differ from 0
+  std::size_t count = 0;     ///< number of slopes that may differ from 0
   std::array<T, N> slope{};  ///< by input
 
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}
   Derivative(double constant) requires(!std::is_same_v<T, double>) : value(constant) {}
-  /// The variable of direction `direction`.
+  /// Makes the variable of direction `direction`.
   Derivative(const T& at, std::size_t direction) : value(at), count(direction + 1) { slope[direction] = T(1.0); }
 
   friend Derivative operator+(Derivative a, const Derivative& b) {
@@ -65,14 +65,14 @@ struct Derivative {
   friend bool operator==(const Derivative& a, const T& b) { return a.value == b; }
 };
 
-/// −1 where x < 0, else 1.
+/// Returns −1 where x < 0, else 1.
 inline double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
 template <class T, std::size_t N>
 double plain(const Derivative<T, N>& x) {
   return plain(x.value);
 }
 
-/// max(0, x) that keeps x's derivatives: the unit of a judged error must hold on both sides of the corner.
+/// Returns max(0, x) with x's derivatives: the unit of a judged error must hold on both sides of the corner.
 inline double positive_part(double x) { return std::max(0.0, x); }
 template <class T, std::size_t N>
 Derivative<T, N> positive_part(Derivative<T, N> x) {
@@ -80,7 +80,8 @@ Derivative<T, N> positive_part(Derivative<T, N> x) {
   return x;
 }
 
-/// The same where x is a product, and the other factor of it may be negative: only that one's derivatives are kept.
+/// Returns the same where x is the product of `factor` and another number, which may be negative: then only the other
+/// number's derivatives are kept.
 inline double positive_part(double x, double) { return std::max(0.0, x); }
 template <class T, std::size_t N>
 Derivative<T, N> positive_part(const Derivative<T, N>& x, const Derivative<T, N>& factor) {
@@ -88,7 +89,7 @@ Derivative<T, N> positive_part(const Derivative<T, N>& x, const Derivative<T, N>
   return factor * positive_part(x / factor);
 }
 
-/// f(x) from its value and slope there.
+/// Returns f(x) from the value and slope of f there.
 template <class T, std::size_t N>
 Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>& x) {
   Derivative<T, N> result(value);
@@ -97,7 +98,7 @@ Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>&
   return result;
 }
 
-/// At 0 the derivative is taken as 0: energies meet the root only where it is multiplied by a quantity that vanishes
+/// At 0 the derivative is taken as 0: energies reach the root only where it is multiplied by a quantity that vanishes
 /// there too.
 template <class T, std::size_t N>
 Derivative<T, N> sqrt(const Derivative<T, N>& x) {
@@ -113,7 +114,7 @@ Derivative<T, N> log(const Derivative<T, N>& x) {
   return chained(T(log(x.value)), T(T(1.0) / x.value), x);
 }
 
-/// The angle of (x, y); not both 0.
+/// Returns the angle of (x, y), which must not both be 0.
 template <class T, std::size_t N>
 Derivative<T, N> atan2(const Derivative<T, N>& y, const Derivative<T, N>& x) {
   using std::atan2;
@@ -145,12 +146,12 @@ template <class T, std::size_t N>
 Triple<Derivative<T, N>> operator*(const std::type_identity_t<T>& s, const Triple<Derivative<T, N>>& a) {
   return Derivative<T, N>(s) * a;
 }
-/// Σ aᵢ bᵢ.
+/// Returns Σ aᵢ bᵢ.
 template <class T>
 T dot(const Triple<T>& a, const Triple<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-/// a × b.
+/// Returns a × b.
 template <class T>
 Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

@@ -12,7 +12,7 @@ namespace ogc::reference {
 template <class T>
 using Hinge = std::array<Triple<T>, 4>;
 
-/// A truth value, or one for each lane.
+/// Returns a truth value, or one for each lane.
 template <class T>
 auto is_zero(const Triple<T>& a) {
   return plain(a[0]) == 0.0 && plain(a[1]) == 0.0 && plain(a[2]) == 0.0;
@@ -23,23 +23,25 @@ double plain_length(const Triple<T>& a) {
   return std::hypot(plain(a[0]), plain(a[1]), plain(a[2]));
 }
 
-/// The two normals and the edge between them.
+/// The two normals of a hinge and the edge between its triangles.
 template <class T>
 struct Fold {
   Hinge<T> x;                     ///< x0, x1, o0, o1 [m]
   Triple<T> edge, first, second;  ///< x1 − x0 [m], and the normals of both triangles [m²]
   explicit Fold(const Hinge<T>& at)
       : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
-  /// Whether a triangle or the edge has no direction, so that there is no angle; a truth value, or one for each lane.
+  /// Returns whether a triangle or the edge has no direction, so that there is no angle; a truth value, or one for each
+  /// lane.
   auto collapsed() const { return is_zero(first) || is_zero(second); }
-  /// Whether a kernel may take the hinge as collapsed (compare/stages/bending.hpp).
+  /// Returns whether a kernel may treat the hinge as collapsed (compare/stages/bending.hpp).
   bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
-  /// Whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller sine.
+  /// Returns whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller
+  /// sine.
   bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {
     const double side = std::max(plain_length(opposite - x[0]), plain_length(opposite - x[1]));
     return plain_length(normal) < compare::bending_needle * compare::unit_roundoff * plain_length(edge) * side;
   }
-  /// From the first normal to the second, about the edge.
+  /// Returns the angle from the first normal to the second, about the edge.
   T angle() const {
     using std::atan2, std::sqrt;
     return atan2(dot(cross(first, second), edge) / sqrt(dot(edge, edge)), dot(first, second));

@@ -6,10 +6,10 @@
 
 namespace ogc::reference {
 
-/// The exact answer, then those of the contact's other acceptable answers.
+/// Returns the exact answer, then those for the contact's other acceptable answers.
 std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question);
 
-/// All cases, in parallel over them.
+/// Computes all cases, in parallel over them.
 compare::ForceTruth friction_force(const compare::FrictionForceIn& in);
 
 }  // namespace ogc::reference

@@ -11,7 +11,7 @@
 
 namespace ogc::reference {
 
-/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²); what holds θ is 0 where
+/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²); terms of θ are 0 where
 /// a triangle has collapsed.
 template <class Number>
 struct HingeTermOf {
@@ -21,7 +21,7 @@ struct HingeTermOf {
   std::array<Number, 4> weight{};                           ///< w [1/m]
   compare::BendingModel model = compare::BendingModel::discrete_hinge;
 
-  /// Whether anything depends on the angle: the elastic energy, or damping.
+  /// Returns whether elastic energy or damping depends on the angle.
   bool has_angle() const {
     switch (model) {
       case compare::BendingModel::none: break;
@@ -30,13 +30,13 @@ struct HingeTermOf {
     }
     return false;
   }
-  /// What depends on the angle: all of it, or the isometric model's damping.
+  /// Returns the part that depends on the angle: the whole energy, or the isometric model's damping.
   template <class T>
   T energy_of(const T& angle) const {
     const T moved = angle - T(start), elastic = elastic_of(angle);
     return damping == 0.0 ? elastic : elastic + 0.5 * stiffness * damping * moved * moved;
   }
-  /// What depends on the positions without the angle: the isometric model's c/2 ‖Σ w x‖².
+  /// Returns the part that depends on positions without the angle: the isometric model's c/2 ‖Σ w x‖².
   template <class T>
   T energy_of(const Hinge<T>& x) const {
     T elastic(0.0);
@@ -50,14 +50,14 @@ struct HingeTermOf {
     }
     return elastic;
   }
-  /// Without damping.
+  /// Returns the energy without damping [J].
   template <class T>
   T elastic(const Hinge<T>& x) const {
     HingeTermOf undamped = *this;
     undamped.damping = 0.0;
     return undamped.energy(x);
   }
-  /// Damping included [J].
+  /// Returns the energy, damping included [J].
   template <class T>
   T energy(const Hinge<T>& x) const {
     const T elastic = energy_of(x);
@@ -66,10 +66,10 @@ struct HingeTermOf {
     return fold.collapsed() ? elastic : elastic + energy_of(fold.angle());
   }
 
-  /// See the head of stencil_terms.hpp.
+  /// Constants; see the head of stencil_terms.hpp.
   auto numbers() { return std::tie(stiffness, rest_angle, damping, start, weight); }
   auto numbers() const { return std::tie(stiffness, rest_angle, damping, start, weight); }
-  /// See the head of stencil_terms.hpp.
+  /// What stencils side by side share; see the head of stencil_terms.hpp.
   auto kinds() { return std::tie(model); }
   auto kinds() const { return std::tie(model); }
 
@@ -91,7 +91,7 @@ struct HingeTermOf {
 /// A hinge over doubles.
 using HingeTerm = HingeTermOf<double>;
 
-/// c (1 + k) ∇θ ∇θᵀ, in the isometric model k c ∇θ ∇θᵀ.
+/// Adds force and block of the terms of θ: c (1 + k) ∇θ ∇θᵀ, in the isometric model k c ∇θ ∇θᵀ.
 template <class Number>
 void add_angle(const HingeTermOf<Number>& term, const ByOwn<Number>& angle, VertexSystemOf<Number>& sum) {
   const Second<1, Number> energy = along(angle.value, [&](const Second<1, Number>& a) { return term.energy_of(a); });
@@ -99,7 +99,7 @@ void add_angle(const HingeTermOf<Number>& term, const ByOwn<Number>& angle, Vert
   add_outer(energy.bend(0), angle.slope, angle.slope, sum.block);
 }
 
-/// The isometric model's c w² I.
+/// Adds the isometric model's force and its block c w² I.
 template <class Number>
 void add_positions(const HingeTermOf<Number>& term, const Hinge<ByOwn<Number>>& x, VertexSystemOf<Number>& sum) {
   switch (term.model) {

@@ -6,7 +6,8 @@ namespace ogc::reference {
 
 namespace {
 
-/// A length as it counts in a condition: products of shorter ones than 2⁻¹⁰⁰ m with what an energy has may underflow.
+/// Returns a length as it counts in a condition: products of lengths below 2⁻¹⁰⁰ m with the factors of an energy may
+/// underflow.
 double sized(double length) { return length == 0 ? 0 : std::max(length, 0x1p-100); }
 
 }  // namespace
@@ -48,7 +49,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 }  // namespace
 
 double Inputs::stencil_condition(std::span<const Input> answer, const Range& stencil) const {
-  // The point at the origin first: moving it alone is moving all others the other way.
+  // The point at the origin comes first: moving it alone is the same as moving all others the other way.
   std::vector<std::array<double, 3>> points(1);
   std::vector<double> norms(1);
   Rows origin(answer.size());

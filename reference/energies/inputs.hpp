@@ -1,5 +1,5 @@
-// The inputs of a stencil as innermost directions of differentiation, so that each derivative comes with its condition:
-// the unit in which the judge counts errors (compare/stages/force.hpp).
+// Makes the inputs of a stencil the innermost directions of differentiation, so that each derivative comes with its
+// condition: the unit in which the judge counts errors (compare/stages/force.hpp).
 #pragma once
 
 #include <span>
@@ -10,23 +10,24 @@
 
 namespace ogc::reference {
 
-/// A number that knows how it reacts to each input.
+/// A number with its derivatives by the inputs of a question.
 using Input = Derivative<double, 28>;
-/// A number with its derivatives by the coordinates of the vertex asked about.
+/// A number with its derivatives by the coordinates of the own vertex, whose force the question is about.
 using ByVertex = Derivative<Input, 3>;
 
 /// Collects the inputs of one stencil.
 class Inputs {
  public:
-  /// p − from as one input. Exact: differences of single-precision numbers of one size have no rounding in double.
+  /// Returns p − from as one input. It is exact: differences of single-precision numbers of one size have no rounding
+  /// in double.
   Triple<Input> vector(const compare::Vec3f& p, const compare::Vec3f& from);
-  /// A number that is given, known to u of itself.
+  /// Returns a given number, known to u of itself.
   Input number(double value) { return number(value, std::abs(value)); }
-  /// A number that is known to u times `size`: with the condition of a number as its size, its own inputs need not be
-  /// carried along.
+  /// Returns a number known to u times `size`. If `size` is the condition of a computed number, that number's inputs
+  /// need not be carried along.
   Input number(double value, double size);
-  /// All points of a stencil relative to points[origin], whose entry is 0. A kernel may form its differences from any
-  /// one of them: the condition is the largest over these choices.
+  /// Returns all points of a stencil relative to points[origin], whose entry is 0. A kernel may form its differences
+  /// from any one of them, so the condition is the largest over these choices.
   template <std::size_t N>
   std::array<Triple<Input>, N> stencil(const std::array<compare::Vec3f, N>& points, std::size_t origin) {
     std::array<Triple<Input>, N> relative;
@@ -35,14 +36,14 @@ class Inputs {
       if (k != origin) relative[k] = vector(points[k], points[origin]);
     return relative;
   }
-  /// Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, for an answer f of several numbers (Euclidean norms).
+  /// Returns Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, for an answer f of several numbers (Euclidean norms).
   double condition(std::span<const Input> answer) const;
 
  private:
   struct Group {
     std::size_t first, count;
     double size;
-    std::array<double, 3> at{};  ///< of a vector
+    std::array<double, 3> at{};  ///< the value of a vector
   };
   struct Range {
     std::size_t begin, end;
@@ -53,27 +54,27 @@ class Inputs {
   std::size_t used_ = 0;
 };
 
-/// A point that does not move with the vertex asked about.
+/// Returns a point that does not move with the own vertex.
 Triple<ByVertex> fixed(const Triple<Input>& point);
-/// The vertex asked about, at the origin of the relative coordinates.
+/// Returns the own vertex, at the origin of the relative coordinates.
 Triple<ByVertex> own_vertex();
 
-/// The block of a sweep that knows its inputs.
+/// A sweep's block in Input numbers.
 using Block = BlockOf<Input>;
 
-/// A force and its block as an answer.
+/// Returns a force and its block as an answer.
 compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& system);
-/// The answer from an energy, whose force is minus its slope, and a block.
+/// Returns the answer of an energy, whose force is minus its slope, and a block.
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
-/// B moved, of a vertex that moved since the start of the step, as a force of damping `k`: −k B moved, on top of the
-/// elastic force, and (1 + k) B for B.
+/// Adds damping by vertex to an elastic force with block B: −k B moved, where `moved` is the vertex's motion since the
+/// start of the step and k is `damping`, and (1 + k) B for B.
 compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const VertexSystemOf<Input>& elastic, const Input& damping,
                                       const Triple<Input>& moved);
 
-/// Multiplies the units of error: what a stage's tolerance is to one of its models.
+/// Multiplies the units of error, for a model whose tolerances differ from those of its stage.
 compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block);
-/// Both at once, rounded apart.
+/// Adds two answers that are rounded separately.
 compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b);
 
 }  // namespace ogc::reference

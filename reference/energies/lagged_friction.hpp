@@ -1,14 +1,14 @@
-// IPC's lagged potential over a slip that knows its inputs (method.md §4.4), for contacts of all kinds. f₀ is the
-// integral of f₁, so that the energy's derivative by the squared slip, f₁(y)/(2 y), is given with it, and finite where
-// the slip vanishes.
+// IPC's lagged potential of a slip in Input numbers (method.md §4.4), for contacts of all kinds. f₀ is the integral of
+// f₁; the energy's derivative by the squared slip, f₁(y)/(2 y), is given explicitly and is finite where the slip
+// vanishes.
 #pragma once
 
 #include "reference/energies/inputs.hpp"
 
 namespace ogc::reference {
 
-/// ‖u‖. Where u cannot be told from 0, being known to `units` of u · condition, it has no direction, and ‖u‖ grows by
-/// the length of any change of u.
+/// Returns ‖u‖. Where u, which is known to `units` of u · condition, can't be told from 0, it has no direction, and ‖u‖
+/// grows by the length of any change of u.
 inline Input slip_length(const Inputs& inputs, const Triple<Input>& slip, double units) {
   Input y = sqrt(dot(slip, slip));
   if (y.value > units * compare::unit_roundoff * inputs.condition(slip)) return y;
@@ -18,12 +18,12 @@ inline Input slip_length(const Inputs& inputs, const Triple<Input>& slip, double
   return y;
 }
 
-/// f₁(y)/y.
+/// Returns f₁(y)/y.
 inline Input slope_over_slip(const Input& y, const Input& limit) {
   return y.value < limit.value ? (Input(2.0) - y / limit) / limit : Input(1.0) / y;
 }
 
-/// f₀(y).
+/// Returns f₀(y).
 inline Input lagged_potential(const Input& y, const Input& limit) {
   if (!(y.value < limit.value)) return y;
   return y * y / limit - y * y * y / (Input(3.0) * limit * limit) + limit / Input(3.0);

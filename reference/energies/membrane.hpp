@@ -5,10 +5,10 @@
 
 namespace ogc::reference {
 
-/// The exact answer, then, where the stable Neo-Hookean model has no normal, one that holds for any.
+/// Returns the exact answer; where the stable Neo-Hookean model has no normal also one that covers every normal.
 std::vector<compare::ForceAnswer> membrane(const compare::MembraneCase& question);
 
-/// All cases, in parallel over them.
+/// Computes all cases, in parallel over them.
 compare::ForceTruth membrane(const compare::MembraneIn& in);
 
 }  // namespace ogc::reference

@@ -17,14 +17,14 @@ using Deformation = std::array<Triple<T>, 2>;
 template <class T>
 using Strain = std::array<T, 3>;
 
-/// ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m²]. The constants, here and below, may be plain numbers.
+/// Returns ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m²]. The constants, here and below, may be plain numbers.
 template <class T, class Lame>
 T density(const Strain<T>& g, const Lame& lambda, const Lame& mu) {
   const T trace = g[0] + g[2];
   return Lame(0.5) * lambda * trace * trace + mu * (g[0] * g[0] + Lame(2.0) * g[1] * g[1] + g[2] * g[2]);
 }
 
-/// F of the map from the rest plane that takes the corners to x.
+/// Returns F of the map from the rest plane that takes the corners to x.
 template <class T, class Gradient>
 Deformation<T> deformation(const std::array<Triple<T>, 3>& x, const std::array<std::array<Gradient, 2>, 3>& gradient) {
   Deformation<T> f;
@@ -33,15 +33,15 @@ Deformation<T> deformation(const std::array<Triple<T>, 3>& x, const std::array<s
   return f;
 }
 
-/// G = (FᵀF − I)/2.
+/// Returns G = (FᵀF − I)/2.
 template <class T>
 Strain<T> strain(const Deformation<T>& f) {
   return {0.5 * (dot(f[0], f[0]) - T(1.0)), 0.5 * dot(f[0], f[1]), 0.5 * (dot(f[1], f[1]) - T(1.0))};
 }
 
-/// μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ [J/m²]. Near rest the first two terms cancel, and
-/// their rounding would be more than all of the energy of a cloth in free fall; ‖F‖² − 2 J = (‖F‖⁴ − 4 J²)/(‖F‖² + 2
-/// J), whose numerator is a sum of squares, loses nothing.
+/// Returns μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ [J/m²]. Near rest the first two terms cancel,
+/// and their rounding would exceed the whole energy of a cloth in free fall; ‖F‖² − 2 J = (‖F‖⁴ − 4 J²)/(‖F‖² + 2 J),
+/// whose numerator is a sum of squares, loses nothing.
 template <class T, class Lame>
 T neo_hookean_density(const Deformation<T>& f, const Lame& lambda, const Lame& mu) {
   using std::sqrt;
@@ -49,7 +49,7 @@ T neo_hookean_density(const Deformation<T>& f, const Lame& lambda, const Lame& m
   const T squared[] = {dot(f[0], f[0]), dot(f[1], f[1])}, both = dot(f[0], f[1]);
   const T size = sqrt(dot(normal, normal)), grown = size - T(1.0), size_of_f = squared[0] + squared[1];
   const T bulk = Lame(0.5) * (lambda + mu) * grown * grown;
-  // collapsed: J has no derivatives
+  // The triangle has collapsed: J has no derivatives.
   if (plain(size) == 0.0) return Lame(0.5) * mu * (size_of_f - T(2.0)) - mu * grown + bulk;
   const T unequal = squared[0] - squared[1];
   return Lame(0.5) * mu * ((unequal * unequal + T(4.0) * both * both) / (size_of_f + T(2.0) * size)) + bulk;
@@ -64,29 +64,29 @@ struct MembraneTermOf {
   Strain<Number> start{};                                    ///< Gᵗ
   compare::MembraneModel model = compare::MembraneModel::st_venant_kirchhoff;
 
-  /// A ϕ(G).
+  /// Returns A ϕ(G).
   template <class T>
   T elastic_of(const Strain<T>& g) const {
     return area * density(g, lambda, mu);
   }
-  /// A ψ(F) of the stable Neo-Hookean model.
+  /// Returns A ψ(F) of the stable Neo-Hookean model.
   template <class T>
   T elastic_of(const Deformation<T>& f) const {
     return area * neo_hookean_density(f, lambda, mu);
   }
-  /// A k ϕ(G − Gᵗ) [J].
+  /// Returns A k ϕ(G − Gᵗ) [J].
   template <class T>
   T damping_of(const Strain<T>& g) const {
     const Strain<T> change{g[0] - T(start[0]), g[1] - T(start[1]), g[2] - T(start[2])};
     return area * damping * density(change, lambda, mu);
   }
-  /// Without damping [J].
+  /// Returns the energy without damping [J].
   template <class T>
   T elastic(const std::array<Triple<T>, 3>& x) const {
     const Deformation<T> f = deformation<T>(x, gradient);
     return elastic_of(f, strain(f));
   }
-  /// Damping included [J].
+  /// Returns the energy, damping included [J].
   template <class T>
   T energy(const std::array<Triple<T>, 3>& x) const {
     const Deformation<T> f = deformation<T>(x, gradient);
@@ -95,10 +95,10 @@ struct MembraneTermOf {
     return damping == 0.0 ? psi : psi + damping_of(g);
   }
 
-  /// See the head of stencil_terms.hpp.
+  /// Constants; see the head of stencil_terms.hpp.
   auto numbers() { return std::tie(gradient, area, lambda, mu, damping, start); }
   auto numbers() const { return std::tie(gradient, area, lambda, mu, damping, start); }
-  /// See the head of stencil_terms.hpp.
+  /// What stencils side by side share; see the head of stencil_terms.hpp.
   auto kinds() { return std::tie(model); }
   auto kinds() const { return std::tie(model); }
 
@@ -123,14 +123,14 @@ struct MembraneCorner {
   Deformation<ByOwnTwice<Number>> f;
   Strain<ByOwnTwice<Number>> g, by_strain;
 
-  /// `corners` [m], of which the one at `place` is the variable.
+  /// Takes the corners [m]; the one at `place` is the variable.
   MembraneCorner(const MembraneTermOf<Number>& term, std::size_t place, const std::array<Triple<Number>, 3>& corners)
       : f(deformation<ByOwnTwice<Number>>(with_own<ByOwnTwice<Number>>(corners, place), term.gradient)), g(strain(f)) {
     for (std::size_t i = 0; i < 3; ++i) by_strain[i] = variable(g[i].value, i);
   }
 };
 
-/// Force and material part of an energy of the strain: its second derivative along the derivatives of G.
+/// Adds force and material part of an energy of the strain: its second derivative along the derivatives of G.
 template <class Number>
 void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
   for (std::size_t i = 0, k = 0; i < 3; ++i) {
@@ -140,8 +140,8 @@ void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& e
   }
 }
 
-/// Where stiff, the part of the elastic stress: G is a quadratic function whose second derivative is a multiple of the
-/// identity.
+/// Adds the geometric part of the block, from the elastic stress, where it is positive: G is a quadratic function whose
+/// second derivative is a multiple of the identity.
 template <class Number>
 void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& elastic,
                    VertexSystemOf<Number>& sum) {
@@ -150,7 +150,7 @@ void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, cons
   add_identity(positive_part(geometric, area), sum.block);
 }
 
-/// The exact second derivative, with its eigenvalue along the normal as max(0, ·).
+/// Adds the exact second derivative, with max(0, ·) of its eigenvalue along the normal.
 template <class Number>
 void add_neo_hookean(const Number& area, const ByOwnTwice<Number>& energy, const Triple<Number>& normal,
                      VertexSystemOf<Number>& sum) {
@@ -167,7 +167,7 @@ void add_neo_hookean(const Number& area, const ByOwnTwice<Number>& energy, const
   add_outer((positive_part(eigenvalue, area) - eigenvalue) / squared, normal, normal, sum.block);
 }
 
-/// Force and block of a corner without damping.
+/// Adds force and block of a corner without damping.
 template <class Number>
 void add_elastic(const MembraneTermOf<Number>& term, const MembraneCorner<Number>& at, VertexSystemOf<Number>& sum) {
   switch (term.model) {
@@ -186,7 +186,7 @@ void add_elastic(const MembraneTermOf<Number>& term, const MembraneCorner<Number
   }
 }
 
-/// Of k ϕ(G − Gᵗ).
+/// Adds force and block of k ϕ(G − Gᵗ).
 template <class Number>
 void add_damping(const MembraneTermOf<Number>& term, const MembraneCorner<Number>& at, VertexSystemOf<Number>& sum) {
   if (plain(term.damping) > 0) add_strain(at.g, term.damping_of(at.by_strain), sum);

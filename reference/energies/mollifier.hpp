@@ -11,9 +11,9 @@ struct Mollifier {
   T sine, limit;  ///< c, ε [m⁴]
   Mollifier(const Triple<T>& e, const Triple<T>& f, const T& rest_squared_e, const T& rest_squared_f)
       : sine(dot(cross(e, f), cross(e, f))), limit(T(1e-3) * rest_squared_e * rest_squared_f) {}
-  /// Elsewhere e_k is 1.
+  /// Returns whether e_k is below 1.
   bool acts() const { return plain(sine) < plain(limit); }
-  /// Where it acts.
+  /// Returns e_k where it acts.
   T value() const {
     const T share = sine / limit;
     return share * (T(2.0) - share);

@@ -5,14 +5,14 @@
 
 namespace ogc::reference {
 
-/// x within [0, 1]; keeps its derivatives, which hold on one side of the corner at least.
+/// Returns x, clamped to [0, 1]; it keeps its derivatives, which hold on at least one side of the corner.
 template <class T>
 T within_unit(const T& x) {
   const double value = plain(x);
   return value < 0 ? x - T(value) : value > 1 ? (x - T(value)) + T(1.0) : x;
 }
 
-/// The overlap of edges e and f, seen along e, over the shorter one's length. `between`: from e's start to f's.
+/// Returns the overlap of edges e and f, seen along e, over the shorter one's length. `between`: from e's start to f's.
 template <class T>
 T overlap_share(const Triple<T>& e, const Triple<T>& f, const Triple<T>& between) {
   using std::sqrt;

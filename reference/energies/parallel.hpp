@@ -1,4 +1,4 @@
-// All cases of a batch, in parallel over them: each case has its place, so threads change nothing.
+// Computes all cases of a batch in parallel. Each case has its place in the result, so threads change nothing.
 #pragma once
 
 #include <utility>
@@ -17,7 +17,7 @@ struct Accepted {
   Accepted(std::vector<compare::ForceAnswer> all, bool is_near = false) : answers(std::move(all)), near(is_near) {}
 };
 
-/// `truth_of` gives the truth about one case.
+/// Computes the truth about each case by `truth_of`.
 template <class Case, class TruthOf>
 compare::ForceTruth for_all(const std::vector<Case>& cases, TruthOf truth_of) {
   compare::ForceTruth truth{std::vector<std::vector<compare::ForceAnswer>>(cases.size()),

@@ -1,7 +1,7 @@
 // Forward differentiation to second order of a function of N variables: value, gradient and one triangle of the
 // Hessian. Nesting Derivative in itself would carry the other triangle too; Newton's method differentiates each stencil
-// of a mesh in each iteration, so this is worth a type of its own. `Number` is a double, or several of them side by
-// side (lanes.hpp).
+// of a mesh in each iteration, so a separate type is worthwhile. `Number` is a double, or several of them side by side
+// (lanes.hpp).
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace ogc::reference {
 
-/// Calls visit(i, j, k) for each entry k = (i, j), j ≤ i, of a triangle of N rows, written out: short loops of changing
-/// length cost more than their bodies.
+/// Calls visit(i, j, k) for each entry k = (i, j), j ≤ i, of a triangle of N rows. The loop is unrolled: short loops of
+/// changing length cost more than their bodies.
 template <std::size_t N, class Visit>
 [[gnu::always_inline]] inline void for_triangle(Visit visit) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -28,8 +28,9 @@ template <std::size_t N, class Visit>
   (std::make_index_sequence<N>{});
 }
 
-/// Public: value and slope; second derivatives by `bend`, since they are left open in what is linear: positions, edges
-/// and F. There they would be more than three quarters of all that is copied, and of what the cache must hold.
+/// A number with gradient and Hessian. Value and slope are public. Second derivatives are read by `bend`, because they
+/// are not stored for linear numbers (positions, edges and F): there they would be more than three quarters of all that
+/// is copied, and of what the cache must hold.
 template <std::size_t N, class Number = double>
 class Second {
  public:
@@ -51,7 +52,7 @@ class Second {
     return *this;
   }
 
-  /// Entry k of the second derivatives: row i holds ∂²/∂i∂j for j ≤ i.
+  /// Returns entry k of the second derivatives: row i holds ∂²/∂i∂j for j ≤ i.
   Number bend(std::size_t k) const { return linear_ ? Number(0.0) : bend_[k]; }
 
   friend Second operator+(Second a, const Second& b) {
@@ -107,7 +108,7 @@ class Second {
     const Number inverse = 1.0 / b.value;
     return a * composed(inverse, -inverse * inverse, 2.0 * inverse * inverse * inverse, b);
   }
-  /// f(x) from f, f' and f'' there.
+  /// Returns f(x) from f, f' and f'' there.
   friend Second composed(const Number& f, const Number& first, const Number& second, const Second& x) {
     Second result(Open{}, f);
     for (std::size_t i = 0; i < N; ++i) result.slope[i] = first * x.slope[i];
@@ -128,7 +129,8 @@ class Second {
     using std::log;
     return composed(log(x.value), 1.0 / x.value, -1.0 / (x.value * x.value), x);
   }
-  /// The imaginary part of log(x + iy), whose second derivative is that of z''/z − (z'/z)². Not both 0.
+  /// Returns the imaginary part of log z, z = x + iy ≠ 0; its second derivative is the imaginary part of z''/z −
+  /// (z'/z)².
   friend Second atan2(const Second& y, const Second& x) {
     using std::atan2;
     const Number squared = x.value * x.value + y.value * y.value;
@@ -145,7 +147,7 @@ class Second {
   }
 
  private:
-  /// Slopes and bends are left open, to be filled at once.
+  /// Makes a constructor leave slopes and bends open; they must be filled at once.
   struct Open {};
   Second(Open, const Number& at) : value(at), linear_(false) {}
 

@@ -16,7 +16,7 @@ using SolidDeformation = std::array<Triple<T>, 3>;
 template <class T>
 using SolidStrain = std::array<T, 6>;
 
-/// F of the map that takes the corners at rest to x.
+/// Returns F of the map that takes the corners at rest to x.
 template <class T, class Gradient>
 SolidDeformation<T> solid_deformation(const std::array<Triple<T>, 4>& x,
                                       const std::array<std::array<Gradient, 3>, 4>& gradient) {
@@ -26,7 +26,7 @@ SolidDeformation<T> solid_deformation(const std::array<Triple<T>, 4>& x,
   return f;
 }
 
-/// G = (FᵀF − I)/2.
+/// Returns G = (FᵀF − I)/2.
 template <class T>
 SolidStrain<T> solid_strain(const SolidDeformation<T>& f) {
   const T one(1.0);
@@ -34,7 +34,7 @@ SolidStrain<T> solid_strain(const SolidDeformation<T>& f) {
           0.5 * (dot(f[1], f[1]) - one), 0.5 * dot(f[1], f[2]), 0.5 * (dot(f[2], f[2]) - one)};
 }
 
-/// ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m³]. The constants, here and below, may be plain numbers.
+/// Returns ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m³]. The constants, here and below, may be plain numbers.
 template <class T, class Lame>
 T solid_quadratic(const SolidStrain<T>& g, const Lame& lambda, const Lame& mu) {
   const T trace = g[0] + g[3] + g[5];
@@ -42,10 +42,10 @@ T solid_quadratic(const SolidStrain<T>& g, const Lame& lambda, const Lame& mu) {
          mu * (g[0] * g[0] + g[3] * g[3] + g[5] * g[5] + Lame(2.0) * (g[1] * g[1] + g[2] * g[2] + g[4] * g[4]));
 }
 
-/// μ/2 (‖F‖² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)² [J/m³]. Near rest the first two terms cancel, and their rounding
-/// would be more than all of the energy of a solid in free fall. With J² = det(I + 2G) they are μ (tr(G) (J − 1) − 4 I₂
-/// − 8 det G)/(J + 1), I₂ the sum of the principal minors of G, of second order term by term; where J is not positive
-/// nothing cancels.
+/// Returns μ/2 (‖F‖² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)² [J/m³]. Near rest the first two terms cancel, and their
+/// rounding would exceed the whole energy of a solid in free fall. With J² = det(I + 2G) they are μ (tr(G) (J − 1) − 4
+/// I₂ − 8 det G)/(J + 1), with I₂ the sum of the principal minors of G, which is of second order term by term; where J
+/// is not positive nothing cancels.
 template <class T, class Lame>
 T solid_density(const SolidDeformation<T>& f, const Lame& lambda, const Lame& mu) {
   const T ratio = dot(f[0], cross(f[1], f[2])), grown = ratio - T(1.0);
@@ -61,8 +61,8 @@ T solid_density(const SolidDeformation<T>& f, const Lame& lambda, const Lame& mu
   return mu * ((trace * once - T(4.0) * minors - T(8.0) * determinant) / (ratio + T(1.0))) + bulk;
 }
 
-/// A tetrahedron: V (ψ + k ϕ(G − Gᵗ)), ψ of F by the gradients (compare/stages/tetrahedron.hpp has it by weights, whose
-/// roundings differ).
+/// A tetrahedron: V (ψ + k ϕ(G − Gᵗ)). F is computed from the gradients; compare/stages/tetrahedron.hpp computes ψ from
+/// weights, whose roundings differ.
 template <class Number>
 struct TetrahedronTermOf {
   std::array<compare::Index, 4> vertex{};
@@ -70,34 +70,34 @@ struct TetrahedronTermOf {
   Number volume = 0.0, lambda = 0.0, mu = 0.0, damping = 0.0;  ///< V [m³], Lamé [Pa], k = k_d/h [1]
   SolidStrain<Number> start{};                                 ///< Gᵗ
 
-  /// V ψ(F) [J].
+  /// Returns V ψ(F) [J].
   template <class T>
   T elastic_of(const SolidDeformation<T>& f) const {
     return volume * solid_density(f, lambda, mu);
   }
-  /// V k ϕ(G − Gᵗ) [J].
+  /// Returns V k ϕ(G − Gᵗ) [J].
   template <class T>
   T damping_of(const SolidStrain<T>& g) const {
     SolidStrain<T> change;
     for (std::size_t i = 0; i < change.size(); ++i) change[i] = g[i] - T(start[i]);
     return volume * damping * solid_quadratic(change, lambda, mu);
   }
-  /// Without damping [J].
+  /// Returns the energy without damping [J].
   template <class T>
   T elastic(const std::array<Triple<T>, 4>& x) const {
     return elastic_of(solid_deformation<T>(x, gradient));
   }
-  /// Damping included [J].
+  /// Returns the energy, damping included [J].
   template <class T>
   T energy(const std::array<Triple<T>, 4>& x) const {
     const SolidDeformation<T> f = solid_deformation<T>(x, gradient);
     return damping == 0.0 ? elastic_of(f) : elastic_of(f) + damping_of(solid_strain(f));
   }
 
-  /// See the head of stencil_terms.hpp.
+  /// Constants; see the head of stencil_terms.hpp.
   auto numbers() { return std::tie(gradient, volume, lambda, mu, damping, start); }
   auto numbers() const { return std::tie(gradient, volume, lambda, mu, damping, start); }
-  /// See the head of stencil_terms.hpp.
+  /// What stencils side by side share; see the head of stencil_terms.hpp.
   auto kinds() { return std::tie(); }
   auto kinds() const { return std::tie(); }
 };
@@ -111,7 +111,7 @@ struct TetrahedronCorner {
   SolidStrain<ByOwnTwice<Number>> g;
   SolidStrain<Second<6, Number>> by_strain;
 
-  /// `corners` [m], of which the one at `place` is the variable.
+  /// Takes the corners [m]; the one at `place` is the variable.
   TetrahedronCorner(const TetrahedronTermOf<Number>& term, std::size_t place,
                     const std::array<Triple<Number>, 4>& corners)
       : f(solid_deformation<ByOwnTwice<Number>>(with_own<ByOwnTwice<Number>>(corners, place), term.gradient)),
@@ -123,7 +123,7 @@ struct TetrahedronCorner {
   }
 };
 
-/// Of k ϕ(G − Gᵗ): force and material part, its second derivative along the derivatives of G.
+/// Adds force and material part of k ϕ(G − Gᵗ): its second derivative along the derivatives of G.
 template <class Number>
 void add_damping(const TetrahedronTermOf<Number>& term, const TetrahedronCorner<Number>& at,
                  VertexSystemOf<Number>& sum) {

@@ -5,10 +5,10 @@
 
 namespace ogc::reference {
 
-/// One case; see compare/stages/spring.hpp.
+/// Computes one case; see compare/stages/spring.hpp.
 compare::ForceAnswer spring(const compare::SpringCase& question);
 
-/// All cases, in parallel over them.
+/// Computes all cases, in parallel over them.
 compare::ForceTruth spring(const compare::SpringIn& in);
 
 }  // namespace ogc::reference

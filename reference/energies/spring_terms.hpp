@@ -8,14 +8,14 @@
 
 namespace ogc::reference {
 
-/// k_s/2 (l − l₀)².
+/// Returns k_s/2 (l − l₀)².
 template <class T, class Number>
 T spring_energy(const T& length, const Number& stiffness, const T& rest_length) {
   return Number(0.5) * stiffness * (length - rest_length) * (length - rest_length);
 }
 
-/// A spring: k_s/2 ((l − l₀)² + k (l − lᵗ)²), l = ‖Σ wᵢ xᵢ‖: of an end and a point between two others, or another
-/// vertex.
+/// A spring between one vertex and another one, or a point between two others: k_s/2 ((l − l₀)² + k (l − lᵗ)²), l = ‖Σ
+/// wᵢ xᵢ‖.
 template <class Number>
 struct SpringTermOf {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
@@ -23,31 +23,31 @@ struct SpringTermOf {
   Number stiffness = 0.0, rest_length = 0.0, damping = 0.0;  ///< k_s [N/m], l₀ [m], k [1]
   Number start = 0.0;                                        ///< lᵗ [m]
 
-  /// Without damping [J].
+  /// Returns the energy without damping [J].
   template <class T>
   T elastic(const std::array<Triple<T>, 4>& x) const {
     return about(separation(weight, x), rest_length);
   }
-  /// Of Σ wᵢ xᵢ.
+  /// Returns the energy by Σ wᵢ xᵢ, damping included [J].
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     return damping == 0.0 ? about(apart, rest_length) : about(apart, rest_length) + damping * about(apart, start);
   }
-  /// Damping included [J].
+  /// Returns the energy, damping included [J].
   template <class T>
   T energy(const std::array<Triple<T>, 4>& x) const {
     return energy_between(separation(weight, x));
   }
 
-  /// See the head of stencil_terms.hpp.
+  /// Constants; see the head of stencil_terms.hpp.
   auto numbers() { return std::tie(weight, stiffness, rest_length, damping, start); }
   auto numbers() const { return std::tie(weight, stiffness, rest_length, damping, start); }
-  /// See the head of stencil_terms.hpp.
+  /// What stencils side by side share; see the head of stencil_terms.hpp.
   auto kinds() { return std::tie(); }
   auto kinds() const { return std::tie(); }
 
  private:
-  /// At length 0 from a length the direction is open: there the root has no derivatives.
+  /// Returns k_s/2 (l − from)². At l = 0 with from > 0 the direction is open: there the root has no derivatives.
   template <class T>
   T about(const Triple<T>& apart, const Number& from) const {
     using std::sqrt;
@@ -58,14 +58,14 @@ struct SpringTermOf {
 /// A spring over doubles.
 using SpringTerm = SpringTermOf<double>;
 
-/// max(0, 1 − l₀/l): what a spring holds across itself, in shares of k_s; 1 where l = 0.
+/// Returns max(0, 1 − l₀/l), a spring's stiffness across itself in shares of k_s; 1 where l = 0.
 template <class Number>
 Number held_across(const Number& length, const Number& rest_length) {
   return plain(length) == 0.0 ? Number(1.0) : positive_part(1.0 - rest_length / length);
 }
 
-/// w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping; w² k_s I where l = 0
-/// (compare/stages/spring.hpp). `apart`: Σ wᵢ xᵢ; `own_weight`: that of the vertex.
+/// Adds the force, the block w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping; the block is
+/// w² k_s I where l = 0 (compare/stages/spring.hpp). `apart`: Σ wᵢ xᵢ; `own_weight`: weight of the vertex.
 template <class Number>
 void add_spring(const SpringTermOf<Number>& term, const Number& own_weight, const Triple<ByOwn<Number>>& apart,
                 VertexSystemOf<Number>& sum) {

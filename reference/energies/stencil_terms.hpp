@@ -1,7 +1,7 @@
 // The energy of each kind of stencil as one scalar function of its vertices, over any number type (method.md §4).
-// Newton's method differentiates these; the stages of the sweep ask for one vertex at a time and share strain and angle
-// with them. `Number`: of what a stencil knows, a double, or one for each of several stencils side by side; `numbers`
-// are those, `kinds` is what all of them must have in common.
+// Newton's method differentiates these by all vertices; the stages of the sweep differentiate by one vertex and share
+// strain and angle with them. `Number` is the type of a stencil's constants: a double, or one for each of several
+// stencils side by side. `numbers` lists these constants, `kinds` what all stencils side by side must have in common.
 #pragma once
 
 #include <tuple>
@@ -17,7 +17,7 @@
 
 namespace ogc::reference {
 
-/// A contact: e_k g(d). The form is found where the energy is asked for.
+/// A contact: e_k g(d). The form is found when the energy is evaluated.
 template <class Number>
 struct ContactTermOf {
   compare::ContactSides sides = compare::ContactSides::point_point;
@@ -27,21 +27,21 @@ struct ContactTermOf {
   Number friction = 0.0;                         ///< μ [1]
   compare::ContactActivation activation = compare::ContactActivation::ogc;
 
-  /// By the distance of the contact points [J].
+  /// Returns the energy at a distance of the contact points [J].
   template <class T>
   T energy_at(const T& distance) const {
     return mollifier * contact_activation(activation, distance, contact_radius, stiffness);
   }
-  /// By the vertices of a form (closest_form.hpp) [J].
+  /// Returns the energy at vertices of a form (closest_form.hpp) [J].
   template <class T, std::size_t N>
   T energy(const ClosestForm& form, const std::array<Triple<T>, N>& x) const {
     return energy_at(form_distance(form, x));
   }
 
-  /// See the head of this file.
+  /// Constants; see the head of this file.
   auto numbers() { return std::tie(contact_radius, stiffness, mollifier); }
   auto numbers() const { return std::tie(contact_radius, stiffness, mollifier); }
-  /// See the head of this file.
+  /// What stencils side by side share; see the head of this file.
   auto kinds() { return std::tie(activation); }
   auto kinds() const { return std::tie(activation); }
 };
@@ -57,19 +57,19 @@ struct FrictionTermOf {
   Triple<Number> normal{}, start{};  ///< n; Σ wᵢ xᵢᵗ [m]
   Number force = 0.0, limit = 0.0;   ///< μ λ [N]; ε = ε_v h [m]
 
-  /// u over any number type, of the corners or of Σ wᵢ xᵢ.
+  /// Returns u at the corners, over any number type.
   template <class T, std::size_t N>
   Triple<T> slip(const std::array<Triple<T>, N>& x) const {
     return slip_between(separation(weight, x));
   }
-  /// The same by Σ wᵢ xᵢ.
+  /// Returns u by Σ wᵢ xᵢ.
   template <class T>
   Triple<T> slip_between(Triple<T> moved) const {
     for (std::size_t k = 0; k < 3; ++k) moved[k] = moved[k] - T(start[k]);
     const T along = normal[0] * moved[0] + normal[1] * moved[1] + normal[2] * moved[2];
     return moved - Triple<T>{normal[0] * along, normal[1] * along, normal[2] * along};
   }
-  /// By ‖u‖². f₀' = f₁: y − ε/3 beyond ε, y²/ε − y³/(3ε²) below, 0 at rest.
+  /// Returns the energy by ‖u‖². f₀' = f₁: y − ε/3 beyond ε, y²/ε − y³/(3ε²) below, 0 at rest.
   template <class T>
   T energy_of(const T& squared) const {
     using std::sqrt;
@@ -77,12 +77,12 @@ struct FrictionTermOf {
     if (plain(length) >= limit) return force * (length - T(limit / 3.0));
     return force / limit * (squared - 1.0 / (3.0 * limit) * squared * length);
   }
-  /// By the vertices [J].
+  /// Returns the energy at the vertices [J].
   template <class T, std::size_t N>
   T energy(const std::array<Triple<T>, N>& x) const {
     return energy_between(separation(weight, x));
   }
-  /// By Σ wᵢ xᵢ.
+  /// Returns the energy by Σ wᵢ xᵢ.
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     const Triple<T> u = slip_between(apart);

@@ -11,7 +11,7 @@
 namespace ogc::reference {
 namespace {
 
-/// The elastic part as numbers that know their inputs; the corner asked about is the origin.
+/// The elastic part in Input numbers; the own corner is the origin.
 struct Elastic {
   Inputs inputs;
   std::array<Triple<Input>, 4> corner;
@@ -25,12 +25,12 @@ struct Elastic {
         lambda(inputs.number(q.lame_lambda)),
         mu(inputs.number(q.lame_mu)) {}
 
-  /// J = i det(x₁ − x₀, x₂ − x₀, x₃ − x₀).
+  /// Returns J = i det(x₁ − x₀, x₂ − x₀, x₃ − x₀).
   template <class T>
   T ratio(const std::array<Triple<T>, 4>& x) const {
     return inverse * dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0]));
   }
-  /// Force and block of what depends on x₀ in the energy.
+  /// Returns force and block of the part of the energy that depends on x₀.
   VertexSystemOf<Input> system() const {
     using T = ByOwnTwice<Input>;
     const std::array<Triple<T>, 4> x = with_own<T>(corner, 0);
@@ -49,10 +49,10 @@ struct Elastic {
 
 double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].value, v[2].value); }
 
-/// What a unit of error lacks that knows inputs alone. Two edges of the opposite face are rounded each by itself, so
-/// that a normal of them, of 6 units, errs by their lengths even where its inputs cancel: a far corner beside two near
-/// ones. The face's longest edges count, and for J the longest way to them. And what is lost beyond the first order
-/// where J − 1 and the normal nearly vanish: their errors, of 12 and 6 units (compare/stages/tetrahedron.hpp), meet.
+/// Adds errors that the condition lacks. Two edges of the opposite face are rounded separately, so that their normal,
+/// of 6 units, errs by their lengths even where its inputs cancel: a far corner beside two near ones. The face's
+/// longest edges count, and for J the longest way to them. It also adds what is lost beyond the first order where J − 1
+/// and the normal nearly vanish and their errors, of 12 and 6 units (compare/stages/tetrahedron.hpp), multiply.
 /// `resisted`: k ‖moved‖ of damping by vertex, whose block is `grown` times the elastic one.
 compare::ForceAnswer with_rounded_edges(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
                                         double grown = 1) {
@@ -87,7 +87,7 @@ Gradients gradients_of(const compare::TetrahedronCase& q, Inputs& inputs) {
   return gradient;
 }
 
-/// Gᵗ, each component with the unit of its error.
+/// Returns Gᵗ, each component with the unit of its error.
 std::array<std::pair<double, double>, 6> strain_at_start(const compare::TetrahedronCase& q) {
   Inputs inputs;
   const std::array<Triple<Input>, 4> x = inputs.stencil(q.start, 0);
@@ -98,7 +98,7 @@ std::array<std::pair<double, double>, 6> strain_at_start(const compare::Tetrahed
   return result;
 }
 
-/// V k ϕ(G − Gᵗ) and its block.
+/// Returns V k ϕ(G − Gᵗ) and its block.
 compare::ForceAnswer damping_of_strain(const compare::TetrahedronCase& q) {
   Inputs inputs;
   const std::array<Triple<Input>, 4> corner = inputs.stencil(q.corner, 0);

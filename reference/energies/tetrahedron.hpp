@@ -5,10 +5,10 @@
 
 namespace ogc::reference {
 
-/// The exact answer.
+/// Returns the exact answer.
 compare::ForceAnswer tetrahedron(const compare::TetrahedronCase& question);
 
-/// All cases, in parallel over them.
+/// Computes all cases, in parallel over them.
 compare::ForceTruth tetrahedron(const compare::TetrahedronIn& in);
 
 }  // namespace ogc::reference

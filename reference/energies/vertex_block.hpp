@@ -1,7 +1,7 @@
 // Force and sweep block of one vertex, over any number type: over doubles they drive whole runs
-// (solvers/vertex_system.hpp), over numbers that know their inputs they are the answers of the stages, with their
-// conditions. The block of each energy is derived once, beside the energy (membrane_terms.hpp, hinge_terms.hpp,
-// spring_terms.hpp); what all of them are made of is here.
+// (solvers/vertex_system.hpp), over Input numbers they are the answers of the stages, with their conditions. The block
+// of each energy is derived once, beside the energy (membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp); this file
+// has their common parts.
 #pragma once
 
 #include "reference/energies/derivative.hpp"
@@ -20,13 +20,13 @@ struct VertexSystemOf {
   BlockOf<Number> block{};  ///< [N/m]
 };
 
-/// By the vertex's own coordinates, to first and to second order.
+/// Numbers with derivatives by the vertex's own coordinates, to first and to second order.
 template <class Number>
 using ByOwn = Derivative<Number, 3>;
 template <class Number>
 using ByOwnTwice = Second<3, Number>;
 
-/// The variable of direction `direction`.
+/// Returns the variable of direction `direction`.
 template <class Number>
 ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
   ByOwnTwice<Number> x(value);
@@ -34,7 +34,7 @@ ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
   return x;
 }
 
-/// The three variables at x.
+/// Sets the three variables at x.
 template <class Number>
 void set_own(Triple<ByOwn<Number>>& to, const Triple<Number>& x) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = ByOwn<Number>(x[axis], axis);
@@ -44,7 +44,7 @@ void set_own(Triple<ByOwnTwice<Number>>& to, const Triple<Number>& x) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = variable(x[axis], axis);
 }
 
-/// Corners of a stencil over T, in which the one at `place` is the variable.
+/// Returns the corners of a stencil over T, with the one at `place` as the variable.
 template <class T, class Number, std::size_t Count>
 std::array<Triple<T>, Count> with_own(const std::array<Triple<Number>, Count>& corners, std::size_t place) {
   std::array<Triple<T>, Count> x;
@@ -54,7 +54,7 @@ std::array<Triple<T>, Count> with_own(const std::array<Triple<Number>, Count>& c
   return x;
 }
 
-/// A function of one measure, as value, slope and curvature.
+/// Returns a function of one measure with its slope and curvature.
 template <class Number, class Energy>
 Second<1, Number> along(const Number& measure, Energy energy) {
   Second<1, Number> x(measure);
@@ -82,7 +82,7 @@ void add_identity(const std::type_identity_t<Number>& weight, BlockOf<Number>& b
   for (const std::size_t k : {0u, 3u, 5u}) block[k] += weight;
 }
 
-/// An energy of the vertex: its slope, and its second derivative as it is.
+/// Adds an energy of the vertex: its slope to the force, its exact second derivative to the block.
 template <class Number>
 void add_exactly(const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
   add_force(1.0, energy.slope, sum);

@@ -1,4 +1,5 @@
-// Normal force and friction have inputs of their own: to friction λ is one number, known as well as its condition says.
+// Normal force and friction have inputs of their own: for friction λ is one number, whose error is given by its
+// condition.
 #include "reference/energies/volume_force.hpp"
 
 #include "reference/energies/lagged_friction.hpp"
@@ -7,12 +8,12 @@
 namespace ogc::reference {
 namespace {
 
-/// n, as one vector that is given.
+/// Returns n as one given vector.
 Triple<Input> direction_of(Inputs& inputs, const compare::VolumeForceCase& q) {
   return inputs.vector({q.direction[0], q.direction[1], q.direction[2]}, {});
 }
 
-/// What is frozen: weights by vertex, as they act (1, −w₁, −w₂, −w₃).
+/// Returns the frozen weights by vertex, as they act (1, −w₁, −w₂, −w₃).
 std::array<Input, 4> weights_of(Inputs& inputs, const compare::VolumeForceCase& q) {
   std::array<Input, 4> weight{Input(1.0)};
   for (std::size_t k = 0; k < 3; ++k) weight[k + 1] = -inputs.number(q.weights[k]);
@@ -25,7 +26,7 @@ struct Pressed {
   Input overlap;  ///< r − φ [m]
   ByVertex energy;
   Block block;
-  double force = 0, doubt = 0;  ///< λ, and what single precision may be off it, in units of u [N]
+  double force = 0, doubt = 0;  ///< λ, and its error in single precision, in units of u [N]
 
   explicit Pressed(const compare::VolumeForceCase& q) {
     const Input radius = inputs.number(q.contact_radius), stiffness = inputs.number(q.stiffness);
@@ -42,7 +43,7 @@ struct Pressed {
     force = lambda.value;
     doubt = inputs.condition({&lambda, 1});
   }
-  /// |r − φ| over u · condition.
+  /// Returns |r − φ| over u · condition.
   double distance_from_end() const {
     const double size = inputs.condition({&overlap, 1});
     return std::abs(overlap.value) / (compare::unit_roundoff * size);
@@ -68,20 +69,20 @@ Rubbed rubbed(const compare::VolumeForceCase& q, const Pressed& pressed) {
   const Triple<ByVertex> step = own_weight * own_vertex();
   const Triple<ByVertex> slip = tangential(fixed(moved) + step);
   const Triple<Input> u{slip[0].value, slip[1].value, slip[2].value};
-  constexpr double slip_units = 10;  // as volume_force_tolerance counts
+  constexpr double slip_units = 10;  // as counted by volume_force_tolerance
   const Input y = slip_length(inputs, u, slip_units), stiffness = strength * slope_over_slip(y, limit);
   const ByVertex energy = chained(Input(strength * lagged_potential(y, limit)), Input(Input(0.5) * stiffness),
                                   dot(slip, slip));
   Block block;
-  // w (I − n nᵀ) by w: the derivative of the slip, but for the normal part that is none of a unit vector
+  // w (I − n nᵀ) times w: the derivative of the slip, without the normal part, which a unit vector does not have.
   for (std::size_t i = 0, k = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j, ++k) {
       const Input plane = (i == j ? Input(1.0) : Input(0.0)) - n[i] * n[j];
       block[k] = stiffness * own_weight.value * own_weight.value * plane;
     }
   Rubbed result{answer(inputs, energy, block), false};
-  // What the first order does not hold: the product of both doubts where λ and u vanish together; and where u cannot be
-  // told from 0, f₁/y, which may come out as anything up to 2/ε.
+  // Errors beyond the first order: the product of both doubts where λ and u vanish together; and, where u can't be told
+  // from 0, f₁/y, which may come out as anything up to 2/ε.
   const double unit = compare::unit_roundoff, w = std::abs(own_weight.value.value),
                doubt_of_force = compare::volume_force_grey * unit * pressed.doubt,
                doubt_of_slip = slip_units * unit * inputs.condition(u),

@@ -5,10 +5,10 @@
 
 namespace ogc::reference {
 
-/// The exact answer; where r − φ is grey, that of the other side of the jump, too.
+/// Returns the exact answer; where r − φ is grey, also that of the other side of the jump.
 std::vector<compare::ForceAnswer> volume_force(const compare::VolumeForceCase& question);
 
-/// All cases, in parallel over them.
+/// Computes all cases, in parallel over them.
 compare::ForceTruth volume_force(const compare::VolumeForceIn& in);
 
 }  // namespace ogc::reference

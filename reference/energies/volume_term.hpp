@@ -1,5 +1,5 @@
-// A contact with a volume as an energy of its point (§3.9): n and w are those of the detection, and the triangle is
-// driven, so that nothing else moves.
+// A contact with a volume as an energy of its point and of the triangle's corners (§3.9). n and w are those of the
+// detection and do not move.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace ogc::reference {
 
-/// The point stands first, then the corners of the triangle.
+/// A contact with a volume: the point comes first, then the corners of the triangle.
 struct VolumeTerm {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
   std::array<double, 4> weight{1, 0, 0, 0};  ///< 1, −w₁, −w₂, −w₃
@@ -16,18 +16,18 @@ struct VolumeTerm {
   double contact_radius = 0, stiffness = 0;  ///< r [m], k [N/m]
   double friction = 0, slip_limit = 0;       ///< μ [1], ε_v h [m]
 
-  /// r − φ by Σ wᵢ xᵢ [m].
+  /// Returns r − φ by Σ wᵢ xᵢ [m].
   template <class T>
   T overlap(const Triple<T>& apart) const {
     return T(contact_radius) - (normal[0] * apart[0] + normal[1] * apart[1] + normal[2] * apart[2]);
   }
-  /// k/2 max(0, r − φ)² by the vertices [J].
+  /// Returns k/2 max(0, r − φ)² at the vertices [J].
   template <class T>
   T energy(const std::array<Triple<T>, 4>& x) const {
     const T depth = overlap(separation(weight, x));
     return plain(depth) > 0 ? 0.5 * stiffness * depth * depth : T(0.0);
   }
-  /// With λ of these positions.
+  /// Returns the friction with λ of these positions.
   FrictionTerm friction_at(const std::array<Triple<double>, 4>& x) const {
     const double force = friction * stiffness * std::max(0.0, overlap(separation(weight, x)));
     return {compare::ContactSides::point_triangle, vertex, weight, normal, start, force, slip_limit};

@@ -5,8 +5,8 @@
 
 namespace ogc::reference {
 
-/// The exact answers, and which of them a relative change of 16 u of the coordinates could turn. All questions, in
-/// parallel over them.
+/// Returns the exact answers, and which of them a relative change of 16 u of the coordinates could turn. Answers all
+/// questions, in parallel over them.
 compare::BlockTruth block(const compare::BlockIn& in);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// The square of each distance and each plane test multiplied by positive lengths: all signs of polynomials, so nothing
-// here rounds.
+// The square of each distance and each plane test are multiplied by positive lengths. All tests are signs of
+// polynomials, so nothing here rounds.
 #include "reference/geometry/blocks.hpp"
 
 #include <algorithm>

@@ -15,67 +15,67 @@ using compare::Face;
 using compare::FaceKind;
 using compare::Index;
 
-/// A mesh at given positions. Views; the owner must outlive it.
+/// A mesh at given positions. It holds views; the owner must outlive it.
 struct Complex {
   const compare::Topology& topology;  ///< of the mesh
   std::span<const Vec3f> positions;   ///< by vertex [m]
 
-  /// Where a vertex is [m].
+  /// Returns the position of a vertex [m].
   const Vec3f& at(Index vertex) const { return positions[static_cast<std::size_t>(vertex)]; }
-  /// The ends of an edge.
+  /// Returns the ends of an edge.
   const compare::Edge& edge(Index e) const { return topology.edges[static_cast<std::size_t>(e)]; }
-  /// The corners of a triangle.
+  /// Returns the corners of a triangle.
   const compare::Triangle& triangle(Index t) const { return topology.triangles[static_cast<std::size_t>(t)]; }
-  /// Edges that end at a vertex.
+  /// Returns the edges that end at a vertex.
   std::span<const Index> edges_of(Index vertex) const {
     return topology.vertex_edges[static_cast<std::size_t>(vertex)];
   }
-  /// Triangles of an edge, at most as many as it has.
+  /// Returns the triangles of an edge.
   std::span<const Index> triangles_of(Index e) const { return topology.edge_triangles[static_cast<std::size_t>(e)]; }
-  /// The vertex of edge e that is not `vertex`.
+  /// Returns the vertex of edge e that is not `vertex`.
   Index across(Index e, Index vertex) const { return edge(e)[0] == vertex ? edge(e)[1] : edge(e)[0]; }
-  /// No triangle contains edge e.
+  /// Returns whether no triangle contains edge e.
   bool is_loose(Index e) const { return triangles_of(e).empty(); }
-  /// The vertex of triangle t that is not on edge e.
+  /// Returns the vertex of triangle t that is not on edge e.
   Index opposite(Index t, Index e) const;
-  /// The vertices of a face; `count` of them are used.
+  /// The vertices of a face; the first `count` are used.
   struct Vertices {
-    std::array<Index, 3> items{-1, -1, -1};  ///< the first `count`
+    std::array<Index, 3> items{-1, -1, -1};  ///< the first `count` are vertices
     int count = 0;                           ///< 1, 2 or 3
-    /// The vertices that the face has.
+    /// Returns the vertices that the face has.
     std::span<const Index> span() const { return {items.data(), static_cast<std::size_t>(count)}; }
   };
   Vertices vertices(Face face) const;  ///< of any face
 };
 
-/// A vertex as a face.
+/// Returns a vertex as a face.
 inline Face vertex_face(Index v) { return {FaceKind::vertex, v}; }
-/// An edge as a face.
+/// Returns an edge as a face.
 inline Face edge_face(Index e) { return {FaceKind::edge, e}; }
-/// A triangle as a face.
+/// Returns a triangle as a face.
 inline Face triangle_face(Index t) { return {FaceKind::triangle, t}; }
 
-/// A feature of a triangle as a face.
+/// Returns a feature of a triangle as a face.
 inline Face face_of(const Complex& mesh, Index triangle, compare::TriangleFeature feature) {
   const auto f = static_cast<std::size_t>(feature);
   if (f < 3) return vertex_face(mesh.triangle(triangle)[f]);
   if (f < 6) return edge_face(mesh.topology.triangle_edges[static_cast<std::size_t>(triangle)][f - 3]);
   return triangle_face(triangle);
 }
-/// A feature of an edge as a face.
+/// Returns a feature of an edge as a face.
 inline Face face_of(const Complex& mesh, Index edge, compare::EdgeFeature feature) {
   if (feature == compare::EdgeFeature::interior) return edge_face(edge);
   return vertex_face(mesh.edge(edge)[static_cast<std::size_t>(feature)]);
 }
 
-/// A condition of a block and the face whose block begins where it ends.
+/// A condition of a block, and the face whose block begins where the condition ends.
 struct Boundary {
   Condition condition;  ///< holds in the block
-  Face across;          ///< whose block begins where it ends
+  Face across;          ///< the face whose block begins where it ends
 };
 
-/// All boundaries of U_a but the distance, for the point x (Eq. 8, 9, 10): visit(Boundary) returns false to stop. A
-/// margin that two faces share is written with its vertices in the same order by both.
+/// Visits all boundaries of U_a except the distance, for the point x (Eq. 8, 9, 10); visit(Boundary) returns false to
+/// stop. Both faces that share a margin write it with its vertices in the same order.
 template <class Visit>
 void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
   if (face.kind == FaceKind::vertex) {
@@ -102,13 +102,13 @@ void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
   }
 }
 
-/// The distance from x to the point, line or plane of a face, as a gap.
+/// Returns the distance from x to the point, line or plane of a face, as a gap.
 Margin face_gap(const Complex& mesh, Face face, const Vec3f& x, float contact_radius);
 
-/// x ∈ U_a, closed at distance r (Eq. 8, 9, 10).
+/// Checks whether x ∈ U_a, closed at distance r (Eq. 8, 9, 10).
 bool in_block(const Complex& mesh, Face face, const Vec3f& x, float contact_radius);
 
-/// x ∈ U_a^E for a vertex or an edge (Eq. 14, 15).
+/// Checks whether x ∈ U_a^E for a vertex or an edge (Eq. 14, 15).
 bool in_edge_only_block(const Complex& mesh, Face face, const Vec3f& x, float contact_radius);
 
 /// Two faces of the edge-only manifold.
@@ -116,17 +116,17 @@ struct FacePair {
   Face first, second;  ///< a vertex or an edge each
   friend auto operator<=>(const FacePair&, const FacePair&) = default;
 };
-/// The lower-numbered face first.
+/// Returns the pair with the lower-numbered face first.
 inline FacePair ordered(Face a, Face b) { return a < b ? FacePair{a, b} : FacePair{b, a}; }
 
-/// A condition on a pair of faces and the pair that holds the closest points where it ends.
+/// A condition on a pair of faces, and the pair that holds the closest points where the condition ends.
 struct PairBoundary {
   Condition condition;  ///< holds where the pair has the closest points
-  FacePair across;      ///< that has them where it ends
+  FacePair across;      ///< the pair that has them where it ends
 };
 
-/// That the closest point of each of the two faces lies in the other's block (Eq. 14, 15, 17), and that these are their
-/// closest points.
+/// Visits the conditions that the closest point of each of the two faces lies in the other's block (Eq. 14, 15, 17),
+/// and that these are their closest points.
 template <class Visit>
 void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
   const auto [a, b] = mesh.edge(e);
@@ -139,7 +139,7 @@ void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
   }
 }
 
-/// The conditions of Eq. 15 from both sides, for two ends.
+/// Visits the conditions of Eq. 15 from both sides, for two ends.
 template <class Visit>
 void visit_vertex_vertex(const Complex& mesh, Index p, Index q, Visit visit) {
   for (const Index e : mesh.edges_of(p)) {
@@ -152,7 +152,7 @@ void visit_vertex_vertex(const Complex& mesh, Index p, Index q, Visit visit) {
   }
 }
 
-/// The conditions of Eq. 14 from both sides, for two interiors.
+/// Visits the conditions of Eq. 14 from both sides, for two interiors.
 template <class Visit>
 void visit_edge_edge(const Complex& mesh, Index e, Index f, Visit visit) {
   const auto [p0, p1] = mesh.edge(e);
@@ -164,7 +164,7 @@ void visit_edge_edge(const Complex& mesh, Index e, Index f, Visit visit) {
   visit(PairBoundary{{turn(d, c, a, b), true}, ordered(vertex_face(q1), edge_face(e))});
 }
 
-/// All conditions of an ordered pair but the distance: visit(PairBoundary) returns false to stop.
+/// Visits all conditions of an ordered pair except the distance; visit(PairBoundary) returns false to stop.
 template <class Visit>
 void visit_pair(const Complex& mesh, const FacePair& pair, Visit visit) {
   if (pair.first.kind == FaceKind::edge) return visit_edge_edge(mesh, pair.first.index, pair.second.index, visit);
@@ -172,10 +172,10 @@ void visit_pair(const Complex& mesh, const FacePair& pair, Visit visit) {
   visit_vertex_vertex(mesh, pair.first.index, pair.second.index, visit);
 }
 
-/// The distance of the points, point and line, or lines of two faces of the edge-only manifold, as a gap.
+/// Returns the distance of the points, point and line, or lines of two faces of the edge-only manifold, as a gap.
 Margin pair_gap(const Complex& mesh, const FacePair& pair, float contact_radius);
 
-/// True where a pair of primitives, given by their vertices, is none although they share no vertex
+/// Returns whether a pair of primitives, given by their vertices, is left out although they share no vertex
 /// (compare::Exclusions).
 bool is_excluded(const compare::ExclusionView& exclusions, std::span<const Index> first, std::span<const Index> second);
 

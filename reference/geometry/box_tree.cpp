@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t leaf_size = 4;
 constexpr std::uint32_t worth_a_thread = 2048;
 
-/// Nodes of a tree of `count` and of one of `count + 1` primitives: halves differ by one at most, so two numbers a
-/// level are all there is.
+/// Returns the numbers of nodes of trees of `count` and of `count + 1` primitives: halves differ by at most one, so
+/// each level has only two such numbers.
 std::array<std::uint32_t, 2> node_counts(std::uint32_t count) {
   if (count + 1 <= leaf_size) return {1, 1};
   const auto halves = node_counts(count / 2);  // of ⌊count/2⌋ and ⌊count/2⌋ + 1
@@ -71,8 +71,8 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
   build(0, 1, 0, count);
 }
 
-/// The nodes below `node` go to `free` and after it: two children, all below the first, all below the second. All
-/// indices are known beforehand.
+/// Stores the nodes below `node` from `free` on: two children, then all nodes below the first, then all below the
+/// second. All indices are known beforehand.
 void BoxTree::build(std::uint32_t node, std::uint32_t free, std::uint32_t first, std::uint32_t count) {
   Box box;
   for (std::uint32_t k = first; k < first + count; ++k) include(box, boxes_[static_cast<std::size_t>(order_[k])]);

@@ -1,5 +1,5 @@
-// Culling only: which primitives' boxes meet a box. Every decision about distance or contact is made elsewhere,
-// exactly.
+// Finds the primitives whose boxes meet a box. It only culls: every decision about distance or contact is made
+// elsewhere, exactly.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace ogc::reference {
 
 using compare::Index;
 
-/// Closed, axis-parallel [m]. Empty until the first `include`.
+/// A closed, axis-parallel box [m]. Empty until the first `include`.
 struct Box {
   std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};  ///< corners [m]
 };
@@ -22,9 +22,9 @@ struct Box {
 void include(Box& box, const compare::Vec3f& point);
 /// Grows the box until it holds another one.
 void include(Box& box, const Box& other);
-/// The box, wider by `distance` [m] on all sides, up to one rounding of double.
+/// Returns the box, wider by `distance` [m] on all sides, up to one rounding of double.
 Box widened(Box box, double distance);
-/// Whether two closed boxes have a point in common.
+/// Returns whether two closed boxes have a point in common.
 bool meet(const Box& a, const Box& b);
 
 /// A balanced binary tree over the boxes of numbered primitives.

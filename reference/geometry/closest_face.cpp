@@ -34,8 +34,8 @@ class Regions {
     return *known;
   }
 
-  /// Corner k: on or behind both planes across its edges. Edge k: between its ends, on or beyond its side plane.
-  /// Interior: inside all side planes.
+  /// Conditions of a feature's region. Corner k: on or behind both planes across its edges. Edge k: between its ends,
+  /// on or beyond its side plane. Interior: inside all side planes.
   struct Conditions {
     std::array<int, 3> margins{};
     std::array<bool, 3> positive{};
@@ -91,7 +91,8 @@ class Regions {
   mutable std::array<std::optional<MarginAnswer>, 9> margins_;
 };
 
-/// Margins whose shares of their sum are the weights of the feature's corners, by corner; −1 where the weight is 0.
+/// Returns the margins whose shares of their sum are the weights of the feature's corners, by corner; −1 where the
+/// weight is 0.
 std::array<int, 3> weight_margins(int f) {
   if (f == 6) return {7, 8, 6};
   std::array<int, 3> margins{-1, -1, -1};
@@ -100,7 +101,7 @@ std::array<int, 3> weight_margins(int f) {
   return margins;
 }
 
-/// The shares in exact numbers, for weights that double does not give.
+/// Returns the shares in exact numbers, for weights that double does not resolve.
 std::array<double, 3> exact_weights(const Corners& t, int f, const Vec3f& p) {
   std::array<double, 3> weights{};
   if (f == 6) {
@@ -116,7 +117,7 @@ std::array<double, 3> exact_weights(const Corners& t, int f, const Vec3f& p) {
   return weights;
 }
 
-/// In double, and how far off they are at most.
+/// Weights in double, and their largest error.
 struct Weights {
   std::array<double, 3> values{};
   double error = 0;
@@ -138,7 +139,7 @@ Weights weights_of(const Regions& regions, int feature) {
   if (!(error <= 0.25 * sum)) return {{}, std::numeric_limits<double>::infinity()};
   for (int k = 0; k < 3; ++k)
     if (margins[k] >= 0) weights.values[k] = std::max(0.0, regions.margin(margins[k]).value / sum);
-  // A share m/Σ of a margin that is off by e is off by (e + m/Σ Σe)/(Σ − Σe), and by three roundings.
+  // A share m/Σ of a margin with error e is off by (e + m/Σ Σe)/(Σ − Σe), and by three roundings.
   weights.error = 3 * error / sum + 0x1p-51;
   return weights;
 }
@@ -152,12 +153,13 @@ Vector combined(double s, const Vector& a, double t, const Vector& b) {
   return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }
 
-/// Σ |slope · δ| over the coordinates.
+/// Returns Σ |slope · δ| over the coordinates.
 double spread(const Vector& slope, const Vector& delta) {
   return std::abs(slope.x * delta.x) + std::abs(slope.y * delta.y) + std::abs(slope.z * delta.z);
 }
 
-/// Of w_b = (p − a)·e/‖e‖², e = b − a: ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a − 2 w e)/‖e‖², ∂w/∂a = −∂w/∂p − ∂w/∂b.
+/// Returns the spread of w_b = (p − a)·e/‖e‖², e = b − a: ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a − 2 w e)/‖e‖², ∂w/∂a = −∂w/∂p
+/// − ∂w/∂b.
 double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& origin) {
   const Vector e = between(a, b), x = between(a, p);
   const double squared = dot(e, e), w = dot(x, e) / squared;
@@ -166,8 +168,8 @@ double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& 
          spread(combined(-1, by_p, -1, by_b), between(origin, a));
 }
 
-/// With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p: ∂w_k/∂t₁ = −w₁ g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η
-/// g_k × e₁. Coordinates are relative to t₀.
+/// Returns the largest spread of the weights. With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p: ∂w_k/∂t₁ = −w₁
+/// g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η g_k × e₁. Coordinates are relative to t₀.
 double interior_spread(const Corners& t, const Vec3f& p, const std::array<double, 3>& w) {
   const Vector e1 = between(t[0], t[1]), e2 = between(t[0], t[2]), x = between(t[0], p), n = cross(e1, e2);
   const double squared = dot(n, n), eta = dot(x, n) / squared;
@@ -181,7 +183,7 @@ double interior_spread(const Corners& t, const Vec3f& p, const std::array<double
   return worst;
 }
 
-/// The largest Σ|∂w/∂δᵢ||δᵢ| of the three weights, at least 1; infinite for a triangle of zero area.
+/// Returns the largest Σ|∂w/∂δᵢ||δᵢ| of the three weights, at least 1; infinite for a triangle of zero area.
 double condition_of(const Corners& t, int feature, const Vec3f& point, const std::array<double, 3>& weights,
                     bool area) {
   if (!area) return std::numeric_limits<double>::infinity();

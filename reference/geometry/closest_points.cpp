@@ -18,7 +18,8 @@ struct Conditions {
   int count = 0;
 };
 
-/// End `i` of e and the interior of f: the end projects between f's ends, and leaving it along e does not come nearer.
+/// Returns the conditions for end `i` of e and the interior of f: the end projects between f's ends, and leaving it
+/// along e does not come nearer.
 Conditions end_to_interior(const std::array<Vec3f, 2>& e, std::size_t i, const std::array<Vec3f, 2>& f) {
   const Vec3f& p = e[i];
   return {{Condition{along(f[0], f[1], p), true}, Condition{along(f[1], f[0], p), true},
@@ -44,7 +45,7 @@ bool hold(const Conditions& conditions) {
   return std::all_of(conditions.items.begin(), conditions.items.begin() + conditions.count, holds);
 }
 
-/// Whether some end of the second edge projects beyond end `from` of the first edge towards its other end.
+/// Returns whether some end of the second edge projects beyond end `from` of the first edge towards its other end.
 Membership some_end_beyond(const EdgePair& pair, std::size_t from) {
   Membership either{false, false, false};
   for (const Vec3f& end : pair.second) {
@@ -59,7 +60,7 @@ Membership both(const Membership& a, const Membership& b) {
   return {a.exact && b.exact, a.possible && b.possible, a.certain && b.certain};
 }
 
-/// The bit of an answer in ClosestPointsTruth::accepted.
+/// Returns the bit of an answer in ClosestPointsTruth::accepted.
 std::uint32_t code_bit(EdgeFeatures features, bool is_parallel) {
   return 1u << (static_cast<unsigned>(features.first) + 3 * static_cast<unsigned>(features.second) +
                 (is_parallel ? 9u : 0u));

@@ -16,43 +16,43 @@ struct EdgePair {
   std::array<Vec3f, 2> first, second;  ///< by end [m]
 };
 
-/// Which part of each of two edges is closest to the other.
+/// The part of each of two edges that is closest to the other.
 struct EdgeFeatures {
   EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;  ///< of the first edge, of the second
   friend bool operator==(const EdgeFeatures&, const EdgeFeatures&) = default;
 };
 
-/// All nine combinations in the order that breaks ties: ends first.
+/// Number of combinations. They are ordered so that ends come first, which breaks ties.
 inline constexpr int edge_feature_pairs = 9;
-/// The pair with this number, below edge_feature_pairs.
+/// Returns the pair with this number, below edge_feature_pairs.
 inline EdgeFeatures edge_features(int number) {
   return {static_cast<EdgeFeature>(number / 3), static_cast<EdgeFeature>(number % 3)};
 }
 
-/// The faces whose interiors hold the closest points, without the rule for nearly parallel edges. They are unique
-/// unless the edges are exactly parallel; then the first in the order of edge_features. A zero-length edge is its
-/// end_0.
+/// Returns the faces whose interiors hold the closest points, without the rule for nearly parallel edges. They are
+/// unique unless the edges are exactly parallel; then they are the first in the order of edge_features. A zero-length
+/// edge counts as its end_0.
 EdgeFeatures closest_features(const EdgePair& pair);
 
-/// Whether the features are the closest ones, or could be after a flip of grey conditions. Where the closest ones are
-/// certain, no others can be, but of exactly parallel edges at the other end of their overlap.
+/// Returns whether the features are the closest ones, or could be after a flip of grey conditions. Where the closest
+/// ones are certain no others can be, except those of exactly parallel edges at the other end of their overlap.
 Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 
-/// ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖², and the projection of the second edge on the line of the first overlaps the first in more
-/// than a point.
+/// Returns whether ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² and the projection of the second edge on the line of the first overlaps the
+/// first in more than a point.
 Membership are_nearly_parallel(const EdgePair& pair);
-/// The exact answer of are_nearly_parallel.
+/// Returns the exact answer of are_nearly_parallel.
 bool nearly_parallel(const EdgePair& pair);
 
-/// Whether the answer lies near a boundary: of the rule for nearly parallel edges, or, where that does not hold, of the
-/// region of the closest features.
+/// Returns whether the answer lies near a boundary: of the rule for nearly parallel edges or, where that does not hold,
+/// of the region of the closest features.
 bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
 
-/// The distance of the points, point and line, or lines of the features, as a gap: the distance of the edges where
-/// these are the closest features.
+/// Returns the distance of the points, point and line, or lines of the features, as a gap; it is the distance of the
+/// edges where these are the closest features.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 
-/// All cases, in parallel over them.
+/// Computes all cases, in parallel over them.
 compare::ClosestPointsTruth closest_points(const compare::ClosestPointsIn& in);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// Algorithm 2 over unordered pairs, each visited once, from its lower-numbered edge. As in detect_vertex_facet the grey
-// zone is asked separately, about all nine pairs of faces of two edges within r.
+// Runs Algorithm 2 over unordered pairs, each visited once, from its lower-numbered edge. As in detect_vertex_facet the
+// grey zone is examined separately, for all nine pairs of faces of two edges within r.
 #include "reference/geometry/detect_edge_edge.hpp"
 
 #include <tbb/blocked_range.h>
@@ -16,7 +16,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Neither adjacent nor inside one rigid group.
+/// Returns whether the edges are on the surface, not adjacent and not excluded.
 bool is_candidate_pair(const compare::DetectIn& in, Index e, Index f) {
   const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
                       &b = in.topology->edges[static_cast<std::size_t>(f)];
@@ -37,7 +37,7 @@ class EdgeQuery {
  public:
   EdgeQuery(const compare::DetectIn& in, Index edge) : in_(in), mesh_{*in.topology, in.positions}, edge_(edge) {}
 
-  /// One non-adjacent, higher-numbered edge whose box is near. Returns the distance, rounded down.
+  /// Visits one non-adjacent, higher-numbered edge whose box is near. Returns the distance, rounded down.
   float visit(Index other) {
     const EdgePair pair{ends(edge_), ends(other)};
     const EdgeFeatures closest = closest_features(pair);
@@ -66,7 +66,7 @@ class EdgeQuery {
     return {around.begin(), around.end()};
   }
 
-  /// Whether some pair of edges that is neither adjacent nor inside one rigid group contains the faces.
+  /// Returns whether some candidate pair of edges contains the faces.
   bool is_candidate(const FacePair& faces) const {
     const std::vector<Index> first = edges_around(faces.first), second = edges_around(faces.second);
     return std::any_of(first.begin(), first.end(), [&](Index e) {
@@ -85,7 +85,7 @@ class EdgeQuery {
     if (rule.possible) enter_interiors(other, pair, rule, within, doubtful);
     if (rule.certain) return;
     const Membership local = are_closest(pair, closest);
-    // Whether the pair counts without the rule as well: else its interiors may be missing.
+    // Unless the pair certainly counts without the rule as well, its interiors may be missing.
     if (rule.possible && !(local.certain && membership(faces_of(other, closest)).certain)) accept_absence(other);
     enter_features(other, pair, closest, closest, rule);
     if (local.certain) return;
@@ -96,7 +96,7 @@ class EdgeQuery {
 
   void accept_absence(Index other) { answer_.doubts.push_back({interiors(other), interiors(other), false}); }
 
-  /// What the rule for nearly parallel edges enters.
+  /// Adds the contact that the rule for nearly parallel edges gives.
   void enter_interiors(Index other, const EdgePair& pair, const Membership& rule, bool within, bool doubtful) {
     const bool both_loose = mesh_.is_loose(edge_) && mesh_.is_loose(other);
     const Membership tested = both_loose ? Membership{} : in_blocks_where_closest(other, pair);
@@ -106,9 +106,10 @@ class EdgeQuery {
     if (doubtful || !tested.certain) accept_absence(other);
   }
 
-  /// Whether closest points of nearly parallel edges lie in each other's blocks: those at one of the overlap's ends,
-  /// where the edges are exactly parallel. Rounding can make closest any features that may be: certain is what passes
-  /// whichever they are, or at features that are closest without a doubt.
+  /// Returns whether closest points of nearly parallel edges lie in each other's blocks: those at one of the overlap's
+  /// ends, where the edges are exactly parallel. Rounding can make closest any features that may be closest. So it is
+  /// certain where every possible pair of features certainly passes, or where one passes that is closest without a
+  /// doubt.
   Membership in_blocks_where_closest(Index other, const EdgePair& pair) const {
     Membership some{false, false, false};
     bool all_certain = true;
@@ -125,7 +126,8 @@ class EdgeQuery {
     return some;
   }
 
-  /// The conditions of the features' blocks that are none of the closest points of the two edges alone.
+  /// Checks the conditions of the features' blocks that are not conditions of the closest points of the two edges
+  /// alone.
   Membership in_other_blocks(Index other, EdgeFeatures features) const {
     Membership inside;
     visit_pair(mesh_, faces_of(other, features), [&](const PairBoundary& boundary) {
@@ -143,8 +145,8 @@ class EdgeQuery {
     return face.index == mesh_.edge(e)[0] || face.index == mesh_.edge(e)[1];
   }
 
-  /// One of the nine pairs of faces. A pair that ties with the closest one (edges of zero length) is left to the order
-  /// of closest_features.
+  /// Adds one of the nine pairs of faces. A pair that ties with the closest one (edges of zero length) is left to the
+  /// order of closest_features.
   void enter_features(Index other, const EdgePair& pair, EdgeFeatures features, EdgeFeatures closest,
                       const Membership& rule) {
     const FacePair faces = faces_of(other, features);
@@ -155,7 +157,7 @@ class EdgeQuery {
     }
     const Membership inside = membership(faces);
     if (!inside.possible) return;
-    // The rule for nearly parallel edges gives the interiors too, so only other features are in doubt about it.
+    // The rule for nearly parallel edges gives the interiors too, so it puts only other features in doubt.
     const bool is_interiors = features == EdgeFeatures{EdgeFeature::interior, EdgeFeature::interior};
     const bool unaffected = is_interiors || !rule.possible;
     add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact),
@@ -201,7 +203,7 @@ std::vector<Box> edge_boxes(const compare::DetectIn& in) {
   return boxes;
 }
 
-/// Whether a pair, too far apart for a contact, grey ones included, lowers no smallest distance either.
+/// Returns whether a pair that is too far apart for a contact, also for a grey one, lowers no smallest distance either.
 bool changes_nothing(const compare::DetectIn& in, Index e, Index other, Smallest& of_edge) {
   const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
                       &b = in.topology->edges[static_cast<std::size_t>(other)];

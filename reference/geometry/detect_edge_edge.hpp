@@ -5,12 +5,13 @@
 
 namespace ogc::reference {
 
-/// Edges in parallel; the answer does not depend on the number of threads. Nearly parallel edges nearer than r count as
-/// interior–interior where closest points of theirs lie in each other's blocks, and wherever neither has a triangle.
+/// Detects contacts, in parallel over edges; the answer does not depend on the number of threads. Nearly parallel edges
+/// nearer than r count as interior–interior where some of their closest points lie in each other's blocks, and wherever
+/// neither edge has a triangle.
 compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in);
 
-/// Its `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest distance are not
-/// examined.
+/// Returns the truth's `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest
+/// distance are not examined.
 compare::DetectEdgeEdgeOut exact_edge_edge(const compare::DetectIn& in);
 
 }  // namespace ogc::reference

@@ -1,6 +1,6 @@
-// Algorithm 1 in its own order: distance, smallest distances, closest face, feasible region. The grey zone is asked
-// separately, about every face of every triangle within r: a doubtful face of a neighbour matters even where Algorithm
-// 1 never looks at it.
+// Runs Algorithm 1 in its own order: distance, smallest distances, closest face, feasible region. The grey zone is
+// examined separately, for every face of every triangle within r: a doubtful face of a neighbour matters even where
+// Algorithm 1 never looks at it.
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 #include <tbb/blocked_range.h>
@@ -36,7 +36,7 @@ class VertexQuery {
   VertexQuery(const compare::DetectIn& in, Index vertex)
       : in_(in), mesh_{*in.topology, in.positions}, vertex_(vertex), x_(mesh_.at(vertex)) {}
 
-  /// One non-adjacent triangle whose box is near. Returns the distance, rounded down.
+  /// Visits one non-adjacent triangle whose box is near. Returns the distance, rounded down.
   float visit(Index t) {
     const auto [a, b, c] = mesh_.triangle(t);
     const Corners corners{mesh_.at(a), mesh_.at(b), mesh_.at(c)};
@@ -68,7 +68,7 @@ class VertexQuery {
   }
 
  private:
-  /// The triangles that contain a face, ascending.
+  /// Returns the triangles that contain a face, ascending.
   std::vector<Index> triangles_around(Face face) const {
     if (face.kind == FaceKind::triangle) return {face.index};
     const auto i = static_cast<std::size_t>(face.index);
@@ -84,7 +84,7 @@ class VertexQuery {
                        [&](const VertexFacetContact& c) { return c.face == face; });
   }
 
-  /// Alg. 1 lines 9–20.
+  /// Does lines 9–20 of Alg. 1.
   void enter(Face face) {
     if (entered(face)) return;
     if (face.kind != FaceKind::triangle) {
@@ -99,8 +99,8 @@ class VertexQuery {
     answer_.contacts.push_back(contact(face));
   }
 
-  /// The faces of a triangle within r that are or could be closest: which of them are doubtful, and what they are
-  /// doubtful against.
+  /// Notes the faces of a triangle within r that are or could be closest: which of them are doubtful, and which faces
+  /// could replace them.
   void ask_about(Index t, const Corners& corners) {
     const std::uint8_t features = possible_features(corners, x_);
     std::vector<Face> closest;
@@ -111,8 +111,8 @@ class VertexQuery {
     if (!has_area(corners)) note_ties(closest);
   }
 
-  /// A collapsed triangle has several closest faces at once; Algorithm 1 takes one, another order of its corners would
-  /// take another.
+  /// Notes the closest faces of a collapsed triangle, which has several at once: Algorithm 1 takes one, another order
+  /// of the corners would take another.
   void note_ties(const std::vector<Face>& closest) {
     for (const Face face : closest) {
       if (!membership(face).possible) continue;
@@ -165,8 +165,8 @@ class VertexQuery {
     return {inside.exact && below, below || doubtful, inside.certain && below && !doubtful};
   }
 
-  /// Eq. 12 ranges over faces of triangles, and at least one of them must make a pair with the vertex that is not left
-  /// out.
+  /// Eq. 12 ranges over faces of triangles; at least one of these triangles must make a pair with the vertex that is
+  /// not left out.
   bool is_candidate(Face face) const {
     const std::vector<Index> around = triangles_around(face);
     return std::any_of(around.begin(), around.end(), [&](Index t) {
@@ -192,7 +192,7 @@ BoxTree triangle_tree(const compare::DetectIn& in) {
   return BoxTree(std::move(boxes));
 }
 
-/// Whether a pair, too far apart for a contact, grey ones included, lowers no smallest distance either.
+/// Returns whether a pair that is too far apart for a contact, also for a grey one, lowers no smallest distance either.
 bool changes_nothing(const compare::DetectIn& in, Index v, Index t, Smallest& of_vertex, Smallest& of_triangle) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
   const auto at = [&](Index k) { return in.positions[static_cast<std::size_t>(k)]; };

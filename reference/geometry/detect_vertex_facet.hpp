@@ -5,11 +5,11 @@
 
 namespace ogc::reference {
 
-/// Vertices in parallel; the answer does not depend on the number of threads.
+/// Detects contacts, in parallel over vertices; the answer does not depend on the number of threads.
 compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in);
 
-/// Its `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest distance are not
-/// examined.
+/// Returns the truth's `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest
+/// distance are not examined.
 compare::DetectVertexFacetOut exact_vertex_facet(const compare::DetectIn& in);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// Values come from exact margins where a quotient can cancel, derivatives from the same formulas over differentiating
-// numbers.
+// Computes values from exact margins where a quotient can cancel, and derivatives from the same formulas over
+// differentiating numbers.
 #include "reference/geometry/edge_parameters.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using Number = Dual<9>;
 
-/// The four end points relative to the first edge's end_0, as numbers of type T made by `make(value, input)`.
+/// Returns the four end points relative to the first edge's end_0, as numbers of type T made by `make(value, input)`.
 template <class T, class Make>
 std::array<Point<T>, 4> relative_ends(const EdgePair& pair, Make make) {
   const Vec3f& o = pair.first[0];
@@ -51,10 +51,11 @@ double condition_of(const std::array<Number, 2>& parameters, const std::array<Po
   return std::isfinite(worst) ? worst : std::numeric_limits<double>::infinity();
 }
 
-/// m / (m + m'), the parameter of a point whose margins from the two ends are m and m'.
+/// Returns m / (m + m'), the parameter of a point whose margins from the two ends are m and m'.
 Number share(const Number& margin, const Number& other) { return margin / (margin + other); }
 
-/// The parameter of one of the edges: of its point closest to the other edge, both given by the feature there.
+/// Returns the parameter on one of the edges of its point closest to the other edge; the features of both closest
+/// points are given.
 double parameter_value(const std::array<Vec3f, 2>& e, EdgeFeature feature, const std::array<Vec3f, 2>& other,
                        EdgeFeature other_feature) {
   if (feature != EdgeFeature::interior) return feature == EdgeFeature::end_1 ? 1 : 0;
@@ -83,7 +84,7 @@ T clamped(const T& x) {
   return value_of(x) < 0 ? T(0) : value_of(x) > 1 ? T(1) : x;
 }
 
-/// The middle of the overlap on the first edge, then its projection on the second.
+/// Returns the middle of the overlap on the first edge, then its projection on the second.
 template <class T>
 std::array<T, 2> middle_of_overlap(const std::array<Point<T>, 4>& ends) {
   const Point<T> u = ends[1] - ends[0], v = ends[3] - ends[2];

@@ -1,5 +1,5 @@
-// Each thread adds to its own counters, which nobody else writes; the lock is taken where a thread comes, goes or asks
-// for the sum. The list outlives all threads: it is never destroyed.
+// Each thread adds to its own counters, which no other thread writes; the lock is taken when a thread starts or ends
+// and when the sum is computed. The list is never destroyed, so that it outlives all threads.
 #include "reference/geometry/filter_counts.hpp"
 
 #include <atomic>

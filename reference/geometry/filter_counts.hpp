@@ -1,5 +1,5 @@
-// How often double and interval arithmetic decide by themselves: every predicate that asks them first is counted,
-// thread by thread, so that counting costs no more than an addition.
+// Counts how often double and interval arithmetic decide without exact numbers. Every predicate with a filter is
+// counted, thread by thread, so that counting costs no more than an addition.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@ enum class Filtered : std::uint8_t {
 };
 inline constexpr std::size_t filtered_predicates = 10;  ///< enumerators of Filtered
 
-/// "gap_plane".
+/// Returns a name such as "gap_plane".
 std::string_view name(Filtered predicate);
 
-/// How often one predicate was asked, and needed exact numbers.
+/// How often one predicate was evaluated, and needed exact numbers.
 struct FilterCount {
-  std::uint64_t calls = 0;      ///< how often the predicate was asked
+  std::uint64_t calls = 0;      ///< evaluations of the predicate
   std::uint64_t undecided = 0;  ///< of these, left to exact numbers
   friend bool operator==(const FilterCount&, const FilterCount&) = default;
 };
@@ -40,17 +40,17 @@ struct FilterCounts {
   std::array<FilterCount, filtered_predicates> of{};  ///< in the order of Filtered
 
   const FilterCount& operator[](Filtered predicate) const { return of[static_cast<std::size_t>(predicate)]; }
-  /// The sum over all predicates.
+  /// Returns the sum over all predicates.
   FilterCount total() const;
-  /// What was counted after `earlier`.
+  /// Returns the counts since `earlier`.
   FilterCounts since(const FilterCounts& earlier) const;
 };
 
-/// The counts of all threads since the program began. Complete for work that has been joined; a predicate that another
-/// thread asks meanwhile may be missing.
+/// Returns the counts of all threads since the program began. They are complete for work that has been joined;
+/// evaluations that another thread does meanwhile may be missing.
 FilterCounts filter_counts();
 
-/// For the predicates themselves.
+/// Counts one evaluation; called by the predicates.
 void count_filter(Filtered predicate, bool undecided);
 
 }  // namespace ogc::reference

@@ -18,41 +18,41 @@ Point<T> operator-(const Point<T>& a, const Point<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-/// Σ aᵢ bᵢ.
+/// Returns Σ aᵢ bᵢ.
 template <class T>
 T dot(const Point<T>& a, const Point<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// a × b.
+/// Returns a × b.
 template <class T>
 Point<T> cross(const Point<T>& a, const Point<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// (p−a)·(b−a): > 0 where p lies on b's side of the plane through a across the line ab (Eq. 8, 9, 14, 15).
+/// Returns (p−a)·(b−a): > 0 where p lies on b's side of the plane through a across the line ab (Eq. 8, 9, 14, 15).
 template <class T>
 T along(const Point<T>& a, const Point<T>& b, const Point<T>& p) {
   return dot(p - a, b - a);
 }
 
-/// ((b−a)×(p−a))·((b−a)×(c−a)): > 0 where p lies on c's side of the plane through ab across the plane of abc (Eq. 9
-/// times −‖e‖², Eq. 10).
+/// Returns ((b−a)×(p−a))·((b−a)×(c−a)): > 0 where p lies on c's side of the plane through ab across the plane of abc
+/// (Eq. 9 times −‖e‖², Eq. 10).
 template <class T>
 T side(const Point<T>& a, const Point<T>& b, const Point<T>& c, const Point<T>& p) {
   const Point<T> e = b - a;
   return dot(cross(e, p - a), cross(e, c - a));
 }
 
-/// ((q₀−p)×(q₁−q₀))·((x−p)×(q₁−q₀)): > 0 where a step from p towards x comes nearer to the line q₀q₁. With c the foot
-/// of p on that line it is ‖q₁−q₀‖² (c−p)·(x−p), the plane test of Eq. 15 for c.
+/// Returns ((q₀−p)×(q₁−q₀))·((x−p)×(q₁−q₀)): > 0 where a step from p towards x comes nearer to the line q₀q₁. With c
+/// the foot of p on that line it is ‖q₁−q₀‖² (c−p)·(x−p), the plane test of Eq. 15 for c.
 template <class T>
 T turn(const Point<T>& p, const Point<T>& x, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> v = q1 - q0;
   return dot(cross(q0 - p, v), cross(x - p, v));
 }
 
-/// 10⁶ ‖e×e'‖² − ‖e‖² ‖e'‖²: < 0 where the edges are nearly parallel (method.md §1.4).
+/// Returns 10⁶ ‖e×e'‖² − ‖e‖² ‖e'‖²: < 0 where the edges are nearly parallel (method.md §1.4).
 template <class T>
 T parallel(const Point<T>& p0, const Point<T>& p1, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> u = p1 - p0, v = q1 - q0;
@@ -63,16 +63,16 @@ T parallel(const Point<T>& p0, const Point<T>& p1, const Point<T>& q0, const Poi
 /// A squared distance as numerator over positive denominator.
 template <class T>
 struct Quotient {
-  T numerator{}, denominator{};  ///< the distance squared is their quotient
+  T numerator{}, denominator{};  ///< their quotient is the squared distance
 };
 
-/// Between two points [m²].
+/// Returns the squared distance between two points [m²].
 template <class T>
 Quotient<T> squared_distance_points(const Point<T>& a, const Point<T>& p) {
   return {dot(p - a, p - a), T(1)};
 }
 
-/// Between p and the line through a and b [m²].
+/// Returns the squared distance between p and the line through a and b [m²].
 template <class T>
 Quotient<T> squared_distance_line(const Point<T>& a, const Point<T>& b, const Point<T>& p) {
   const Point<T> e = b - a;
@@ -80,7 +80,7 @@ Quotient<T> squared_distance_line(const Point<T>& a, const Point<T>& b, const Po
   return {dot(c, c), dot(e, e)};
 }
 
-/// Between p and the plane through a, b and c [m²].
+/// Returns the squared distance between p and the plane through a, b and c [m²].
 template <class T>
 Quotient<T> squared_distance_plane(const Point<T>& a, const Point<T>& b, const Point<T>& c, const Point<T>& p) {
   const Point<T> n = cross(b - a, c - a);
@@ -88,7 +88,7 @@ Quotient<T> squared_distance_plane(const Point<T>& a, const Point<T>& b, const P
   return {height * height, dot(n, n)};
 }
 
-/// Between two lines [m²].
+/// Returns the squared distance between two lines [m²].
 template <class T>
 Quotient<T> squared_distance_lines(const Point<T>& p0, const Point<T>& p1, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> n = cross(p1 - p0, q1 - q0);

@@ -18,7 +18,7 @@ bool is_on(const Complex& mesh, Face face, Index edge) {
   return mesh.edge(edge)[0] == face.index || mesh.edge(edge)[1] == face.index;
 }
 
-/// The generating edges in the order of the faces.
+/// Returns the contact with its generating edges in the order of the faces.
 EdgeEdgeContact contact(const Complex& mesh, const Generated& g) {
   if (is_on(mesh, g.faces.first, g.edge)) return {g.faces.first, g.faces.second, g.edge, g.other};
   return {g.faces.first, g.faces.second, g.other, g.edge};
@@ -50,7 +50,7 @@ Candidates candidates_of(std::span<const Generated> sorted) {
   return candidates;
 }
 
-/// A contact that stands in any case, but whose lowest generators are doubtful.
+/// Adds the decision of a contact that stands in any case but whose lowest generators are doubtful.
 void add_doubtful_owner(const Complex& mesh, const Candidate& candidate, std::vector<Grey>& grey) {
   const auto certain = candidate.first_certain();
   if (certain == candidate.generators.begin()) return;
@@ -74,7 +74,7 @@ GreyGroups<FacePair> doubtful_pairs(const Candidates& candidates, const std::vec
   return doubtful;
 }
 
-/// Sorts, drops repetitions, and drops what leaves no choice.
+/// Sorts, and drops repetitions and decisions that leave no choice.
 void tidy(std::vector<Grey>& grey) {
   for (Grey& decision : grey) {
     std::sort(decision.contacts.begin(), decision.contacts.end());

@@ -1,4 +1,4 @@
-// What edge pairs generate, before equal pairs of faces become one contact under their lowest-numbered edges.
+// The contacts that edge pairs generate. Equal pairs of faces become one contact under their lowest-numbered edges.
 #pragma once
 
 #include <vector>
@@ -8,28 +8,28 @@
 
 namespace ogc::reference {
 
-/// Edges `edge` < `other` generate the contact `faces`, exactly or possibly.
+/// A contact `faces` that edges `edge` < `other` generate, exactly or possibly.
 struct Generated {
   FacePair faces;               ///< the contact
-  Index edge = -1, other = -1;  ///< that generate it
+  Index edge = -1, other = -1;  ///< the edges that generate it
   bool exact = false;           ///< the exact answer of Algorithm 2
   bool certain = false;         ///< exact, and no grey boundary is near
   friend auto operator<=>(const Generated&, const Generated&) = default;
 };
 
-/// A doubtful pair of faces that nothing replaces on the other side of a boundary, or (`joined`) that another one
-/// replaces.
+/// A doubtful pair of faces: on the other side of one of its boundaries another pair replaces it (`joined`), or nothing
+/// does.
 struct Doubt {
   FacePair faces, other;  ///< the doubtful pair, and the one that replaces it
-  bool joined = false;    ///< whether one does
+  bool joined = false;    ///< whether `other` replaces it
 };
 
 /// The canonical contacts of a list of generated pairs in any order, and the grey decisions.
 struct Assembled {
-  std::vector<compare::EdgeEdgeContact> contacts;                     ///< in canonical order
+  std::vector<compare::EdgeEdgeContact> contacts;                     ///< all grey decisions
   std::vector<compare::GreyDecision<compare::EdgeEdgeContact>> grey;  ///< all there are
 };
-/// Equal pairs of faces as one contact each, with its decision.
+/// Makes one contact of equal pairs of faces each, with its decision.
 Assembled assemble(const Complex& mesh, std::vector<Generated> generated, const std::vector<Doubt>& doubts);
 
 }  // namespace ogc::reference

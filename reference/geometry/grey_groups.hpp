@@ -1,4 +1,4 @@
-// Contacts that a grey boundary ties together become one decision: which of them stands, and whether none may.
+// Groups contacts that share a grey boundary into one decision: which of them stands, and whether none may stand.
 #pragma once
 
 #include <map>
@@ -11,28 +11,28 @@ namespace ogc::reference {
 template <class Key>
 class GreyGroups {
  public:
-  /// A doubtful contact. `absence`: on the other side of one of its boundaries no doubtful contact takes its place.
+  /// Adds a doubtful contact. `absence`: on the other side of one of its boundaries no doubtful contact replaces it.
   void add(const Key& key, bool absence) {
     Entry& entry = entries_.try_emplace(key, Entry{key}).first->second;
     entry.absence = entry.absence || absence;
   }
 
-  /// Two contacts of which one ends where the other begins; both must have been added when groups are asked for.
+  /// Joins two contacts one of which ends where the other begins; both must have been added when groups() is called.
   void join(const Key& a, const Key& b) { joins_.emplace_back(a, b); }
 
-  /// Whether no contact is doubtful.
+  /// Returns whether no contact is doubtful.
   bool empty() const { return entries_.empty(); }
-  /// Whether this contact is doubtful.
+  /// Returns whether this contact is doubtful.
   bool contains(const Key& key) const { return entries_.contains(key); }
 
-  /// Contacts of one decision.
+  /// The contacts of one decision.
   struct Group {
     std::vector<Key> keys;  ///< any one of them is accepted
-    bool absence = false;   ///< none of them is accepted, too
+    bool absence = false;   ///< whether none of them is accepted, too
   };
 
-  /// The groups by their smallest key, keys ascending. A join to a contact that is not doubtful leaves the doubtful one
-  /// replaceable by nothing.
+  /// Returns the groups by their smallest key, keys ascending. Where a contact is joined to one that is not doubtful,
+  /// its absence is accepted.
   std::vector<Group> groups() {
     for (const auto& [a, b] : joins_) unite(a, b);
     std::map<Key, Group> by_root;
@@ -57,7 +57,7 @@ class GreyGroups {
     return key;
   }
 
-  /// The smaller root leads, so that the groups do not depend on the order of the joins.
+  /// Makes the smaller root the parent, so that the groups do not depend on the order of the joins.
   void unite(const Key& a, const Key& b) {
     if (!contains(a) && !contains(b)) return;
     if (!contains(b)) return add(a, true);

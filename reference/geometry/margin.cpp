@@ -1,5 +1,5 @@
-// Double with an error bound first, then intervals, then exact numbers: one in some ten thousand random cases needs the
-// last, and structured meshes with few digits need none, because an interval without rounding is a point.
+// Tries double with an error bound first, then intervals, then exact numbers. One in some ten thousand random cases
+// needs the last; structured meshes with few digits need none, because an interval without rounding is a point.
 #include "reference/geometry/margin.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -26,7 +26,7 @@ namespace {
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// Sets the rounding that intervals need, for as long as it lives.
+/// Sets the rounding mode that intervals need, during its lifetime.
 using UpwardRounding = CGAL::Protect_FPU_rounding<true>;
 
 // Filtered names the kinds of margins first, in their order.
@@ -46,7 +46,7 @@ Points<T> widen(const Margin& margin) {
   return points;
 }
 
-/// Degree in the coordinates.
+/// Returns the degree in the coordinates.
 int degree(MarginKind kind) {
   switch (kind) {
     case MarginKind::along:
@@ -97,7 +97,7 @@ T evaluate(const Margin& margin) {
   return evaluate(margin.kind, widen<T>(margin), T(static_cast<double>(margin.radius)));
 }
 
-/// −1, 0 or 1 where the interval leaves one sign.
+/// Returns −1, 0 or 1 where the interval leaves only one sign.
 std::optional<int> sign_of(const Interval& value) {
   if (value.inf() > 0) return 1;
   if (value.sup() < 0) return -1;
@@ -110,7 +110,7 @@ std::optional<int> interval_sign(const Margin& margin) {
   return sign_of(evaluate<Interval>(margin));
 }
 
-/// The difference of two squared distances, times positive numbers.
+/// Returns the difference of two squared distances, times positive numbers.
 template <class T>
 T difference(const Margin& a, const Margin& b) {
   const Quotient<T> p = squared_distance(a.kind, widen<T>(a)), q = squared_distance(b.kind, widen<T>(b));
@@ -124,7 +124,7 @@ std::optional<int> interval_order(const Margin& a, const Margin& b) {
 
 int exact_sign(const Margin& margin) { return static_cast<int>(evaluate<Exact>(margin).sign()); }
 
-/// The points relative to the first one, as differences in double: what the grey zone calls δ.
+/// Returns the points relative to the first one, as differences in double: the δ of the grey zone.
 std::array<std::array<double, 3>, 4> relative(const Margin& margin) {
   std::array<std::array<double, 3>, 4> delta{};
   const Vec3f& o = margin.at[0];
@@ -142,7 +142,7 @@ Points<T> constants(const std::array<std::array<double, 3>, 4>& delta) {
   return points;
 }
 
-/// Σ|sᵢxᵢ|.
+/// Returns Σ|sᵢxᵢ|.
 double spread(const Point<double>& slope, const Point<double>& x) {
   return std::abs(slope.x * x.x) + std::abs(slope.y * x.y) + std::abs(slope.z * x.z);
 }
@@ -150,21 +150,21 @@ double spread(const Point<double>& slope, const Point<double>& x) {
 Point<double> operator*(double s, const Point<double>& a) { return {s * a.x, s * a.y, s * a.z}; }
 Point<double> operator+(const Point<double>& a, const Point<double>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
-/// Of `side`, m = (e × p)·(e × c): ∂m/∂p = (e × c) × e, ∂m/∂c = (e × p) × e, ∂m/∂e = p × (e × c) + c × (e × p).
+/// For `side`, m = (e × p)·(e × c): ∂m/∂p = (e × c) × e, ∂m/∂c = (e × p) × e, ∂m/∂e = p × (e × c) + c × (e × p).
 double side_sensitivity(const Points<double>& at) {
   const Point<double>&e = at[1], &c = at[2], &p = at[3], to_c = cross(e, c), to_p = cross(e, p);
   return spread(cross(to_c, e), p) + spread(cross(to_p, e), c) + spread(cross(p, to_c) + cross(c, to_p), e);
 }
 
-/// Of `turn`, m = (q × v)·(x × v) with v = q₁ − q, the points as x, q, q₁: ∂m/∂x = v × (q × v), through q itself ∂m/∂q
-/// = v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x, which goes to q₁ and with the other sign to q.
+/// For `turn`, m = (q × v)·(x × v) with v = q₁ − q, the points as x, q, q₁: ∂m/∂x = v × (q × v), through q itself ∂m/∂q
+/// = v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x, which counts for q₁ and with the other sign for q.
 double turn_sensitivity(const Points<double>& at) {
   const Point<double>&x = at[1], &q = at[2], v = at[3] - q, of_q = cross(q, v), of_x = cross(x, v),
         by_v = cross(of_x, q) + cross(of_q, x);
   return spread(cross(v, of_q), x) + spread(cross(v, of_x) - by_v, q) + spread(by_v, at[3]);
 }
 
-/// Of `parallel`, m = 10⁶ c·c − (u·u)(v·v) with c = u × v: ∂m/∂u = 2·10⁶ v × c − 2 (v·v) u, ∂m/∂v = 2·10⁶ c × u − 2
+/// For `parallel`, m = 10⁶ c·c − (u·u)(v·v) with c = u × v: ∂m/∂u = 2·10⁶ v × c − 2 (v·v) u, ∂m/∂v = 2·10⁶ c × u − 2
 /// (u·u) v.
 double parallel_sensitivity(const Points<double>& at) {
   const Point<double>&u = at[1], v = at[3] - at[2], c = cross(u, v);
@@ -172,15 +172,15 @@ double parallel_sensitivity(const Points<double>& at) {
   return spread(by_u, u) + spread(by_v, at[2]) + spread(by_v, at[3]);
 }
 
-/// Of a point's gap from a line, m = c·c − r² e·e with c = e × p: ∂m/∂p = 2 c × e, ∂m/∂e = 2 (p × c − r² e).
+/// For a point's gap from a line, m = c·c − r² e·e with c = e × p: ∂m/∂p = 2 c × e, ∂m/∂e = 2 (p × c − r² e).
 double line_sensitivity(const Points<double>& at, double radius) {
   const Point<double>&e = at[1], &p = at[2], c = cross(e, p);
   return 2 * (spread(cross(c, e), p) + spread(cross(p, c) - radius * radius * e, e));
 }
 
-/// Of the gap between two lines or of a point from a plane, m = (w·n)² − r² n·n with n = u × v: with s = 2 w·n and g =
-/// ∂m/∂n = s w − 2 r² n it is ∂m/∂w = s n, ∂m/∂u = v × g, ∂m/∂v = g × u. The points are u, v, w of a plane, u, w, w + v
-/// of two lines.
+/// For the gap between two lines or of a point from a plane, m = (w·n)² − r² n·n with n = u × v, s = 2 w·n and g =
+/// ∂m/∂n = s w − 2 r² n: ∂m/∂w = s n, ∂m/∂u = v × g, ∂m/∂v = g × u. The points are u, v, w for a plane, u, w, w + v for
+/// two lines.
 double gap_sensitivity(const Points<double>& at, double radius, bool is_plane) {
   const Point<double>&u = at[1], w = is_plane ? at[3] : at[2], v = is_plane ? at[2] : at[3] - at[2], n = cross(u, v);
   const double s = 2 * dot(w, n);
@@ -189,8 +189,8 @@ double gap_sensitivity(const Points<double>& at, double radius, bool is_plane) {
   return spread(by_u, u) + spread(by_w - by_v, w) + spread(by_v, at[3]);
 }
 
-/// Σ|∂m/∂δᵢ||δᵢ|, derivatives written out, as they are asked for in every doubtful decision; `delta` as `relative`
-/// gives it.
+/// Returns Σ|∂m/∂δᵢ||δᵢ| with derivatives written out, because every doubtful decision needs them; `delta`: the result
+/// of `relative`.
 double sensitivity_at(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
   const Points<double> at = constants<double>(delta);
   switch (margin.kind) {
@@ -208,31 +208,31 @@ double sensitivity_at(const Margin& margin, const std::array<std::array<double, 
 }
 
 /// Largest error of a value in double, in units of its modulus. On the longest way from a coordinate to a margin lie 18
-/// roundings (of a plane's gap: a difference twice, a product and a difference for n; a difference, a product and two
-/// sums for the height; that twice, the square, and the difference from r² n²); the modulus itself may be as much too
-/// small. Neither overflow nor underflow: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
+/// roundings (for a plane's gap: a difference twice, a product and a difference for n; a difference, a product and two
+/// sums for the height; that twice, the square, and the difference from r² n²); the modulus itself may be too small by
+/// as much. Nothing overflows or underflows: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
 constexpr double rounding = 0x1p-48;
 
-/// The margin in double, with the sum of the moduli of its terms.
+/// Returns the margin in double, with the sum of the moduli of its terms.
 Measured measured(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
   return evaluate(margin.kind, constants<Measured>(delta), Measured(margin.radius));
 }
 
-/// Leading 106 bits or more, of which long double keeps 64.
+/// Returns the leading bits: long double keeps 64 of 106 or more.
 long double to_long_double(const Exact& x) {
   const double high = x.to_double();
   const Exact rest = x - Exact(high);
   return static_cast<long double>(high) + static_cast<long double>(rest.to_double());
 }
 
-/// The largest single-precision number that is not above x ≥ 0.
+/// Returns the largest single-precision number that is not above x ≥ 0.
 float round_down(double x) {
   if (x > static_cast<double>(std::numeric_limits<float>::max())) return std::numeric_limits<float>::max();
   const float f = static_cast<float>(x);
   return static_cast<double>(f) > x ? std::nextafter(f, 0.0f) : f;
 }
 
-/// The distance as an interval; everything from 0 to infinity where the denominator's interval holds 0.
+/// Returns the distance as an interval; from 0 to infinity where the denominator's interval holds 0.
 std::pair<double, double> distance_interval(const Margin& gap) {
   const UpwardRounding upwards;
   const Quotient<Interval> squared = squared_distance(gap.kind, widen<Interval>(gap));
@@ -242,13 +242,13 @@ std::pair<double, double> distance_interval(const Margin& gap) {
   return {root.inf(), root.sup()};
 }
 
-/// m / √q for the exact q ≥ 0 that turns the margin into a length.
+/// Returns m / √q for the exact q ≥ 0 that turns the margin into a length.
 double over_root(const Exact& m, const Exact& q) {
   if (q.is_zero()) return 0;
   return static_cast<double>(to_long_double(m) / std::sqrt(to_long_double(q)));
 }
 
-/// From a close guess to the exact answer: the gap about f is not negative where f is not above the distance.
+/// Corrects a close guess to the exact answer: the gap about f is not negative where f is not above the distance.
 float settle_below(const Margin& gap, float f) {
   while (f > 0 && exact_sign(with_radius(gap, f)) < 0) f = std::nextafter(f, 0.0f);
   for (;;) {
@@ -269,9 +269,9 @@ int filtered_sign(const Margin& margin, const Measured& m) {
   return decided ? *decided : exact_sign(margin);
 }
 
-/// The distance lies between these; where the first is the larger one, nothing is known. A numerator is the square of a
-/// number or vector, each component of which is off by `rounding` times the modulus of its own terms at most, so its
-/// root is off by as much of the root of their squares' sum.
+/// Returns an interval that holds the distance; nothing is known where the first number is the larger one. A numerator
+/// is the square of a number or vector. Each component of that is off by at most `rounding` times the modulus of its
+/// own terms, so the root of the numerator is off by `rounding` times the root of the sum of their squares.
 std::pair<double, double> filtered_distance(const Margin& gap) {
   const Quotient<Measured> squared = squared_distance(gap.kind, constants<Measured>(relative(gap)));
   const Measured& d = squared.denominator;
@@ -283,7 +283,7 @@ std::pair<double, double> filtered_distance(const Margin& gap) {
   return {low, (root + slack) / std::sqrt(least) * (1 + 0x1p-50)};
 }
 
-/// Σ|δᵢ|.
+/// Returns Σ|δᵢ|.
 double size(const Margin& margin) {
   double sum = 0;
   for (const auto& point : relative(margin))
@@ -347,7 +347,7 @@ GapDistance measure(const Margin& gap) {
   if (known || !one_left) count_filter(Filtered::distance_below, !known);
   if (!known && !one_left) answer.below = settle_below(gap, round_down(answer.distance));
   if (!one_left) return answer;
-  // One number is in question, mostly because the distance is just that number.
+  // One number is undecided, mostly because the distance is exactly that number.
   const Margin about_next = with_radius(gap, next);
   const std::optional<int> decided = interval_sign(about_next);
   count_filter(Filtered::distance_below, !decided);

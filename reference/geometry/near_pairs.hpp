@@ -1,4 +1,4 @@
-// All pairs of primitives within a distance, for what may not leave one out.
+// All pairs of primitives within a distance, for users that must not miss one.
 #pragma once
 
 #include "compare/stages/plane.hpp"
@@ -19,7 +19,7 @@
 
 namespace ogc::reference {
 
-/// A vertex and a triangle: what they are, and how far apart.
+/// A vertex and a triangle.
 struct FacetPair {
   compare::PrimitivePair name;  ///< by numbers
   std::array<Index, 1> first;   ///< the vertex
@@ -34,17 +34,17 @@ struct FacetPair {
         point(mesh.at(v)),
         corners{mesh.at(second[0]), mesh.at(second[1]), mesh.at(second[2])} {}
 
-  /// The feature of the triangle that is closest to the vertex.
+  /// Returns the feature of the triangle that is closest to the vertex.
   TriangleFeature closest() const { return closest_feature(corners, point); }
-  /// Their distance, as a gap.
+  /// Returns their distance, as a gap.
   Margin gap() const { return feature_gap(corners, closest(), point); }
-  /// Whether they are certainly farther apart than this [m].
+  /// Returns whether they are certainly farther apart than this [m].
   bool surely_beyond(double distance) const {
     return surely_beyond_triangle({point, corners[0], corners[1], corners[2]}, distance);
   }
 };
 
-/// Two edges: likewise.
+/// Two edges.
 struct EdgesPair {
   compare::PrimitivePair name;         ///< by numbers
   std::array<Index, 2> first, second;  ///< ends
@@ -56,24 +56,24 @@ struct EdgesPair {
         second(mesh.edge(f)),
         ends{{mesh.at(first[0]), mesh.at(first[1])}, {mesh.at(second[0]), mesh.at(second[1])}} {}
 
-  /// The closest features of both.
+  /// Returns the closest features of both.
   EdgeFeatures closest() const { return closest_features(ends); }
-  /// Their distance, as a gap.
+  /// Returns their distance, as a gap.
   Margin gap() const { return feature_gap(ends, closest()); }
-  /// As of FacetPair.
+  /// Returns whether they are certainly farther apart than this [m].
   bool surely_beyond(double distance) const {
     return surely_beyond_edge({ends.first[0], ends.first[1], ends.second[0], ends.second[1]}, distance);
   }
 };
 
-/// The pairs of a mesh that are no farther apart than `reach` [m], and some that are; adjacent and excluded ones are
-/// left out. Threads share the work: visitors must bear that.
+/// The pairs of a mesh that are no farther apart than `reach` [m], and some that are farther; adjacent and excluded
+/// pairs are left out. Threads share the work, so visitors must be safe to call concurrently.
 class NearPairs {
  public:
   NearPairs(const Complex& mesh, const compare::ExclusionView& exclusions, double reach)
       : mesh_(mesh), exclusions_(exclusions), reach_(reach * search_margin) {}
 
-  /// visit(pair) with each as a FacetPair or an EdgesPair, e < f.
+  /// Calls visit(pair) for each pair, as a FacetPair or as an EdgesPair with e < f.
   template <class Visit>
   void each(Visit visit) const {
     facets(visit);

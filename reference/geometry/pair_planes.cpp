@@ -1,5 +1,5 @@
-// Directions and offsets are made in long double and stored; whether the stored plane holds both sides is then decided
-// exactly, by the same comparison that judges planes (plane.hpp).
+// Computes directions and offsets in long double and stores them. Whether the stored plane holds both sides is then
+// decided exactly, by the same comparison that judges planes (plane.hpp).
 #include "reference/geometry/pair_planes.hpp"
 
 #include <tbb/combinable.h>
@@ -37,10 +37,10 @@ Long inner(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] *
 Direction cross(const Direction& a, const Direction& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// `line`, a normal of both sides, so that it points along `way`.
+/// Returns `line`, a normal of both sides, with the sign that points along `way`.
 Direction along(const Direction& line, const Direction& way) { return inner(line, way) < 0 ? times(-1, line) : line; }
 
-/// From the point to the triangle's feature closest to it.
+/// Returns the vector from the point to the triangle's feature closest to it.
 Direction to_closest(const FacetPair& pair) {
   const TriangleFeature feature = pair.closest();
   const Corners& c = pair.corners;
@@ -53,7 +53,7 @@ Direction to_closest(const FacetPair& pair) {
   return minus(w, times(inner(w, e) / inner(e, e), e));
 }
 
-/// From the first edge's feature closest to the second to the latter's.
+/// Returns the vector from the first edge's closest feature to the second edge's.
 Direction to_closest(const EdgesPair& edges) {
   const EdgeFeatures on = edges.closest();
   const EdgePair& pair = edges.ends;
@@ -120,7 +120,7 @@ class PlaneMaker {
     std::ranges::sort(pairs_, {}, order);
   }
 
-  /// n·x in long double: three products of 48 bits and two sums.
+  /// Returns n·x in long double: three products of 48 bits and two sums.
   static Long height(const Vec3f& n, const Vec3f& x) { return Long{n.x} * x.x + Long{n.y} * x.y + Long{n.z} * x.z; }
 
   bool is_fixed(const NearPair& pair, bool second) const {
@@ -129,7 +129,7 @@ class PlaneMaker {
     return true;
   }
 
-  /// What the first side has of 2γ_p d where both can move.
+  /// Returns the first side's share of 2γ_p d where both sides can move.
   Long first_part(const NearPair& pair) const {
     if (in_.displacement.empty()) return 0.5;
     std::array<Long, 2> approach{0, 0};
@@ -144,7 +144,7 @@ class PlaneMaker {
   }
 
   void place(NearPair& pair, const Direction& direction) const {
-    const Long length = std::sqrt(inner(direction, direction)), share = Long{in_.bound_relaxation};
+    const Long length = std::sqrt(inner(direction, direction)), share = Long{in_.bounds_relaxation};
     if (!(length > 0)) return;
     pair.normal = {static_cast<float>(direction[0] / length), static_cast<float>(direction[1] / length),
                    static_cast<float>(direction[2] / length)};
@@ -159,7 +159,7 @@ class PlaneMaker {
     const Long gap = bottom - top;
     const bool first_fixed = is_fixed(pair, false), second_fixed = is_fixed(pair, true);
     const Long part = first_part(pair);
-    // half way between a fixed side and the other's offset: it bears none
+    // A fixed side's offset lies half way to the other's; no vertex bears it.
     const auto room = [share](bool fixed, bool other_fixed, Long own_part) {
       return fixed ? Long{0.5} - share : (other_fixed ? 2 * share : 2 * share * own_part);
     };
@@ -191,7 +191,7 @@ class PlaneMaker {
       for (const Index v : pair.vertices)
         if (!pair.has_plane) nearest[at(v)] = std::min(nearest[at(v)], pair.below);
     for (Index v = 0; v < in_.topology->vertex_count; ++v)
-      bounds.push_back(in_.topology->on_surface(v) ? product_below(in_.bound_relaxation, nearest[at(v)])
+      bounds.push_back(in_.topology->on_surface(v) ? product_below(in_.bounds_relaxation, nearest[at(v)])
                                                    : std::numeric_limits<float>::max());
     return bounds;
   }

@@ -1,10 +1,10 @@
-// What an answer holds apart is decided exactly: n·x − o in double first, where its rounding could hide the sign in
-// fractions. Distances are asked only of pairs that no plane separates and that are not surely beyond what their
+// Decides exactly what an answer holds apart: n·x − o in double first, in fractions where its rounding could hide the
+// sign. Distances are computed only for pairs that no plane separates and that are not surely beyond what their
 // vertices' balls need.
 //
-// What it leaves to the vertices is measured in double. Distances (within 2⁻⁴⁰ of their scale) and rooms have errors
-// far below the units in which they are judged; which pair is due is asked with the tolerances of a single-precision
-// kernel, so that no rounding of its distances decides.
+// The room that it leaves to the vertices is measured in double. Distances (within 2⁻⁴⁰ of their scale) and rooms have
+// errors far below the units in which they are judged. Which pair must have a plane is decided with the tolerances of a
+// single-precision kernel, so that no rounding of its distances decides.
 #include "reference/geometry/plane.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -43,18 +43,18 @@ Rational exact(const Height& height) {
          Rational(double{n.z}) * Rational(double{x.z}) + Rational(height.offset);
 }
 
-/// An answer, asked about pairs.
+/// Finds the planes of pairs in an answer.
 class AnsweredPlanes {
  public:
   AnsweredPlanes(const compare::PlaneIn& in, const compare::PlaneOut& out) : in_(in), out_(out) {}
 
   bool moves(Index v) const { return in_.is_fixed[static_cast<std::size_t>(v)] == 0; }
 
-  /// The offset that v has of the pair's plane, which it bears.
+  /// Returns the offset of the pair's plane as v bears it; v must bear it.
   double offset(Index v, const compare::PrimitivePair& pair) const { return plane_of(v, pair)->offset; }
 
-  /// The normal of the plane that holds the pair apart, as its first side has it; empty where no plane does: a vertex
-  /// that can move bears none or one of other bits, or there is no room between the sides.
+  /// Returns the normal of the plane that holds the pair apart, as its first side bears it. Empty where no plane does:
+  /// a vertex that can move bears none or one of other bits, or there is no room between the sides.
   template <class Pair>
   std::optional<Vec3f> separating_normal(const Pair& pair) const {
     const std::optional<Vec3f> normal = common_normal(pair);
@@ -91,7 +91,7 @@ class AnsweredPlanes {
     return normal;
   }
 
-  /// How far along n a vertex may come: its offset, or where it is for good.
+  /// Returns how far along n a vertex may come: its offset, or the position of a fixed vertex.
   Height limit(Index v, const compare::PrimitivePair& pair, const Vec3f& normal, bool is_second) const {
     if (!moves(v)) return {normal, in_.positions[static_cast<std::size_t>(v)], 0};
     return {{}, {}, is_second ? -offset(v, pair) : offset(v, pair)};
@@ -101,7 +101,8 @@ class AnsweredPlanes {
   const compare::PlaneOut& out_;
 };
 
-/// Pairs that are neither separated nor covered, and the first of them.
+/// Counts of pairs that are separated, and of those that are neither separated nor covered, with the first of the
+/// latter.
 struct Findings {
   std::size_t separated = 0, uncovered = 0;
   PrimitivePair worst;
@@ -130,13 +131,13 @@ class PlaneCheck {
   }
 
  private:
-  /// Of single-precision numbers the product is exact in double. What is not finite is too large.
+  /// The product of single-precision numbers is exact in double. A bound that is not finite is too large.
   bool is_too_large(Index v) const {
     return answered_.moves(v) && in_.topology->on_surface(v) &&
-           !(double{out_.bound[at(v)]} <= double{in_.bound_relaxation} * double{in_.query_radius});
+           !(double{out_.bound[at(v)]} <= double{in_.bounds_relaxation} * double{in_.query_radius});
   }
 
-  /// The largest ball of the vertices, which must fit into γ_p d.
+  /// Returns the largest ball of the vertices, which must fit into γ_p d.
   template <class Pair>
   float largest_bound(const Pair& pair) const {
     float largest = 0;
@@ -157,9 +158,9 @@ class PlaneCheck {
       return;
     }
     const float b = largest_bound(pair);
-    const double needed = double{b} / double{in_.bound_relaxation} * (1 + 0x1p-50);
+    const double needed = double{b} / double{in_.bounds_relaxation} * (1 + 0x1p-50);
     if (b == 0 || pair.surely_beyond(needed)) return;
-    if (!std::isfinite(b) || scaled_distance_less(pair.gap(), in_.bound_relaxation, b)) found.add({0, 1, pair.name});
+    if (!std::isfinite(b) || scaled_distance_less(pair.gap(), in_.bounds_relaxation, b)) found.add({0, 1, pair.name});
   }
 
   const PlaneIn& in_;
@@ -178,16 +179,16 @@ struct MeasuredPair {
   std::array<Index, 4> vertices{};
   double distance = 0;        ///< d [m]
   double scale = 0;           ///< max(d, Σ|δ|) [m]
-  bool has_room = false;      ///< for a plane in single precision
-  bool is_separated = false;  ///< by the answer
+  bool has_room = false;      ///< whether single precision has room for a plane
+  bool is_separated = false;  ///< whether the answer's planes separate it
   double together = 0;        ///< how far both sides may come together along the plane that separates them [m]
-  double division = 0;        ///< as PlaneFreedom::division, of this pair
+  double division = 0;        ///< PlaneFreedom::division of this pair
 
-  /// Not above what a kernel may take for its distance, d less its tolerance.
+  /// Returns a lower limit of the distance that a kernel may compute: d less its tolerance.
   double surely_above() const { return std::max(0.0, distance - compare::detect_below_tolerance * u * scale); }
 };
 
-/// Whether single precision can hold a plane of the pair (PlaneFreedom).
+/// Returns whether single precision can hold a plane of the pair (PlaneFreedom).
 bool has_room_for_plane(double distance, double scale, double largest_coordinate, double share) {
   return distance > 0 && distance >= 0x1p-18 * scale &&
          std::min(share, 1 - 2 * share) * distance >= 0x1p-45 * largest_coordinate;
@@ -210,8 +211,8 @@ class FreedomCheck {
   }
 
  private:
-  /// Whether a kernel may take them for a pair within r_q. Of pairs so slender that their distance has no bits to spare
-  /// the search for all pairs does not find each.
+  /// Returns whether a kernel may take the primitives for a pair within r_q. The search for all pairs may miss pairs so
+  /// slender that their distance has few bits, so they are measured here.
   bool may_have_plane(const PrimitivePair& name) const {
     const auto found = std::ranges::lower_bound(pairs_, order(name), {},
                                                 [](const MeasuredPair& pair) { return order(pair.name); });
@@ -246,7 +247,7 @@ class FreedomCheck {
       largest = std::max({largest, std::abs(double{x.x}), std::abs(double{x.y}), std::abs(double{x.z})});
     }
     measured.scale = std::max(measured.scale, measured.distance);
-    measured.has_room = has_room_for_plane(measured.distance, measured.scale, largest, double{in_.bound_relaxation});
+    measured.has_room = has_room_for_plane(measured.distance, measured.scale, largest, double{in_.bounds_relaxation});
     if (const auto normal = answered_.separating_normal(pair)) {
       measured.is_separated = true;
       measured.together = (room(pair.name, pair.first, *normal, 1) + room(pair.name, pair.second, *normal, -1)) /
@@ -264,7 +265,8 @@ class FreedomCheck {
     return std::ranges::any_of(side, [this](Index v) { return answered_.moves(v); });
   }
 
-  /// How far along `sign` n a side's offset lies before the farthest of all its vertices, times the length of n.
+  /// Returns the distance along `sign` n from the farthest of all vertices of a side to its offset, times the length of
+  /// n.
   template <class Vertices>
   Long way_to_offset(const PrimitivePair& name, const Vertices& side, const Vec3f& n, Long sign) const {
     Long farthest = -Long{infinity}, offset = 0;
@@ -275,7 +277,7 @@ class FreedomCheck {
     return offset - farthest;
   }
 
-  /// The largest `sign` n·w of a side's vertices, which may be negative, over the length of n.
+  /// Returns the largest `sign` n·w of a side's vertices, which may be negative, over the length of n.
   template <class Vertices>
   Long speed_of(const Vertices& side, const Vec3f& n, Long sign) const {
     Long largest = -Long{infinity};
@@ -283,8 +285,8 @@ class FreedomCheck {
     return largest / std::sqrt(inner(n, n));
   }
 
-  /// Where rounding can hide whether a side approaches at all, and the other does not, any division is right: W/(a + b)
-  /// is without bounds there.
+  /// Returns the error of the division. Where rounding can hide whether one side approaches at all, and the other side
+  /// does not, any division is right: W/(a + b) has no bound there.
   template <class Pair>
   double division(const Pair& pair, const Vec3f& n, const MeasuredPair& measured) const {
     if (!can_move(pair.first) || !can_move(pair.second)) return 0;
@@ -296,15 +298,15 @@ class FreedomCheck {
     if (a + b <= doubt && largest > 0 && std::max(first, second) > -doubt) return 0;
     Long share = 0.5;
     if (a + b > 0) share = std::clamp(a / (a + b), Long{compare::least_division}, 1 - Long{compare::least_division});
-    const Long length = std::sqrt(inner(n, n)), whole = 2 * Long{in_.bound_relaxation} * measured.distance;
+    const Long length = std::sqrt(inner(n, n)), whole = 2 * Long{in_.bounds_relaxation} * measured.distance;
     const Long error = std::max(std::abs(way_to_offset(pair.name, pair.first, n, 1) / length - share * whole),
                                 std::abs(way_to_offset(pair.name, pair.second, n, -1) / length - (1 - share) * whole));
     const Long doubtful = a + b > 0 ? measured.distance * largest / (a + b) : Long{0};
     return static_cast<double>(error / (u * (measured.scale + doubtful)));
   }
 
-  /// How far a side may come along `sign` n, times the length of n: as far as the vertex that is next to its offset; 0
-  /// where none can move.
+  /// Returns how far a side may come along `sign` n, times the length of n, by the vertex nearest to its offset; 0
+  /// where no vertex can move.
   template <class Vertices>
   double room(const PrimitivePair& name, const Vertices& side, const Vec3f& n, double sign) const {
     double least = infinity;
@@ -318,7 +320,7 @@ class FreedomCheck {
     return least < infinity ? least : 0;
   }
 
-  /// By vertex: nearer pairs than this are among its nearest, whatever rounding says.
+  /// Returns for each vertex a threshold: pairs nearer than this are among its nearest, whatever rounding does.
   std::vector<double> thresholds() const {
     constexpr std::size_t most = compare::planes_of_vertex;
     std::vector<std::vector<double>> distances(in_.positions.size());
@@ -336,7 +338,8 @@ class FreedomCheck {
   void judge_planes(const std::vector<double>& threshold) {
     for (const MeasuredPair& pair : pairs_) {
       const auto is_among_nearest = [&](Index v) { return pair.distance < threshold[at(v)]; };
-      const auto moves = [&](Index v) { return answered_.moves(v); };  // of none: no question, but a wrong form's
+      // A pair of fixed vertices comes only from a wrong form, not from a question.
+      const auto moves = [&](Index v) { return answered_.moves(v); };
       const bool is_due = pair.has_room && is_within(pair.distance) && std::ranges::any_of(pair.vertices, moves) &&
                           std::ranges::all_of(pair.vertices, is_among_nearest);
       freedom_.due += is_due ? 1 : 0;
@@ -346,7 +349,7 @@ class FreedomCheck {
         freedom_.division = pair.division;
         freedom_.worst_divided = pair.name;
       }
-      const double narrowing = (2 * double{in_.bound_relaxation} * pair.distance - pair.together) / (u * pair.scale);
+      const double narrowing = (2 * double{in_.bounds_relaxation} * pair.distance - pair.together) / (u * pair.scale);
       if (!(narrowing > freedom_.narrowing)) continue;
       freedom_.narrowing = narrowing;
       freedom_.narrowest = pair.name;
@@ -355,7 +358,7 @@ class FreedomCheck {
 
   void judge_balls() {
     std::vector<double>& shortfall = freedom_.ball_shortfall;
-    const double share = double{in_.bound_relaxation}, reach = double{in_.query_radius};
+    const double share = double{in_.bounds_relaxation}, reach = double{in_.query_radius};
     const auto units = [share](double d, double scale, float bound) {
       const double missing = share * d - double{bound};
       return missing > 0 ? missing / (u * (share * scale + 0x1p-126)) : 0;
@@ -389,8 +392,8 @@ void require(bool holds, const char* what, std::size_t count, std::size_t vertic
 
 }  // namespace
 
-/// Seven terms, the products exact, are summed up with at most 2⁻⁵³ of their moduli lost by each addition: under 2⁻⁴⁹
-/// of the sum of the moduli.
+/// Sums seven terms with exact products; each addition loses at most 2⁻⁵³ of their moduli: under 2⁻⁴⁹ of the sum of the
+/// moduli.
 int compared(const Height& a, const Height& b) {
   double sum = a.offset - b.offset, size = std::abs(a.offset) + std::abs(b.offset);
   const auto add = [&](float n, float x, double sign) {

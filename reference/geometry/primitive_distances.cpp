@@ -1,6 +1,6 @@
-// Two rounds. The first lowers each distance by neighbours across the mesh, which are near in most states; the second
-// searches each primitive's own box, widened by what is known then. A pair is met from either side, so each primitive
-// finds its own nearest and needs nobody else's search for it.
+// Works in two rounds. The first lowers each distance by neighbours across the mesh, which are near in most states; the
+// second searches each primitive's own box, widened by the distance known then. Pairs are visited from both sides, so
+// each primitive finds its own nearest and depends on no other primitive's search.
 #include "reference/geometry/primitive_distances.hpp"
 
 #include <tbb/blocked_range.h>
@@ -58,14 +58,14 @@ class Facets {
   }
 
  private:
-  /// The vertices opposite to the triangle in those that share an edge with it.
+  /// Visits the vertices opposite to the triangle in the triangles that share an edge with it.
   void meet_ring(Index t) {
     for (const Index e : in_.topology->triangle_edges[at(t)])
       for (const Index other : mesh_.triangles_of(e))
         if (other != t) meet(mesh_.opposite(other, e), t, in_.query_radius);
   }
 
-  /// Lowers both by their distance unless it is surely beyond `known`.
+  /// Lowers both distances by that of the pair, unless it is surely beyond `known`.
   void meet(Index v, Index t, float known) {
     const compare::Triangle& corners = mesh_.triangle(t);
     if (!in_.topology->on_surface(v) || !in_.topology->on_surface(corners)) return;
@@ -103,14 +103,14 @@ class Edges {
   }
 
  private:
-  /// The edges around the vertices opposite to the edge.
+  /// Visits the edges around the vertices opposite to the edge.
   void meet_ring(Index e) {
     for (const Index t : mesh_.triangles_of(e))
       for (const Index other : mesh_.edges_of(mesh_.opposite(t, e))) meet(e, other, of_edge_.so_far(at(e)));
   }
 
-  /// Lowers both by their distance unless it is surely beyond `known`. The lower-numbered edge goes first, as in the
-  /// detection, for the sake of its last bit.
+  /// Lowers both distances by that of the pair, unless it is surely beyond `known`. The lower-numbered edge comes
+  /// first, as in the detection, so that the last bit agrees.
   void meet(Index e, Index other, float known) {
     const compare::Edge &a = mesh_.edge(std::min(e, other)), &b = mesh_.edge(std::max(e, other));
     if (!in_.topology->on_surface(a) || !in_.topology->on_surface(b)) return;
@@ -138,9 +138,9 @@ PrimitiveDistances primitive_distances(const compare::DetectIn& in) {
   return result;
 }
 
-std::vector<float> exact_bounds(const compare::DetectIn& in, float bound_relaxation) {
+std::vector<float> exact_bounds(const compare::DetectIn& in, float bounds_relaxation) {
   const PrimitiveDistances distances = primitive_distances(in);
-  return bound({in.topology, distances.vertex, distances.edge, distances.triangle, bound_relaxation}).exact.bound;
+  return bound({in.topology, distances.vertex, distances.edge, distances.triangle, bounds_relaxation}).exact.bound;
 }
 
 }  // namespace ogc::reference

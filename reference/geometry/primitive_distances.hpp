@@ -1,5 +1,5 @@
-// The smallest distances of a detection alone: what bounds come from, without contacts and grey zones (the detections)
-// and without the exact decision which pair holds them (nearest.hpp).
+// The smallest distances of a detection, from which bounds follow, without contacts and grey zones (the detections) and
+// without the exact decision which pair holds them (nearest.hpp).
 #pragma once
 
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace ogc::reference {
 
-/// d_min,v, d_min,e and d_min,t [m] by primitive (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26), r_q where nothing is nearer:
-/// those of detect_vertex_facet and detect_edge_edge, bit by bit.
+/// d_min,v, d_min,e and d_min,t [m] by primitive (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26), r_q where nothing is nearer;
+/// equal to those of detect_vertex_facet and detect_edge_edge, bit by bit.
 struct PrimitiveDistances {
   std::vector<float> vertex, edge, triangle;  ///< by number of the primitive [m]
 };
 
-/// In parallel; the answer does not depend on the number of threads. A primitive is searched as far as its nearest
-/// neighbour beyond the ring around it, so that r_q matters where there is none.
+/// Computes the distances in parallel; the answer does not depend on the number of threads. Each primitive is searched
+/// as far as its nearest known neighbour across the mesh, so that r_q matters only where there is none.
 PrimitiveDistances primitive_distances(const compare::DetectIn& in);
 
-/// b_v of Eq. 21 [m], by vertex, rounded down. Throws nothing but what memory does.
-std::vector<float> exact_bounds(const compare::DetectIn& in, float bound_relaxation);
+/// Returns b_v of Eq. 21 [m], by vertex, rounded down. Throws only when memory runs out.
+std::vector<float> exact_bounds(const compare::DetectIn& in, float bounds_relaxation);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// Two number types that say how a formula reacts to its inputs: forward-mode derivatives, and the sum of the moduli of
-// all terms, which bounds the rounding error of the value too.
+// Two number types that measure how a formula reacts to its inputs: forward-mode derivatives, and the sum of the moduli
+// of all terms, which also bounds the rounding error of the value.
 #pragma once
 
 #include <array>
@@ -40,10 +40,10 @@ struct Dual {
   }
 };
 
-/// A value in double beside the one that the formula takes when every term counts with its modulus. For a homogeneous
+/// A value in double, and the value of the formula when every term counts with its modulus. For a homogeneous
 /// polynomial m of degree k the latter bounds Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial contributes its
-/// modulus once for each of its at most k factors; and n roundings on the longest way from an input to the value move
-/// it by n 2⁻⁵³ · modulus at most, to first order.
+/// modulus once for each of its at most k factors. n roundings on the longest way from an input to the value change it
+/// by at most n 2⁻⁵³ · modulus, to first order.
 struct Measured {
   double value = 0, modulus = 0;  ///< in double; the sum of the moduli of its terms
 

@@ -1,6 +1,6 @@
-// Gilbert's iteration: w, a difference of a point of the first primitive and one of the second, goes towards the
-// difference of the two vertices that bound the slab across w, as far as brings it nearer to 0. It comes as near to the
-// shortest difference as is asked of it; most pairs are told apart at once.
+// Gilbert's iteration: w, a difference of a point of the first primitive and one of the second, moves towards the
+// difference of the two vertices that bound the slab across w, as far as this brings it nearer to 0. It approaches the
+// shortest difference; most pairs are told apart at once.
 #include "reference/geometry/separation.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool surely_beyond(const std::array<compare::Vec3f, 4>& x, double distance) {
     p[k] = {double{x[k].x} - x[0].x, double{x[k].y} - x[0].y, double{x[k].z} - x[0].z};
     largest = std::max({largest, std::abs(p[k].x), std::abs(p[k].y), std::abs(p[k].z)});
   }
-  // Differences of single-precision numbers carry one rounding, their projections a few more: 2⁻⁴⁸ of the largest
+  // Differences of single-precision numbers have one rounding, their projections a few more: 2⁻⁴⁸ of the largest
   // coordinate covers each by far.
   const double needed = distance * (1 + 0x1p-40) + 0x1p-45 * largest;
   Point<double> w = p[0] - p[split];

@@ -1,5 +1,5 @@
-// A cheap question before the exact ones: are two primitives certainly farther apart than this? Two parallel planes
-// with nothing between them prove it, in whatever direction they were drawn, so that only the width of the slab needs
+// A cheap test before the exact ones: whether two primitives are certainly farther apart than a distance. Two parallel
+// planes with nothing between them prove it, in whatever direction they lie, so that only the width of the slab needs
 // an error bound.
 #pragma once
 
@@ -9,17 +9,17 @@
 
 namespace ogc::reference {
 
-/// What a detection is asked for.
+/// What a detection must return.
 enum class DetectionExtent {
   judged,  ///< all of the stage's truth: pairs counted, near and grey decisions listed
-  /// `exact` alone: a pair that can be neither a contact nor lower a smallest distance is left out, and out of `pairs`,
-  /// too
+  /// `exact` alone: pairs that can neither be a contact nor lower a smallest distance are left out, also of `pairs`.
   exact
 };
 
-/// Whether point x[0] and triangle x[1] x[2] x[3] are farther apart than `distance` [m]; false where no slab shows it.
+/// Returns whether point x[0] and triangle x[1] x[2] x[3] are farther apart than `distance` [m]; false where no slab
+/// shows it.
 bool surely_beyond_triangle(const std::array<compare::Vec3f, 4>& x, double distance);
-/// Whether the edges x[0] x[1] and x[2] x[3] are farther apart likewise.
+/// Returns the same for the edges x[0] x[1] and x[2] x[3].
 bool surely_beyond_edge(const std::array<compare::Vec3f, 4>& x, double distance);
 
 }  // namespace ogc::reference

@@ -23,8 +23,8 @@ double force_at(ContactActivation kind, double distance, double stiffness) {
   return 0 - energy_at(kind, distance, stiffness).slope[0];
 }
 
-/// Where the energy pushes with this force: forces fall with the distance, so that bisection of its logarithm, which a
-/// double halves to its last bit in 64 steps, finds it.
+/// Returns the distance where the energy pushes with this force. Forces fall with the distance, so bisection of its
+/// logarithm finds it, to the last bit of a double in 64 steps.
 double distance_of(ContactActivation kind, double force, double stiffness) {
   double near = std::log(0x1p-100), far = 0;
   for (int halving = 0; halving < 64; ++halving) {

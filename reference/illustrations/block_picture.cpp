@@ -17,7 +17,7 @@ Point3 widened_point(const Vec3f& x) { return {x.x, x.y, x.z}; }
 
 double inner(const Unit& a, const Unit& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// On the great circle from a to b, not opposite to each other, at the part t of the way.
+/// Returns the point at the part t of the great circle from a to b, which must not be opposite to each other.
 Unit between(const Unit& a, const Unit& b, double t) {
   const double angle = std::acos(std::clamp(inner(a, b), -1.0, 1.0));
   if (angle < 1e-9) return a;
@@ -25,7 +25,7 @@ Unit between(const Unit& a, const Unit& b, double t) {
   return {p * a[0] + q * b[0], p * a[1] + q * b[1], p * a[2] + q * b[2]};
 }
 
-/// The arc from a to b without b.
+/// Appends the arc from a to b without b.
 void append_arc(std::vector<Unit>& points, const Unit& a, const Unit& b, double step) {
   const double angle = std::acos(std::clamp(inner(a, b), -1.0, 1.0));
   const int pieces = std::max(1, static_cast<int>(std::ceil(angle / step)));
@@ -40,7 +40,7 @@ class Painter {
   }
   BlockPatch& patch(Kind kind, bool closed) { return picture_.patches.emplace_back(BlockPatch{kind, closed, {}, {}}); }
 
-  /// A planar, convex patch. Its outline is all around it, or `outlines`.
+  /// Adds a planar, convex patch. Its outline is its boundary, or `outlines`.
   void polygon(Kind kind, bool closed, const std::vector<int>& corners, std::vector<std::vector<int>> outlines = {}) {
     BlockPatch& wall = patch(kind, closed);
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -51,7 +51,7 @@ class Painter {
     wall.outlines.back().push_back(corners.front());
   }
 
-  /// The surface between two rows of points; the rows themselves are the open ends' outlines.
+  /// Adds the surface between two rows of points; unless it goes all around, its two open ends are its outlines.
   void strip(Kind kind, bool closed, const std::vector<int>& low, const std::vector<int>& high, bool around) {
     BlockPatch& wall = patch(kind, closed);
     for (std::size_t k = 0; k + 1 < low.size(); ++k) {
@@ -73,7 +73,7 @@ class Painter {
   BlockPicture picture_;
 };
 
-/// The part of the sphere inside an outline, in rings towards its middle.
+/// Paints the part of the sphere inside an outline, in rings towards its middle.
 void paint_cap(Painter& painter, const Point3& x, double r, const std::vector<Unit>& rim, const Unit& centre,
                double step) {
   const int rings = std::max(2, static_cast<int>(std::ceil(1.6 / step / 2)));

@@ -1,4 +1,4 @@
-// Blocks to look at: triangulated boundaries, computed from the Gauss map. For drawing only; nothing is decided here.
+// Drawings of blocks: triangulated boundaries, computed from the Gauss map. For drawing only; nothing is decided here.
 #pragma once
 
 #include <array>
@@ -24,12 +24,13 @@ struct BlockPicture {
   std::vector<BlockPatch> patches;            ///< empty where the face has no normals or a vertex no edges
 };
 
-/// U_a about radius r [m], or U_a^E with `edge_only`; arcs are cut into pieces of at most `step` [rad].
+/// Returns the picture of U_a with radius r [m], or of U_a^E with `edge_only`; arcs are cut into pieces of at most
+/// `step` [rad].
 BlockPicture block_picture(const Complex& mesh, Face face, float contact_radius, bool edge_only = false,
                            double step = 0.1);
 
-/// The points of N_a's boundary on the unit sphere in order, arcs cut like those of the picture; a closed region
-/// repeats its first point at the end.
+/// Returns the points of N_a's boundary on the unit sphere in order, arcs cut like those of the picture; a closed
+/// region repeats its first point at the end.
 std::vector<Unit> outline(const GaussMap& map, double step = 0.1);
 
 }  // namespace ogc::reference

@@ -10,7 +10,7 @@
 
 namespace ogc::reference {
 
-/// Corner i of k on the unit circle.
+/// Returns corner i of k on the unit circle.
 inline std::array<double, 2> on_circle(int i, int k) {
   const double angle = 2 * std::numbers::pi * i / k;
   return {std::cos(angle), std::sin(angle)};

@@ -1,4 +1,4 @@
-// The list of figures; each is made where its subject is.
+// The list of figures; the files by subject make them.
 #include "reference/illustrations/illustrations.hpp"
 
 #include <algorithm>

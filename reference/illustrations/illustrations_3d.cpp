@@ -17,7 +17,7 @@ struct Shape {
   Complex mesh() const { return {topology, positions}; }
 };
 
-/// k triangles around vertex 0, neighbour i at the given height.
+/// Returns k triangles around vertex 0, neighbour i at the given height.
 Shape star(const std::vector<float>& heights) {
   const auto k = static_cast<Index>(heights.size());
   std::vector<Vec3f> positions{{0, 0, 0}};
@@ -66,7 +66,7 @@ DrawingLayer curve(const std::string& name, const std::vector<Unit>& points) {
   return layer;
 }
 
-/// The indicatrix as the polygon of the triangles' normals, arcs cut finely; and N_a on the unit sphere.
+/// Adds the indicatrix as the polygon of the triangles' normals, arcs cut finely, and N_a on the unit sphere.
 void add_normals(DrawingPanel& panel, const Complex& mesh, Face face, bool edge_only) {
   const GaussMap map = gauss_map(mesh, face, edge_only);
   if (map.dimension == 0) {

@@ -1,6 +1,6 @@
-// Fig. 9 and 22b: steps that are cut. Detections, bounds and truncations are the reference's own, on lengths of a
-// cloth; in Fig. 9 a slice of swept polylines, as in illustrations_2d.cpp. What stands beside them for comparison, the
-// line search of Fig. 9b, is the first root of a quadratic.
+// Fig. 9 and 22b: steps that are cut. Detections, bounds and truncations are the reference's own, at lengths of a
+// cloth; in Fig. 9 on a slice of swept polylines, as in illustrations_2d.cpp. The line search of Fig. 9b, for
+// comparison, is the first root of a quadratic.
 #include <algorithm>
 
 #include "compare/problem/settings.hpp"
@@ -25,8 +25,9 @@ std::vector<float> bounds_of(const compare::Topology& topology, const std::vecto
   const compare::DetectIn in{&topology, no_groups, positions, contact_radius, query_radius};
   const auto facets = detect_vertex_facet(in).exact;
   const auto edges = detect_edge_edge(in).exact;
-  const auto bound_relaxation = static_cast<float>(compare::Settings{}.bound_relaxation);
-  return bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, bound_relaxation}).exact.bound;
+  const auto bounds_relaxation = static_cast<float>(compare::Settings{}.bounds_relaxation);
+  return bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, bounds_relaxation})
+      .exact.bound;
 }
 
 /// x ← y within the ball about X_prev, as it is stored (Eq. 27, 28).
@@ -77,7 +78,7 @@ std::vector<Point2> singles(const std::vector<Plane>& points) {
   return single;
 }
 
-/// b_v of the vertices of M, beside the obstacle.
+/// Returns b_v of the vertices of M, beside the obstacle.
 std::vector<float> bounds_beside(const OneStep& step) {
   const Slice line(singles(step.before)), obstacle(singles(step.obstacle));
   std::vector<Vec3f> positions(line.mesh().positions.begin(), line.mesh().positions.end());
@@ -97,7 +98,7 @@ double crossed(const Plane& a, const Plane& b) { return a[0] * b[1] - a[1] * b[0
 Plane less(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
 Plane along(const Plane& a, const Plane& b, double s) { return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}; }
 
-/// Earliest share s of the step, at most 1, at which a moving point lies on a moving segment.
+/// Returns the earliest share s of the step, at most 1, at which a moving point lies on a moving segment.
 double first_touch(const std::array<Plane, 2>& point, const std::array<Plane, 2>& a, const std::array<Plane, 2>& b) {
   const auto at = [&](const std::array<Plane, 2>& x, double s) { return along(x[0], x[1], s); };
   const auto area = [&](double s) { return crossed(less(at(b, s), at(a, s)), less(at(point, s), at(a, s))); };
@@ -114,8 +115,8 @@ double first_touch(const std::array<Plane, 2>& point, const std::array<Plane, 2>
   return first;
 }
 
-/// The share of the step at which anything of M first touches the obstacle: what a line search with continuous
-/// detection leaves of it.
+/// Returns the share of the step at which any part of M first touches the obstacle: a line search with continuous
+/// detection stops there.
 double first_collision(const OneStep& step) {
   double first = 1;
   for (std::size_t i = 0; i < step.before.size(); ++i) {
@@ -138,16 +139,16 @@ constexpr int most_rounds = 64;
 struct Fall {
   std::vector<Vec3f> start, target;
   std::vector<std::vector<Vec3f>> rounds;  ///< positions after each round
-  std::vector<std::vector<float>> bounds;  ///< b_v at the beginning of each
+  std::vector<std::vector<float>> bounds;  ///< b_v at the beginning of each round
 };
 
-/// Where vertices go whose near pairs have planes (method.md §5.6), in place of balls alone.
+/// Returns where vertices go if near pairs have planes (method.md §5.6), instead of balls alone.
 std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vector<Vec3f>& x,
                                const std::vector<Vec3f>& target, float query_radius) {
   const std::vector<Index> no_groups;
   const std::vector<std::uint8_t> all_free(x.size(), 0);
   compare::PlaneOut held = pair_planes(
-      {&topology, no_groups, x, all_free, query_radius, static_cast<float>(compare::Settings{}.bound_relaxation)});
+      {&topology, no_groups, x, all_free, query_radius, static_cast<float>(compare::Settings{}.bounds_relaxation)});
   Detected here;
   here.previous = x, here.bound = std::move(held.bound), here.planes = std::move(held.planes);
   const FeasibleRegions regions(here, compare::Bounds::planes);
@@ -160,7 +161,8 @@ std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vec
   return cuts;
 }
 
-/// Rounds of detection and truncation until no vertex is cut. Everything falls alike, so nothing comes into contact.
+/// Does rounds of detection and truncation until no vertex is cut. All vertices fall alike, so nothing comes into
+/// contact.
 Fall fall(double speed, compare::Bounds kind = compare::Bounds::ball) {
   Fall f;
   f.start = {{-0.025f, 0, 0}, {-0.005f, 0, 0}, {-0.015f, 0.015f, 0},
@@ -169,7 +171,7 @@ Fall fall(double speed, compare::Bounds kind = compare::Bounds::ball) {
   const double way = time_step * speed + time_step * time_step * gravity;
   for (const Vec3f& x : f.start) f.target.push_back({x.x, static_cast<float>(x.y - way), x.z});
   const float query_radius = std::min(contact_radius + static_cast<float>(way),
-                                      static_cast<float>(compare::Settings{}.query_radius_cap) * contact_radius);
+                                      static_cast<float>(compare::Settings{}.detection_radius_cap) * contact_radius);
   std::vector<Vec3f> x = f.start;
   const bool has_planes = traits_of(kind).has_planes;
   for (bool cut = true; cut && static_cast<int>(f.rounds.size()) < most_rounds;) {

@@ -1,5 +1,5 @@
-// The plane drawings of the paper as slices of surfaces: a polyline swept along z, cut where its middle row of vertices
-// lies.
+// The plane drawings of the paper as slices of surfaces: a polyline is swept along z and cut in the plane of its middle
+// row of vertices.
 #pragma once
 
 #include <array>
@@ -18,25 +18,26 @@ struct SliceFace {
   friend auto operator<=>(const SliceFace&, const SliceFace&) = default;
 };
 
-/// A polyline in the plane z = 0 with the surface that it sweeps; `extra` points follow as vertices of their own.
+/// A polyline in the plane z = 0 with the surface that it sweeps; `extra` points are separate vertices, numbered behind
+/// it.
 class Slice {
  public:
   /// A point of the plane [m].
   using Point2 = std::array<float, 2>;
   Slice(std::vector<Point2> polyline, std::span<const Point2> extra = {});
 
-  /// The swept surface.
+  /// Returns the swept surface.
   Complex mesh() const { return {topology_, positions_}; }
-  /// What was swept.
+  /// Returns the polyline.
   const std::vector<Point2>& polyline() const { return polyline_; }
-  /// of the polyline, in the plane
+  /// Returns the vertex of the polyline's i-th point, in the plane.
   Index vertex(int i) const { return middle_ + i; }
-  /// The vertex that the i-th further point has become.
+  /// Returns the vertex of the i-th extra point.
   Index extra(int i) const { return static_cast<Index>(positions_.size()) - extra_count_ + i; }
-  /// what a face of the surface is in the plane
+  /// Returns the face of the polyline whose sweep has this face of the surface.
   SliceFace face_of(Face face) const;
 
-  /// The faces of the polyline whose blocks hold the point, ascending: one for each layer.
+  /// Returns the faces of the polyline whose blocks hold the point, ascending: one for each layer.
   std::vector<SliceFace> layers(const Vec3f& x, float contact_radius) const;
 
  private:

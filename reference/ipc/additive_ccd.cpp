@@ -20,10 +20,11 @@ double largest_coordinate(const Corners& x) {
 
 class Motion {
  public:
-  /// Relative to the first vertex and to the mean displacement, which changes no distance. With S the largest relative
-  /// coordinate plus displacement, a coordinate at a time t ≤ 1 carries a difference, a product, a rounded time and a
-  /// sum: 4 · 2⁻⁵³ S; its projection on a unit vector, known to 4 · 2⁻⁵³, some thirty of them in all, and a slab's
-  /// width two projections: 2⁻⁴⁶ S is more than both, and a rate times a time no longer than 1 adds as much again.
+  /// Takes positions relative to the first vertex and displacements relative to their mean, which changes no distance.
+  /// Let S be the largest relative coordinate plus displacement. A coordinate at a time t ≤ 1 has the roundings of a
+  /// difference, a product, a rounded time and a sum: 4 · 2⁻⁵³ S; its projection on a unit vector, known to 4 · 2⁻⁵³,
+  /// some thirty of them in all, and a slab's width two projections: 2⁻⁴⁶ S is more than both, and a rate times a time
+  /// of at most 1 adds as much again.
   Motion(compare::ContactSides sides, const Corners& x, const Corners& delta)
       : sides_(sides), split_(sides == compare::ContactSides::edge_edge ? 2 : 1) {
     const Triple<double> mean = 0.25 * (delta[0] + delta[1] + delta[2] + delta[3]);
@@ -42,7 +43,7 @@ class Motion {
 
   double approach() const { return approach_; }  ///< ℓ [m]
 
-  /// Widest known empty slab at t.
+  /// The widest known empty slab at t.
   struct Slab {
     double width = 0;  ///< at most the distance; negative where none is known [m]
     Triple<double> normal{};
@@ -56,14 +57,14 @@ class Motion {
     const Triple<double> apart = separation(form.weight, slab.x);
     slab.width = -1;
     widen(slab, apart);
-    // Across a gap the direction of the connection is known to 2⁻⁵³ S over it, which tilts the slab; normals of lines
-    // and planes do not lose that.
+    // Across a gap the direction of the connection is known to 2⁻⁵³ S over the gap, which tilts the slab; normals of
+    // lines and planes do not lose that.
     if (slab.width < 0.9 * length(apart)) widen(slab, normal_of(form, slab.x, apart));
     return slab;
   }
 
-  /// How long the slab stays wider than `thickness`. One that is not wider proves nothing, even if everything moves out
-  /// of it.
+  /// Returns how long the slab stays wider than `thickness`. A slab that is not wider proves nothing, even if
+  /// everything moves out of it.
   double empty_for(const Slab& slab, double thickness) const {
     if (!(slab.width > thickness)) return 0;
     double time = std::numeric_limits<double>::infinity();
@@ -89,7 +90,7 @@ class Motion {
     if (width > slab.width) slab.width = width, slab.normal = unit;
   }
 
-  /// Across the plane, the two lines or the line of the closest points, on the side of `apart`.
+  /// Returns the normal of the plane, the two lines or the line of the closest points, on the side of `apart`.
   static Triple<double> normal_of(const ClosestForm& form, const Corners& x, const Triple<double>& apart) {
     const auto at = [&](std::size_t place) { return x[form.at[place]]; };
     if (form.kind == FormKind::points) return apart;

@@ -1,5 +1,5 @@
-// Derivatives of barriers, several of one form side by side, as energies/stencils/stencil_kernels.hpp has them of other
-// stencils.
+// Derivatives of barriers, several of one form side by side, like those of other stencils in
+// energies/stencils/stencil_kernels.hpp.
 #pragma once
 
 #include "reference/energies/stencils/stencil_kernels.hpp"
@@ -7,13 +7,13 @@
 
 namespace ogc::reference {
 
-/// A barrier with its shape: κ is in its weight.
+/// A barrier with its shape; κ is part of its weight.
 template <class Number>
 struct ShapedBarrierOf {
   BarrierTermOf<Number> barrier;
   BarrierShape shape;
 
-  /// By the vertices of the form [J].
+  /// Returns the energy at the vertices of the form [J].
   template <class T, std::size_t N>
   T energy(const std::array<Triple<T>, N>& x) const {
     return barrier.energy(shape, x);
@@ -33,7 +33,7 @@ struct BarrierKernels {
   StencilKernels::Function<ShapedBarrier, 4> of_4;
 };
 
-/// For any machine, and for one with AVX2.
+/// Kernels for any machine, and for one with AVX2.
 extern const BarrierKernels barrier_kernels_baseline, barrier_kernels_avx2;
 
 }  // namespace ogc::reference

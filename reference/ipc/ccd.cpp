@@ -1,5 +1,5 @@
-// Stage ccd. The oracle decides when faces meet, as it does for audits: a truth without rounding that no contestant
-// shares.
+// Stage ccd. The oracle decides when faces meet, as for audits: a truth without rounding that shares no code with any
+// contestant.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +35,7 @@ double largest_coordinate(const Corners& x, const Triple<double>& from) {
   return largest;
 }
 
-/// Not below the distance: that of two points of the faces.
+/// Returns an upper bound of the distance: that of two points of the faces.
 double distance_above(compare::ContactSides sides, const Corners& x) {
   const ClosestForm form = sides == compare::ContactSides::edge_edge ? closest_edges(x) : closest_form(sides, x);
   const Triple<double> apart = separation(form.weight, x);

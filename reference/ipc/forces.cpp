@@ -32,8 +32,8 @@ const BarrierKernels& barrier_kernels() {
   return barrier_kernels_baseline;
 }
 
-/// The group of a barrier, by its form; the form of a mollified one has some of its four vertices, and its group also
-/// says which.
+/// Returns the group of a barrier, by its form. The form of a mollified barrier uses some of its four vertices; its
+/// group also tells which.
 std::uint8_t group_of(const BarrierTerm& term) {
   const int form = static_cast<int>(term.form.kind);
   return static_cast<std::uint8_t>(term.rest_squared > 0 ? 16 * (1 + form) + 4 * term.form.at[0] + term.form.at[1]
@@ -52,7 +52,7 @@ void differentiate(const Bundle& bundle, const std::vector<ShapedBarrier>& terms
   kernel(batch, projection);
 }
 
-/// Derivatives of all barriers, multiplied by κ, written from `to` on.
+/// Writes the derivatives of all barriers, multiplied by κ, from `to` on.
 void differentiate(const BarrierSet& set, const BarrierShape& shape, double stiffness, const State& x,
                    HessianProjection projection, StencilDerivatives* to) {
   std::vector<ShapedBarrier> terms;

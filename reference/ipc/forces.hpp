@@ -1,7 +1,7 @@
-// The incremental potential of an IPC step: inertia, elasticity and damping as Newton-OGC has them, barriers in place
-// of OGC's contacts, lagged friction, and, where prescribed vertices could not go all the way, what pulls them to their
-// targets. Its unknowns are the free vertices, with such a pull the prescribed ones too, and behind all vertices the
-// frames of rods (solvers/rods/rod_system.hpp).
+// The incremental potential of an IPC step: inertia, elasticity and damping as in Newton-OGC, barriers in place of
+// OGC's contacts, lagged friction, and, where prescribed vertices could not go all the way, a pull towards their
+// targets. Its unknowns are the free vertices, with a pull also the prescribed ones, and behind all vertices the frames
+// of rods (solvers/rods/rod_system.hpp).
 #pragma once
 
 #include <optional>
@@ -19,56 +19,57 @@ struct Pull {
 
 /// Energies at one state.
 struct IpcEnergy {
-  PotentialTerms elastic;                  ///< and inertia
-  std::vector<double> barriers, friction;  ///< by term; b without κ [m⁴]; [J]
+  PotentialTerms elastic;                  ///< elasticity and inertia
+  std::vector<double> barriers, friction;  ///< by term; b without κ [m⁴]; friction [J]
   double barrier = 0, rest = 0;            ///< κ Σ b; friction and pull [J]
 };
-/// E(to) − E(from) [J]; the barriers may be others.
+/// Returns E(to) − E(from) [J]; the barriers of the two states may differ.
 double change(const IpcEnergy& from, const IpcEnergy& to);
-/// What rounding does to the sum [J].
+/// Returns what rounding does to the sum [J].
 double value_noise(const IpcEnergy& energy);
 
 /// Derivatives of the incremental potential with barriers at one state.
 struct IpcDerivatives {
   std::vector<StencilDerivatives> stencil;
-  std::vector<StencilVertices> vertices;  ///< of the stencils
+  std::vector<StencilVertices> vertices;  ///< by stencil
   State gradient;                         ///< by vertex [N], then by segment [N m]; 0 where not unknown
-  double energy_noise = 0;                ///< see PotentialDerivatives [J]
+  double energy_noise = 0;                ///< as in PotentialDerivatives [J]
 };
 
-/// Energies of a step: the potential without contacts, barriers, lagged friction, the pull of prescribed vertices.
+/// The energies of a step: the potential without contacts, barriers, lagged friction, the pull of prescribed vertices.
 class IpcForces {
  public:
-  /// Scene: rounded and valid. Both must outlive it.
+  /// The scene must be rounded and valid; scene and topology must outlive this.
   IpcForces(const compare::Scene& scene, const compare::Topology& topology, const BarrierShape& shape);
 
-  /// xᵗ and y of the step with this number [m]. Friction and pull of the step before are gone.
+  /// Begins the step with this number from xᵗ with target y [m]. Removes friction and pull of the step before.
   void begin_step(const State& start, const State& target, std::int64_t number);
-  /// Segments of rods with their frames, at which energies and forces are evaluated.
+  /// Returns the segments of rods with the frames at which energies and forces are evaluated.
   RodSystem& rods() { return potential_.rods(); }
-  /// λ, n and weights of these barriers at x, until the next call.
+  /// Computes λ, n and weights of these barriers at x; they stay until the next call.
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
-  /// At x, which may have ω of frames behind its vertices, with the barriers of x and κ [J/m⁴].
+  /// Returns the energies at x, which may have ω of frames behind its vertices, with the barriers of x and κ [J/m⁴].
   IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
-  /// `room`: an earlier result whose memory is used again: a fresh one is tens of megabytes that the kernel would have
-  /// to clear.
+  /// Returns the derivatives at x. `room`: an earlier result whose memory is reused; a fresh one has tens of megabytes
+  /// that the kernel would have to clear.
   IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection,
                              IpcDerivatives room = {}) const;
-  /// ∇ Σ b of the unknowns [m³].
+  /// Returns ∇ Σ b of the unknowns [m³].
   State barrier_gradient(const State& x, const BarrierSet& set) const;
 
-  /// Prescribed vertices become unknowns, or are held where they are again (without a value).
+  /// Makes prescribed vertices unknowns; without a value, holds them where they are.
   void pull(std::optional<Pull> pull) { pull_ = std::move(pull); }
-  /// The pull at present; empty where nothing is pulled.
+  /// Returns the present pull; empty where nothing is pulled.
   const std::optional<Pull>& pull() const { return pull_; }
-  /// Of every vertex and frame at present.
+  /// Returns whether this vertex or frame is an unknown at present.
   bool unknown(std::size_t index) const {
     return mobility_[index] == Mobility::free || (pull_ && mobility_[index] == Mobility::prescribed);
   }
-  /// m/h², of pulled vertices ρ times that, by vertex [N/m]; of frames what makes their twist definite.
+  /// Returns m/h² by vertex, for pulled vertices ρ times that [N/m]; for frames the term that makes their twist
+  /// definite [N m].
   std::vector<double> diagonal() const;
-  /// What does not depend on contacts.
+  /// Returns the part that does not depend on contacts.
   const Potential& potential() const { return potential_; }
 
  private:

@@ -1,4 +1,5 @@
-// CGAL's intersection tests want proper triangles and segments; those that have collapsed are what is left of them.
+// CGAL's intersection tests require proper triangles and segments; collapsed ones are tested as the segments or points
+// that remain.
 #include "reference/ipc/intersections.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

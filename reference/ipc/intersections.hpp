@@ -1,5 +1,5 @@
-// The guard behind the continuous detection: does any edge meet a triangle at this very state? Predicates are exact
-// (filtered), the doubles are taken as they are.
+// A check behind the continuous detection: whether any edge meets a triangle at a state. Predicates are exact
+// (filtered); the doubles are taken as they are.
 #pragma once
 
 #include "reference/ipc/pairs.hpp"
@@ -11,11 +11,11 @@ struct EdgeThroughTriangle {
   compare::Index edge = -1, triangle = -1;
   friend auto operator<=>(const EdgeThroughTriangle&, const EdgeThroughTriangle&) = default;
 };
-/// "edge (vertices 3, 7) and triangle 40 (vertices 1, 2, 5)"
+/// Returns text such as "edge (vertices 3, 7) and triangle 40 (vertices 1, 2, 5)".
 std::string describe(const compare::Topology& topology, const EdgeThroughTriangle& meeting,
                      const compare::ElementNames& names = {});
 
-/// Ascending; touching counts. Pairs inside one rigid group are left out.
+/// Returns all intersections, ascending; touching counts. Pairs inside one rigid group are left out.
 std::vector<EdgeThroughTriangle> intersections(const PairMesh& mesh, const State& x);
 
 }  // namespace ogc::reference

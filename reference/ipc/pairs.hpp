@@ -1,6 +1,6 @@
-// Which pairs of primitives can meet, and which of them a barrier acts on. One broad phase serves everything that is
-// asked about one motion: its boxes hold the whole way of each primitive, widened by d̂, so that the pairs found are
-// those of a continuous detection and, filtered, those of every state on the way.
+// The pairs of primitives that can meet, and those on which a barrier acts. One broad phase serves one whole motion:
+// its boxes hold the whole way of each primitive, widened by d̂, so that the pairs found are those of a continuous
+// detection and, filtered, those of every state on the way.
 #pragma once
 
 #include <vector>
@@ -19,38 +19,38 @@ struct PrimitivePair {
   friend auto operator<=>(const PrimitivePair&, const PrimitivePair&) = default;
 };
 
-/// What the pairs are made of: everything that does not move. All of it must outlive the user.
+/// The constant data of pairs. All of it must outlive the user.
 struct PairMesh {
   const compare::Topology& topology;
-  const compare::Exclusions& exclusions;          ///< pairs that are none (compare::exclusions)
+  const compare::Exclusions& exclusions;          ///< pairs that are left out (compare::exclusions)
   const std::vector<float>& edge_length_squared;  ///< ‖ē‖² [m²]
 };
 
-/// Of the pair's places: vertex | triangle, or edge | edge.
+/// Returns the vertices by place of the pair: vertex | triangle, or edge | edge.
 std::array<compare::Index, 4> vertices_of(const compare::Topology& topology, const PrimitivePair& pair);
-/// What `values` holds for four vertices.
+/// Returns the entries of `values` for four vertices.
 std::array<Triple<double>, 4> corners_of(const std::array<compare::Index, 4>& vertex, const State& values);
-/// "vertex 3 and triangle 7 (vertices 4, 5, 6)"
+/// Returns text such as "vertex 3 and triangle 7 (vertices 4, 5, 6)".
 std::string describe(const compare::Topology& topology, const PrimitivePair& pair,
                      const compare::ElementNames& names = {});
 
-/// All pairs without a shared vertex, and not inside one rigid group, whose boxes come within `distance` [m] of each
-/// other on the straight ways from `from` to `to`: each box holds its primitive's whole way. Ascending; threads change
-/// nothing.
+/// Returns all pairs without a shared vertex, and not inside one rigid group, whose boxes come within `distance` [m] of
+/// each other on the straight ways from `from` to `to`; each box holds its primitive's whole way. Ascending; threads
+/// change nothing.
 std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, const State& to, double distance);
 
 /// Barriers at one state.
 struct BarrierSet {
-  /// pairs with the same closest vertices and edges merged into one, their number its weight
+  /// Pairs with the same closest vertices and edges are merged into one term, with their number as its weight.
   std::vector<BarrierTerm> terms;
   std::vector<PrimitivePair> active;    ///< the pairs with 0 < gap < H, before merging
   std::vector<double> squared;          ///< their squared distances [m²]
   double smallest = 0;                  ///< smallest distance among them, or ξ + d̂ where there is none [m]
-  PrimitivePair closest;                ///< which has it
-  std::vector<PrimitivePair> touching;  ///< pairs without a gap: no barrier can act on them
+  PrimitivePair closest;                ///< the pair at this distance
+  std::vector<PrimitivePair> touching;  ///< pairs without a gap, on which no barrier can act
 };
 
-/// Among `pairs` at x.
+/// Returns the barriers of `pairs` at x.
 BarrierSet barriers_at(const PairMesh& mesh, const BarrierShape& shape, const std::vector<PrimitivePair>& pairs,
                        const State& x);
 

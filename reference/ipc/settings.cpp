@@ -1,4 +1,5 @@
-// Bounds are numbers that single precision holds exactly, so that rounding a setting can't take it out of its range.
+// Limits of settings are numbers that single precision holds exactly, so that rounding can't take a setting out of its
+// range.
 #include "reference/ipc/settings.hpp"
 
 #include <array>

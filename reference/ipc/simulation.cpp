@@ -58,7 +58,7 @@ class IpcSimulation : public compare::Simulation {
     return rows;
   }
 
-  /// Without bounds: IPC has none, so that its certificate says nothing.
+  /// Returns the state without bounds: IPC has none, so a certificate means nothing for it.
   compare::Snapshot snapshot() override {
     const std::vector<compare::Vec3f> position = rounded(position_);
     return {number_,
@@ -74,7 +74,7 @@ class IpcSimulation : public compare::Simulation {
             orientations_};
   }
 
-  /// To the last bit where the snapshot is one of ours; a frame holds what was rounded.
+  /// Restores to the last bit a snapshot that this solver made; a stored frame has rounded numbers.
   void restore(const compare::Snapshot& snapshot) override {
     if (snapshot.exact_positions.empty())
       return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities), snapshot.orientations);
@@ -112,7 +112,7 @@ class IpcSimulation : public compare::Simulation {
 std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, const compare::SimulationOptions& options) {
   refuse_unread(scene.settings, "ipc");
   refuse_volumes(scene, "ipc",
-                 "whose barrier lets nothing enter a body: leave the body a surface (--set contact=surface)");
+                 "whose barrier lets nothing enter a body: leave the body a surface (--set body_contact=surface)");
   return std::make_unique<IpcSimulation>(scene, options);
 }
 

@@ -8,15 +8,15 @@
 //        └──────────────────────── adapt κ, or the pull ─────────────────────────────────────── p small? ─┘
 //
 // The bound is that of the official code: CCD of the active pairs alone, and d̂/2 of motion for all others (a CFL-like
-// rule); where that rule would take more than half of the step away, CCD of all pairs. One broad phase serves an
-// iteration: its boxes hold the whole motion and reach d̂ further, so that the pairs for the continuous detection and
-// for the barriers of every trial state are among those that it finds.
+// rule); where that rule would take away more than half of the step, CCD of all pairs. One broad phase serves an
+// iteration: its boxes hold the whole motion and reach d̂ further, so that it finds the pairs for the continuous
+// detection and for the barriers of every trial state.
 //
 // Where a step comes to nothing (below 1e-10 of p), the next direction is the negative gradient over the diagonal;
-// where that comes to nothing, too, the step ends as not converged. Each such event goes into the notes of the step,
+// where that comes to nothing, too, the step ends as not converged. Each such event is added to the notes of the step,
 // with the pair that caused it.
 //
-// Positions stay doubles from step to step: rounding them could take a gap away. What is stored of them is rounded.
+// Positions stay doubles from step to step: rounding could remove a gap. Stored positions are rounded.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@
 
 namespace ogc::reference {
 
-/// Where the time of a step goes.
+/// The stages among which the time of a step is divided.
 enum class IpcStage : std::uint8_t {
   broad_phase,
   barriers,
@@ -47,10 +47,10 @@ enum class IpcStage : std::uint8_t {
   guard
 };
 inline constexpr std::size_t ipc_stage_count = 8;
-/// In the order of IpcStage.
+/// Returns the names in the order of IpcStage.
 std::vector<std::string> ipc_stage_names();
 
-/// What a step came to [m], [m/s]; of a step that failed it must not be used.
+/// The result of a step [m], [m/s]; that of a step that failed must not be used.
 struct IpcStep {
   State position, velocity;
   compare::StepMetrics metrics;
@@ -59,29 +59,29 @@ struct IpcStep {
 /// One scene, step by step.
 class IpcSolver {
  public:
-  /// Scene: rounded and valid. Both must outlive it.
+  /// The scene must be rounded and valid; scene and topology must outlive this.
   IpcSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options);
 
-  /// Throws compare::InputError that names the pairs which intersect or have no gap at x.
+  /// Throws compare::InputError with the pairs that intersect or have no gap at x.
   void check_start(const State& x) const;
-  /// qᵗ of the next step, those of the scene's start where there are none; q after it, rounded.
+  /// Sets qᵗ of the next step, an empty span for those of the scene's start; returns q after it, rounded.
   void set_orientations(std::span<const compare::Quaternion> orientations);
   std::vector<compare::Quaternion> orientations() const;
-  /// The step with this number, from 1. Throws compare::ResourceError where memory runs out.
+  /// Does the step with this number, from 1. Throws compare::ResourceError where memory runs out.
   IpcStep step(const State& start, const State& velocity, std::int64_t number);
 
-  /// d̂ and ξ.
+  /// Returns d̂ and ξ.
   const BarrierShape& shape() const { return shape_; }
-  /// Within which κ adapts.
+  /// Returns the bounds within which κ adapts.
   const StiffnessBounds& stiffness_bounds() const { return bounds_; }
   double stiffness() const { return stiffness_; }  ///< κ at present [J/m⁴]
-  /// Called with each accepted step of the line search: the energy's change with κ as it was, and what rounding does to
+  /// Called for each accepted step of the line search: the energy's change with κ unchanged, and what rounding does to
   /// it [J].
   std::function<void(double change, double noise)> on_accepted;
 
  private:
   enum class Outcome { converged, limit, indefinite, stuck, not_finite };
-  /// A system of the free vertices and frames, or of those and the prescribed ones.
+  /// A system of the free vertices and frames, with a pull also of the prescribed vertices.
   struct System {
     BlockMatrix matrix;
     Factor factor;
@@ -90,7 +90,7 @@ class IpcSolver {
   struct Bounded {
     double share = 1;
     std::optional<PrimitivePair> pair;
-    std::vector<PrimitivePair> pairs;  ///< all that can come within d̂ on the way
+    std::vector<PrimitivePair> pairs;  ///< all pairs that can come within d̂ on the way
   };
 
   void begin(const State& start, const State& velocity, std::int64_t number);
@@ -99,7 +99,7 @@ class IpcSolver {
   void move_prescribed();
   Outcome solve();
   Outcome solve_once();
-  /// One iteration; empty where it goes on.
+  /// Does one iteration; returns empty where the solve goes on.
   std::optional<Outcome> iterate();
   bool take(const State& p, bool is_last);
   std::optional<State> direction();
@@ -116,7 +116,7 @@ class IpcSolver {
   void note(const std::string& what);
   void add_row();
   void count_by_iteration();
-  double elapsed_ms() const;  ///< since the step began
+  double elapsed_ms() const;  ///< time since the step began
   IpcStep finish(Outcome outcome);
   System& system();
   std::vector<PrimitivePair> near(const State& from, const State& to);
@@ -128,14 +128,14 @@ class IpcSolver {
   const compare::Topology& topology_;
   const compare::Settings& settings_;
   IpcSettings ipc_;
-  NewtonSettings newton_;  ///< of these friction_solves and projection
+  NewtonSettings newton_;  ///< of which friction_solves and projection are used
   compare::SimulationOptions options_;
   compare::Exclusions exclusions_;
   BarrierShape shape_;
   StiffnessScale scale_;
   IpcForces forces_;
   PairMesh mesh_;
-  double moving_diagonal_;  ///< what a step's tolerance is a share of [m]
+  double moving_diagonal_;  ///< the length in which a step's tolerance is measured [m]
   StiffnessBounds bounds_;
   StiffnessGuard guard_;
   System free_;
@@ -146,7 +146,7 @@ class IpcSolver {
   IpcDerivatives derivatives_;  ///< of the last iteration
   double stiffness_ = 0;
   double prescribed_way_ = 0;    ///< Σ ‖t − xᵗ‖² of prescribed vertices [m²]
-  std::int64_t iterations_ = 0;  ///< of this solve
+  std::int64_t iterations_ = 0;  ///< of the current solve
   bool descend_ = false;         ///< the next direction is the negative gradient
   std::deque<double> speeds_;    ///< mean squared ‖p_v‖/h of the last iterations [m²/s²]
   double started_ms_ = 0;

@@ -1,4 +1,4 @@
-// What is told of an IPC step: notes, rows of iterations, the row of the step. Nothing here feeds an iteration.
+// The report of an IPC step: notes, rows of iterations, the row of the step. Nothing here feeds an iteration.
 #include <algorithm>
 #include <limits>
 
@@ -7,14 +7,14 @@
 
 namespace ogc::reference {
 
-/// Each text once a step.
+/// Adds each text only once a step.
 void IpcSolver::note(const std::string& what) {
   const std::string text = "step " + std::to_string(metrics_.step) + ": " + what;
   if (std::find(metrics_.notes.begin(), metrics_.notes.end(), text) == metrics_.notes.end())
     metrics_.notes.push_back(text);
 }
 
-/// Counts are sums so far; `count_by_iteration` turns them into those of the iteration.
+/// Stores counts since the beginning of the step; `count_by_iteration` turns them into those of the iteration.
 void IpcSolver::add_row() {
   compare::IterationMetrics row;
   row.step = metrics_.step;

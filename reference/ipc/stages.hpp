@@ -1,4 +1,4 @@
-// What the judge asks of kernels of an IPC solver: the stages ccd and barrier.
+// The stages that an IPC solver's kernels are judged by: ccd and barrier.
 #pragma once
 
 #include "compare/stages/barrier.hpp"
@@ -6,11 +6,11 @@
 
 namespace ogc::reference {
 
-/// Impacts decided without rounding (compare/oracle/first_meeting.hpp); `early` by additive_ccd with the distance that
-/// is left as its thickness.
+/// Returns impacts, decided without rounding (compare/oracle/first_meeting.hpp), and `early` by additive_ccd with the
+/// remaining distance as its thickness.
 compare::CcdTruth ccd_truth(const compare::CcdIn& in);
 
-/// By barrier_slopes, in double.
+/// Computes the truth by barrier_slopes, in double.
 compare::BarrierTruth barrier_truth(const compare::BarrierIn& in);
 
 }  // namespace ogc::reference

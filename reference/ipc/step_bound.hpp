@@ -1,4 +1,4 @@
-// How far all vertices may go along a direction, the same share of it for all, before the first pair meets.
+// How far all vertices may move along a direction, by a common share of it, before the first pair meets.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@ namespace ogc::reference {
 
 /// How far a move may go.
 struct StepBound {
-  double share = 1;                   ///< of the direction, in [0, 1]; on the way no pair comes to `thickness`
-  std::optional<PrimitivePair> pair;  ///< which stops it first, where one does
+  double share = 1;                   ///< of the direction, in [0, 1]; on the way no pair comes as near as `thickness`
+  std::optional<PrimitivePair> pair;  ///< the pair that stops it first, if any
 };
 
-/// Additive CCD of each pair from x along `direction` [m]; the smallest time, `until` where none is smaller. Threads
-/// change nothing.
+/// Does additive CCD of each pair from x along `direction` [m] and returns the smallest time, `until` where none is
+/// smaller. Threads change nothing.
 StepBound step_bound(const PairMesh& mesh, const std::vector<PrimitivePair>& pairs, const State& x,
                      const State& direction, double thickness, double until = 1);
 
-/// ‖p_v‖ of the fastest vertex [m].
+/// Returns ‖p_v‖ of the fastest vertex [m].
 double largest_motion(const State& direction);
 
 }  // namespace ogc::reference

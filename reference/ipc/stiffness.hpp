@@ -10,30 +10,31 @@
 
 namespace ogc::reference {
 
-/// What κ is measured by.
+/// The scales of κ.
 struct StiffnessScale {
   double diagonal = 0;  ///< of the rest box [m]
   double inertia = 0;   ///< mean m/h² of the free vertices [N/m]
 };
 
-/// κ with which the barrier's curvature at a distance of 1e-8 diagonals is 1e11 mean inertias, and a hundred times
-/// that. `distance` takes that distance as the gap, `gap` lets it begin at the thickness.
+/// The lower bound is the κ with which the barrier's curvature at a distance of 1e-8 diagonals is 1e11 mean inertias;
+/// the upper one is a hundred times that. `distance` takes that distance as the gap, `gap` measures it from the
+/// thickness.
 struct StiffnessBounds {
   double lower = 0, upper = 0;  ///< [J/m⁴]
 };
-/// The bounds of κ for a scene, by what is said above.
+/// Returns the bounds of κ for a scene.
 StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale, IpcAdaptation adaptation);
 
-/// The κ within the bounds that makes ‖∇E + κ ∇b‖ smallest; the lower one where there is no barrier.
+/// Returns the κ within the bounds that makes ‖∇E + κ ∇b‖ smallest; the lower bound where there is no barrier.
 double initial_stiffness(const State& energy_gradient, const State& barrier_gradient, const StiffnessBounds& bounds);
 
-/// Doubles κ where a pair that was closer than 1e-9 diagonals has come closer still.
+/// Finds pairs that were closer than 1e-9 diagonals and have come closer still; κ is then doubled.
 class StiffnessGuard {
  public:
   StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape, IpcAdaptation adaptation);
-  /// The next gaps have none before them.
+  /// Forgets the earlier gaps.
   void forget() { close_.clear(); }
-  /// A pair that came closer since the last call, if any; remembers those that are close now.
+  /// Returns a pair that came closer since the last call, if any; remembers the pairs that are close now.
   std::optional<PrimitivePair> came_closer(const BarrierSet& set);
 
  private:

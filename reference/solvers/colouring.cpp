@@ -21,7 +21,7 @@ Index root(std::vector<Index>& parent, Index v) {
   return v;
 }
 
-/// For each vertex the lowest number in its connected component, by stencils.
+/// Returns for each vertex the lowest number in its component; vertices of one stencil are connected.
 std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   std::vector<Index> parent(near.size());
   std::iota(parent.begin(), parent.end(), Index{0});
@@ -34,8 +34,8 @@ std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   return parent;
 }
 
-/// (c + k) mod n in the k-th component: facing vertices of identical cloths would otherwise share a colour (method.md
-/// §7.3).
+/// Replaces c by (c + k) mod n in the k-th component: facing vertices of identical cloths would otherwise share a
+/// colour (method.md §7.3).
 void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
   const Index count = 1 + *std::ranges::max_element(colour);
   std::map<Index, Index> number;
@@ -53,13 +53,13 @@ std::vector<Index> free_vertices(const std::vector<Index>& groups) {
   return free;
 }
 
-/// Not std::shuffle: what it draws differs from library to library.
+/// Replaces std::shuffle, whose draws differ from library to library.
 void shuffle(std::vector<Index>& order, std::int64_t seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   for (std::size_t n = order.size(); n > 1; --n) std::swap(order[n - 1], order[random() % n]);
 }
 
-/// By free vertex, those that share an element with it.
+/// Returns for each free vertex the free vertices that share an element with it.
 std::vector<std::vector<Index>> neighbours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
                                               const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> near(groups.size());
@@ -75,7 +75,7 @@ std::vector<std::vector<Index>> neighbours_of(const compare::Scene& scene, const
   return near;
 }
 
-/// In this order, each the least colour that no neighbour has.
+/// Gives each vertex in this order the lowest colour that no neighbour has.
 std::vector<Index> greedy(const std::vector<Index>& order, const std::vector<std::vector<Index>>& near) {
   std::vector<Index> colour(near.size(), -1);
   for (const Index own : order) {

@@ -1,4 +1,4 @@
-// Colours of a sweep by the simplest rule there is; a contestant may have better ones, and an ablation has others.
+// Colours of a sweep by the simplest rule. A contestant may have better ones; ablations use other rules.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace ogc::reference {
 
-/// Free vertices in the order of their numbers, each in the lowest colour that none of its stencils has, then turned by
-/// component of the conflict graph, (c + k) mod n in the k-th of them; −1 for all others. `groups`: rigid_groups.
-/// Colouring::greedy does not turn; `random` takes the vertices in an order that the scene's seed draws, and does not
-/// turn; `vertex` and `together` ask no stencil.
+/// Returns a colour for each free vertex, −1 for all others. Takes the free vertices in the order of their numbers and
+/// gives each the lowest colour that no vertex of its stencils has; then turns the colours of the k-th component of the
+/// conflict graph, (c + k) mod n. `groups`: rigid_groups. Colouring::greedy does not turn; `random` takes the vertices
+/// in an order drawn from the scene's seed, and does not turn; `vertex` and `together` ignore the stencils.
 std::vector<compare::Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
                                        const std::vector<compare::Index>& groups, Colouring rule = Colouring::turned);
 

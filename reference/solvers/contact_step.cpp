@@ -19,7 +19,7 @@ constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// Contacts stand point by point.
+/// Contacts of one point are adjacent in the list.
 void count_volume_contacts(const ContactSets& sets, double contact_radius, compare::StepMetrics& metrics) {
   metrics.volume_contacts = static_cast<std::int64_t>(sets.volumes.size());
   metrics.depth_unresolved = static_cast<std::int64_t>(sets.unresolved.size());
@@ -79,7 +79,7 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
   }
   const double listed = detection_radius(settings_);
   query_radius_ = static_cast<float>(
-      std::min(listed + largest, std::max(listed, settings_.query_radius_cap * settings_.contact_radius)));
+      std::min(listed + largest, std::max(listed, settings_.detection_radius_cap * settings_.contact_radius)));
   lagging_ = 0;
   advanced_ = lag_asked_ = false;
   potential_.begin_step(start_, target_);
@@ -130,7 +130,7 @@ std::vector<Vec3f> ContactStep::displacements_at(const std::vector<Vec3f>& here)
 }
 
 bool ContactStep::many(std::size_t cut, std::int64_t times) const {
-  const double of_iteration = settings_.redetect_fraction * static_cast<double>(bounded_);
+  const double of_iteration = settings_.detection_fraction * static_cast<double>(bounded_);
   return cut > 0 && static_cast<double>(cut) >= static_cast<double>(times) * of_iteration;
 }
 
@@ -143,7 +143,7 @@ bool ContactStep::asks(std::size_t cut, std::int64_t times) {
 }
 
 bool ContactStep::detection_due(std::size_t cut) {
-  return asks(cut) || (settings_.redetect_every > 0 && iterations_since_ >= settings_.redetect_every);
+  return asks(cut) || (settings_.detection_every > 0 && iterations_since_ >= settings_.detection_every);
 }
 
 bool ContactStep::in_contact() const {
@@ -175,7 +175,7 @@ void ContactStep::guess(GuessEnd end) {
 }
 
 /// Two vertices that were d apart and moved by at most m each are now at least d − 2m apart, and so are all faces.
-/// Smallest distances are those of surfaces, so that of volumes nothing is known.
+/// Smallest distances are those of surfaces; distances to volumes are unknown.
 bool ContactStep::nothing_near() const {
   if (compare::has_volumes(scene_)) return false;
   double largest = 0;

@@ -1,5 +1,5 @@
-// What solvers ask about contacts as they were detected: their vertices, in the order of the stages contact_force and
-// friction_force, and their materials.
+// Detected contacts as solvers read them: their vertices, in the order of the stages contact_force and friction_force,
+// and their materials.
 #pragma once
 
 #include <array>
@@ -14,33 +14,35 @@
 
 namespace ogc::reference {
 
-/// All kinds of contacts of one detection.
+/// All contacts of one detection, by kind.
 struct ContactSets {
   std::vector<compare::VertexFacetContact> vertex_facet;
   std::vector<compare::EdgeEdgeContact> edge_edge;
-  std::vector<compare::VolumeContact> volumes{};  ///< with volumes: as StepEvent has them
-  std::vector<compare::Index> unresolved{};       ///< sheets without any way, likewise
+  std::vector<compare::VolumeContact> volumes{};  ///< contacts with volumes, in the order of StepEvent
+  std::vector<compare::Index> unresolved{};       ///< the point of each sheet without any way, ascending
 };
 
-/// Vertices of a face, in the order of the mesh; those that it lacks are −1.
+/// Returns the vertices of a face in the order of the mesh; missing ones are −1.
 std::array<compare::Index, 3> vertices_of(const compare::Topology& topology, const compare::Face& face);
 
-/// A contact as its stages ask for it.
+/// A contact in the form that its force stages take.
 struct ContactStencil {
   compare::ContactSides sides = compare::ContactSides::point_point;
-  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< first side, then second; those that it lacks are −1
-  std::array<compare::Index, 2> edge{-1, -1};            ///< of two interiors, whose energy is mollified
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< first side, then second; missing ones are −1
+  /// the edges of a contact of two edge interiors, whose energy is mollified
+  std::array<compare::Index, 2> edge{-1, -1};
 };
-/// The stencil of a vertex and a face.
+/// Returns the stencil of a vertex and a face.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::VertexFacetContact& contact);
-/// The stencil of two edges, or of the faces of theirs that meet.
+/// Returns the stencil of two edges, or of the closest faces of two edges.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
-/// Squared rest lengths of two edges that meet [m²]; 0 of one without triangles. Zeros for contacts with a vertex.
+/// Returns the squared rest lengths of a contact's two edges [m²]; 0 for an edge without triangles. Zeros for a contact
+/// that has a vertex as one side.
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
                                             const ContactStencil& stencil);
 
-/// Of the two bodies that meet. `body`: by vertex.
+/// Returns the material of the two bodies that meet. `body`: by vertex.
 const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count,
                                             std::span<const compare::Index> body, const ContactStencil& stencil);
 

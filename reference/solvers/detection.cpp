@@ -20,7 +20,7 @@ double distance_to_segment(const Triple<double>& x, const Triple<double>& a, con
   return std::hypot(gap[0], gap[1], gap[2]);
 }
 
-/// The contacts nearer than `contact_radius` [m].
+/// Returns the contacts nearer than `contact_radius` [m].
 ContactSets sets_within(compare::DetectIn in, float contact_radius) {
   in.contact_radius = contact_radius;
   return {exact_vertex_facet(in).contacts, exact_edge_edge(in).contacts};
@@ -58,8 +58,8 @@ float sufficient_query_radius(const compare::Topology& topology, const compare::
       }
     query_radius = std::max(query_radius, nearest);
   }
-  // Rounding moves a distance by some 2⁻⁵⁰ of the coordinates: a part in 2²⁰ of r and more covers that up to
-  // coordinates of 2³⁰ r.
+  // Rounding moves a distance by some 2⁻⁵⁰ of the coordinates; 2⁻²⁰ of the radius, which is at least r, covers that up
+  // to coordinates of 2³⁰ r.
   return std::min(most, static_cast<float>(query_radius * (1 + 0x1p-20)));
 }
 
@@ -74,7 +74,7 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
   const compare::DetectIn in{&topology, exclusions, positions, contact_radius, query_radius};
   compare::DetectVertexFacetOut facets = exact_vertex_facet(in);
   compare::DetectEdgeEdgeOut edges = exact_edge_edge(in);
-  const auto relaxation = static_cast<float>(scene.settings.bound_relaxation);
+  const auto relaxation = static_cast<float>(scene.settings.bounds_relaxation);
   Detected result;
   result.bound =
       bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;
@@ -98,9 +98,9 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
 
 std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                                    const std::vector<compare::Vec3f>& positions, float query_radius,
-                                   double bound_relaxation) {
+                                   double bounds_relaxation) {
   const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions.groups);
-  const auto relaxation = static_cast<float>(bound_relaxation);
+  const auto relaxation = static_cast<float>(bounds_relaxation);
   return near_pairs_with_planes({&topology, exclusions, positions, is_fixed, query_radius, relaxation});
 }
 

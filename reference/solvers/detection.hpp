@@ -11,37 +11,37 @@ namespace ogc::reference {
 
 /// What a detection found, and where.
 struct Detected {
-  ContactSets sets;                      ///< up to r and the margin
-  ContactSets active;                    ///< nearer than r
+  ContactSets sets;                      ///< contacts up to r and the margin
+  ContactSets active;                    ///< contacts nearer than r
   std::vector<compare::Vec3f> previous;  ///< X_prev [m]
   std::vector<float> bound;              ///< b_v [m]
-  compare::VertexPlanes planes;          ///< where bounds are planes
+  compare::VertexPlanes planes;          ///< filled where bounds are planes
   double smallest_distance = 0;          ///< smallest d_min, at most r_q [m]
 };
 
-/// Rounds to nearest.
+/// Rounds positions to the nearest single-precision numbers.
 std::vector<compare::Vec3f> rounded(const State& x);
 
-/// A query radius, between r and `most`, that gives the `movable` vertices the contacts and bounds of `most` at these
-/// positions. Beyond a side opposite v lies a triangle without v, so b_v is γ_p times the distance to the nearest such
-/// side at most, and the largest of these distances is enough; `most` where a vertex has no such triangle. Both radii
-/// in metres, r ≤ most.
+/// Returns a query radius, between r and `most`, that gives the `movable` vertices the same contacts and bounds as
+/// `most` at these positions. Beyond the side opposite v lies a triangle without v, so b_v is at most γ_p times the
+/// distance to the nearest such side, and the largest of these distances is enough; the result is `most` where a vertex
+/// has no such triangle. Both radii in metres, r ≤ most.
 float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most);
 
-/// r and the margin by which contacts are listed before they act [m].
+/// Returns r plus the margin by which contacts are listed before they act [m].
 double detection_radius(const compare::Settings& settings);
 
-/// Stages detect_vertex_facet, detect_edge_edge and bound, or plane, at `positions`. `displacement`: what divides gaps,
-/// with bounds=dat; else empty.
+/// Runs the stages detect_vertex_facet, detect_edge_edge and bound, or plane, at `positions`. `displacement`: by what
+/// bounds=dat divides gaps; otherwise empty.
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
                 const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius,
                 std::span<const compare::Vec3f> displacement = {});
 
-/// All pairs within r_q at `positions`, ascending, each with the plane between its sides.
+/// Returns all pairs within r_q at `positions`, ascending, each with the plane between its sides.
 std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                                    const std::vector<compare::Vec3f>& positions, float query_radius,
-                                   double bound_relaxation);
+                                   double bounds_relaxation);
 
 }  // namespace ogc::reference

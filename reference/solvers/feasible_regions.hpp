@@ -1,7 +1,7 @@
-// Where Newton's and VBD's vertices may be between two detections. Positions are doubles then; a detection is asked
-// about single-precision ones. So X_prev is x rounded, and each region is smaller than its bounds by what rounding can
-// move a point: x and what will be stored of it both keep them (Eq. 27; method.md §5.6), and the way from X_prev over x
-// to the next X_prev stays inside, too.
+// The regions in which Newton's and VBD's vertices stay between two detections. Positions are doubles then, but a
+// detection reads single-precision ones. So X_prev is x rounded, and each region is smaller than its bounds by what
+// rounding can move a point: both x and its stored value keep the bounds (Eq. 27; method.md §5.6), and the way from
+// X_prev over x to the next X_prev stays inside, too.
 #pragma once
 
 #include <functional>
@@ -12,28 +12,29 @@
 
 namespace ogc::reference {
 
-/// A ball about X_prev and, where bounds are planes, half-spaces; without bounds everything.
+/// For each vertex a ball about X_prev and, where bounds are planes, half-spaces; without bounds all of space.
 class FeasibleRegions {
  public:
-  /// n to H⁻¹ n: in which direction a vertex with the block H leaves a half-space.
+  /// Maps n to H⁻¹ n, the direction in which a vertex with the block H leaves a half-space.
   using Metric = std::function<Triple<double>(const Triple<double>&)>;
 
   FeasibleRegions() = default;
   FeasibleRegions(const Detected& detected, compare::Bounds bounds);
 
-  /// `cut`: x lies outside and was changed.
+  /// `cut`: x lay outside and was changed.
   struct Inside {
     Triple<double> x;
     bool cut = false;
   };
-  /// x or, where it lies outside, the point of the ball closest to it; with half-spaces a point of the region near it:
-  /// along these in the given metric (none: the shortest way), then on the way from `from`, which lies inside. With
-  /// bounds=dat the way from X_prev, for prescribed vertices, too.
+  /// Returns x if it lies inside. Otherwise returns the point of the ball closest to it or, with half-spaces, a point
+  /// of the region near it: x slides along the half-spaces in the given metric (none: the shortest way); if it is still
+  /// outside, it is scaled back towards `from`, which lies inside. With bounds=dat x is scaled towards X_prev, for
+  /// prescribed vertices, too.
   Inside inside(std::size_t vertex, const Triple<double>& from, const Triple<double>& x,
                 const Metric& metric = {}) const;
-  /// The same of a prescribed vertex, which does not slide.
+  /// Does the same for a prescribed vertex, which does not slide.
   Inside inside_on_path(std::size_t vertex, const Triple<double>& from, const Triple<double>& x) const;
-  /// The largest share in [0, 1] of `step` that stays inside.
+  /// Returns the largest share in [0, 1] of `step` that stays inside.
   double share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
 
  private:
@@ -49,7 +50,7 @@ class FeasibleRegions {
   State centre_;
   std::vector<double> radius_;
   std::vector<std::vector<HalfSpace>> planes_;
-  bool is_scaled_ = false;  ///< nothing slides
+  bool is_scaled_ = false;  ///< vertices are scaled and do not slide
 };
 
 }  // namespace ogc::reference

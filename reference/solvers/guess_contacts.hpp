@@ -1,4 +1,4 @@
-// The contacts of a detection as the guess loop reads them: those with facets, then those of edges.
+// The contacts of a detection as the guess loop reads them: first vertex–facet contacts, then edge–edge contacts.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace ogc::reference {
 
-/// Whether the mesh has the face.
+/// Returns whether the mesh has the face.
 inline bool is_there(const compare::Topology& topology, const compare::Face& face) {
   if (face.index < 0) return false;
   const auto i = static_cast<std::size_t>(face.index);
@@ -21,7 +21,8 @@ inline bool is_there(const compare::Topology& topology, const compare::Face& fac
   return false;
 }
 
-/// `rest`: frictions by pair of bodies. The contacts may be any answer's: those of what is not there are left out.
+/// Converts detected contacts. `rest` has the frictions by pair of bodies. The contacts may come from any answer: those
+/// with faces that the mesh lacks are left out.
 inline std::vector<GuessContact> guess_contacts(const compare::Scene& scene, const compare::Topology& topology,
                                                 const compare::RestStateOut& rest,
                                                 std::span<const compare::VertexFacetContact> vertex_facet,

@@ -28,7 +28,8 @@ void add(compare::Vec3& sum, const Triple<double>& a) { sum = {sum.x + a[0], sum
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The scene as every stage sees it, and what follows from it. Stands before what reads it.
+/// The scene as every stage sees it, and its derived data. A base class, so that it is made before the members that
+/// read it.
 struct RoundedScene {
   compare::Scene scene;
   compare::Topology topology;
@@ -85,7 +86,7 @@ class LedgerWriter::Writer : private RoundedScene {
     return static_cast<double>(std::ranges::count_if(vertices, [&](std::size_t v) { return start[v] == end[v]; }));
   }
 
-  /// The regions that begin here have X_prev = `previous` as their centre.
+  /// The regions that begin here are centred on X_prev = `previous`.
   void read_contacts(const ContactSets& contacts, const std::vector<Vec3f>& previous) {
     previous_ = previous;
     nearest_.assign(previous.size(), {});
@@ -108,13 +109,13 @@ class LedgerWriter::Writer : private RoundedScene {
     return sum;
   }
 
-  /// What the energy became, less what it was.
+  /// Moves the energy to that at `x` and returns its change.
   double change_to(const State& x) {
     const double now = energy_at(x, start_);
     return now - std::exchange(energy_, now);
   }
 
-  /// Adds the momentum that free vertices have more at `to` than at `from`.
+  /// Adds the change of the free vertices' momentum from `from` to `to`.
   void add_momentum(compare::Vec3& sum, const State& from, const State& to) const {
     for (const std::size_t v : free_) add(sum, (potential_.mass()[v] / step_) * (to[v] - from[v]));
   }
@@ -150,7 +151,8 @@ class LedgerWriter::Writer : private RoundedScene {
     x_ = stored;
   }
 
-  /// x + H⁻¹ f of each free vertex, from what the sweep stored at lower colours; targets of prescribed ones.
+  /// Returns x + H⁻¹ f for each free vertex, from what the sweep stored at lower colours; the targets for prescribed
+  /// ones.
   State proposals(const State& stored, const std::vector<Index>& colour) const {
     State proposed = stored;
     const SweepView view{x_, stored, colour};
@@ -163,9 +165,9 @@ class LedgerWriter::Writer : private RoundedScene {
     return proposed;
   }
 
-  /// Rounding keeps every stored position from its proposal. The trace says how many vertices were cut: of prescribed
-  /// ones, whose proposals are exact, those that are elsewhere; of free ones those that are farthest from theirs. The
-  /// others' proposals become what was stored.
+  /// Finds the cut vertices. Because of rounding every stored position differs from its proposal, but the trace has the
+  /// number of cut vertices. Prescribed vertices, whose proposals are exact, are cut where they differ; the remaining
+  /// cuts are assigned to the free vertices farthest from their proposals. All other proposals become what was stored.
   void find_cut(State& proposed, const State& stored, Index cut) {
     const auto behind = std::ranges::count_if(prescribed_, [&](std::size_t v) { return proposed[v] != stored[v]; });
     const auto taken = [&](std::size_t v) { return length(proposed[v] - stored[v]); };
@@ -176,7 +178,7 @@ class LedgerWriter::Writer : private RoundedScene {
     cut_.erase(end, cut_.end());
   }
 
-  /// What truncation takes from the cut vertices, and which way that was.
+  /// Adds what truncation takes from the cut vertices, split by direction.
   void enter_taken(const State& proposed, const State& stored) {
     find_nearest();
     for (const std::size_t v : cut_) {
@@ -193,7 +195,7 @@ class LedgerWriter::Writer : private RoundedScene {
     }
   }
 
-  /// Of each cut vertex the nearest of all pairs within r_q at X_prev that it is part of.
+  /// Finds for each cut vertex the nearest of its pairs within r_q at X_prev.
   void find_nearest() {
     std::vector<std::uint8_t> sought(previous_.size(), 0);
     bool any = false;
@@ -208,7 +210,7 @@ class LedgerWriter::Writer : private RoundedScene {
                               .positions = previous_,
                               .is_fixed = is_fixed_,
                               .query_radius = query_radius_,
-                              .bound_relaxation = static_cast<float>(scene.settings.bound_relaxation)};
+                              .bounds_relaxation = static_cast<float>(scene.settings.bounds_relaxation)};
     for (const NearPair& pair : near_pairs_with_planes(in, sought))
       for (std::size_t k = 0; k < pair.vertices.size(); ++k) {
         Nearest& nearest = nearest_[at(pair.vertices[k])];
@@ -220,9 +222,9 @@ class LedgerWriter::Writer : private RoundedScene {
 
   /// The nearest pair of a vertex.
   struct Nearest {
-    bool is_known = false;                                    ///< it was sought
+    bool is_known = false;                                    ///< whether it was searched for
     float distance = std::numeric_limits<float>::infinity();  ///< [m]
-    Vec3f normal{};                                           ///< from the vertex's side to the other; 0 where none is
+    Vec3f normal{};  ///< from the vertex's side to the other; 0 where there is no pair
   };
 
   Potential potential_;

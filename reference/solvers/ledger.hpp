@@ -1,6 +1,7 @@
-// The ledger of a step that somebody else took: what its parts did to energy and momentum (reference/ledger.md), from
-// the trace of the step alone. What a sweep would have written without bounds is computed here, in double, from the
-// positions that the trace has before and after it; so the solver needs no code for this, wherever it computes.
+// Computes the ledger of a step that any solver took: what the parts of the step did to energy and momentum
+// (reference/ledger.md), from the trace of the step alone. What a sweep would have written without bounds is computed
+// here, in double, from the positions before and after it in the trace; so no solver needs code for this, on whatever
+// device it runs.
 #pragma once
 
 #include <memory>
@@ -15,11 +16,13 @@ namespace ogc::reference {
 /// Writes the ledgers of a scene's steps.
 class LedgerWriter {
  public:
-  /// The scene is rounded here; it must be valid. Throws InputError for damping by vertex, which is no potential.
+  /// Rounds its copy of the scene, which must be valid. Throws InputError for damping by vertex, which has no
+  /// potential.
   explicit LedgerWriter(const compare::Scene& scene);
   ~LedgerWriter();
-  /// Of the step from Xᵗ, Vᵗ that `trace` tells; `contacts_at_end`: those that its solver's detections find at the
-  /// trace's last position, up to r. Throws std::invalid_argument where the trace does not begin with a detection.
+  /// Returns the ledger of the step from Xᵗ, Vᵗ that `trace` records. `contacts_at_end`: the contacts up to r that the
+  /// solver's detections find at the trace's last position. Throws std::invalid_argument where the trace does not begin
+  /// with a detection.
   compare::StepLedger of(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                          const compare::StepOut& trace, const ContactSets& contacts_at_end);
 

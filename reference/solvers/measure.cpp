@@ -16,13 +16,13 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 Triple<double> wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
 
-/// Distance of a contact's closed faces at x [m].
+/// Returns the distance of a contact's closed faces at x [m].
 double distance_of(const ContactTerm& term, const State& x) {
   const auto corners = contact_corners(term.sides, term.vertex, x);
   return length(separation(closest_form(term.sides, corners).weight, corners));
 }
 
-/// What a row of a scene with rods has more.
+/// Fills the additional columns of a scene with rods.
 void measure_rods(compare::StepMetrics& metrics, const State& x, const Potential& potential) {
   if (!potential.rods().is_used()) return;
   const RodSystem::Stretch stretch = potential.rods().stretch(x);

@@ -14,25 +14,26 @@ struct StepStates {
   const State& target;
 };
 
-/// y = xᵗ + h vᵗ + h² a of free vertices; of prescribed ones the target at `time` [s], of fixed ones xᵗ [m].
+/// Returns y = xᵗ + h vᵗ + h² a for free vertices, the target at `time` [s] for prescribed ones, xᵗ for fixed ones [m].
 State inertial_targets(const compare::Scene& scene, const std::vector<compare::Vec3f>& start,
                        const std::vector<compare::Vec3f>& velocity, const std::vector<Mobility>& mobility, double time);
 
-/// (x − xᵗ)/h of the positions that are stored, rounded [m/s].
+/// Returns (x − xᵗ)/h of the stored positions, rounded [m/s].
 std::vector<compare::Vec3f> end_velocities(const std::vector<compare::Vec3f>& position, const State& start,
                                            double step);
 
-/// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ over free vertices; 0 where nothing moves (method.md §5.3).
+/// Returns ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ over free vertices; 0 where nothing moves (method.md §5.3).
 double momentum_lost(const StepStates& states, const Potential& potential);
-/// √(Σ m ‖x − before‖²) / √(Σ m ‖x − xᵗ‖²) over free vertices; 0 where nothing moves (method.md §6). `before`: x before
-/// the last sweep or iteration; not-a-number where there was none.
+/// Returns √(Σ m ‖x − before‖²) / √(Σ m ‖x − xᵗ‖²) over free vertices; 0 where nothing moves (method.md §6). `before`:
+/// x before the last sweep or iteration; the result is not-a-number where `before` is empty.
 double last_motion(const StepStates& states, const State& before, const Potential& potential);
-/// The largest distance of a prescribed vertex behind its target [m].
+/// Returns the largest distance of a prescribed vertex behind its target [m].
 double largest_lag(const State& x, const State& target, const std::vector<Mobility>& mobility);
-/// Fills the energies, or not-a-number where they are not wanted.
+/// Fills the energies, with not-a-number where they are not wanted.
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
                       const compare::Scene& scene, bool wanted);
-/// ‖x − x_prev‖ ≤ b_v for all vertices, in double, and every half-space, exactly (method.md §5.5, §5.6).
+/// Checks whether all vertices keep ‖x − x_prev‖ ≤ b_v, in double, and every half-space, exactly (method.md §5.5,
+/// §5.6).
 bool keeps_bounds(const std::vector<compare::Vec3f>& position, const Detected& detected);
 
 }  // namespace ogc::reference

@@ -18,7 +18,7 @@ namespace {
 using compare::ContactSides;
 using compare::Index;
 
-/// Calls `visit` with the first `Count` places for the contact's number of vertices.
+/// Calls `visit` with the positions of the contact's vertices, as an array of their number.
 template <class Visit>
 auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const State& x, Visit visit) {
   switch (vertex_count(sides)) {
@@ -28,7 +28,7 @@ auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const St
   }
 }
 
-/// e_k (compare/stages/contact_force.hpp), by the positions in single precision that the detection saw.
+/// Returns e_k (compare/stages/contact_force.hpp) at the single-precision positions that the detection saw.
 double energy_share(const std::array<float, 2>& rest_squared, const std::array<Triple<double>, 4>& x) {
   if (rest_squared[0] > 0 && rest_squared[1] > 0) {
     const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], rest_squared[0], rest_squared[1]);
@@ -103,7 +103,7 @@ void Potential::begin_step(const State& start, const State& target) {
   contacts_.clear();
   frictions_.clear();
   volumes_.clear();
-  // rods begin with the number of the step
+  // RodSystem::begin_step is called apart: it takes the number of the step
   const auto begin = [&](auto& list) {
     if constexpr (requires { list.begin(start); }) list.begin(start);
   };
@@ -125,7 +125,7 @@ void Potential::add_contact(const ContactStencil& stencil, const State& previous
   const compare::MeetingMaterial& material = material_of(rest_, scene_.bodies.size(), body_, stencil);
   if (material.stiffness == 0) return;
   contacts_.push_back({stencil.sides, stencil.vertex, scene_.settings.contact_radius, double{material.stiffness}, 1,
-                       double{material.friction}, scene_.settings.activation});
+                       double{material.friction}, scene_.settings.contact_activation});
   if (stencil.sides != ContactSides::edge_edge) return;
   const std::array<float, 2> rest_squared = mollified_rest_squared(topology_, rest_, stencil);
   contacts_.back().mollifier = energy_share(rest_squared, gathered<4>(stencil.vertex, previous));
@@ -141,7 +141,7 @@ void Potential::add_contact(const compare::VolumeContact& contact) {
   const compare::Vec3f& n = contact.direction;
   VolumeTerm term;
   term.vertex = {contact.point, corners[0], corners[1], corners[2]};
-  // As stored they add up to 1 but for rounding; the rest would react to a translation.
+  // The stored weights add up to 1 only up to rounding; the remainder would react to a translation.
   const double sum = double{contact.weights[0]} + double{contact.weights[1]} + double{contact.weights[2]};
   for (std::size_t k = 0; k < 3; ++k) term.weight[k + 1] = -double{contact.weights[k]} / sum;
   term.normal = {double{n.x}, double{n.y}, double{n.z}};
@@ -284,12 +284,12 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   return result;
 }
 
-/// Moduli, for what rounding of positions does to forces.
+/// Sums moduli of derivatives, from which follows what rounding of positions does to forces.
 void Potential::measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const {
   const StencilDerivatives& derivatives = result.stencil[stencil];
   const auto vertex = vertices(stencil);
   double slopes = 0, curvatures = 0;
-  std::array<double, 12> columns{};  // side by side: one sum would be a chain of additions
+  std::array<double, 12> columns{};  // separate sums, because one sum would be a chain of additions
   for (std::size_t k = 0; k < corners && vertex[k] >= 0; ++k) {
     if (unknowns_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
     for (std::size_t row = 3 * k; row < 3 * k + 3; ++row) {
@@ -330,7 +330,7 @@ void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const
   add_frame_noise(x, result);
 }
 
-/// Of rods: what rounding of frames does to forces, and of both kinds of unknowns to torques.
+/// Adds what rounding of the rods' frames does to forces, and what rounding of positions and frames does to torques.
 void Potential::add_frame_noise(const State& x, PotentialDerivatives& result) const {
   const RodSystem& rods = this->rods();
   if (!rods.is_used()) return;

@@ -9,14 +9,15 @@ namespace {
 
 std::size_t vertex_count(FormKind form) { return form == FormKind::points ? 2 : form == FormKind::point_line ? 3 : 4; }
 
-/// A contact before its kernel.
+/// A contact prepared for its kernel.
 struct Prepared {
   PlacedContact term;
-  std::array<Triple<double>, 4> corner;           ///< of the form's places
-  std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< of those among the contact's vertices
+  std::array<Triple<double>, 4> corner;           ///< corners of the form's places
+  std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< places of these corners among the contact's vertices
 };
 
-/// Prepares a contact term at x; its group: terms of one form and one stage of the activation go side by side.
+/// Prepares a contact term at x and returns its group: terms of one form and one stage of the activation are batched
+/// together.
 std::uint8_t prepare(const ContactTerm& term, const State& x, Prepared& to) {
   const std::array<Triple<double>, 4> corners = contact_corners(term.sides, term.vertex, x);
   const ClosestForm form = closest_form(term.sides, corners);
@@ -90,7 +91,7 @@ void differentiate(std::span<const ContactTerm> terms, const State& x, HessianPr
   });
 }
 
-/// One by one: they are few beside the contacts among surfaces.
+/// Differentiates volume terms one by one: they are few beside the contacts between surfaces.
 void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished) {
   tbb::parallel_for(std::size_t{0}, terms.size(), [&](std::size_t i) {

@@ -1,5 +1,6 @@
-// The stencils of contacts in batches of one form (energies/stencils/stencil_kernels.hpp), in parallel over the
-// batches: each stencil has its place, so neither threads nor what shares its batch changes a bit.
+// Differentiates the stencils of contacts in batches of one form (energies/stencils/stencil_kernels.hpp), in parallel
+// over the batches. Each stencil has its place in the result, so neither threads nor the other members of its batch
+// change a bit.
 #pragma once
 
 #include <functional>
@@ -16,15 +17,15 @@ struct Bundle {
   std::uint8_t size = 0;
   std::array<std::uint32_t, batch_width> member{};
 };
-/// Members of `left_out` are in none.
+/// The group of members that belong to no bundle.
 constexpr std::uint8_t left_out = 255;
-/// By the group of each: members that take the same branches should share one.
+/// Sorts members into bundles by `group`, the group of each: members that take the same branches should share one.
 std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group);
 
-/// What `differentiate` calls for each stencil that is done, on the thread that did it.
+/// Called by `differentiate` for each stencil that is done, on the thread that did it.
 using Finished = std::function<void(std::size_t stencil)>;
 
-/// Derivatives of all terms at x, into the places behind `to`.
+/// Writes the derivatives of all terms at x into the places from `to` on.
 void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianProjection projection,
@@ -32,7 +33,7 @@ void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianPro
 void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 
-/// All four places; those that the contact lacks are at the origin.
+/// Returns all four places of a contact; missing corners are at the origin.
 inline std::array<Triple<double>, 4> contact_corners(compare::ContactSides sides,
                                                      const std::array<compare::Index, 4>& vertex, const State& x) {
   std::array<Triple<double>, 4> corners{};

@@ -83,7 +83,7 @@ class ReferenceStep {
   }
 
  private:
-  /// The answer so far, at rest.
+  /// Returns the answer so far, with positions at the start of the step.
   const compare::StepOut& with_start() {
     out_.position = start_;
     return out_;
@@ -115,12 +115,12 @@ class ReferenceStep {
     event.vertex_facet = detect_vertex_facet(question).exact;
     event.edge_edge = detect_edge_edge(question).exact;
     event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
-                         event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bound_relaxation)})
+                         event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bounds_relaxation)})
                       .exact.bound;
     if (traits_of(settings_.bounds).has_planes) {
       const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions_.groups);
       compare::PlaneOut held = pair_planes({in_.topology, exclusions_, x_, is_fixed, out_.query_radius,
-                                            static_cast<float>(settings_.bound_relaxation), displacement});
+                                            static_cast<float>(settings_.bounds_relaxation), displacement});
       event.bound = std::move(held.bound);
       event.planes = std::move(held.planes);
     }
@@ -131,10 +131,10 @@ class ReferenceStep {
     volume_contacts_ = event.volumes.contacts;
   }
 
-  /// In the guess loop, where x is X_prev.
+  /// Returns whether v is scaled instead of sliding; for the guess loop, where x is X_prev.
   bool does_not_slide(std::size_t v) const { return exclusions_.groups[v] > 0 || !traits_of(settings_.bounds).slides; }
 
-  /// Where v goes on its way to where it is proposed; counts a cut.
+  /// Returns where v ends on its way to the proposal; adds a truncation to `cut`.
   Vec3f truncated(std::size_t v, const Vec3f& proposal, Index& cut) const {
     const auto planes = planes_.of(static_cast<Index>(v));
     const compare::TruncateIn question{
@@ -150,14 +150,14 @@ class ReferenceStep {
     for (std::size_t v = 0; v < x_.size(); ++v) x_[v] = truncated(v, proposals[v], event.cut);
   }
 
-  /// Where contacts let each vertex go.
+  /// Returns where contacts let each vertex go.
   std::vector<Vec3f> held_targets() {
     const std::vector<GuessContact> contacts = guess_contacts(*in_.scene, *in_.topology, out_.rest,
                                                               contacts_.vertex_facet, contacts_.edge_edge);
     return rounded(moves_.round(contacts, widened(previous_), widened(out_.target)));
   }
 
-  /// From the start of the step to where the guess loop has led.
+  /// Turns frames as segments have turned from the start of the step to the end of the guess loop.
   void turn_frames() {
     if (q_.empty()) return;
     RodSystem rods(*in_.scene, out_.rest);

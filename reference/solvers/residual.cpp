@@ -6,7 +6,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Stands before the step that reads it.
+/// A base class, so that the scene is made before the ContactStep that reads it.
 struct Problem {
   compare::Scene scene;
   compare::Topology topology;

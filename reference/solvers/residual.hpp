@@ -1,5 +1,5 @@
-// The residual of Eq. 29 at any solver's states (method.md §6), and its f*: it measures beside the solver, with
-// detections of its own.
+// The residual of Eq. 29 at any solver's states (method.md §6), and its f*. It is measured beside the solver, with
+// separate detections.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,31 @@ namespace ogc::reference {
 
 /// The residual of one state.
 struct Residual {
-  double share = 0;   ///< mean ‖f_v‖ over free vertices by that after the guess loop; 0 where the latter is 0 [1]
+  /// mean ‖f_v‖ over free vertices, divided by that after the guess loop; 0 where the latter is 0 [1]
+  double share = 0;
   double force = 0;   ///< mean ‖f_v‖ [N]
   double energy = 0;  ///< incremental potential without friction [J]
   double torque = 0;  ///< mean ‖(I − q qᵀ)(M q + b)‖ over free segments of rods [N m]
   std::int64_t contacts = 0;
 };
 
-/// Forces are those of all energies at the state, in double, with friction of its own λ, n and weights.
+/// Measures residuals. Forces are those of all energies at the state, in double; λ, n and weights of friction are taken
+/// at the state, too.
 class ResidualMeter {
  public:
-  /// The scene is rounded here; it must be valid.
+  /// Rounds its copy of the scene, which must be valid.
   explicit ResidualMeter(const compare::Scene& scene);
   ~ResidualMeter();
-  /// Xᵗ, Vᵗ and the number of the step that ends at the states to be asked about. The guess loop is done here.
+  /// Begins the step from Xᵗ, Vᵗ with this number, whose states are then measured, and runs its guess loop.
   /// `orientations`: Qᵗ of the segments of rods; empty: those of the scene's start.
   void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                   std::int64_t number, std::span<const compare::Quaternion> orientations = {});
   double reference_force() const;  ///< mean ‖f*‖ of the step [N]
-  /// With contacts detected at the state itself. `orientations`: of the state; empty: those of the last one.
+  /// Measures with contacts detected at the state itself. `orientations`: of the state; empty: those of the last one.
   Residual at(const std::vector<compare::Vec3f>& position, std::span<const compare::Quaternion> orientations = {});
   Residual at(const std::vector<std::array<double, 3>>& position,
               std::span<const compare::Quaternion> orientations = {});
-  /// With contacts that were detected at X_prev = `previous`: what a solver sees between two detections.
+  /// Measures with contacts that were detected at X_prev = `previous`: what a solver sees between two detections.
   Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& previous,
                 const std::vector<compare::Vec3f>& position, std::span<const compare::Quaternion> orientations = {});
 

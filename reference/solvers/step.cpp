@@ -16,7 +16,7 @@ using compare::StepEventKind;
 using compare::Vec3;
 using compare::Vec3f;
 
-/// By event, what contacts leave of moves. An answer without frictions has none.
+/// Returns for each event what contacts leave of moves; nothing for an answer without frictions.
 std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in, const compare::StepOut& answer) {
   std::vector<std::vector<compare::HeldMove>> moves(answer.events.size());
   const std::size_t bodies = in.scene->bodies.size(), count = in.scene->mesh.positions.size();
@@ -33,7 +33,8 @@ std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in
   return moves;
 }
 
-/// By vertex, whether a contact keeps it where it is or may; empty where no event is a round.
+/// Returns for each vertex whether a contact certainly or possibly keeps it where it is; empty where the event is no
+/// round.
 std::vector<bool> staying(const std::vector<compare::HeldMove>& moves) {
   std::vector<bool> stays;
   for (const compare::HeldMove& held : moves) stays.push_back(held.touches != 0);
@@ -103,7 +104,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     truth.velocity_scale.push_back(norm(moved) / settings.time_step);
   }
   truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest,
-                                                           settings.query_radius_cap * settings.contact_radius);
+                                                           settings.detection_radius_cap * settings.contact_radius);
   truth.moves = held_moves(in, answer);
   StepOrder order(settings, compare::bounded_count(*in.topology, groups));
   const std::vector<Vec3f>* previous = &start;
@@ -124,7 +125,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     bool is_deep = false;
     if (is_there && *kind == compare::StepEventKind::sweep && volumes != nullptr) {
       const Depth depth = depth_of(*volumes, *in.topology, answer.events[i].position, settings.contact_radius);
-      // In doubt both are right, and the answer says which.
+      // In doubt either is right, and the answer's next event tells which one it chose.
       const bool detects_next = i + 1 < answer.events.size() &&
                                 answer.events[i + 1].kind == compare::StepEventKind::detection;
       is_deep = depth == Depth::deep || (depth == Depth::doubtful && detects_next);

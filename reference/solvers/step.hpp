@@ -1,5 +1,5 @@
-// Stage step: Algorithm 3 (method.md §5.2): what follows from an answer's own positions and counts, and a step of the
-// reference's own.
+// Stage step: Algorithm 3 (method.md §5.2): computes what follows from an answer's own positions and counts, and takes
+// a step of the reference's own.
 #pragma once
 
 #include <functional>
@@ -9,26 +9,27 @@
 
 namespace ogc::reference {
 
-/// Prescribed vertices at x that bounds keep behind their targets; nothing where bounds are no planes. `stays`: by
-/// vertex, whether a contact keeps it in a round of the guess instead, which asks for nothing; empty: none.
+/// Counts prescribed vertices at x that bounds keep behind their targets; none where bounds are no planes. `stays`: by
+/// vertex, whether a contact rather than its bound keeps it in a round of the guess loop; such a vertex triggers no
+/// detection; empty: none.
 StepLag lag_of(const std::vector<compare::Vec3f>& x, const std::vector<compare::Vec3f>& previous,
                const std::vector<compare::Vec3f>& target, const std::vector<compare::Index>& groups,
                const compare::Settings& settings, const std::vector<bool>& stays = {});
 
 /// Whether a vertex lies deep inside a volume; doubtful where rounding to single precision decides.
 enum class Depth { shallow, doubtful, deep };
-/// Of the deepest of these contacts at x, by what their detection froze: φ < −r/2. Contacts may be any: those of what
-/// is not there say nothing.
+/// Returns the depth of the deepest of these contacts at x, by the numbers that their detection froze: deep means φ <
+/// −r/2. Any contacts are allowed: those with indices that the mesh lacks are skipped.
 Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compare::Topology& topology,
                const std::vector<compare::Vec3f>& x, double contact_radius);
 
-/// r_q, prescribed targets, the order of events, moves of the guess loop, velocities. The answer's target, position and
-/// velocity must have one entry a vertex, its events may be any.
+/// Computes r_q, prescribed targets, the order of events, moves of the guess loop, velocities. The answer's target,
+/// position and velocity must have one entry a vertex; its events may be any.
 compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answer);
 
-/// The step made of the reference's own stages: exact sets, bounds and targets, updates in double; positions stored in
-/// single precision where the contract stores them, within their bounds. Vertices are coloured in the order of their
-/// numbers.
+/// Takes a step with the reference's own stages: exact sets, bounds and targets, updates in double; positions are
+/// stored in single precision where the contract stores them, within their bounds. Vertices are coloured in the order
+/// of their numbers.
 compare::StepOut reference_step(const compare::StepIn& in);
 
 }  // namespace ogc::reference

@@ -9,31 +9,31 @@
 
 namespace ogc::reference {
 
-/// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since the
-/// last detection (method.md §5.6, Asking).
+/// With planes: how many of the cut vertices are prescribed ones behind their targets, and whether one of these has
+/// moved since the last detection (method.md §5.6, Asking).
 struct StepLag {
   compare::Index lagging = 0;  ///< how many
-  bool has_advanced = false;   ///< whether one of them did
+  bool has_advanced = false;   ///< whether one of them has moved
 };
 
-/// From this share of r on a vertex is deep inside a volume (compare/volumes.md, The step).
+/// A vertex is deep inside a volume from this share of r on (compare/volumes.md, The step).
 inline constexpr double deep_share = 0.5;
 
-/// Says what comes next, given how many vertices each event cut. K, of bounded_count, is `moving`.
+/// Determines which event comes next, from how many vertices each event cut. `moving` is K, the bounded_count.
 class StepOrder {
  public:
   StepOrder(const compare::Settings& settings, compare::Index moving)
-      : settings_(settings), redetect_vertices_(settings.redetect_fraction * moving) {}
+      : settings_(settings), redetect_vertices_(settings.detection_fraction * moving) {}
 
-  /// Empty after the last iteration.
+  /// Returns the next event; empty after the last iteration.
   std::optional<compare::StepEventKind> next() const {
     if (guessing_) return found_ ? compare::StepEventKind::guess : compare::StepEventKind::detection;
     if (iterations_ == settings_.iterations) return std::nullopt;
     return found_ ? compare::StepEventKind::sweep : compare::StepEventKind::detection;
   }
 
-  /// The event that was next took place; `cut`: of a round or an iteration, all that were cut; `is_deep`: of an
-  /// iteration, whether it left a vertex deep inside a volume.
+  /// Records that the next event took place. `cut`: all vertices that a round or an iteration cut; `is_deep`: whether
+  /// an iteration left a vertex deep inside a volume.
   void took_place(compare::Index cut, const StepLag& lag = {}, bool is_deep = false) {
     switch (*next()) {
       case compare::StepEventKind::detection:
@@ -49,7 +49,7 @@ class StepOrder {
         ++iterations_;
         ++since_detection_;
         found_ = !asks(cut, lag, 1) && !(is_deep && cut > lag.lagging) &&
-                 (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
+                 (settings_.detection_every == 0 || since_detection_ < settings_.detection_every);
         break;
     }
   }
@@ -67,9 +67,9 @@ class StepOrder {
 
   const compare::Settings& settings_;
   double redetect_vertices_;  ///< γ_e K
-  bool guessing_ = true;      ///< in the guess loop
-  bool lag_asked_ = false;    ///< a lag has asked for a detection in this step
-  bool found_ = false;        ///< contacts and bounds hold for what comes next
+  bool guessing_ = true;      ///< whether the guess loop runs
+  bool lag_asked_ = false;    ///< a lag has triggered a detection in this step
+  bool found_ = false;        ///< contacts and bounds hold for the next event
   std::int64_t rounds_ = 0, iterations_ = 0, since_detection_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors of a symmetric 3×3 matrix: how far an error of the force moves a vertex differs from
-// direction to direction by the ratio of the eigenvalues, which contacts make large.
+// Eigenvalues and eigenvectors of a symmetric 3×3 matrix. How far an error of the force moves a vertex differs between
+// directions by the ratio of the eigenvalues, which contacts make large.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace ogc::reference {
 
-/// xx, xy, xz, yy, yz, zz, as the blocks of compare/stages/force.hpp.
+/// xx, xy, xz, yy, yz, zz, in the order of the blocks of compare/stages/force.hpp.
 using Symmetric3 = std::array<double, 6>;
 
-/// Frobenius norm of the whole matrix.
+/// Returns the Frobenius norm of the whole matrix.
 double norm(const Symmetric3& a);
 
 /// A = Σ value[i] axis[i] axis[i]ᵀ, axes orthonormal.
@@ -20,7 +20,7 @@ struct Eigen3 {
   std::array<compare::Vec3, 3> axis{};
 };
 
-/// Values ascend, within a few units of 2⁻⁵³ ‖A‖ of the exact ones.
+/// Decomposes `a`. Values ascend; they lie within a few units of 2⁻⁵³ ‖A‖ of the exact ones.
 Eigen3 eigen_of(const Symmetric3& a);
 
 }  // namespace ogc::reference

@@ -1,9 +1,9 @@
-// The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours one after the other,
-// vertices of a colour in parallel, read as method.md §7.2 says; each new position is cut to its ball before it is
-// written. Positions are doubles within a step and rounded at its end, as Newton's.
+// The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours are solved one after
+// the other, vertices of a colour in parallel, with positions read as in method.md §7.2; each new position is cut to
+// its bound before it is written. Positions are doubles within a step and rounded at its end, as in Newton's method.
 //
-// Residuals are measurements beside the run, and their time no part of the step's: those of the rows with the contacts
-// of the last detection, that of the step with contacts detected at its end.
+// Residuals are measured beside the run, and their time does not count as the step's: those of the rows with the
+// contacts of the last detection, that of the step with contacts detected at its end.
 #pragma once
 
 #include "reference/solvers/contact_step.hpp"
@@ -15,9 +15,10 @@ namespace ogc::reference {
 /// Vertex Block Descent in double (Alg. 3 and 4).
 class VbdSolver : public StepSolver, private ContactStep {
  public:
-  /// Scene: rounded and valid. Both must outlive it. `colour`: by vertex, from 0 on where free, −1 elsewhere; no two
-  /// vertices of a membrane, hinge or spring may share one. Empty: colours of its own (colouring.hpp). Throws
-  /// std::invalid_argument where they do not fit the scene. The settings of variants/settings.hpp are read.
+  /// The scene must be rounded and valid; scene and topology must outlive this. `colour`: by vertex, from 0 on where
+  /// free, −1 elsewhere; no two vertices of a membrane, hinge or spring may share one. If it is empty, the solver
+  /// colours the vertices itself (colouring.hpp). Throws std::invalid_argument where the colours do not fit the scene.
+  /// Reads the settings of variants/settings.hpp.
   VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options,
             std::vector<compare::Index> colour = {});
 
@@ -31,9 +32,10 @@ class VbdSolver : public StepSolver, private ContactStep {
   enum Stage : std::size_t { detection = detection_stage, sweeping, stage_count };
   void iterate();
   std::size_t sweep();
-  std::size_t cut_all(const State& old);  ///< free vertices to their bounds
-  bool is_deep_inside() const;  ///< whether a vertex is, by what the last detection froze
-  /// Work that needs the meter and costs the step no time; none without one.
+  std::size_t cut_all(const State& old);  ///< cuts free vertices to their bounds
+  /// whether a vertex is deep inside a volume, by the contacts that the last detection froze
+  bool is_deep_inside() const;
+  /// Does work that needs the meter and takes no time of the step; does nothing without a meter.
   template <class Work>
   void measured(Work work);
   void add_row(bool detects);
@@ -44,7 +46,7 @@ class VbdSolver : public StepSolver, private ContactStep {
   std::vector<compare::Index> colour_;
   std::vector<std::vector<compare::Index>> classes_;  ///< vertices by colour
   std::optional<ResidualMeter> meter_;
-  std::vector<compare::Quaternion> orientations_;  ///< qᵗ, where it is measured
+  std::vector<compare::Quaternion> orientations_;  ///< qᵗ, kept where residuals are measured
   double measuring_ms_ = 0;
 };
 

@@ -10,7 +10,7 @@ namespace ogc::reference {
 namespace {
 
 using compare::Index;
-/// Plain positions of a stencil, then with the own vertex as variable.
+/// Returns the positions of a stencil's vertices that the update of `self` reads.
 template <std::size_t Count>
 std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& vertex, Index self,
                                                 const SweepView& x) {
@@ -20,18 +20,19 @@ std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& 
   return corners;
 }
 
-/// Which of a contact's vertices are updated at the same time as the own one, itself included.
+/// Which of a contact's vertices are updated together with the updated vertex, itself included.
 using Updated = std::array<bool, 4>;
 
-/// Σ |w_u| over the vertices that are updated, in units of the own one's |w|: what their blocks are multiplied by, so
-/// that they majorise what all of them do (method.md §7.4). Any number where the own one's weight is 0.
+/// Returns Σ |w_u| over the vertices that are updated together, in units of |w| of the updated vertex. Blocks are
+/// multiplied by it, so that they majorise the motion of all of these vertices (method.md §7.4). Returns 1 where the
+/// updated vertex's weight is 0.
 double majorant(const std::array<double, 4>& weight, const Updated& updated, std::size_t own) {
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(weight[k]) : 0;
   return weight[own] == 0 ? 1 : sum / std::abs(weight[own]);
 }
 
-/// Of a contact with these vertices. `x`: who is read where says who is of the own one's colour. The own one alone with
+/// Returns which of a contact's vertices have the colour of `own`, by the colours of `x`; only `own` with
 /// ContactBlocks::own.
 Updated updated_with(Index own, const std::array<Index, 4>& vertex, const SweepView& x, ContactBlocks blocks) {
   Updated updated{};
@@ -53,7 +54,7 @@ void add_friction(const FrictionTerm& term, double factor, const std::array<Trip
     add_outer(2 * factor * slope, component.slope, component.slope, sum.block);
 }
 
-/// Slope and curvature below 2⁻²³ r are those there, and from r on those that wait at r, as in the stage contact_force.
+/// Below 2⁻²³ r slope and curvature are those at 2⁻²³ r, from r on those at r, as in the stage contact_force.
 void add_contact(const Potential& potential, const ContactTerm& term, const Updated& updated, std::size_t place,
                  const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   const ClosestForm form = closest_form(term.sides, corners);
@@ -71,7 +72,7 @@ void add_contact(const Potential& potential, const ContactTerm& term, const Upda
   if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, factor, x, sum);
 }
 
-/// Of the point or of a corner.
+/// Adds a contact with a volume as its point or one of the triangle's corners feels it.
 void add_volume(const VolumeTerm& term, const Updated& updated, std::size_t place,
                 const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   if (term.weight[place] == 0) return;

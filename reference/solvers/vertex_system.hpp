@@ -1,7 +1,7 @@
 // The 3×3 system of one vertex in double, for whole runs: the sum of the forces and blocks of its stencils (method.md
-// §4). Each energy derives its own, beside itself (kinds/kinds.hpp lists them). The
-// judged sweep (vertex_terms.hpp) sums what the stages answer about single-precision positions, each with its errors;
-// its blocks are the same functions over another number type.
+// §4). Each energy derives its force and block in its own file (kinds/kinds.hpp lists them). The judged sweep
+// (vertex_terms.hpp) sums what the stages answer for single-precision positions, each with its errors; its blocks are
+// the same functions over another number type.
 #pragma once
 
 #include <array>
@@ -15,19 +15,19 @@
 
 namespace ogc::reference {
 
-/// Inertia included; the block is positive definite.
+/// Force and block of a vertex, inertia included; the block is positive definite.
 using VertexSystem = VertexSystemOf<double>;
 
-/// H⁻¹ a. Inertia alone makes H positive definite.
+/// Returns H⁻¹ a. Inertia alone makes H positive definite.
 Triple<double> solved(const VertexSystem& system, const Triple<double>& a);
 
-/// Where vertices are read (method.md §7.2): those of lower colour than the one being solved at their new position,
-/// others at the old one. Colours are from 0 on; −1: prescribed and fixed vertices, which move first.
+/// The positions that an update reads (method.md §7.2): vertices of lower colour than the one being solved at their new
+/// position, others at the old one. Colours count from 0; −1 means a prescribed or fixed vertex; these move first.
 struct SweepView {
   const State& old;
   const State& fresh;
   std::span<const compare::Index> colour;
-  /// Where `vertex` is read from when `own` is solved [m].
+  /// Returns the position of `vertex` that the update of `own` reads [m].
   const Triple<double>& at(compare::Index own, compare::Index vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return colour[v] < colour[static_cast<std::size_t>(own)] ? fresh[v] : old[v];
@@ -37,13 +37,13 @@ struct SweepView {
 /// The systems of all vertices of one potential.
 class VertexSystems {
  public:
-  /// The potential must outlive it.
+  /// The potential must outlive this.
   explicit VertexSystems(const Potential& potential, ContactBlocks blocks = ContactBlocks::majorised);
-  /// After the potential's contacts have changed.
+  /// Lists the potential's contacts again. To be called after they have changed.
   void read_contacts();
-  /// The system of a free vertex. Friction takes λ, n and w from the positions that are read.
+  /// Returns the system of a free vertex. Friction takes λ, n and w from the positions that are read.
   VertexSystem at(compare::Index vertex, const SweepView& x) const;
-  /// Mean ‖f‖ over free vertices at one state [N]; Eq. 29's numerator.
+  /// Returns the mean ‖f‖ over free vertices at one state [N], the numerator of Eq. 29.
   double mean_force(const State& x) const;
 
  private:

@@ -20,7 +20,7 @@ void add_element(ElementsOfVertex& rows, std::size_t element, const Vertices& ve
   }
 }
 
-/// The vertices on which an element acts, by place.
+/// Returns the vertices on which an element acts, by place.
 template <class Kind>
 auto acting(const compare::Scene& scene, const compare::RestStateOut& rest, std::size_t element) {
   if constexpr (requires { Kind::pulled(scene, rest, element); })
@@ -46,7 +46,7 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
   for (std::size_t i = 0; i < in.volumes.size(); ++i) {
     const compare::VolumeContact& contact = in.volumes[i];
     const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
-    // where c is on the edge opposite to the point itself, the point is a corner that has no part in c
+    // Where the point is a corner of the triangle and c lies on the opposite edge, that corner has no part in c.
     const auto corner = [&](std::size_t k) { return contact.weights[k] == 0 ? -1 : corners[k]; };
     add_element(volumes, i, std::array{contact.point, corner(0), corner(1), corner(2)});
   }

@@ -3,10 +3,11 @@
 //   H (dx − dx*) = δf − δH dx,   |vᵢ·(dx − dx*)| ≤ (φ + η ‖dx‖)/λᵢ along each eigenvector of H,
 //   ‖dx‖ ≤ (‖dx*‖ + φ/λ)/(1 − η/λ), λ the smallest λᵢ.
 //
-// Stored, the proposal is off by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no
-// farther apart; what it does to single directions depends on where they lie, so a vertex that may be cut is held to
-// the largest of the three errors. One that half-spaces cut, or may, is held to its region, which the judge checks,
-// and where it does not slide to the way from X_prev to its proposal: a point of a way is no farther off than its end.
+// Storing moves the proposal by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no farther
+// apart. Its effect on single directions depends on where the points lie, so for a vertex that may be cut the largest
+// of the three errors counts. A vertex that half-spaces cut, or may cut, must lie in its region, which the judge
+// checks, and where it does not slide, on the way from X_prev to its proposal: a point of a way is no farther off than
+// the way's end.
 #include "reference/solvers/vertex_update.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ using compare::Vec3f;
 using reference::norm;
 
 constexpr double u = compare::unit_roundoff, infinity = std::numeric_limits<double>::infinity();
-/// A vertex with more combinations of accepted answers than this is only held to its bound.
+/// A vertex with more combinations of accepted answers than this is only checked against its bound.
 constexpr std::size_t most_combinations = 4096;
 
 Vec3 wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
@@ -65,23 +66,23 @@ System system_of(const VertexTerms& terms, const FreeVertex& vertex, std::span<c
   return sum;
 }
 
-/// The point of the ball that is closest to x.
+/// Returns the point of the ball that is closest to x.
 Vec3 projected(const Vec3& x, const FreeVertex& vertex) {
   const Vec3 step = minus(x, wide(vertex.previous));
   const double length = norm(step);
   return length > vertex.bound ? plus(wide(vertex.previous), times(vertex.bound / length, step)) : x;
 }
 
-/// ‖X_prev‖_∞ + b_v.
+/// Returns ‖X_prev‖_∞ + b_v.
 double size_of(const FreeVertex& vertex) {
   const Vec3f& p = vertex.previous;
   return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + vertex.bound;
 }
 double truncation_error(const FreeVertex& vertex) { return compare::truncate_position_tolerance * u * size_of(vertex); }
-/// The same with half-spaces.
+/// Returns the error of truncation to a region with half-spaces [m].
 double region_error(const FreeVertex& vertex) { return compare::truncate_region_tolerance * u * size_of(vertex); }
 
-/// The point between X_prev and the proposal that is closest to x.
+/// Returns the point between X_prev and the proposal that is closest to x.
 Vec3 nearest_on_way(const FreeVertex& vertex, const Vec3& proposal, const Vec3& x) {
   const Vec3 from = wide(vertex.previous), way = minus(proposal, from);
   const double square = inner(way, way);
@@ -89,7 +90,8 @@ Vec3 nearest_on_way(const FreeVertex& vertex, const Vec3& proposal, const Vec3& 
   return plus(from, times(share, way));
 }
 
-/// How far beyond the nearest of its half-spaces x lies [m]; negative inside all, minus infinity without any.
+/// Returns how far x lies beyond its half-spaces, the largest of the distances [m]; negative inside all, minus infinity
+/// without any.
 double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
   double beyond = -infinity;
   for (const compare::VertexPlane& plane : vertex.planes) {
@@ -99,7 +101,8 @@ double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
   return beyond;
 }
 
-/// What an ill-conditioned vertex is held to: dx·f ≥ −‖dx‖(φ + η‖dx‖) and what storing adds, where nothing was cut.
+/// Checks an ill-conditioned vertex, which has no known position: where nothing was cut, dx·f ≥ −‖dx‖(φ + η‖dx‖) up to
+/// the error of storing. Returns the accepted error: infinity if that holds or the vertex may be cut, otherwise 0.
 double accepted_without_position(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Vec3 moved = minus(wide(answer), wide(vertex.old));
   const bool may_be_cut = norm(minus(wide(answer), wide(vertex.previous))) + truncation_error(vertex) >= vertex.bound ||
@@ -110,7 +113,8 @@ double accepted_without_position(const System& system, const FreeVertex& vertex,
   return inner(moved, system.force) >= -slack ? infinity : 0;
 }
 
-/// How far along `error` a right answer that is not cut may be: within `along[i]` in the direction of each axis.
+/// Returns the accepted error in the direction of `error`, without a cut: at most `along[i]` in the direction of each
+/// axis.
 double accepted_along(const Vec3& error, const Eigen3& eigen, const std::array<double, 3>& along) {
   double share = 0;
   for (std::size_t i = 0; i < 3; ++i) share = std::max(share, std::abs(inner(error, eigen.axis[i])) / along[i]);
@@ -139,7 +143,7 @@ VertexUpdate update_with(const System& system, const FreeVertex& vertex, const V
   }
   const double length = (norm(change) + system.force_error / *least) / (1 - relative),
                numerator = system.force_error + block_error * length;
-  // The smallest positive number stands for what underflows.
+  // The smallest positive number covers underflow.
   const double stored = u * (norm(proposal) + numerator / *least) + std::numeric_limits<float>::denorm_min();
   std::array<double, 3> along;
   for (std::size_t i = 0; i < 3; ++i) along[i] = numerator / stiffness[i] + stored;
@@ -163,13 +167,13 @@ VertexUpdate update_with(const System& system, const FreeVertex& vertex, const V
   return update;
 }
 
-/// Error in units of what is accepted.
+/// Returns the error in units of the accepted error.
 double share_of(const VertexUpdate& update, const Vec3f& answer) {
   const double error = norm(minus(wide(answer), update.position));
   return error == 0 ? 0 : error / update.accepted;
 }
 
-/// The next choice among the accepted answers of all terms; false after the last one.
+/// Moves to the next choice among the accepted answers of all terms; returns false after the last one.
 bool advance(std::vector<std::size_t>& choice, const VertexTerms& terms) {
   for (std::size_t i = 0; i < choice.size(); ++i) {
     if (++choice[i] < terms.terms[i].accepted.size()) return true;
@@ -187,7 +191,7 @@ VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const
   for (const Term& term : terms.terms)
     combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
   if (combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
-  // Where the bound hides which of them an answer has chosen, the cut may be that of any.
+  // Where the bound hides which combination an answer has chosen, the cut may be that of any of them.
   bool cuts_differ = false;
   while (advance(choice, terms)) {
     const VertexUpdate other = update_with(system_of(terms, vertex, choice), vertex, answer);

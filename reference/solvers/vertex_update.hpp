@@ -10,19 +10,19 @@
 
 namespace ogc::reference {
 
-/// Where a free vertex is and what holds it.
+/// A free vertex: where it is and what bounds it.
 struct FreeVertex {
   compare::Vec3f old, target, previous;            ///< x, y, X_prev [m]
   float bound = 0;                                 ///< b_v [m]
   double inertia = 0;                              ///< m/h² [N/m]
-  std::span<const compare::VertexPlane> planes{};  ///< that the vertex bears
-  bool is_scaled = false;                          ///< it stops on the way from X_prev, in place of sliding
+  std::span<const compare::VertexPlane> planes{};  ///< half-spaces that hold the vertex
+  bool is_scaled = false;                          ///< a cut vertex stops on the way from X_prev instead of sliding
 };
 
-/// Whether truncation changes an update; doubtful where both are right.
+/// Whether truncation changes an update; doubtful where either answer is right.
 enum class Cut { no, yes, doubtful };
 
-/// As SweepTruth of one vertex.
+/// The fields of SweepTruth for one vertex.
 struct VertexUpdate {
   compare::Vec3 position;
   double accepted = 0;
@@ -30,7 +30,7 @@ struct VertexUpdate {
   Cut cut = Cut::no;
 };
 
-/// The truth about `answer`, the position that an answer holds for the vertex.
+/// Returns the truth about `answer`, the answer's position of the vertex.
 VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const compare::Vec3f& answer);
 
 }  // namespace ogc::reference

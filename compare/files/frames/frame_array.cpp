@@ -12,7 +12,7 @@ namespace {
 /// Bytes of an array that are read at once.
 constexpr std::uint64_t chunk_bytes = 1 << 20;
 
-/// `topology` without positions. Throws where a face names no vertex of the array.
+/// Returns `topology` without positions. Throws if a face names no vertex of the array.
 Mesh checked_faces(Mesh topology, const FrameLayout& layout, const std::string& where) {
   const auto check = [&](const char* kind, const auto& faces) {
     for (std::size_t i = 0; i < faces.size(); ++i)
@@ -65,7 +65,7 @@ class FrameArray : public MeshSequence {
     source_(bytes_, frame);
   }
 
-  /// Puts the frame at `begin_`, as C order has it; where the last pass did not gather it, by another pass.
+  /// Sets `begin_` to the current frame in C order; makes another pass if the last one did not gather it.
   void gather(const std::string& frame) {
     if (next_ >= gathered_end_) {
       gathered_ = next_;
@@ -77,8 +77,8 @@ class FrameArray : public MeshSequence {
     begin_ = (next_ - gathered_) * layout_.frame_bytes();
   }
 
-  /// Number e of the array is coordinate e / (frames · vertices) of vertex e / frames mod vertices of frame e mod
-  /// frames.
+  /// Reads the whole array once and gathers frames. Number e of the array is coordinate e / (frames · vertices) of
+  /// vertex e / frames mod vertices of frame e mod frames.
   void pass(const std::string& frame) {
     const std::size_t width = size_of(layout_.type);
     const std::uint64_t numbers = layout_.frames * layout_.vertices * 3;
@@ -104,7 +104,7 @@ class FrameArray : public MeshSequence {
   ArrayOpener open_;
   std::uint64_t room_;
   ByteSource source_{};
-  std::string bytes_{};  // of one frame, or of those from gathered_ to gathered_end_
+  std::string bytes_{};  // one frame, or the frames from gathered_ to gathered_end_
   std::uint64_t begin_ = 0, gathered_ = 0, gathered_end_ = 0;
   std::size_t next_ = 0;
 };

@@ -1,4 +1,4 @@
-// Sequences whose frames are arrays: NumPy's, all in one or one each, and point caches.
+// Reads sequences whose frames are arrays: NumPy's, all in one or one each, and point caches.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
 
-/// What the frames of a pass over an array in Fortran order may take: as much as its file, within these bounds [bytes].
+/// Memory for the frames of a pass over an array in Fortran order: the size of its file, within these bounds [bytes].
 constexpr std::uint64_t least_room = 1 << 26, most_room = 1 << 30;
 
 std::uint64_t room_of(const std::filesystem::path& file) {
@@ -42,7 +42,7 @@ FrameLayout layout_of(const NpyHeader& header, std::uint64_t bytes, const std::s
                      std::to_string(most_vertices) + " are the most");
   if (layout.vertices == 0)
     throw InputError(where + ": is an array " + shape_text(shape) + ", whose frames have no vertex");
-  // Division, as the product of announced extents may be beyond 64 bits.
+  // Divides, as the product of announced extents may be beyond 64 bits.
   if (layout.frames > bytes / layout.frame_bytes())
     throw InputError(where + ": is an array " + shape_text(shape) + ", but only " +
                      std::to_string(bytes / layout.frame_bytes()) + " frames fit into its " + std::to_string(bytes) +
@@ -50,14 +50,14 @@ FrameLayout layout_of(const NpyHeader& header, std::uint64_t bytes, const std::s
   return layout;
 }
 
-/// Names of positions and of triangles, the first that is there counts; `v_template` is SMPL's body at rest.
+/// Names of positions and of triangles; the first that exists counts. `v_template` is SMPL's body at rest.
 constexpr std::array<std::string_view, 8> position_names{"positions", "x", "vertices", "points",
                                                          "verts",     "v", "V",        "v_template"};
 constexpr std::array<std::string_view, 4> triangle_names{"triangles", "faces", "f", "F"};
-/// What stands before the number of a frame that has an array of its own: numpy.savez calls them arr_0, arr_1, ….
+/// Stems before the number of a frame with an array of its own: numpy.savez calls them arr_0, arr_1, ….
 constexpr std::array<std::string_view, 3> frame_names{"frame", "arr", ""};
 
-/// The first member that has one of the names; the names are the members' without ".npy".
+/// Returns the first member that has one of the names, without ".npy".
 std::optional<std::string> member_named(const ZipFile& zip, std::span<const std::string_view> names) {
   for (const std::string_view name : names)
     for (const std::string& member : zip.members())
@@ -65,7 +65,7 @@ std::optional<std::string> member_named(const ZipFile& zip, std::span<const std:
   return std::nullopt;
 }
 
-/// Whether the member is "STEM7.npy" or "STEM_7.npy".
+/// Returns whether the member is "STEM7.npy" or "STEM_7.npy".
 bool is_numbered(std::string_view member, std::string_view stem) {
   if (!member.starts_with(stem) || !member.ends_with(".npy")) return false;
   member = member.substr(stem.size(), member.size() - stem.size() - 4);
@@ -73,7 +73,7 @@ bool is_numbered(std::string_view member, std::string_view stem) {
   return !member.empty() && std::ranges::all_of(member, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The numbered members of the first name that has any, in natural order.
+/// Returns the numbered members of the first stem that has any, in natural order.
 std::vector<std::string> numbered_members(const ZipFile& zip) {
   std::vector<std::string> found;
   const auto look = [&](std::span<const std::string_view> stems) {
@@ -88,13 +88,13 @@ std::vector<std::string> numbered_members(const ZipFile& zip) {
   return found;
 }
 
-/// An array somewhere: its header, its bytes, and how to come to its first number.
+/// An array, with its header and how to open it at its first number.
 struct FoundArray {
   std::string where;  ///< begins messages
   NpyHeader header;
-  std::uint64_t bytes = 0;  ///< of the numbers, or more
+  std::uint64_t bytes = 0;  ///< size of the numbers, or more
   ArrayOpener open;
-  std::uint64_t room = least_room;  ///< for frames of a pass
+  std::uint64_t room = least_room;  ///< bytes for frames of a pass
 };
 
 FoundArray array_in(const std::shared_ptr<ZipFile>& zip, const std::string& member, const std::filesystem::path& file) {
@@ -156,7 +156,7 @@ std::vector<std::array<Index, Corners>> read_faces(const FoundArray& array) {
   return faces;
 }
 
-/// Triangles and edges of an archive; nothing where it has neither.
+/// Returns triangles and edges of an archive; nothing if it has neither.
 std::optional<Mesh> faces_of(const std::shared_ptr<ZipFile>& zip, const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 1> edge_names{"edges"};
   const auto triangles = member_named(*zip, triangle_names), edges = member_named(*zip, edge_names);
@@ -174,14 +174,14 @@ const Mesh& needed(const Mesh* topology, const std::string& name) {
   return *topology;
 }
 
-/// A mesh without positions, of an array of faces, has as many vertices as are there.
+/// Checks the number of vertices; a mesh without positions, from an array of faces, fits any number.
 void check_count(const Mesh& topology, std::uint64_t vertices, const std::string& name) {
   if (!topology.positions.empty() && topology.positions.size() != vertices)
     throw InputError(name + ": a frame has " + std::to_string(vertices) + " vertices, the mesh of --mesh " +
                      std::to_string(topology.positions.size()) + "; give the mesh that was simulated");
 }
 
-/// The frames of arrays, one array after another; one alone counts its frames by itself.
+/// Returns the frames of arrays, one array after another; a single array numbers its frames itself.
 std::unique_ptr<MeshSequence> frames_of(const std::vector<FoundArray>& arrays, const std::vector<std::string>& names,
                                         const Mesh& faces) {
   const auto kept = std::make_shared<const Mesh>(faces);
@@ -198,7 +198,7 @@ std::unique_ptr<MeshSequence> frames_of(const std::vector<FoundArray>& arrays, c
   return chained(std::move(parts));
 }
 
-/// Whether it looks like triangles: of numpy.savez(file, vertices, triangles) both have numbers for names.
+/// Returns whether it looks like triangles: numpy.savez(file, vertices, triangles) gives both arrays numbers for names.
 bool are_faces(const FoundArray& array) {
   const NpyHeader& header = array.header;
   return !is_floating(header.type) && header.shape.size() == 2 && header.shape[1] == 3;
@@ -212,7 +212,7 @@ std::string held_by(const ZipFile& zip) {
          (is_body ? "; poses are parameters of a body model: let it compute the vertices, and store those" : "");
 }
 
-/// Takes the one array of faces out of the arrays, where there are no other faces.
+/// Takes the one array of faces out of the arrays, unless there are other faces.
 void take_faces(std::vector<FoundArray>& arrays, std::vector<std::string>& names, std::optional<Mesh>& faces) {
   for (std::size_t i = 0; i < arrays.size() && !faces; ++i) {
     if (!are_faces(arrays[i])) continue;
@@ -276,7 +276,7 @@ std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, co
   const ByteSource source = [input](std::span<char> bytes, const std::string& what) { input->read(bytes, what); };
   constexpr std::string_view magic("POINTCACHE2\0", 12);
   std::array<char, 32>
-      header;  // magic, version, points, start [frames], rate, samples: the last five of four bytes each
+      header;  // magic, version, points, start [frames], rate, samples; the last five have four bytes each
   source(header, "the header");
   if (std::string_view(header.data(), magic.size()) != magic)
     throw InputError(name + ": does not begin with POINTCACHE2; it is no PC2 file");

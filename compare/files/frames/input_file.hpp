@@ -1,5 +1,4 @@
-// A large binary file, read piece by piece: caches of frames are gigabytes, and one frame is all that an audit needs at
-// a time.
+// Reads a large binary file piece by piece: caches of frames are gigabytes, and an audit needs one frame at a time.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +12,12 @@ namespace ogc::compare {
 /// An open binary file and the position in it.
 class InputFile {
  public:
-  /// Throws InputError that names the file: missing, no regular file, unreadable.
+  /// Opens the file. Throws InputError that names it if it is missing, no regular file, or unreadable.
   explicit InputFile(const std::filesystem::path& path);
-  const std::string& name() const { return name_; }     ///< as messages name it
-  std::uint64_t size() const { return size_; }          ///< [bytes], when it was opened
-  std::uint64_t position() const { return position_; }  ///< of the next byte
-  /// Fills `bytes` from the position on. Throws InputError that names `what` and the byte where the file ends before.
+  const std::string& name() const { return name_; }     ///< its name in messages
+  std::uint64_t size() const { return size_; }          ///< size when it was opened [bytes]
+  std::uint64_t position() const { return position_; }  ///< position of the next byte
+  /// Fills `bytes` from the position on. Throws InputError that names `what` and the byte if the file ends before that.
   void read(std::span<char> bytes, const std::string& what);
 
  private:

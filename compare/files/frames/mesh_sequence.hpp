@@ -1,4 +1,4 @@
-// Frames of a simulation by whatever program, one mesh at a time.
+// Reads frames of a simulation by any program, one mesh at a time.
 #pragma once
 
 #include <filesystem>
@@ -11,45 +11,45 @@
 
 namespace ogc::compare {
 
-/// The frames of a simulation, read one after another.
+/// Holds the frames of a simulation, read one after another.
 class MeshSequence {
  public:
   virtual ~MeshSequence() = default;
   virtual std::size_t size() const = 0;  ///< number of frames
-  /// Of the i-th frame: its file, or "frame 3", counted from 0 as arrays are.
+  /// Returns the name of the i-th frame: its file, or "frame 3", counted from 0 as arrays are.
   virtual std::string name(std::size_t i) const = 0;
-  /// The next frame; the first call reads frame 0, at most size() calls are allowed. Every index names a vertex, every
-  /// coordinate is finite. An array's frame has no source: its elements are counted from 0. Throws InputError that
+  /// Returns the next frame, frame 0 first; at most size() calls are allowed. Every index names a vertex, every
+  /// coordinate is finite. A frame of an array has no source: its elements are counted from 0. Throws InputError that
   /// names file, frame, and byte or element.
   virtual LoadedMesh next() = 0;
 };
 
 using MeshReader = std::function<LoadedMesh(const std::filesystem::path&)>;
 
-/// One mesh a file, each with triangles of its own, in the order given.
+/// Reads one mesh from each file, with triangles of its own, in the order given.
 std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::path> files, MeshReader read);
 
-/// The frames of an archive of NumPy arrays (numpy.savez, compressed or not), in C or Fortran order: `positions`
-/// [frames, vertices, 3], or [vertices, 3] for one frame, or one such array a frame, numbered (`frame_0`, `frame_1`;
-/// `arr_0`, …); `triangles` [n, 3] and `edges` [n, 2] (those without a triangle) of whole numbers. Other names that are
-/// taken: x, vertices, points, verts, v, V, and v_template, as SMPL has it; faces, f, F. Of numbered arrays without
-/// such a name one of whole numbers [n, 3] is the triangles. Faces and edges of `topology` are used where the archive
-/// has neither; its positions are not looked at but counted.
+/// Reads the frames of an archive of NumPy arrays (numpy.savez, compressed or not), in C or Fortran order: `positions`
+/// [frames, vertices, 3], or [vertices, 3] for one frame, or one numbered array for each frame (`frame_0`, `frame_1`;
+/// `arr_0`, …); `triangles` [n, 3] and `edges` [n, 2] (those without a triangle) of whole numbers. Other accepted
+/// names: x, vertices, points, verts, v, V, and SMPL's v_template; faces, f, F. Without such a name one numbered array
+/// of whole numbers [n, 3] holds the triangles. If the archive has neither faces nor edges, those of `topology` are
+/// used; the positions of `topology` are only counted.
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// The frames of arrays of positions (numpy.save), one file after another, named and ordered as those of an archive.
-/// Where `topology` is null, one of several files holds the triangles. There must be at least one file.
+/// Reads the frames of arrays of positions (numpy.save), one file after another, with shapes and orders as in an
+/// archive. If `topology` is null, one of several files holds the triangles. There must be at least one file.
 std::unique_ptr<MeshSequence> npy_sequence(const std::vector<std::filesystem::path>& files, const Mesh* topology);
 
-/// A mesh without positions: the triangles of a .npy, triangles and edges of a .npz. Throws InputError.
+/// Reads a mesh without positions: the triangles of a .npy, triangles and edges of a .npz. Throws InputError.
 Mesh faces_in_arrays(const std::filesystem::path& file);
 
-/// The samples of a point cache (PC2: "POINTCACHE2", version, points, start, rate, samples, then float32,
+/// Reads the samples of a point cache (PC2: "POINTCACHE2", version, points, start, rate, samples, then float32,
 /// little-endian).
 std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// Files of a folder with one of these extensions (".obj"; capitals or not), in natural order. Throws InputError where
-/// there are several kinds of them or none.
+/// Returns the files of a folder that have one of these extensions (".obj"; capitals or not), in natural order. Throws
+/// InputError if there are several kinds of them or none.
 std::vector<std::filesystem::path> mesh_files_in(const std::filesystem::path& folder,
                                                  const std::vector<std::string>& extensions);
 

@@ -1,4 +1,4 @@
-// NumPy's array files: a header in Python's syntax, then the numbers.
+// Reads NumPy's array files: a header in Python's syntax, then the numbers.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,22 @@
 
 namespace ogc::compare {
 
-/// What the header of a .npy file says.
+/// Holds the contents of the header of a .npy file.
 struct NpyHeader {
-  ScalarType type = ScalarType::float64;    ///< of the elements
-  std::endian order = std::endian::little;  ///< of their bytes
-  std::vector<std::uint64_t> shape;         ///< entries by dimension
-  bool fortran_order = false;               ///< the first dimension changes from number to number; else the last
+  ScalarType type = ScalarType::float64;    ///< type of the elements
+  std::endian order = std::endian::little;  ///< their byte order
+  std::vector<std::uint64_t> shape;         ///< extent of each dimension
+  bool fortran_order = false;               ///< whether the first dimension varies fastest; otherwise the last
 };
 
-/// Fills a span with the next bytes, or throws InputError; the text says what for.
+/// Fills a span with the next bytes, or throws InputError; the text names what is read.
 using ByteSource = std::function<void(std::span<char>, const std::string&)>;
 
-/// Reads the header from `source` and leaves it at the first number. Throws InputError that begins with `where`: no
-/// .npy file, an unknown version, a type that is no number.
+/// Reads the header from `source` and stops at the first number. Throws InputError that begins with `where`: no .npy
+/// file, an unknown version, a type that is no number.
 NpyHeader read_npy_header(const ByteSource& source, const std::string& where);
 
-/// "[100, 64, 3]".
+/// Returns "[100, 64, 3]".
 std::string shape_text(std::span<const std::uint64_t> shape);
 
 }  // namespace ogc::compare

@@ -15,12 +15,12 @@
 namespace ogc::compare {
 namespace {
 
-/// Numbers of 16 digits are told from a double's neighbours, nearly all of them.
+/// Numbers with 16 digits distinguish nearly all doubles, so they are not rounded.
 constexpr std::size_t all_digits = 16;
-/// Fewer digits are typed by people, or exact: a rounded number has all that its format has.
+/// Numbers with fewer digits are typed by people, or exact: a rounded number has all digits of its format.
 constexpr std::size_t least_significant = 6, least_decimals = 4;
-/// Shares of the numbers that a format explains: all have its decimals; nine in ten have its significant digits, and of
-/// those with a 0 at the end the most one less, but two coordinates of three may be exact.
+/// Shares of the numbers that a format must explain: all have its decimals; nine in ten have its significant digits,
+/// and most of those that end in 0 have one less, but two coordinates of three may be exact.
 constexpr double share_of_decimals = 0.9, share_of_significant = 0.25;
 
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
@@ -36,7 +36,7 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// What the coordinates have in common.
+/// Collects the digits that coordinates have in common.
 class Digits {
  public:
   void look_at(std::string_view word) {
@@ -82,7 +82,7 @@ class Digits {
     return {static_cast<int>(digits), are_decimals, unit};
   }
 
-  Histogram decimals_{}, significant_{};  // numbers by how many they have
+  Histogram decimals_{}, significant_{};  // numbers by their count of digits
   std::size_t numbers_ = 0;
   double largest_ = 0;
 };
@@ -91,7 +91,7 @@ void look_at_all(const std::vector<std::string_view>& words, std::size_t first, 
   for (std::size_t k = first; k < std::min(end, words.size()); ++k) digits.look_at(words[k]);
 }
 
-/// Lines that begin with a word: `v` of OBJ, `vertex` of STL.
+/// Reads lines that begin with a word: `v` of OBJ, `vertex` of STL.
 void after_keyword(std::string_view text, std::string_view keyword, Digits& digits) {
   while (!text.empty()) {
     const auto words = words_of(next_line(text), 4);
@@ -99,13 +99,13 @@ void after_keyword(std::string_view text, std::string_view keyword, Digits& digi
   }
 }
 
-/// What a PLY header says of the vertices.
+/// The vertices in a PLY header.
 struct PlyVertices {
-  std::size_t before = 0, count = 0;  ///< lines of elements before them, and theirs
-  std::vector<std::size_t> places{};  ///< of x, y and z in a line
+  std::size_t before = 0, count = 0;  ///< lines of elements before the vertices, and number of vertices
+  std::vector<std::size_t> places{};  ///< places of x, y and z in a line
 };
 
-/// Leaves `text` behind the header; nothing where vertices are not lines of scalars.
+/// Moves `text` past the header; returns nothing if vertices are not lines of scalars.
 std::optional<PlyVertices> ply_header(std::string_view& text) {
   PlyVertices found;
   bool is_ascii = false, is_vertex = false;
@@ -148,7 +148,7 @@ void of_ply(std::string_view text, Digits& digits) {
   }
 }
 
-/// Counts behind the keyword, then the vertices.
+/// Reads counts after the keyword, then the vertices.
 void of_off(std::string_view text, Digits& digits) {
   std::size_t vertices = 0;
   bool counted = false;
@@ -167,7 +167,7 @@ void of_off(std::string_view text, Digits& digits) {
   }
 }
 
-/// The array of points, where it is text.
+/// Reads the array of points, if it is text.
 void of_vtk_xml(std::string_view text, Digits& digits) {
   for (std::size_t at = text.find("<Points"); at != std::string_view::npos; at = text.find("<Points")) {
     text.remove_prefix(at);
@@ -181,7 +181,7 @@ void of_vtk_xml(std::string_view text, Digits& digits) {
   }
 }
 
-/// Nodes of version 2 have a number before, those of version 4 are lines of three.
+/// Reads nodes: those of version 2 begin with a number, those of version 4 are lines of three.
 void of_msh(std::string_view text, Digits& digits) {
   const std::size_t format = text.find("$MeshFormat"), nodes = text.find("$Nodes"), end = text.find("$EndNodes");
   if (format == std::string_view::npos || nodes == std::string_view::npos || end == std::string_view::npos) return;
@@ -195,12 +195,12 @@ void of_msh(std::string_view text, Digits& digits) {
   }
 }
 
-/// As many words as the number behind `keyword` says: `each` of a vertex, the first three its coordinates.
+/// Reads as many vertices as the number after `keyword`, each of `each` words; the first three are its coordinates.
 void of_counted(std::string_view text, std::string_view keyword, std::size_t each, Digits& digits) {
   std::size_t count = 0;
   for (std::string_view word = next_word(text); !word.empty() && word != keyword;) word = next_word(text);
   if (!parse_number(next_word(text), count)) return;
-  if (keyword == "POINTS") next_word(text);  // their type
+  if (keyword == "POINTS") next_word(text);  // type of the points
   for (std::size_t i = 0; i < count && !text.empty(); ++i)
     for (std::size_t k = 0; k < each; ++k) {
       const std::string_view word = next_word(text);
@@ -208,7 +208,7 @@ void of_counted(std::string_view text, std::string_view keyword, std::size_t eac
     }
 }
 
-/// "ASCII" stands in the third line.
+/// Reads the points if the third line is "ASCII".
 void of_vtk(std::string_view text, Digits& digits) {
   std::string_view head = text;
   for (int line = 0; line < 2; ++line) next_line(head);

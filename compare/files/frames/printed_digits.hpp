@@ -1,5 +1,5 @@
-// How finely a text file prints its coordinates. Two points that lie nearer to each other than that may be one point of
-// the file.
+// Finds how finely a text file prints its coordinates. Two points that are nearer to each other than that may be one
+// point of the file.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 namespace ogc::compare {
 
-/// The digits of a file.
+/// The digits of a file's coordinates.
 struct PrintedDigits {
-  int digits = 0;             ///< significant ones, or decimals
+  int digits = 0;             ///< number of significant digits, or of decimals
   bool are_decimals = false;  ///< "%.6f" prints decimals, "%.9g" significant digits
-  double unit = 0;            ///< of the last digit of the largest coordinate [m]
+  double unit = 0;            ///< value of the last digit of the largest coordinate [m]
 };
 
-/// The digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU, VTK, Gmsh or Medit file. Nothing is returned for binary
-/// numbers, for numbers with all digits of a double, and for numbers that somebody typed: those have fewer than 6
-/// significant digits or 4 decimals, and no common number of them. Throws InputError where the file can't be opened.
+/// Returns the digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU, VTK, Gmsh or Medit file. Returns nothing for
+/// binary numbers, for numbers with all digits of a double, and for typed numbers: those have fewer than 6 significant
+/// digits or 4 decimals, and no common number of them. Throws InputError if the file can't be opened.
 std::optional<PrintedDigits> printed_digits(const std::filesystem::path& file);
 
 }  // namespace ogc::compare

@@ -14,8 +14,8 @@ namespace ogc::compare {
 
 #ifdef OGC_HAS_MINIZIP
 
-/// Deflate packs at most 258 bytes into two bits, so that more is announced by damage alone, before any memory is asked
-/// for.
+/// Deflate packs at most 258 bytes into two bits, so only a damaged file announces more; it is refused before memory is
+/// allocated.
 constexpr std::uint64_t most_deflated = 258 * 8 / 2;
 
 struct ZipFile::Handle {
@@ -76,7 +76,7 @@ void ZipFile::read(std::span<char> bytes, const std::string& what) {
   if (position_ == size_) check_end(what);
 }
 
-/// minizip compares the checksum when a member that was read to its end is closed.
+/// Checks the checksum, which minizip compares when a member that was read to its end is closed.
 void ZipFile::check_end(const std::string& what) {
   if (unzCloseCurrentFile(handle_->file) == UNZ_CRCERROR)
     throw InputError(name_ + ": '" + member_ + "', " + what + ": its checksum is wrong; the archive is damaged");

@@ -1,4 +1,4 @@
-// Members of a .zip archive, read one after the other, unpacked piece by piece.
+// Reads members of a .zip archive one after the other, and unpacks them piece by piece.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace ogc::compare {
 /// An open archive, of which one member at a time can be read.
 class ZipFile {
  public:
-  /// Throws InputError where it is no archive, ResourceError where this program was built without minizip.
+  /// Opens the archive. Throws InputError if it is none, ResourceError if this program was built without minizip.
   explicit ZipFile(const std::filesystem::path& path);
   ~ZipFile();
   ZipFile(const ZipFile&) = delete;
   ZipFile& operator=(const ZipFile&) = delete;
-  const std::vector<std::string>& members() const { return members_; }  ///< their names, in the archive's order
-  /// Goes to the beginning of a member; bytes of another one can't be read until it is opened again. Throws InputError.
+  const std::vector<std::string>& members() const { return members_; }  ///< names in the archive's order
+  /// Goes to the beginning of a member; only the member opened last can be read. Throws InputError.
   void open(const std::string& member);
-  /// Fills `bytes` from the open member. Throws InputError that names the archive, the member, `what` and the byte: it
-  /// ends before, or is damaged (every member has a checksum, which is held against the bytes where the member ends).
+  /// Fills `bytes` from the open member. Throws InputError that names the archive, the member, `what` and the byte if
+  /// the member ends before that or is damaged (its checksum is compared where it ends).
   void read(std::span<char> bytes, const std::string& what);
-  /// Size of the open member, unpacked [bytes].
+  /// Returns the size of the open member, unpacked [bytes].
   std::uint64_t size() const { return size_; }
 
  private:

@@ -12,7 +12,7 @@
 namespace ogc::compare {
 namespace {
 
-/// What a node does to a point: x ↦ A x + t, the columns of A and t one after the other.
+/// The transformation of a node, x ↦ A x + t: the columns of A and t one after the other.
 using Transform = std::array<double, 12>;
 constexpr Transform identity{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
@@ -21,7 +21,7 @@ Vec3 apply(const Transform& m, const Vec3& p) {
           m[2] * p.x + m[5] * p.y + m[8] * p.z + m[11]};
 }
 
-/// First `inner`, then `outer`.
+/// Returns `inner` followed by `outer`.
 Transform chained(const Transform& outer, const Transform& inner) {
   Transform both{};
   for (std::size_t column = 0; column < 4; ++column) {
@@ -34,7 +34,7 @@ Transform chained(const Transform& outer, const Transform& inner) {
   return both;
 }
 
-/// glTF's numbers for what a primitive's corners are.
+/// glTF's numbers for the kinds of primitives.
 enum class Mode : std::size_t { points, lines, line_loop, line_strip, triangles, strip, fan, count };
 
 class GltfReader {
@@ -97,7 +97,7 @@ class GltfReader {
     return numbers(buffers_.entry("scenes", scene, "the file"), "nodes", "scene " + std::to_string(scene));
   }
 
-  /// So many numbers of that key, or those at hand where it has none.
+  /// Returns `count` numbers of that key, or `list` without the key.
   template <std::size_t count>
   std::array<double, count> values(const Json& node, const char* key, std::array<double, count> list,
                                    const std::string& owner) const {
@@ -163,10 +163,10 @@ class GltfReader {
     add_faces(static_cast<Mode>(mode), place(x, corners, transform, owner));
   }
 
-  /// Fails where nodes repeat meshes too often. A corner takes at least one byte of the file or of a buffer beside it,
-  /// but nodes may name the same mesh again and again.
+  /// Fails if nodes repeat meshes too often. A corner takes at least one byte of the file or of a buffer beside it, but
+  /// nodes may name the same mesh again and again.
   void expect_few(std::size_t corners) {
-    constexpr std::size_t repeated = std::size_t{1} << 19;  // corners, of 100 bytes each or so in the end
+    constexpr std::size_t repeated = std::size_t{1} << 19;  // corners, of about 100 bytes each in the end
     corners_ += corners;
     if (corners_ > most_corners_ + buffers_.bytes_beside() + repeated)
       buffers_.fail("has nodes that repeat meshes until they have " + std::to_string(corners_) +
@@ -174,7 +174,7 @@ class GltfReader {
                     " bytes; write it with a mesh for each node");
   }
 
-  /// Positions of the vertices that are corners, and the corners by numbers of the mesh.
+  /// Adds the positions of the vertices that are corners; returns the corners by numbers of the mesh.
   std::vector<Index> place(const std::vector<double>& x, const std::vector<double>& corners, const Transform& transform,
                            const std::string& owner) {
     std::vector<Index> number(x.size() / 3, -1), placed;
@@ -215,7 +215,7 @@ class GltfReader {
       case Mode::triangles:
         for (std::size_t k = 2; k < c.size(); k += 3) mesh_.add_face(std::array{c[k - 2], c[k - 1], c[k]});
         break;
-      case Mode::strip:  // every second triangle is turned round
+      case Mode::strip:  // every second triangle is reversed
         for (std::size_t k = 2; k < c.size(); ++k) mesh_.add_face(std::array{c[k - 2], c[k - 1 + k % 2], c[k - k % 2]});
         break;
       case Mode::fan:
@@ -225,7 +225,7 @@ class GltfReader {
     }
   }
 
-  std::size_t most_corners_;  ///< that are not repeated
+  std::size_t most_corners_;  ///< without repetitions
   GltfBuffers buffers_;
   std::size_t points_ = 0, corners_ = 0;
   PolygonMesh mesh_;

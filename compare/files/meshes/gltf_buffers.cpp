@@ -13,11 +13,11 @@
 namespace ogc::compare {
 namespace {
 
-/// glTF's numbers for types of components.
+/// One of glTF's types of components.
 struct Component {
   std::size_t number;
   ScalarType type;
-  double largest;  ///< what a normalised integer is divided by; 0: it is none
+  double largest;  ///< divisor of a normalised integer; 0: not an integer
 };
 constexpr std::array<Component, 6> components{{{5120, ScalarType::int8, 127},
                                                {5121, ScalarType::uint8, 255},
@@ -26,7 +26,7 @@ constexpr std::array<Component, 6> components{{{5120, ScalarType::int8, 127},
                                                {5125, ScalarType::uint32, 0},
                                                {5126, ScalarType::float32, 0}}};
 
-/// A part of a URI with its %20 as a blank.
+/// Returns a part of a URI with its escapes, like %20, as characters.
 std::string decoded(std::string_view uri) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string text;

@@ -1,5 +1,5 @@
-// Where the numbers of a glTF file are: accessors into views into buffers, which stand in the file itself, in base64,
-// or in files beside it.
+// Finds the numbers of a glTF file: accessors into views into buffers, which are in the file itself, in base64, or in
+// files beside it.
 #pragma once
 
 #include <map>
@@ -11,26 +11,27 @@
 
 namespace ogc::compare {
 
-/// The JSON of a glTF file and its buffers, whose indices and lengths are checked before a number is read.
+/// Holds the JSON of a glTF file and its buffers; indices and lengths are checked before a number is read.
 class GltfBuffers {
  public:
-  /// Of a .gltf or .glb file: the latter is a container of JSON and one buffer. `name` is the file's, for errors and
-  /// for buffers beside it. Throws InputError where it is neither, of another version than 2, or truncated.
+  /// Opens a .gltf or .glb file; the latter is a container of JSON and one buffer. `name` is the file's, for errors and
+  /// for buffers beside it. Throws InputError if it is neither, has another version than 2, or is truncated.
   GltfBuffers(std::string_view bytes, const std::string& name);
 
   const Json& root() const { return json_; }  ///< the whole document
-  /// Entry `i` of one of the document's lists ("meshes"); `user` names who asks, for the error where there is none.
+  /// Returns entry `i` of one of the document's lists ("meshes"); the error for a missing entry names `user`, the
+  /// object that refers to it.
   const Json& entry(const std::string& list, std::size_t i, const std::string& user) const;
-  /// The whole number of that key, or `otherwise` where it has none; `owner` names the object in errors.
+  /// Returns the whole number of that key, or `otherwise` without the key; errors call the object `owner`.
   std::size_t whole(const Json& object, const char* key, const std::string& owner, std::size_t otherwise) const;
-  /// The same where it must be there.
+  /// Returns the whole number of that key, which must exist.
   std::size_t whole(const Json& object, const char* key, const std::string& owner) const;
 
-  /// All components of accessor `i`, entry after entry, of its type ("VEC3", "SCALAR"). Throws InputError where it is
-  /// of another type, sparse, compressed, or beyond its view or buffer.
+  /// Returns all components of accessor `i`, entry after entry, which must be of `type` ("VEC3", "SCALAR"). Throws
+  /// InputError if it is of another type, sparse, compressed, or beyond its view or buffer.
   std::vector<double> read(std::size_t i, const std::string& type, const std::string& user);
 
-  std::size_t bytes_beside() const { return bytes_beside_; }  ///< of buffers in other files, as far as they were read
+  std::size_t bytes_beside() const { return bytes_beside_; }  ///< size of the buffers in other files that were read
 
   /// Throws InputError "FILE: what".
   [[noreturn]] void fail(const std::string& what) const;
@@ -44,9 +45,9 @@ class GltfBuffers {
   std::string name_;
   Json json_;
   std::string_view binary_;                     ///< the buffer of a .glb file
-  std::size_t bytes_beside_ = 0;                ///< of buffers in other files
-  bool has_binary_ = false;                     ///< whether it has one
-  std::map<std::size_t, std::string> buffers_;  ///< of base64 and of other files, as they are asked for
+  std::size_t bytes_beside_ = 0;                ///< size of the buffers in other files
+  bool has_binary_ = false;                     ///< whether there is a buffer in the .glb
+  std::map<std::size_t, std::string> buffers_;  ///< buffers of base64 and of other files, loaded on demand
 };
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// A file is a sequence of keywords, each with what it announces, in words that may stand on any lines.
+// A file is a sequence of keywords, each followed by its contents, in words that may be on any lines.
 #include "compare/files/meshes/medit.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace ogc::compare {
 namespace {
 
-/// Sections of elements, by the number of their corners.
+/// A section of elements.
 struct Section {
   std::string_view keyword;
   std::size_t corners;
@@ -45,7 +45,7 @@ class MeditParser {
   }
 
  private:
-  /// Reads one section; the next keyword, or none where the file ends.
+  /// Reads one section; returns the next keyword, or an empty word at the end of the file.
   std::string_view section(std::string_view keyword) {
     if (std::isalpha(static_cast<unsigned char>(keyword.front())) == 0)
       lines_.fail("'" + shown(keyword) + "' stands where a keyword should: the count of the section before is wrong");
@@ -63,7 +63,7 @@ class MeditParser {
     return lines_.far_word();
   }
 
-  /// To the next word that begins with a letter.
+  /// Goes to the next word that begins with a letter.
   std::string_view skip() {
     std::string_view word = lines_.far_word();
     while (!word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) == 0) word = lines_.far_word();
@@ -118,7 +118,7 @@ class MeditParser {
     }
   }
 
-  /// Elements may stand before their vertices, so indices are checked when the file is read.
+  /// Checks indices at the end, as elements may come before their vertices.
   PolygonMesh finish() {
     for (const auto& [v, line] : used_)
       if (v < 1 || v > std::ssize(mesh_.positions))

@@ -1,5 +1,5 @@
 // A file is a sequence of sections, $Name … $EndName, of lines of words. Both formats give the same two lists, nodes by
-// tag and elements by type; they differ in where counts and tags stand.
+// tag and elements by type; they differ in the places of counts and tags.
 #include "compare/files/meshes/msh.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// Gmsh's mesh files, formats 2.2 and 4.1 in text: nodes and tetrahedra are read, whatever else stands there is checked
-// for its length and left out.
+// Reads and writes Gmsh's mesh files, formats 2.2 and 4.1 in text: nodes and tetrahedra are read; of other contents
+// only the length is checked.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace ogc::compare {
 
-/// Nodes in the order of their tags, tetrahedra of four nodes in the order of the file; elements of lower dimension are
-/// left out with a word. Throws InputError with file and line: another format or a binary file, a section that ends too
-/// early or is missing, a number that is none, a tag that stands twice or is not there, tetrahedra of higher order,
+/// Returns nodes in the order of their tags and tetrahedra of four nodes in the order of the file; elements of lower
+/// dimension are left out with a note. Throws InputError with file and line: another format or a binary file, a section
+/// that ends too early or is missing, a word that is no number, a repeated or unknown tag, tetrahedra of higher order,
 /// hexahedra, prisms and pyramids, no tetrahedron at all.
 PolygonMesh parse_msh(std::string_view text, const std::string& name);
 
-/// Format 4.1: one volume, tags from 1; numbers are printed so that reading gives the same double. Triangles and loose
-/// edges are left out.
+/// Returns the text in format 4.1: one volume, tags from 1, numbers printed so that reading gives the same double.
+/// Triangles and loose edges are left out.
 std::string print_msh(const Mesh& mesh);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// The same sections as in text: keywords and some counts in lines, nodes and elements in bytes between them.
+// Reads the sections of the text format: keywords and some counts in lines, nodes and elements in bytes between them.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -48,7 +48,7 @@ class BinaryMshParser {
   std::int32_t integer(const char* what) { return cursor_.number<std::int32_t>(what); }
   double coordinate() { return cursor_.number<double>("a coordinate"); }
 
-  /// A tag or a count of format 4.
+  /// Returns a tag or a count of format 4.
   std::int64_t wide(const char* what) {
     if (size_of_count_ == 4) return cursor_.number<std::uint32_t>(what);
     const auto number = cursor_.number<std::uint64_t>(what);
@@ -59,7 +59,7 @@ class BinaryMshParser {
     return cursor_.counted(static_cast<double>(wide(what)), size, what);
   }
 
-  /// A count of format 2, which stands in a line.
+  /// Returns a count of format 2, which has a line of its own.
   std::size_t line_count(const char* what, std::size_t size) {
     const std::string line(cursor_.line());
     double value = -1;

@@ -1,5 +1,4 @@
-// Tags of nodes may come in any order and with gaps, and elements before their nodes: all of it is put in order at the
-// end.
+// Tags of nodes may come in any order and with gaps, and elements before their nodes: everything is sorted at the end.
 #include "compare/files/meshes/msh_collector.hpp"
 
 #include <algorithm>
@@ -88,7 +87,7 @@ std::string MshCollector::elements_left_out() const {
   return text.empty() ? "nothing" : text;
 }
 
-/// A tag as messages count, from 0.
+/// Returns a tag as messages count, from 0.
 Index MshCollector::file_number(std::int64_t tag, std::size_t place) const {
   if (tag < 1 || tag > std::numeric_limits<Index>::max())
     fail(place, "tag " + std::to_string(tag) + " is not from 1 to 2³¹ − 1");
@@ -106,7 +105,7 @@ void MshCollector::place_nodes() {
     mesh_.source.vertices.push_back(file_number(node.tag, node.place));
   }
   if (nodes_.back().tag != std::ssize(nodes_)) return;
-  mesh_.source.vertices.clear();  // the file counts as the mesh does
+  mesh_.source.vertices.clear();  // the file's numbers are those of the mesh
   if (is_binary_) return;
   for (const Node& node : nodes_) mesh_.source.vertex_lines.push_back(node.place);
 }

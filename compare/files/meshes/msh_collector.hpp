@@ -1,4 +1,4 @@
-// Gmsh's formats, in text and in bytes, hold nodes by tag and elements by type; this makes a mesh of them.
+// Makes a mesh of the nodes, given by tag, and the elements, given by type, of Gmsh's formats in text and binary.
 #pragma once
 
 #include <array>
@@ -12,32 +12,32 @@
 
 namespace ogc::compare {
 
-/// What Gmsh calls an element, and how many nodes it has.
+/// One of Gmsh's types of elements.
 struct MshElementType {
-  int number;             ///< in files
-  std::size_t nodes;      ///< of an element
+  int number;             ///< its number in files
+  std::size_t nodes;      ///< nodes of an element
   int dimension;          ///< 0 to 3
-  std::string_view name;  ///< of several
+  std::string_view name;  ///< plural, for messages
 };
 
 /// Gmsh's number for tetrahedra of four nodes.
 inline constexpr int msh_tetrahedron = 4;
 
-/// Gathers nodes and elements, and makes a mesh of them. A place is a line, or in a binary file a byte.
+/// Collects nodes and elements and makes a mesh of them. A place is a line or, in a binary file, a byte.
 class MshCollector {
  public:
-  /// `name` is the file's and must outlive it.
+  /// Starts without nodes; `name` is the file's and must outlive it.
   MshCollector(const std::string& name, bool is_binary);
 
-  /// The type of that number. Throws InputError for those that are not known and for what is no tetrahedron of four
-  /// nodes but has volume.
+  /// Returns the type of that number. Throws InputError for unknown types and for elements with volume other than
+  /// tetrahedra of four nodes.
   const MshElementType& type_of(std::int64_t number, std::size_t place) const;
-  void add_node(std::int64_t tag, std::size_t place, const Vec3& position);  ///< one more node
-  /// One more element; what is no tetrahedron is counted.
+  void add_node(std::int64_t tag, std::size_t place, const Vec3& position);  ///< adds a node
+  /// Adds an element; if it is no tetrahedron it is only counted.
   void add_element(const MshElementType& type, std::int64_t tag, std::size_t place,
                    std::span<const std::int64_t> nodes);
-  /// Tetrahedra by numbers of nodes. Throws InputError: no node or no tetrahedron, a tag that stands twice, is not
-  /// there or no positive Index.
+  /// Returns the mesh, tetrahedra by numbers of nodes. Throws InputError: no node or no tetrahedron, a tag that is
+  /// repeated, unknown or no positive Index.
   PolygonMesh finish();
 
   /// Throws InputError "FILE: line 7: what", or "byte 7".
@@ -64,12 +64,12 @@ class MshCollector {
   bool is_binary_;
   std::vector<Node> nodes_;
   std::vector<Element> elements_;
-  std::vector<std::size_t> left_out_;  ///< by type, in the order of the table
+  std::vector<std::size_t> left_out_;  ///< number by type, in the order of the table
   PolygonMesh mesh_;
 };
 
-/// The binary file that `bytes` are, of format 2.2 or 4.1 (`is_new`), whose header ends at byte `begin`, behind the
-/// line that says so. Throws as MshCollector does, and where the file ends too early or its counts are wrong.
+/// Parses a binary file of format 2.2 or 4.1 (`is_new`); `begin` is the byte after the header's line that describes the
+/// format. Throws as MshCollector does, and if the file ends too early or its counts are wrong.
 PolygonMesh parse_binary_msh(std::string_view bytes, const std::string& name, std::size_t begin, bool is_new,
                              std::size_t size_of_count);
 

@@ -55,7 +55,7 @@ class ObjParser {
     mesh_.source.vertex_lines.push_back(line_);
   }
 
-  /// From 0; vertices may follow later, so the upper end is checked when the file is read.
+  /// Returns the corner, from 0; vertices may follow later, so the upper end is checked when the whole file is read.
   Index corner(std::string_view word) const {
     std::int64_t i = 0;
     if (!parse_number(word.substr(0, word.find('/')), i) || i == 0) {
@@ -97,7 +97,7 @@ class ObjParser {
   }
 
   TextLines lines_;
-  std::size_t line_ = 0;  ///< where the statement begins
+  std::size_t line_ = 0;  ///< first line of the statement
   PolygonMesh mesh_;
   std::vector<Index> face_;
 };

@@ -1,4 +1,4 @@
-// Wavefront OBJ: the part of it that is a mesh of faces with loose edges.
+// Reads and writes the part of Wavefront OBJ that is a mesh of faces with loose edges.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace ogc::compare {
 
 /// Parses v (first three numbers), f (three corners or more: a, a/b, a//c or a/b/c; attributes ignored) and l
 /// (polylines); indices from 1, or negative from the last vertex so far. Normals, texture coordinates, groups,
-/// materials and points are skipped, other statements refused. `name` stands in the errors. Throws InputError that
-/// names the line.
+/// materials and points are skipped, other statements refused. `name` begins the errors. Throws InputError that names
+/// the line.
 PolygonMesh parse_obj(std::string_view text, const std::string& name);
 
-/// v, f and l lines; coordinates in the shortest text that reads back as the same double.
+/// Returns v, f and l lines; coordinates in the shortest text that reads back as the same double.
 std::string print_obj(const Mesh& mesh);
 
 }  // namespace ogc::compare

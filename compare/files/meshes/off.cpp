@@ -9,7 +9,7 @@
 namespace ogc::compare {
 namespace {
 
-/// Bytes that a line takes at least: "0 0 0" and its end, "1 0" and its end.
+/// Least bytes of a line: "0 0 0" and its end, "1 0" and its end.
 constexpr std::size_t least_vertex = 6, least_face = 4;
 
 class OffParser {
@@ -20,7 +20,7 @@ class OffParser {
 
   PolygonMesh parse() {
     header();
-    // From here on counts are no larger than the file, and nothing is allocated but by lines that are there.
+    // From here on counts are no larger than the file, and each allocation has its line.
     for (std::size_t v = 0; v < vertices_; ++v) {
       lines_.expect_filled("vertex " + std::to_string(v) + " of " + std::to_string(vertices_));
       const double x = lines_.coordinate(), y = lines_.coordinate(), z = lines_.coordinate();
@@ -41,7 +41,7 @@ class OffParser {
   }
 
  private:
-  /// The word that ends in OFF, or the counts at once, as some programs leave it out.
+  /// Reads the word that ends in OFF, or the counts at once, as some programs leave the word out.
   void header() {
     lines_.expect_filled("OFF");
     std::string_view word = lines_.word();

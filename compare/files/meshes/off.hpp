@@ -1,4 +1,4 @@
-// This reads OFF in text, with or without colours, normals and texture coordinates.
+// Reads OFF in text, with or without colours, normals and texture coordinates.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace ogc::compare {
 
-/// Vertices and faces, one a line. Faces of two corners become loose edges, those of one are left out, which a note
-/// says; what follows coordinates and corners is skipped. `name` stands in the errors. Throws InputError with file and
-/// line: no OFF file, a binary one or one of another dimension, counts that the file has no room for, a file that ends
-/// too early or goes on, an index out of range (the face is named), a number that is none.
+/// Returns vertices and faces, one from each line. Faces of two corners become loose edges, those of one are left out,
+/// with a note; numbers after coordinates and corners are skipped. `name` begins the errors. Throws InputError with
+/// file and line: no OFF file, a binary one or one of another dimension, counts that the file has no room for, a file
+/// that ends too early or too late, an index out of range (the face is named), a word that is no number.
 PolygonMesh parse_off(std::string_view text, const std::string& name);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// PLY: ascii, binary little- and big-endian, with whatever properties other programs put in.
+// Reads and writes PLY, ascii, binary little- and big-endian, with any properties that other programs add.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace ogc::compare {
 
 /// Parses vertices (x, y, z of any scalar type), faces (list vertex_indices or vertex_index, three entries or more) and
 /// edges (vertex1, vertex2: the loose ones); other properties and elements are skipped, triangle strips refused. `name`
-/// stands in the errors. Throws InputError that names the element.
+/// begins the errors. Throws InputError that names the element.
 PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
 
-/// Positions as double; binary in the byte order of this machine.
+/// Returns the file with positions as double; binary in the byte order of this machine.
 std::string print_ply(const Mesh& mesh, PlyEncoding encoding);
 
 }  // namespace ogc::compare

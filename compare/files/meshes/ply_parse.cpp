@@ -1,5 +1,5 @@
-// A header says which scalars follow; every PLY scalar fits a double exactly, so one function reads them all, and what
-// is not wanted is read and dropped.
+// A header lists the scalars that follow; every PLY scalar fits a double exactly, so one function reads them all, and
+// unused ones are dropped.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -34,7 +34,7 @@ struct Header {
   Format format = Format::ascii;
   std::vector<Element> elements;
   std::size_t size = 0;   // bytes up to and with end_header
-  std::size_t lines = 0;  // the same
+  std::size_t lines = 0;  // lines up to and with end_header
 };
 
 class HeaderParser {
@@ -131,17 +131,17 @@ class HeaderParser {
 
   std::string_view bytes_;
   const std::string& name_;
-  char line_end_ = '\n';  ///< the last byte of a line
+  char line_end_ = '\n';  ///< last byte of a line
   std::size_t line_ = 0;
   Header header_;
 };
 
-// The data after the header, one scalar at a time.
+// Reads the data after the header, one scalar at a time.
 class Scalars {
  public:
   Scalars(std::string_view data, const Header& header) : data_(data), format_(header.format), line_(header.lines + 1) {}
 
-  // False where the data ends or, in ascii, the word is no number.
+  // Returns false if the data end or, in ascii, the word is no number.
   bool read(Scalar type, double& value) {
     if (format_ == Format::ascii) return parse_number(last_word_ = word(), value);
     switch (type) {
@@ -160,7 +160,7 @@ class Scalars {
   std::string_view last_word() const { return last_word_; }  // of ascii
   bool at_end() { return data_.find_first_not_of(" \t\r\n") == std::string_view::npos; }
   std::size_t bytes_left() const { return data_.size(); }
-  // The line of the scalar that comes next, in ascii; called before it is read.
+  // Returns the line of the scalar that comes next, in ascii; call it before reading.
   std::size_t next_line() {
     skip_blanks();
     return line_;

@@ -1,4 +1,4 @@
-// Positions are stored as double, so that reading gives the same mesh bit for bit.
+// Stores positions as double, so that reading gives the same mesh bit for bit.
 #include <array>
 #include <bit>
 

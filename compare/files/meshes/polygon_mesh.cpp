@@ -1,5 +1,5 @@
-// Welds vertices, cuts faces, leaves out faces that are none and unused vertices, turns tetrahedra: each where it is
-// needed, with a sentence for the user.
+// Welds vertices, cuts faces, leaves out faces that are none and unused vertices, and turns tetrahedra, if necessary,
+// each with a sentence for the user.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
@@ -36,14 +36,15 @@ struct PositionHash {
   }
 };
 
-/// With dust at 0, in single precision.
+/// Returns positions with dust at 0, in single precision.
 std::vector<Vec3> as_stages_see(const std::vector<Vec3>& positions) {
   Mesh copy{positions, {}, {}};
   clear_dust(copy);
   return to_double(to_single(copy.positions));
 }
 
-/// Exactly; false where coordinates are too large or small for that, and no two corners coincide.
+/// Returns whether a triangle has no area, exactly; if coordinates are too large or small for that, only whether
+/// corners coincide.
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   if (a == b || b == c || c == a) return true;
   for (const Vec3& p : {a, b, c})
@@ -100,7 +101,7 @@ class MeshMaker {
     in_.positions = relative_to(out_.origin, std::move(in_.positions));
   }
 
-  /// Each vertex becomes the first one at its position.
+  /// Replaces each vertex by the first one at its position.
   void weld() {
     std::unordered_map<Vec3, Index, PositionHash> first_at;
     std::vector<Index> kept, renamed;
@@ -133,7 +134,7 @@ class MeshMaker {
     for (const Index v : kept) in_.source.first_faces.push_back(first_face[at(v)]);
   }
 
-  /// Triangles with the numbers of their faces; those that name a vertex twice may be among them.
+  /// Makes triangles with the numbers of their faces; some may name a vertex twice.
   void cut() {
     std::size_t cut_faces = 0, made = 0, first = 0;
     std::vector<Index> corners;
@@ -159,7 +160,7 @@ class MeshMaker {
     note(more + (cut_faces == 1 ? " was" : " were") + " cut into " + counted(made, "triangle"));
   }
 
-  /// False where the corners make no face, which is left out then.
+  /// Returns false if the corners make no face, which is then left out.
   bool add_triangles(std::size_t f, const std::vector<Index>& corners) {
     if (corners.size() < 3) return leave_out(f, collapsed_);
     std::vector<Triangle>& triangles = out_.mesh.triangles;
@@ -185,15 +186,15 @@ class MeshMaker {
     return true;
   }
 
-  /// A reason to leave a face out, and those that have it.
+  /// A reason to leave faces out, and how many have it.
   struct LeftOut {
-    const char* one;   ///< what such a face does
-    const char* more;  ///< what several do
+    const char* one;   ///< message for one face
+    const char* more;  ///< message for several
     std::size_t count = 0;
     std::size_t last = static_cast<std::size_t>(-1);  ///< the face that was counted last
   };
 
-  /// A face, or a part of one that was cut; it counts once. False, for callers that say so.
+  /// Leaves out a face, or a part of one that was cut; it counts once. Returns false for the caller to return.
   bool leave_out(std::size_t f, LeftOut& reason) {
     if (reason.last != f) ++reason.count;
     reason.last = f;
@@ -226,7 +227,7 @@ class MeshMaker {
     say_left_out();
   }
 
-  /// Of triangles with the same vertices all but the first.
+  /// Returns flags of all but the first of triangles with the same vertices.
   std::vector<bool> find_repeated() const {
     std::vector<std::pair<Triangle, std::size_t>> sorted;
     sorted.reserve(out_.mesh.triangles.size());
@@ -258,7 +259,8 @@ class MeshMaker {
     note(counted(all, "face") + (all == 1 ? " was" : " were") + " left out: " + reasons + "; " + first);
   }
 
-  /// Of tetrahedra with the same vertices all but the first: with a second one no face would be on the surface.
+  /// Leaves out all but the first of tetrahedra with the same vertices: with a second one no face would be on the
+  /// surface.
   void leave_out_doubled() {
     std::vector<std::pair<Tetrahedron, std::size_t>> sorted;
     sorted.reserve(in_.tetrahedra.size());
@@ -267,7 +269,7 @@ class MeshMaker {
       sorted.emplace_back(t, sorted.size());
     }
     std::ranges::sort(sorted);
-    // original[t] is the first tetrahedron with the vertices of t; it is t itself where t is the first.
+    // original[t] is the first tetrahedron with the vertices of t, possibly t itself.
     std::vector<std::size_t> original(sorted.size());
     for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
       if (sorted[i].first != sorted[first].first) first = i;
@@ -296,8 +298,8 @@ class MeshMaker {
     note(all + " with the vertices of another " + (doubled.size() == 1 ? "was" : "were") + " left out: " + first);
   }
 
-  /// Tetrahedra of files with another convention for the order of vertices. What is inverted in part is left as it is:
-  /// whoever simulates it refuses it.
+  /// Turns all tetrahedra if all are inverted: the file has another convention for the order of vertices. If only some
+  /// are, they stay; validation of a scene refuses them.
   void turn_inverted() {
     if (in_.tetrahedra.empty()) return;
     const std::vector<Vec3> seen = as_stages_see(in_.positions);
@@ -338,7 +340,7 @@ class MeshMaker {
     note(what + (unused == 1 ? " was" : " were") + " left out, the first: " + name);
   }
 
-  /// `used`: 0 for vertices that stay, −1 for others.
+  /// Renumbers vertices. `used`: 0 for vertices that stay, −1 for others.
   void renumber(std::vector<Index>& used) {
     std::vector<Index> numbers, faces;
     std::vector<Vec3> positions;
@@ -363,8 +365,8 @@ class MeshMaker {
   PolygonMesh in_;
   MeshOptions options_;
   LoadedMesh out_;
-  std::vector<Vec3> seen_;      ///< positions that decide what has an area
-  std::vector<Index> numbers_;  ///< of faces, by triangle
+  std::vector<Vec3> seen_;      ///< positions that decide about areas
+  std::vector<Index> numbers_;  ///< face of each triangle
   LeftOut collapsed_{"names less than three different vertices", "name less than three different vertices"},
       flat_{"has no area", "have no area"},
       repeated_{"has the same vertices as another", "have the same vertices as others"};

@@ -1,5 +1,5 @@
-// A mesh as its file gives it: faces of any number of corners, vertices that nothing uses, corners that each face
-// repeats. make_mesh turns it into a mesh of triangles, with a sentence for each change; options refuse changes.
+// Holds a mesh as its file gives it: faces of any number of corners, unused vertices, corners that each face repeats.
+// make_mesh turns it into a mesh of triangles, with a sentence for each change; options refuse changes.
 #pragma once
 
 #include <memory>
@@ -12,58 +12,60 @@
 
 namespace ogc::compare {
 
-/// All indices are valid; positions are finite.
+/// A mesh of polygons. All indices are valid; positions are finite.
 struct PolygonMesh {
   std::vector<Vec3> positions;            ///< [m]
-  std::vector<Index> corners;             ///< of all faces, one after the other, each in its own order
-  std::vector<Index> face_ends{};         ///< by face: end of its corners
-  std::vector<Edge> loose_edges;          ///< edges of no face
-  std::vector<Tetrahedron> tetrahedra{};  ///< by numbers of vertices
-  MeshSource source;  ///< file, first number, lines; the numbers of vertices and faces are still the file's
-  std::vector<std::string> notes{};  ///< what the file has and the mesh has not
+  std::vector<Index> corners;             ///< of all faces, one after the other, each face in its own order
+  std::vector<Index> face_ends{};         ///< end of each face's corners
+  std::vector<Edge> loose_edges;          ///< edges that belong to no face
+  std::vector<Tetrahedron> tetrahedra{};  ///< vertex numbers
+  MeshSource source;                 ///< file, first number, lines; its numbers of vertices and faces are the file's
+  std::vector<std::string> notes{};  ///< contents of the file that the mesh lacks
 
   std::size_t face_count() const { return face_ends.size(); }  ///< number of polygons
-  /// The corners of polygon f, in its order.
+  /// Returns the corners of polygon f, in its order.
   std::span<const Index> face(std::size_t f) const {
     const auto begin = static_cast<std::size_t>(f == 0 ? 0 : face_ends[f - 1]);
     return std::span(corners).subspan(begin, static_cast<std::size_t>(face_ends[f]) - begin);
   }
-  void add_face(std::span<const Index> face);  ///< one more polygon
+  void add_face(std::span<const Index> face);  ///< adds a polygon
 };
 
-/// What may be changed. What may not be is refused, and the message names the option of `ogc` that allows it.
+/// Selects the allowed changes. A change that is not allowed is an error, whose message names the option of `ogc` that
+/// allows it.
 struct MeshOptions {
   bool triangulate = true;  ///< cut faces of four corners and more (compare/files/meshes/triangulate.hpp)
   bool drop_unused = true;  ///< leave out vertices that belong to no face and no edge
   bool weld = false;  ///< merge vertices with exactly equal coordinates; formats without shared vertices (STL, glTF)
                       ///< are always welded
-  /// neither leave them out nor refuse them, and ask nothing of positions: where another file counts the vertices of
-  /// this one, and has the positions
+  /// neither leave out nor refuse unused vertices, and do not check positions: for a mesh whose vertices and positions
+  /// another file gives
   bool keep_unused = false;
-  bool strict = false;  ///< refuse what is no face (collapsed, without area, there twice) and inverted tetrahedra
-  /// what has no area once dust is 0 and coordinates are rounded to single precision is left out, too: as stages see it
+  bool strict = false;  ///< refuse faces that are none (collapsed, without area, repeated) and inverted tetrahedra
+  /// also leave out triangles that have no area once dust is 0 and coordinates are rounded to single precision, as
+  /// stages see them
   bool rounded = false;
-  /// positions that lie far from 0 for their size are taken relative to a point near them (compare::local_origin)
+  /// take positions that are far from 0 for their size relative to a point near them (compare::local_origin)
   bool local = false;
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 
-/// A mesh, where its elements stand in the file, and a sentence for each thing that was taken otherwise than it stands
-/// there. Of tetrahedra the triangles are the boundary.
+/// Holds a mesh, where its elements are in the file, and a sentence for each change. The triangles of a mesh of
+/// tetrahedra are their boundary.
 struct LoadedMesh {
   Mesh mesh;                       ///< of triangles
-  MeshSource source;               ///< where its elements come from
-  std::vector<std::string> notes;  ///< what was changed on the way, for the user
-  Vec3 origin{};                   ///< what positions are relative to, in the file's coordinates [m]
+  MeshSource source;               ///< places of its elements in the file
+  std::vector<std::string> notes;  ///< changes that were made, for the user
+  Vec3 origin{};                   ///< point that positions are relative to, in the file's coordinates [m]
 };
 
-/// Where there are tetrahedra, leaves faces and loose edges out, with a word: the surface of a solid follows from them.
+/// If there are tetrahedra, leaves faces and loose edges out, with a note: the surface of a solid follows from them.
 void keep_solid(PolygonMesh& mesh);
 
-/// Left out, with a word: faces that name less than three different vertices or have no area (decided exactly), all but
-/// the first of those with the same vertices, whichever way round, and vertices that nothing uses then. Tetrahedra that
-/// are inverted, all of them, are turned. Throws InputError that names the first face or vertex that the options do not
-/// take, and faces that can't be cut.
+/// Makes a mesh of triangles. Leaves out, with a note: faces that name fewer than three different vertices or have no
+/// area (decided exactly), all but the first of faces with the same vertices in either sense, and vertices that nothing
+/// uses then. If all tetrahedra are inverted, it turns them. Throws InputError that names the first face or vertex that
+/// the options do not allow, and faces that can't be cut.
 LoadedMesh make_mesh(PolygonMesh polygons, const MeshOptions& options = {});
 
 }  // namespace ogc::compare

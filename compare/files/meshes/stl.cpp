@@ -12,7 +12,7 @@
 namespace ogc::compare {
 namespace {
 
-constexpr std::size_t header_size = 84, facet_size = 50;  ///< of a binary file [bytes]
+constexpr std::size_t header_size = 84, facet_size = 50;  ///< in a binary file [bytes]
 
 PolygonMesh empty_mesh(const std::string& name) {
   PolygonMesh mesh;
@@ -49,7 +49,7 @@ class TextParser {
   }
 
  private:
-  /// From its name, which may be any words of the line, to its end.
+  /// Reads a solid from its name, which may be any words of the line, to its end.
   void solid() {
     const std::size_t begin = lines_.number();
     if (!lines_.next_filled()) cut("the solid of line " + std::to_string(begin));
@@ -66,7 +66,7 @@ class TextParser {
   void facet() {
     const std::size_t begin = lines_.number();
     expect(next_of_facet(begin), "normal");
-    for (int k = 0; k < 3; ++k) next_of_facet(begin);  // normals are often no numbers, and nothing needs them
+    for (int k = 0; k < 3; ++k) next_of_facet(begin);  // normals are often no numbers, and are not needed
     expect(next_of_facet(begin), "outer");
     expect(next_of_facet(begin), "loop");
     std::vector<Vec3> corners;

@@ -1,4 +1,4 @@
-// Ear clipping. Rounding decides nothing that matters: an ear that is convex by rounding alone has next to no shape and
+// Clips ears. Rounding decides nothing important: an ear that is convex by rounding alone has next to no shape and
 // comes last.
 #include "compare/files/meshes/triangulate.hpp"
 
@@ -68,8 +68,8 @@ class Cutter {
     return {left_[(k + left_.size() - 1) % left_.size()], left_[k], left_[(k + 1) % left_.size()]};
   }
 
-  /// Twice the signed area over the squared longest side: 0.87 where all sides are equal, at most 0 where it turns the
-  /// wrong way.
+  /// Returns twice the signed area over the squared longest side: 0.87 for equal sides, at most 0 if it turns the wrong
+  /// way.
   double shape(const Triangle& t) const {
     const Vec3 u = difference(at(t[1]), at(t[0])), v = difference(at(t[2]), at(t[0])),
                w = difference(at(t[2]), at(t[1]));
@@ -77,7 +77,8 @@ class Cutter {
     return longest > 0 ? dot(cross(u, v), normal_) / longest : 0;
   }
 
-  /// The number of corners where there is none. Ears that another corner lies in wait until it is gone.
+  /// Returns the best ear, or the number of corners if there is none. An ear that contains another corner waits until
+  /// that is gone.
   std::size_t best_ear() const {
     std::vector<bool> blocked(left_.size());
     while (true) {
@@ -90,8 +91,8 @@ class Cutter {
     }
   }
 
-  /// Whether no other corner lies in the closed triangle, as seen along the normal. Corners that coincide with one of
-  /// its own (a face that is joined to its hole by a pair of coinciding edges) do not count.
+  /// Returns whether no other corner lies in the closed triangle, as seen along the normal. Corners that coincide with
+  /// one of its own (a face that is joined to its hole by a pair of coinciding edges) do not count.
   bool is_empty(const Triangle& t) const {
     const auto inside = [&](const Vec3& p) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -104,7 +105,7 @@ class Cutter {
   }
 
   std::vector<Index> left_;     ///< corners that are not cut off yet
-  std::vector<double> shapes_;  ///< of the ear at each of them
+  std::vector<double> shapes_;  ///< shape of the ear at each of them
   std::span<const Vec3> positions_;
   Vec3 normal_;
 };

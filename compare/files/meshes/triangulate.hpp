@@ -1,4 +1,4 @@
-// Faces of more than three corners, cut into triangles: always the same way, with every corner kept (a corner on a
+// Cuts faces of more than three corners into triangles: always the same way, with every corner kept (a corner on a
 // straight side stays a vertex of both neighbours; libraries that drop it leave a gap between them).
 #pragma once
 
@@ -9,12 +9,12 @@
 
 namespace ogc::compare {
 
-/// Cuts a face of n ≥ 4 different corners into n − 2 triangles with its orientation; corners need not lie in a plane:
-/// in and out are decided as seen along the face's area vector Σ xᵢ × xᵢ₊₁ / 2 (Newell). A quad is cut from its first
-/// corner to its third, unless the worse triangle of the other cut has more than twice the shape (signed area over
-/// squared longest side): that cuts concave quads rightly, and even ones all alike. Larger faces lose their best-shaped
-/// ear first, of equal ones the first, so that convex and concave faces alike are cut without slivers where they allow
-/// it. Empty where the face has no area or crosses itself as seen so. `corners`: vertices; positions [m] by vertex.
+/// Cuts a face of n ≥ 4 different corners into n − 2 triangles with its orientation. Corners need not lie in a plane:
+/// inside is decided as seen along the face's area vector Σ xᵢ × xᵢ₊₁ / 2 (Newell). A quad is cut from its first corner
+/// to its third, unless the worse triangle of the other cut has more than twice the shape (signed area over squared
+/// longest side): that cuts concave quads rightly, and even ones all alike. Larger faces lose their best-shaped ear
+/// first, the first of equal ones, which avoids slivers where the face allows it. Returns nothing if the face has no
+/// area or crosses itself in that view. `corners`: vertices; positions [m] by vertex.
 std::vector<Triangle> triangulate(std::span<const Index> corners, std::span<const Vec3> positions);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
 // Base64 comes in groups of four characters, and padding ends a part: VTK encodes the header of compressed data by
-// itself, other writers that of stored data, too. Decoding goes on behind padding, so both are one case.
+// itself, other writers also that of stored data. Decoding continues after padding, so both are one case.
 #include "compare/files/meshes/vtk_arrays.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::string value_in(const XmlAttributes& attributes, const char* key) {
   return found == attributes.end() ? "" : found->second;
 }
 
-/// The bytes of an array in their order, base64 or raw. Throws InputError where the file announces more than it has.
+/// Reads the bytes of an array in their order, base64 or raw. Throws InputError if the file announces more than it has.
 class Bytes {
  public:
   Bytes(std::string_view data, bool base64, std::string where)
@@ -134,8 +134,8 @@ class ArrayReader {
 
   std::string stored(Bytes& source) const { return source.take(header_word(source)); }
 
-  /// Number of blocks, size of a block, size of the last one (0: as the others), compressed size of each; then the
-  /// blocks.
+  /// Reads number of blocks, size of a block, size of the last one (0: like the others), compressed size of each; then
+  /// the blocks.
   std::string unpacked(Bytes& source) const {
     if (const std::string compressor = value_in(document_.file, "compressor"); compressor != "vtkZLibDataCompressor")
       throw InputError(where_ + ": compressed by " + compressor +

@@ -1,4 +1,4 @@
-// The numbers of a VTK array: text, base64 or raw bytes, in place or appended, stored or compressed by zlib.
+// Reads the numbers of a VTK array: text, base64 or raw bytes, in place or appended, stored or compressed by zlib.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace ogc::compare {
 
-/// All numbers of the array, one after the other. Throws InputError that names the array and the byte: of an unknown
-/// type, format or compressor, cut off, or with sizes that the file can't hold.
+/// Returns all numbers of the array, one after the other. Throws InputError that names the array and the byte: an
+/// unknown type, format or compressor, a truncated array, or sizes that the file can't hold.
 std::vector<double> read_vtk_array(const VtkDocument& document, const VtkArray& array, const std::string& name);
 
 }  // namespace ogc::compare

@@ -10,7 +10,7 @@
 namespace ogc::compare {
 namespace {
 
-/// A kind with a fixed number of corners, or with at least so many.
+/// A kind with a fixed number of corners, or with at least that number.
 struct Kind {
   int number;
   std::size_t corners;
@@ -62,7 +62,7 @@ void VtkCells::add(int number, std::span<const Index> c) {
     for (std::size_t k = 1; k < c.size(); ++k) add_line(c[k - 1], c[k]);
   if (number == 5 || number == vtk_polygon || number == 9) mesh_.add_face(c);
   if (number == 8) mesh_.add_face(std::array{c[0], c[1], c[3], c[2]});
-  if (number == vtk_strip)  // every second triangle is turned round
+  if (number == vtk_strip)  // every second triangle is reversed
     for (std::size_t k = 2; k < c.size(); ++k) mesh_.add_face(std::array{c[k - 2], c[k - 1 + k % 2], c[k - k % 2]});
   if (number != 10) return;
   mesh_.tetrahedra.push_back({c[0], c[1], c[2], c[3]});

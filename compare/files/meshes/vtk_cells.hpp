@@ -1,4 +1,4 @@
-// Cells of VTK's files: its XML and its older format number their kinds in the same way.
+// Reads cells of VTK's files; its XML and its older format use the same numbers for their kinds.
 #pragma once
 
 #include <functional>
@@ -10,16 +10,16 @@
 
 namespace ogc::compare {
 
-/// Cells of a file, by VTK's numbers for their kinds, made into a mesh's tetrahedra, faces and loose edges.
+/// Makes the cells of a file, given by VTK's numbers for their kinds, into tetrahedra, faces and loose edges of a mesh.
 class VtkCells {
  public:
-  /// `name` is the file's, for errors and words. Both must outlive it.
+  /// Adds to `mesh`; `name` is the file's, for errors and notes. Both must outlive it.
   VtkCells(PolygonMesh& mesh, const std::string& name) : mesh_(mesh), name_(name) {}
 
-  /// One more cell, whose corners are vertices of the mesh. Throws InputError that names it where its kind is not read
+  /// Adds a cell, whose corners are vertices of the mesh. Throws InputError that names it if its kind is not read
   /// (hexahedra, wedges, pyramids, cells of higher order) or has another number of corners.
   void add(int kind, std::span<const Index> corners);
-  /// Leaves out what is no part of a solid where there are tetrahedra, and single points always, with a word.
+  /// Leaves out, with a note, single points, and everything but tetrahedra if there are any.
   void finish();
 
  private:
@@ -31,28 +31,28 @@ class VtkCells {
   std::size_t cells_ = 0, points_ = 0;
 };
 
-/// VTK's numbers for the kinds of cells that its lists of PolyData hold.
+/// VTK's numbers for the kinds of cells in its lists of PolyData.
 inline constexpr int vtk_poly_line = 4, vtk_strip = 6, vtk_polygon = 7;
 
-/// A number of an array as the number of a kind; −1, which is none, where it can't be one.
+/// Returns a number of an array as the number of a kind; −1, which is none, if it can't be one.
 int vtk_kind(double value);
 
-/// Lists of corners, one after the other, by their ends: a cell's corners count from 0 in its piece, whose vertices are
-/// the mesh's from `first` on.
+/// Holds lists of corners, one after the other, by their ends: a cell's corners count from 0 in its piece, whose
+/// vertices begin at `first` in the mesh.
 struct VtkCellLists {
   std::string where;            ///< begins the errors: file and section
-  std::vector<double> ends;     ///< by cell
+  std::vector<double> ends;     ///< end of each cell's corners
   std::vector<double> corners;  ///< of all cells
-  std::size_t first = 0;        ///< vertex of the piece
-  std::size_t count = 0;        ///< vertices of the piece
+  std::size_t first = 0;        ///< first vertex of the piece
+  std::size_t count = 0;        ///< number of vertices of the piece
 };
 
-/// Calls use(number of the cell, its corners as the mesh counts) for each. Throws InputError that names the cell: an
-/// end out of order or beyond the corners, a corner that is no vertex of the piece.
+/// Calls use(number of the cell, its corners in the mesh) for each. Throws InputError that names the cell: an end out
+/// of order or beyond the corners, a corner that is no vertex of the piece.
 void each_vtk_cell(const VtkCellLists& lists, const std::function<void(std::size_t, std::span<const Index>)>& use);
 
-/// Appends points to the mesh; each is three of the numbers. Throws InputError that begins with `where` if the numbers
-/// are no rows of three, or one of them is not finite.
+/// Appends points to the mesh, three numbers each. Throws InputError that begins with `where` if the numbers are no
+/// rows of three, or one of them is not finite.
 void add_vtk_points(const std::vector<double>& values, const std::string& where, PolygonMesh& mesh);
 
 }  // namespace ogc::compare

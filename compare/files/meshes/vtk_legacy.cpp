@@ -1,4 +1,4 @@
-// A file is a sequence of lines of words, some with a block of numbers behind them: words, or big-endian bytes.
+// A file is a sequence of lines of words, some followed by a block of numbers: words, or big-endian bytes.
 #include "compare/files/meshes/vtk_legacy.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, ScalarType>, 13> types{{{"char"
                                                                          {"float", ScalarType::float32},
                                                                          {"double", ScalarType::float64}}};
 
-/// Lines and blocks of numbers, whichever way the file holds them.
+/// Reads lines and blocks of numbers, in text or binary.
 class VtkBlocks {
  public:
   /// Reads the header: version, title, kind.
@@ -49,9 +49,9 @@ class VtkBlocks {
     }
   }
 
-  bool is_new() const { return is_new_; }  ///< of version 5 or later, whose cells have offsets
+  bool is_new() const { return is_new_; }  ///< version 5 or later, with offsets of cells
 
-  /// To the next line, blank or not; false behind the last.
+  /// Goes to the next line, blank or not; false after the last.
   bool next_line() {
     if (cursor_ ? cursor_->left() == 0 : !lines_.next()) return false;
     if (cursor_) line_ = cursor_->line();
@@ -81,7 +81,8 @@ class VtkBlocks {
     return known->second;
   }
 
-  /// The block behind the line: `rows` of `columns` numbers, which must be there before anything is allocated for them.
+  /// Returns the block after the line, `rows` of `columns` numbers; their bytes must be there before memory is
+  /// allocated.
   std::vector<double> numbers(std::size_t rows, std::size_t columns, ScalarType type, const std::string& what) {
     const std::size_t least = cursor_ ? size_of(type) : 2;  // a digit and a blank
     const std::size_t left = (cursor_ ? cursor_->left() : lines_.bytes_left() + 1) / least;
@@ -118,9 +119,9 @@ class VtkBlocks {
   }
 
   TextLines lines_;
-  std::optional<ByteCursor> cursor_;  ///< behind the header of a binary file
+  std::optional<ByteCursor> cursor_;  ///< after the header of a binary file
   bool is_new_ = false;
-  std::string_view line_;  ///< of a binary file, behind the words taken so far
+  std::string_view line_;  ///< of a binary file, after the words taken so far
 };
 
 class VtkLegacyParser {
@@ -166,14 +167,14 @@ class VtkLegacyParser {
     }
   }
 
-  /// Sections of cells of POLYDATA, and of a grid the last: whose kinds stand elsewhere.
+  /// A section of cells: all of POLYDATA's, or the single one of a grid, whose kinds are elsewhere.
   struct List {
     std::string_view keyword;
     int kind;
     VtkCellLists cells{};
   };
 
-  /// Each cell's number of corners, then these.
+  /// Reads each cell's number of corners, then these.
   void old_cells(List& list) {
     const std::size_t cells = blocks_.count("number of cells"), size = blocks_.count("number of numbers");
     const std::vector<double> numbers = blocks_.numbers(size, 1, ScalarType::int32, "numbers of cells");
@@ -194,7 +195,7 @@ class VtkLegacyParser {
                    " cells: the counts of " + std::string(list.keyword) + " are wrong");
   }
 
-  /// Offsets from 0, one more than there are cells, then corners.
+  /// Reads offsets from 0, one more than there are cells, then corners.
   void new_cells(List& list) {
     const std::size_t offsets = blocks_.count("number of offsets"), corners = blocks_.count("number of corners");
     list.cells.ends = array("OFFSETS", offsets);
@@ -211,7 +212,7 @@ class VtkLegacyParser {
     return blocks_.numbers(count, 1, type, keyword);
   }
 
-  /// Arrays of the data set as a whole, which are skipped.
+  /// Skips arrays of the data set as a whole.
   void field() {
     blocks_.word();
     const std::size_t arrays = blocks_.count("number of arrays");

@@ -1,5 +1,5 @@
-// This reads VTK's older format (.vtk), in text and in binary. Versions before 5 and from 5 on write cells differently;
-// both ways are read.
+// Reads VTK's older format (.vtk), in text and in binary. Versions before 5 and from 5 on write cells differently; both
+// are read.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace ogc::compare {
 
-/// Points and cells of a data set of type POLYDATA or UNSTRUCTURED_GRID: tetrahedra, or faces and lines as of VTK's XML
-/// files (vtk_mesh.hpp). What belongs to points and cells is skipped. `name` stands in the errors. Throws InputError
+/// Returns points and cells of a data set of type POLYDATA or UNSTRUCTURED_GRID: tetrahedra, or faces and lines as for
+/// VTK's XML files (vtk_mesh.hpp). Data of points and cells are skipped. `name` begins the errors. Throws InputError
 /// with file and line or byte: another data set, a count that the file has no room for, a file that ends too early, a
-/// vertex out of range, a number that is none, kinds of cells that are not read.
+/// vertex out of range, a word that is no number, kinds of cells that are not read.
 PolygonMesh parse_vtk_legacy(std::string_view bytes, const std::string& name);
 
 }  // namespace ogc::compare

@@ -38,7 +38,7 @@ class PieceReader {
  private:
   std::vector<double> values(const VtkArray& array) const { return read_vtk_array(document_, array, name_); }
 
-  /// Throws InputError where the piece announces another number than its arrays hold.
+  /// Throws InputError if the piece announces another number than its arrays hold.
   void expect_count(const std::string& attribute, std::size_t count, const char* what) const {
     const auto found = piece_.attributes.find(attribute);
     std::size_t announced = 0;
@@ -65,7 +65,7 @@ class PieceReader {
     each_vtk_cell(cell_lists, [&](std::size_t i, std::span<const Index> c) { cells.add(vtk_kind(kind[i]), c); });
   }
 
-  /// The array of that section; by name where one is given. Null where there is none.
+  /// Returns the array of that section, by name if one is given; null if there is none.
   const VtkArray* find(const std::string& section, const std::string& array) const {
     const auto found = std::ranges::find_if(piece_.arrays, [&](const VtkArray& candidate) {
       if (candidate.section != section) return false;
@@ -79,7 +79,7 @@ class PieceReader {
   const VtkPiece& piece_;
   const std::string& name_;
   PolygonMesh& mesh_;
-  std::size_t first_;  ///< vertex of this piece
+  std::size_t first_;  ///< first vertex of this piece
 };
 
 }  // namespace

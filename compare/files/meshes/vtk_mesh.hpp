@@ -1,5 +1,4 @@
-// This reads VTK's XML files as ParaView, PyVista and this program write them: PolyData (.vtp), UnstructuredGrid
-// (.vtu).
+// Reads VTK's XML files as ParaView, PyVista and this program write them: PolyData (.vtp), UnstructuredGrid (.vtu).
 #pragma once
 
 #include <string>
@@ -9,9 +8,9 @@
 
 namespace ogc::compare {
 
-/// Points, polygons, triangle strips (as triangles), lines (as loose edges) and tetrahedra of all pieces. A file with
-/// tetrahedra gives nothing else, which a note says; other data and single points are skipped. `name` stands in the
-/// errors. Throws InputError that names the array or cell, ResourceError where this program was built without expat.
+/// Returns points, polygons, triangle strips (as triangles), lines (as loose edges) and tetrahedra of all pieces. A
+/// file with tetrahedra gives nothing else, with a note; other data and single points are skipped. `name` begins the
+/// errors. Throws InputError that names the array or cell, ResourceError if this program was built without expat.
 PolygonMesh parse_vtk_xml_mesh(std::string_view bytes, const std::string& name);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Read by expat, event by event: raw appended data is no XML, and the parser must stop before it.
+// Uses expat event by event: raw appended data are no XML, and the parser must stop before them.
 #include "compare/files/meshes/vtk_xml.hpp"
 
 #include <limits>
@@ -91,7 +91,7 @@ class Reader {
     open_.pop_back();
   }
 
-  /// The data begin behind the first underscore after the tag.
+  /// Finds the data, which begin after the first underscore after the tag.
   void find_appended() {
     const std::size_t close = bytes_.find('>', appended_at_), underscore = bytes_.find('_', close);
     if (close == std::string_view::npos || underscore == std::string_view::npos)
@@ -103,7 +103,7 @@ class Reader {
   const std::string& name_;
   std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
   VtkDocument document_;
-  VtkArray* array_ = nullptr;  ///< whose text is being read
+  VtkArray* array_ = nullptr;  ///< array whose text is being read
   std::vector<std::string> open_;
   bool seen_root_ = false, stopped_ = false;
   std::size_t appended_at_ = 0;  ///< byte of the tag

@@ -1,5 +1,5 @@
-// One pass over the document: bodies load their meshes as they are read, motions select from them, and every problem on
-// the way is collected.
+// Reads the document in one pass: bodies load their meshes as they are read, motions select from them, and every
+// problem is collected.
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -64,7 +64,7 @@ void read_model(const JsonNode& node, std::span<const std::string_view> names, M
   model = static_cast<Model>(found - names.begin());
 }
 
-/// A number within [least, most]; NaN with a problem noted elsewhere.
+/// Returns a number within [least, most]; NaN for a wrong type, whose problem is noted.
 double read_between(const JsonNode& node, double least, double most, const char* what) {
   double value = std::numeric_limits<double>::quiet_NaN();
   node.read(value);
@@ -74,7 +74,7 @@ double read_between(const JsonNode& node, double least, double most, const char*
   return value;
 }
 
-/// E and ν in place of both Lamé constants.
+/// Reads E and ν in place of both Lamé constants.
 void read_elasticity(JsonObject& object, Material& material) {
   std::optional<double> modulus, ratio;
   object.optional("solid_young", [&](const JsonNode& node) {
@@ -123,12 +123,12 @@ void read_material(const JsonNode& node, Material& material) {
   object.finish();
 }
 
-/// Keys that format 2 reserves for what is not simulated yet.
+/// Refuses keys that format 2 reserves for what is not simulated yet.
 void refuse_reserved(const JsonNode& node, const std::string& what) {
   node.fail("asks for " + what + ", which this ogc does not simulate yet", "leave it out, or use a newer ogc");
 }
 
-/// The file's own name with '_' for what names may not have.
+/// Returns the file's own name with '_' for characters that names may not have.
 std::string name_of_file(const std::filesystem::path& file) {
   std::string name = file.stem().string();
   std::replace_if(
@@ -176,7 +176,7 @@ class SceneReader {
   }
 
  private:
-  // Checked first: other problems of a file in another format mean nothing.
+  // Comes first, as other problems of a file in another format mean nothing.
   void check_version() const {
     if (!json_.is_object() || !json_.contains("format_version")) return;
     const JsonNode node = root_.child("format_version");
@@ -206,7 +206,7 @@ class SceneReader {
     for (std::size_t i = 0; i < array.size(); ++i) use(array.child(i));
   }
 
-  // None where it can't be read; the problems are noted then.
+  // Returns none if it can't be read; the problems are then noted.
   std::optional<PolygonMesh> read_polygons(const JsonNode& node) {
     std::string text;
     node.read(text);
@@ -219,14 +219,14 @@ class SceneReader {
     }
   }
 
-  // What a body's mesh file says, and the mesh that it makes: of its rest shape and velocities the same triangles and
-  // vertices are taken.
+  // The content of a body's mesh file, and the mesh made of it; rest shape and velocities use the same triangles and
+  // vertices.
   struct BodyMesh {
     PolygonMesh polygons;
     LoadedMesh loaded;
   };
 
-  // Reads and validates; none where it can't be used, with the problems noted.
+  // Reads and validates; returns none if it can't be used, with the problems noted.
   std::optional<BodyMesh> read_body_mesh(const JsonNode& node) {
     std::optional<PolygonMesh> polygons = read_polygons(node);
     if (!polygons) return std::nullopt;
@@ -250,7 +250,7 @@ class SceneReader {
     return found.empty();
   }
 
-  // Vertex data in the shape of a second mesh file: rest positions or velocities.
+  // Returns vertex data in the form of a second mesh file: rest positions or velocities.
   std::vector<Vec3> read_like(const JsonNode& node, const BodyMesh& mesh) {
     std::optional<PolygonMesh> other = read_polygons(node);
     if (!other) return {};
@@ -275,8 +275,8 @@ class SceneReader {
     std::vector<Vec3> rest, velocities;
     object.optional_value("name", body.name);
     object.optional_value("fixed", body.fixed);
-    object.optional("contact", [&](const JsonNode& value) {
-      read_model(value, choice_names<BodyContact>, body.contact, "contact");
+    object.optional("body_contact", [&](const JsonNode& value) {
+      read_model(value, choice_names<BodyContact>, body.contact, "body contact");
     });
     object.optional("orientations", [&](const JsonNode& value) { read_orientations_file(value); });
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });
@@ -385,7 +385,7 @@ class SceneReader {
     return false;
   }
 
-  // A vertex by body and number within the body; -1 where there is none, which is a problem noted.
+  // Returns a vertex given by body and number within the body; -1 if there is none, and notes a problem.
   Index read_end(const JsonNode& node) {
     JsonObject object(node);
     const Body* body = nullptr;
@@ -408,8 +408,8 @@ class SceneReader {
     return nullptr;
   }
 
-  // All vertices of a body, those in a box, or those listed; numbered within the body. Boxes see the positions as the
-  // mesh file gives them, without dust.
+  // Reads a selection: all vertices of a body, those in a box, or those listed; numbered within the body. Boxes refer
+  // to the positions in the mesh file, without dust.
   void read_selection(const JsonNode& node, std::vector<Index>& vertices) {
     JsonObject object(node);
     const Body* body = nullptr;

@@ -1,5 +1,5 @@
-// Settings and materials come from their tables; the rest is written out. A test asks the reader for every key that
-// stands here.
+// Takes settings and materials from their tables; the rest is written out. A test checks that the reader knows every
+// key here.
 #include "compare/files/json_reader.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/material_table.hpp"
@@ -24,7 +24,7 @@ Json array(const Json& items, const std::string& description) {
   return {{"type", "array"}, {"items", items}, {"description", description}};
 }
 
-// Strict: no other keys.
+// Returns the schema of an object without other keys.
 Json object(const Json& properties, const std::vector<std::string>& required) {
   Json json = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) json["required"] = required;
@@ -112,7 +112,7 @@ Json body_schema() {
       {"velocities",
        value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
       {"material", material_schema()},
-      {"contact", contact},
+      {"body_contact", contact},
       {"orientations", value("string",
                              "of a rod: HDF5 file, relative to this file, with the start orientations [segments][4] of "
                              "its edges as unit quaternions x, y, z, w; default: those of its rest shape, turned")},

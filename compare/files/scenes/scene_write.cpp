@@ -1,4 +1,4 @@
-// Everything is written, defaults too: a scene file shows what can be edited. Rows of numbers stay on one line, and
+// Writes everything, also defaults: a scene file shows what can be edited. Rows of numbers stay on one line, and
 // numbers that the reader rounds to single precision are written as short as that allows.
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ Json to_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json rounded_json(const Vec3& v) { return to_json({as_typed(v.x), as_typed(v.y), as_typed(v.z)}); }
 
-// Bit for bit, so that a negative zero survives.
+// Compares bit for bit, so that a negative zero survives.
 bool same_bits(const Vec3& a, const Vec3& b) {
   using Bits = std::array<std::uint64_t, 3>;
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
@@ -53,7 +53,7 @@ Json material_json(const Material& material) {
   return json;
 }
 
-// The body's faces on any one of the scene's vertex arrays.
+// Returns the body's faces on one of the scene's vertex arrays.
 Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& values) {
   Mesh mesh;
   const Index first = body.first_vertex, end = first + body.vertex_count;
@@ -72,7 +72,7 @@ Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& va
   return mesh;
 }
 
-/// Those of the body's segments that the scene gives.
+/// Returns the orientations that the scene gives for the body's segments.
 std::vector<Quaternion> orientations_of(const Scene& scene, const Body& body) {
   std::vector<Quaternion> own;
   if (scene.orientations.empty()) return own;
@@ -93,7 +93,7 @@ Json body_json(const std::filesystem::path& folder, const Scene& scene, const Bo
   };
   Json json = {{"name", body.name},
                {"fixed", body.fixed},
-               {"contact", name_of(body.contact)},
+               {"body_contact", name_of(body.contact)},
                {"mesh", write(stem + extension, scene.mesh.positions)}};
   const auto start = scene.mesh.positions.begin() + body.first_vertex,
              rest = scene.rest_positions.begin() + body.first_vertex;
@@ -115,7 +115,7 @@ Json body_json(const std::filesystem::path& folder, const Scene& scene, const Bo
   return json;
 }
 
-// Runs of vertices of one body, in the order of the motion.
+// Returns runs of vertices of one body, in the order of the motion.
 Json selections_json(const Scene& scene, const std::vector<Index>& vertices) {
   const std::vector<Index> owner = body_of_vertex(scene);
   Json selections = Json::array();

@@ -1,5 +1,5 @@
-// Contact sets and conservative bounds for your own solver: two triangles, one 3 mm above the other, positions in,
-// everything for one step out.
+// Computes contact sets and conservative bounds for a solver of your own. The input is two triangles, one 3 mm above
+// the other; the output is everything that one step needs.
 #include <cstdio>
 #include <vector>
 
@@ -12,7 +12,7 @@ int main() {
                                                    {0.12f, 0.02f, 0.003f}, {0.02f, 0.12f, 0.003f}};
   const auto vertex_count = static_cast<ogc::compare::Index>(positions.size());
 
-  // For device memory: Backend::cuda here, and find_resident(device_pointer, query) below.
+  // With positions in device memory: use Backend::cuda here, and find_resident(device_pointer, query) below.
   ogc::fast::ContactFinder finder(vertex_count, triangles, {}, ogc::fast::Backend::cpu);
   const ogc::fast::ContactSets sets = finder.find(positions, {.contact_radius = 0.005f, .query_radius = 0.01f});
 

@@ -41,7 +41,8 @@ class RunSource : public AuditSource {
     return {name(next_++), topology_, compare::to_double(frame.positions), {}, {}, judge_.names(), ""};
   }
   void judge(AuditedState& state) const override {
-    const std::vector<compare::Vec3f> stored = compare::to_single(state.positions);  // as they came
+    // exact: frames are stored in single precision
+    const std::vector<compare::Vec3f> stored = compare::to_single(state.positions);
     state.result = judge_.audit(stored, limit_);
     state.distances = judge_.smallest_distances(stored);
     state.text = judge_.describe(state.result);
@@ -61,7 +62,8 @@ class RunSource : public AuditSource {
   std::shared_ptr<const compare::Topology> topology_;
 };
 
-/// Faces that name a vertex twice have no topology; degenerate shapes do.
+/// Throws compare::InputError if a face names a vertex twice, because it then has no topology. Degenerate shapes are
+/// allowed.
 void check_corners(const compare::Mesh& mesh, const std::string& name) {
   const auto check = [&](const char* kind, const auto& faces) {
     for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -104,7 +106,7 @@ class SequenceSource : public AuditSource {
   }
 
  private:
-  /// Logs what the first frame gives reason to say; the others are most probably alike.
+  /// Logs the remarks about the first frame that has any; those about the others are most likely the same.
   void say(const compare::LoadedMesh& loaded) {
     if (has_spoken_) return;
     const std::vector<std::string> words = words_about(loaded, "judged as they stand");
@@ -112,7 +114,7 @@ class SequenceSource : public AuditSource {
     has_spoken_ = !words.empty();
   }
 
-  /// Makes the frame's topology, unless it is the one of the frame before, as in most sequences.
+  /// Builds the frame's topology, unless it equals that of the frame before, as in most sequences.
   void take_topology(const compare::Mesh& mesh, const std::string& its_name) {
     const bool is_known = topology_ && static_cast<std::size_t>(topology_->vertex_count) == mesh.positions.size() &&
                           topology_->triangles == mesh.triangles && loose_edges_ == mesh.loose_edges;
@@ -129,8 +131,8 @@ class SequenceSource : public AuditSource {
   bool has_spoken_ = false;
 };
 
-/// Without an exception for loops of links and names that are too long: whoever opens the path says what is wrong with
-/// it.
+/// Returns the type of a file without throwing for loops of links and names that are too long; the code that opens the
+/// path reports these.
 fs::file_type type_of(const fs::path& path) {
   std::error_code error;
   return fs::status(path, error).type();
@@ -143,8 +145,8 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-/// The path itself, or the files that it matches as a pattern: a shell may have been told to leave it alone, or to
-/// refuse so many words.
+/// Adds the path itself, or the files that it matches as a pattern, because a shell may be told not to expand patterns,
+/// or refuse so many words.
 void add_matching(const std::string& path, std::vector<fs::path>& files) {
   if (type_of(path) != fs::file_type::not_found || path.find_first_of("*?[") == std::string::npos) {
     files.emplace_back(path);
@@ -163,7 +165,7 @@ std::unique_ptr<compare::MeshSequence> npy_alone(const fs::path& file, const com
   return compare::npy_sequence({file}, topology);
 }
 
-/// Files that hold many frames.
+/// Returns the reader of a format that holds many frames; null for other formats.
 FrameReader reader_of(const std::string& path) {
   static const std::map<std::string, FrameReader> readers{
       {".npz", compare::npz_sequence}, {".npy", npy_alone}, {".pc2", compare::pc2_sequence}};
@@ -171,8 +173,8 @@ FrameReader reader_of(const std::string& path) {
   return found == readers.end() ? nullptr : found->second;
 }
 
-/// Options for a mesh that gives other files' positions their faces: it keeps each vertex, as those files count them
-/// all.
+/// Returns the options for a mesh that gives the positions of other files their faces: it keeps every vertex, because
+/// those files count all of them.
 compare::MeshOptions of_frames(compare::MeshOptions options) {
   options.keep_unused = true;
   options.weld = false;

@@ -1,7 +1,7 @@
 // Judges the states of a run while it goes on: exact intersections by the oracle, and the motion certificate against
-// exact bounds or planes of the reference (method.md §5.5, §5.6). On a device that computes elsewhere it works beside
-// the simulation; on the CPU it takes turns with it, so that it does not steal the cores whose time a step is measured
-// by.
+// exact bounds or planes of the reference (method.md §5.5, §5.6). If the simulation runs on a device, the audit runs
+// beside it on the CPU. If the simulation runs on the CPU, the two take turns, so that the audit does not take cores
+// from a step whose time is measured.
 #pragma once
 
 #include <condition_variable>
@@ -23,28 +23,29 @@
 
 namespace ogc::experiments {
 
-/// What is audited: each step, each stored frame, the last state, nothing.
+/// Which states are audited: each step, each stored frame, the last state, none.
 enum class AuditMode { every, frame, end, off };
-/// As of --audit.
+/// Returns the name that --audit has for it.
 std::string name_of(AuditMode mode);
-/// Throws compare::InputError where nothing is called so.
+/// Returns the mode of this name. Throws compare::InputError if there is none.
 AuditMode audit_mode(const std::string& name);
 
-/// What audits of a scene leave out beyond pairs inside fixed and rigidly moved bodies, in words; empty where nothing.
+/// Returns in words what the audits of a scene leave out beyond pairs inside fixed and rigidly moved bodies; empty if
+/// nothing.
 std::string left_out_of_audits(const compare::Scene& scene);
 
-/// What is exactly true of one state.
+/// Holds what was found of one state, exactly.
 struct Verdict {
-  std::int64_t step = 0;                    ///< which state
+  std::int64_t step = 0;                    ///< number of the state
   compare::AuditResult intersections;       ///< of the state
   compare::MotionCertificate motion;        ///< since the last detection
   std::size_t unsafe_bounds = 0;            ///< vertices whose b_v is above the exact bound of X_prev
-  compare::Index worst_vertex = -1;         ///< of the largest b_v / exact bound among them
-  double worst_bound = 0, exact_bound = 0;  ///< [m], of that vertex
-  compare::PlaneGuarantee planes;           ///< with planes, in place of the exact bounds
-  std::size_t broken_planes = 0;            ///< half-spaces that the state does not keep
-  compare::VolumePenetration volumes;       ///< what is inside of volumes, which is no part of the guarantee
-  /// Whether the state keeps the guarantee.
+  compare::Index worst_vertex = -1;         ///< vertex with the largest ratio of b_v to its exact bound
+  double worst_bound = 0, exact_bound = 0;  ///< both of that vertex [m]
+  compare::PlaneGuarantee planes;           ///< the guarantee of planes, which replaces the exact bounds
+  std::size_t broken_planes = 0;            ///< half-spaces that the state violates
+  compare::VolumePenetration volumes;       ///< what is inside volumes; not part of the guarantee
+  /// Returns whether the state keeps the guarantee.
   bool kept() const {
     return intersections.count == 0 && motion.kept() && unsafe_bounds == 0 && planes.kept() && broken_planes == 0;
   }
@@ -54,25 +55,25 @@ struct Verdict {
 class StateJudge {
  public:
   explicit StateJudge(const compare::Scene& scene, const compare::MeshSources& sources = {});
-  /// A state without the certificate: a start, a frame of a file. `limit`: as of compare::AuditOptions.
+  /// Audits a state without the certificate, such as a start or a frame of a file. `limit`: see compare::AuditOptions.
   compare::AuditResult audit(const std::vector<compare::Vec3f>& positions,
                              std::size_t limit = compare::AuditOptions{}.limit) const;
-  /// How near it is to touching, without the pairs that the audit leaves out.
+  /// Returns the smallest distances between primitives, without the pairs that the audit leaves out.
   compare::SmallestDistances smallest_distances(const std::vector<compare::Vec3f>& positions) const;
-  /// What is inside of volumes; of a scene without them nothing is.
+  /// Returns what is inside volumes; nothing if the scene has none.
   compare::VolumePenetration penetration(const std::vector<compare::Vec3f>& positions) const;
-  /// Whether the scene has any.
+  /// Returns whether the scene has volumes.
   bool has_volumes() const { return volumes_.has_volumes(); }
-  /// In words: how many vertices are inside, which is the deepest, and how many edges meet.
+  /// Returns in words how many vertices are inside volumes, the deepest one, and how many edges meet a surface.
   std::string describe(const compare::VolumePenetration& penetration) const;
-  /// A state with the certificate of the last detection before it.
+  /// Judges a state together with the certificate since its last detection.
   Verdict judge(const compare::Snapshot& snapshot) const;
-  /// Names what is wrong, one line a primitive; empty where nothing is.
+  /// Returns one line for each violation, which names the primitives; empty if there is none.
   std::string describe(const Verdict& verdict) const;
   std::string describe(const compare::AuditResult& result) const;
-  /// Pairs that it leaves out.
+  /// Returns the pairs that the audit leaves out.
   const compare::Exclusions& exclusions() const { return exclusions_; }
-  /// What elements of the scene are called in all of these.
+  /// Returns the names of the scene's elements that all of these texts use.
   const compare::ElementNames& names() const { return names_; }
 
  private:
@@ -83,24 +84,24 @@ class StateJudge {
   compare::Exclusions exclusions_;
   compare::ElementNames names_;
   compare::VolumeAuditor volumes_;
-  float contact_radius_, bound_relaxation_;
+  float contact_radius_, bounds_relaxation_;
   compare::Bounds bounds_;
   std::vector<std::uint8_t> is_fixed_;  ///< by vertex
 };
 
-/// Verdicts in the order of submission.
+/// Collects verdicts in the order of submission.
 class Auditor {
  public:
-  /// `beside`: judge on a thread of its own. The judge must outlive the auditor.
+  /// `beside`: judges on a thread of its own. The judge must outlive the auditor.
   Auditor(const StateJudge& judge, bool beside);
   ~Auditor();
   Auditor(const Auditor&) = delete;
   Auditor& operator=(const Auditor&) = delete;
-  /// Waits where too many states are waiting already: a state may be large.
+  /// Adds a state; waits while too many states are queued, because a state may be large.
   void submit(compare::Snapshot snapshot);
-  /// Verdicts that are ready; throws what the judge threw.
+  /// Returns the verdicts that are ready. Throws what the judge threw.
   std::vector<Verdict> take();
-  /// Waits for all that was submitted.
+  /// Waits until all submitted states are judged; returns and throws like `take`.
   std::vector<Verdict> finish();
 
  private:

@@ -1,5 +1,5 @@
-// What lies between two audited states: which faces meet while every vertex moves straight from the one to the other
-// (compare/meetings.md).
+// Finds what happens between two audited states: which faces meet while every vertex moves straight from one state to
+// the other (compare/meetings.md).
 #pragma once
 
 #include <string>
@@ -11,27 +11,27 @@
 
 namespace ogc::experiments {
 
-/// The straight way from a state to the next.
+/// Holds the straight way from one state to the next.
 struct Way {
   std::string from, to;           ///< names of the states
-  compare::MeetingsResult found;  ///< what meets on it
-  Json json;                      ///< the same for --json
-  std::string text;               ///< the listed meetings in words, a line each
+  compare::MeetingsResult found;  ///< the meetings on it
+  Json json;                      ///< the same data for --json
+  std::string text;               ///< the listed meetings in words, one line each
 };
 
-/// Asks the ways between states as they come, in their order.
+/// Checks the ways between states in the order in which the states come.
 class WaysBetween {
  public:
-  /// `limit`: meetings that are listed of a way. The source must outlive it.
+  /// `limit`: meetings listed for each way. The source must outlive this object.
   WaysBetween(const AuditSource& source, std::size_t limit) : source_(source), limit_(limit) {}
-  /// The way from the state before to this one; of the first way it logs what all of them will take. Throws
-  /// compare::InputError where the two have other triangles.
+  /// Checks the way from the state before to this one; at the first way it logs the estimated cost of all. Throws
+  /// compare::InputError if the two states have different triangles.
   void look_at(const AuditedState& state);
-  /// Those that were asked.
+  /// Returns the ways checked so far.
   const std::vector<Way>& ways() const { return ways_; }
-  /// On all of them.
+  /// Returns the number of meetings on all ways.
   std::size_t meetings() const;
-  /// "5 straight ways between them, 12 meetings on 1 of them, the first from frame 3 to frame 4".
+  /// Returns "5 straight ways between them, 12 meetings on 1 of them, the first from frame 3 to frame 4".
   std::string headline() const;
 
  private:

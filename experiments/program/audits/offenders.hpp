@@ -1,4 +1,4 @@
-// The part of a mesh that an audit complains about: written for ParaView and plots/offenders.py.
+// Cuts out the part of a mesh that an audit reports, for ParaView and plots/offenders.py.
 #pragma once
 
 #include <filesystem>
@@ -9,30 +9,30 @@
 
 namespace ogc::experiments {
 
-/// What takes part in the listed intersections, ascending, by number in the topology.
+/// Holds the elements of the listed intersections, ascending, by number in the topology.
 struct Offenders {
   std::vector<compare::Index> vertices;   ///< that lie on a triangle
-  std::vector<compare::Index> edges;      ///< that meet a triangle or, of no triangle, each other
-  std::vector<compare::Index> triangles;  ///< that are met, or that contain such an edge or vertex
-  compare::Intersection first;            ///< in the order of the audit
+  std::vector<compare::Index> edges;      ///< that meet a triangle, or each other where they belong to none
+  std::vector<compare::Index> triangles;  ///< that are met, or that contain one of these edges or vertices
+  compare::Intersection first;            ///< the first one in the order of the audit
 };
 
-/// The offenders of an audit's listed intersections.
+/// Returns the offenders of an audit's listed intersections.
 Offenders offenders_of(const compare::AuditResult& result, const compare::Topology& topology);
 
-/// Where the offenders are, in words: "between (0.1, 0, 0.2) and (0.3, 0.1, 0.2) m". It holds all corners of the
-/// triangles, edges and vertices.
+/// Returns the box of the offenders in words: "between (0.1, 0, 0.2) and (0.3, 0.1, 0.2) m". It contains all corners of
+/// the triangles, edges and vertices.
 std::string region_of(const Offenders& offenders, const compare::Topology& topology,
                       const std::vector<compare::Vec3>& positions);
 
-/// A .vtp file of the offenders alone, with the corners' numbers (point data `vertex`), and of each cell its number as
-/// edge or triangle (`number`) and how many of the listed intersections it is named in (`intersections`; 0: it is the
-/// neighbour of an edge or vertex that is).
+/// Returns a .vtp file of the offenders alone. Its point data are the numbers of the corners (`vertex`); its cell data
+/// are the number of the edge or triangle (`number`) and the number of listed intersections that name the cell
+/// (`intersections`; 0 for the neighbour of a named edge or vertex).
 std::string offenders_vtp(const compare::AuditResult& result, const compare::Topology& topology,
                           const std::vector<compare::Vec3>& positions);
 
-/// Writes NAME.vtp to the folder, which is made where it is missing; returns one line that names the file and says
-/// where the intersections are. Throws compare::ResourceError.
+/// Writes NAME.vtp to the folder, which it creates if necessary. Returns one line that names the file and the place of
+/// the intersections. Throws compare::ResourceError.
 std::string show_offenders(const std::filesystem::path& folder, const std::string& name,
                            const compare::AuditResult& result, const compare::Topology& topology,
                            const std::vector<compare::Vec3>& positions);

@@ -30,7 +30,7 @@ double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return length(minus(p, along(a, s, e)));
 }
 
-/// Of two segments: between their ends, or between the lines where both points lie inside.
+/// Returns the distance of two segments: from the ends, or between the lines if both closest points lie inside.
 double of_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double ends = std::min({to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)});
   const Vec3 e = minus(b, a), f = minus(d, c), n = cross(e, f), r = minus(c, a);
@@ -50,8 +50,9 @@ double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
   return is_over ? std::min(nearest, std::abs(dot(minus(p, t[0]), n)) / length(n)) : nearest;
 }
 
-/// How far a vertex has to move until the edge leaves the triangle: an end through it, or one past an edge of it; what
-/// both share stays. In double: a distance of 1e-16 of the coordinates is below what any text prints.
+/// Returns how far a vertex has to move until the edge leaves the triangle: an end of it through the triangle, or the
+/// edge past an edge of the triangle. Shared vertices stay. In double, because a distance of 1e-16 of the coordinates
+/// is below what any text prints.
 double depth(const Intersection& pair, const compare::Topology& topology, std::span<const Vec3> positions) {
   if (pair.kind != compare::IntersectionKind::edge_triangle) return 0;
   const compare::Edge& edge = topology.edges[static_cast<std::size_t>(pair.first)];

@@ -1,5 +1,5 @@
-// `ogc ablate`: a grid of runs that differ in some settings, each point from several jittered starts if asked; one run
-// folder for each run, a table over all of them, medians and ranges, and what may be said of them.
+// `ogc ablate`: runs a grid of settings, each point from several jittered starts if requested. It writes a folder for
+// each run, a table over all runs, medians and ranges, and statements that compare the settings.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,19 +28,20 @@ namespace ogc::experiments {
 namespace {
 
 constexpr std::int64_t most_repeats = 1000, most_jobs = 1024;
-/// Of --only, where it is not given.
+/// The value of --only if it is not given.
 constexpr std::int64_t every_run = -1;
 
 struct AblateOptions {
   std::shared_ptr<RunOptions> run = std::make_shared<RunOptions>();
   std::vector<std::string> vary, points;  ///< as typed
   std::int64_t repeat = 1;
-  std::int64_t only = every_run;  ///< number of the one run to make
+  std::int64_t only = every_run;  ///< number of the only run to make
   std::int64_t jobs = 1;          ///< runs at a time
   bool slurm = false;
 };
 
-/// `solver` and `backend` are options of a run, everything else is a setting. `repeat`: which of the runs of a point.
+/// Returns the options of a run at a point. `solver` and `backend` are options of a run; all other keys are settings.
+/// `repeat`: the number of the run at this point.
 RunOptions options_at(const AblateOptions& ablation, const RunOptions& base, const std::vector<Axis>& axes,
                       const Point& point, std::int64_t repeat) {
   RunOptions options = base;
@@ -70,15 +71,15 @@ void check_repeats(const AblateOptions& options) {
                               " seeds after it; give a smaller one");
 }
 
-/// One run of the grid.
+/// Holds one run of the grid.
 struct PlannedRun {
-  std::size_t setting = 0;  ///< its point
+  std::size_t setting = 0;  ///< number of its point
   std::uint64_t seed = 0;
   RunOptions options;
 };
 
-/// Seed by seed, all settings of each: what slows the machine down for a while does so to all settings, and a grid that
-/// is cut off has about as many runs of each.
+/// Returns the runs ordered by seed, then by setting. So a temporary slowdown of the machine affects all settings, and
+/// an interrupted grid has about as many runs of each setting.
 std::vector<PlannedRun> planned_runs(const AblateOptions& options, const RunOptions& base,
                                      const std::vector<Axis>& axes, const std::vector<Point>& points) {
   std::vector<PlannedRun> runs;
@@ -91,7 +92,7 @@ std::vector<PlannedRun> planned_runs(const AblateOptions& options, const RunOpti
   return runs;
 }
 
-/// What a run of this request has in its folder.
+/// Returns the scene that a run of this request stores in its folder.
 compare::Scene stored_scene(const RunRequest& request) {
   compare::Scene scene = request.scene;
   compare::round_to_single(scene);
@@ -99,15 +100,15 @@ compare::Scene stored_scene(const RunRequest& request) {
   return scene;
 }
 
-/// Throws compare::InputError where a point's scene can't be run.
+/// Throws compare::InputError if a point's scene can't be run.
 void check_scene(const RunRequest& request, const std::string& name) {
   const std::string problems = compare::describe(
       compare::validate(stored_scene(request), 10, compare::ElementNames(request.scene, request.sources)));
   if (!problems.empty()) throw compare::InputError("the point " + name + " can't be run:\n" + problems);
 }
 
-/// Throws compare::InputError where a folder holds another run than the one asked for: a grid that goes on must not mix
-/// two questions, or two programs.
+/// Throws compare::InputError if a folder holds another run than the one requested, because a grid that continues must
+/// not mix two experiments, or two programs.
 void check_same_question(const compare::RunReader& run, const RunRequest& request) {
   const compare::Provenance& theirs = run.provenance();
   const BuildInfo build = build_info();
@@ -140,17 +141,19 @@ void check_same_question(const compare::RunReader& run, const RunRequest& reques
                               "own runs alone: give another --out");
 }
 
-/// A run that failed by what it computed is a result; run.json then has the hash of its last good state.
+/// Returns whether a run is over. A failure of its computation is a result; run.json then has the hash of the last good
+/// state.
 bool is_over(const compare::Provenance& run) {
   return run.status == "finished" || (run.status.starts_with("failed") && !text_in(run, "final_hash").empty());
 }
 
-/// A run's folder without a checkpoint is that of a run that was killed before its first step.
+/// Returns whether the folder holds a run with a checkpoint. Without one the run was killed before its first step.
 bool is_begun(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "run.json") && std::filesystem::exists(folder / "checkpoint.h5");
 }
 
-/// Whether the folder holds nothing but what a run has in it before its first checkpoint: such a one may be removed.
+/// Returns whether the folder holds only files that a run writes before its first checkpoint; such a folder may be
+/// removed.
 bool is_cut_beginning(const std::filesystem::path& folder) {
   constexpr std::array<std::string_view, 6> names{"frames",    "scene",          "run.json",
                                                   "steps.csv", "iterations.csv", "trajectory.vtkhdf"};
@@ -161,14 +164,14 @@ bool is_cut_beginning(const std::filesystem::path& folder) {
   });
 }
 
-/// Whether the folder holds a run that is over.
+/// Returns whether the folder holds a run that is over.
 bool is_done(const std::filesystem::path& folder) {
   return is_begun(folder) && is_over(compare::read_manifest(folder).provenance);
 }
 
 enum class Made { found, made, interrupted };
 
-/// Makes the run, goes on with it where it was cut off, or finds it done.
+/// Makes the run, continues it if it was interrupted, or finds it done.
 Made make(const PlannedRun& planned, const std::string& progress, CommandContext& context) {
   RunRequest request = request_of(planned.options, context);
   const std::filesystem::path folder = request.folder;
@@ -196,7 +199,7 @@ std::string in_brackets(const Metric& metric) {
   return std::string(metric.name) + " [" + std::string(metric.unit) + "]";
 }
 
-/// A row a run.
+/// Returns a table with one row for each run.
 std::vector<std::vector<std::string>> run_rows(const std::vector<Axis>& axes, bool has_seeds) {
   std::vector<std::string> names;
   for (const Axis& axis : axes) names.push_back(axis.key);
@@ -219,7 +222,8 @@ std::vector<std::string> row_of(const Point& point, const std::string& seed, con
   return row;
 }
 
-/// A row a setting and metric that every finished run measured; `digits`: of numbers, 0: all.
+/// Returns a table with one row for each setting and metric that every finished run measured. `digits`: of numbers; 0:
+/// all digits.
 std::vector<std::vector<std::string>> median_rows(const std::vector<Axis>& axes, const std::vector<Point>& points,
                                                   const std::vector<SettingRows>& settings, int digits) {
   std::vector<std::string> names{"metric"};
@@ -252,15 +256,15 @@ std::string csv(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-/// What the runs so far come to: ablation.csv, ablation_medians.csv, ablation_findings.txt.
+/// Holds the results of the runs so far: ablation.csv, ablation_medians.csv, ablation_findings.txt.
 struct Results {
   std::vector<std::vector<std::string>> runs;
-  std::vector<SettingRows> settings;  ///< those with a run
-  std::vector<Point> points;          ///< of these
+  std::vector<SettingRows> settings;  ///< settings that have a run
+  std::vector<Point> points;          ///< points of these settings
   std::vector<std::string> sentences;
 };
 
-/// `done`: rows of the runs, from the first on, as many as there are.
+/// Returns the results. `done`: rows of the completed runs, which are the first ones of `planned`.
 Results results_of(const std::vector<Axis>& axes, const std::vector<Point>& points,
                    const std::vector<PlannedRun>& planned, const std::vector<RunRow>& done, bool has_seeds) {
   Results results;
@@ -323,7 +327,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// The command as it was given, but for `left_out`.
+/// Returns the words of the command as given, without the options in `left_out`.
 std::vector<std::string> words_again(const CLI::App& command, const std::vector<std::string>& left_out) {
   std::vector<std::string> words{"ablate"};
   for (const CLI::Option* option : command.get_options()) {
@@ -337,7 +341,7 @@ std::vector<std::string> words_again(const CLI::App& command, const std::vector<
   return words;
 }
 
-/// Likewise, for a shell.
+/// Returns the same command as text for a shell.
 std::string command_again(const CLI::App& command, const std::vector<std::string>& left_out) {
   std::string text = quoted(std::filesystem::read_symlink("/proc/self/exe").string());
   for (const std::string& word : words_again(command, left_out))
@@ -349,8 +353,8 @@ std::string counted_run(const std::string& name, std::size_t i, std::size_t coun
   return name + " (" + std::to_string(i + 1) + " of " + std::to_string(count) + ")";
 }
 
-/// Makes what is not done yet of a grid in `folder`, each run by a process of its own; what fails there fails again,
-/// or goes on, where the grid is tabulated.
+/// Makes the runs of the grid in `folder` that are not done yet, each in a process of its own. A run that fails there
+/// fails again, or continues, when the grid is tabulated.
 void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRun>& planned, const CLI::App& command,
                        const std::string& folder) {
   std::vector<OwnCommand> commands;
@@ -365,7 +369,7 @@ void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRu
   run_side_by_side(commands, static_cast<int>(options.jobs));
 }
 
-/// An array job for Slurm, a run a task; `command`: that of this grid.
+/// Writes an array job for Slurm with one run for each task. `command`: the command of this grid.
 void write_slurm(const std::string& out, std::size_t count, const std::string& command) {
   const std::filesystem::path folder = std::filesystem::absolute(out);
   std::filesystem::create_directories(folder);
@@ -393,7 +397,7 @@ void write_slurm(const std::string& out, std::size_t count, const std::string& c
                "is missing, and the tables:\n  " + command + "\n");
 }
 
-/// The tables are written after each run, so that a grid that is cut off leaves what it has.
+/// Runs the grid. The tables are written after each run, so that an interrupted grid keeps its results.
 void ablate(const AblateOptions& options, const CLI::App& command, CommandContext& context) {
   check_repeats(options);
   if (options.vary.empty() && options.points.empty())
@@ -405,7 +409,8 @@ void ablate(const AblateOptions& options, const CLI::App& command, CommandContex
   if (!is_named) base.out = "runs/ablate-" + base.scene.substr(base.scene.rfind('/') + 1) + "-" + utc_stamp();
   const auto& [axes, points] = grid;
   const std::vector<PlannedRun> planned = planned_runs(options, base, axes, points);
-  // All points are asked for before the first runs: a wrong value late in the grid must not cost the runs before it.
+  // All points are checked before the first run starts, because a wrong value late in the grid must not cost the
+  // earlier runs.
   for (std::size_t p = 0; p < points.size(); ++p)
     check_scene(request_of(planned[p].options, context), name_of(axes, points[p]));
   if ((options.slurm || options.only != every_run) && !is_named)
@@ -480,13 +485,13 @@ void add_ablate_command(CLI::App& app, CommandContext& context) {
   command->footer(
       settings_help() +
       "\nExamples:\n"
-      "  ogc ablate cloth_on_sphere --scale smoke --solver newton --vary activation=ogc,ipc_log,cubic\n"
-      "  ogc ablate twist --vary iterations=5,10,20 --vary redetect_fraction=0,0.01,0.1 --out grid\n"
+      "  ogc ablate cloth_on_sphere --scale smoke --solver newton --vary contact_activation=ogc,ipc_log,cubic\n"
+      "  ogc ablate twist --vary iterations=5,10,20 --vary detection_fraction=0,0.01,0.1 --out grid\n"
       "  ogc ablate twist --scale smoke --point default --point iterations=20,time_step=0.00167,steps=1440 --repeat 10 "
       "--jitter 1e-6\n"
-      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine\n"
-      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --jobs 8\n"
-      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --slurm\n\n"
+      "  ogc ablate my_scene.json --vary contact_activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine\n"
+      "  ogc ablate my_scene.json --vary contact_activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --jobs 8\n"
+      "  ogc ablate my_scene.json --vary contact_activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --slurm\n\n"
       "A run is one draw: where contact is chaotic, the last bit of the start decides how it goes on. --repeat 10 "
       "runs\n"
       "each point from ten starts, each coordinate moved by at most --jitter, and compares ranges. The first point\n"

@@ -1,4 +1,5 @@
-// `ogc audit`: does anything intersect? Exactly, for a mesh of any origin, or for each frame of a run of any program.
+// `ogc audit`: checks exactly whether anything intersects, in a mesh of any origin or in each frame of a run of any
+// program.
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -31,11 +32,11 @@ using compare::SmallestDistances;
 struct Options {
   AuditRequest request;
   std::string show;               ///< folder of the .vtp files; empty: none
-  std::optional<double> deepest;  ///< [m] deeper inside a volume a state fails; empty: none does
-  bool between = false;           ///< asks the straight ways between states, too
+  std::optional<double> deepest;  ///< depth inside a volume above which a state fails [m]; empty: no limit
+  bool between = false;           ///< also checks the straight ways between states
 };
 
-/// How many states get a file: the first ones tell what the others would.
+/// Largest number of states that get a file: the first ones show what the others would.
 constexpr std::size_t most_shown = 8;
 
 struct State {
@@ -48,7 +49,7 @@ struct State {
   SmallestDistances distances;
   std::optional<compare::VolumePenetration> volumes;
   std::string in_volumes;
-  std::string doubt{};  ///< what the file's digits leave open, in words
+  std::string doubt{};  ///< what the file's digits leave undecided, in words
 };
 
 Json to_json(const SmallestDistances& distances, const compare::Topology& topology,
@@ -84,8 +85,8 @@ const char* name_of(compare::IntersectionKind kind) {
   return "";
 }
 
-/// The vertices of what meets, as a scene file excludes them. A mesh is one body, whose name is that which `ogc run
-/// MESH` gives it.
+/// Returns the vertices of intersecting faces in the form in which a scene file excludes them. A mesh is one body with
+/// the name that `ogc run MESH` gives it.
 Json excluded_json(const AuditedState& audited, const compare::Scene* scene) {
   std::vector<compare::Edge> pairs = vertex_pairs(audited.result, *audited.topology);
   if (scene != nullptr) {
@@ -143,17 +144,17 @@ State state_of(const AuditedState& audited, const compare::Scene* scene) {
   return state;
 }
 
-/// All that was looked at before the end, an interruption, or a state that can't be read.
+/// Holds all audits before the end, an interruption, or a state that can't be read.
 struct Audits {
   std::vector<State> states;
-  std::vector<std::string> shown;   ///< what --show wrote, a line each
-  std::optional<WaysBetween> ways;  ///< where they were asked
-  std::string proof_of_ways;        ///< the source's
+  std::vector<std::string> shown;   ///< what --show wrote, one line each
+  std::optional<WaysBetween> ways;  ///< empty without --between
+  std::string proof_of_ways;        ///< AuditSource::proof_of_ways
   std::size_t planned = 0;
-  std::string stopped;  ///< why the rest can't be read; empty where it could
+  std::string stopped;  ///< why the remaining states can't be read; empty if all could
 };
 
-/// A state on its way from the file to the report, or why it can't be read.
+/// Holds a state on its way from the file to the report, or the reason why it can't be read.
 struct Item {
   std::optional<AuditedState> state;
   std::string problem;
@@ -161,7 +162,7 @@ struct Item {
 };
 using Handle = std::shared_ptr<Item>;
 
-/// One after the other, until the end, an interruption, or a state that can't be read.
+/// Reads the states one after the other, until the end, an interruption, or a state that can't be read.
 class Reading {
  public:
   explicit Reading(AuditSource& source) : source_(source) {}
@@ -188,8 +189,8 @@ class Reading {
   bool failed_ = false;
 };
 
-/// States side by side, as many as there are threads: what one state takes is for the most part one thread's work. Ways
-/// one after the other, each by all threads.
+/// Judges as many states in parallel as there are threads, because most of the work on a state is done by one thread.
+/// Ways are checked one after the other, each by all threads.
 Audits audit_all(AuditSource& source, const Options& options) {
   const std::string& show = options.show;
   Audits audits;
@@ -200,7 +201,7 @@ Audits audit_all(AuditSource& source, const Options& options) {
   Progress progress(0, static_cast<std::int64_t>(source.size()), "frame");
   Reading reading(source);
   const auto judge = [&](const Handle& item) {
-    if (!item->state || interrupted()) return item;  // a large state takes a minute: none is begun any more
+    if (!item->state || interrupted()) return item;  // a large state takes a minute: an interruption starts no more
     source.judge(*item->state);
     item->judged = true;
     return item;
@@ -232,7 +233,7 @@ Audits audit_all(AuditSource& source, const Options& options) {
   return audits;
 }
 
-/// The smallest distances of all states, in words; of equal ones the first state's.
+/// Returns the smallest distances of all states in words; of equal ones that of the first state.
 std::string describe_distances(const std::vector<State>& states) {
   const auto describe_pair = [&](const std::string& what, const State& state, const char* key) {
     const Json& pair = state.json.at("smallest_distances").at(key);
@@ -250,14 +251,14 @@ std::string describe_distances(const std::vector<State>& states) {
          describe_pair("two edges without a common vertex", edges, "edge_edge");
 }
 
-/// Two states say nothing about the way between them (method.md §5.5).
+/// Warns that the motion was not checked: two states prove nothing about the way between them (method.md §5.5).
 std::string unseen_ways(const Audits& audits) {
   if (audits.states.size() < 2 || audits.ways) return "";
   return "what happened between these states was not looked at: surfaces may have passed through each other there; " +
          audits.proof_of_ways + "--between asks the straight ways";
 }
 
-/// Curves pass through each other without a trace.
+/// Warns that curves leave no trace when they pass through each other.
 std::string unseen_curves(const std::vector<State>& states) {
   const auto has = std::ranges::find_if(states, [](const State& state) { return state.loose_edges > 0; });
   if (has == states.end()) return "";
@@ -271,7 +272,7 @@ std::string unseen_curves(const std::vector<State>& states) {
          "--audit-meetings)";
 }
 
-/// What the digits of the first such file leave open; empty where they decide all.
+/// Returns what the digits of the first undecided file leave open; empty if they decide everything.
 std::string in_doubt(const std::vector<State>& states) {
   const auto has = [](const State& state) { return !state.doubt.empty(); };
   const auto first = std::ranges::find_if(states, has);
@@ -280,7 +281,7 @@ std::string in_doubt(const std::vector<State>& states) {
   return first->doubt + (others == 0 ? "" : " (likewise " + counted(others, "further state") + ")");
 }
 
-/// Where volumes let in most: the state with the most vertices inside, and that with the deepest; empty without any.
+/// Names the state with the most vertices inside volumes and the one with the deepest; empty without volumes.
 std::string describe_volumes(const std::vector<State>& states) {
   std::string text;
   const State *fullest = nullptr, *deepest = nullptr;
@@ -297,7 +298,7 @@ std::string describe_volumes(const std::vector<State>& states) {
 
 struct Totals {
   std::size_t intersections = 0, intersecting = 0;
-  double deepest = 0;         ///< inside a volume, of all states [m]
+  double deepest = 0;         ///< largest depth inside a volume, of all states [m]
   std::string first;          ///< name of the first state that intersects
   bool says_nothing = false;  ///< no state has a triangle
 };
@@ -313,7 +314,7 @@ Totals totals_of(const std::vector<State>& states) {
   return totals;
 }
 
-/// What was not looked at, a line each.
+/// Returns one line for each thing that was not checked.
 std::vector<std::string> unseen(const Audits& audits) {
   std::vector<std::string> lines;
   for (std::string line : {unseen_ways(audits), audits.ways ? "" : unseen_curves(audits.states)})

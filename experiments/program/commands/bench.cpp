@@ -1,5 +1,5 @@
-// `ogc bench`: Google Benchmark over stages, steps and their parts, its own JSON, and a comparison of two such files by
-// rank.
+// `ogc bench`: runs Google Benchmark over stages, steps and their parts, writes its own JSON, and compares two such
+// files by rank.
 #include <algorithm>
 #include <optional>
 
@@ -22,7 +22,7 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Samples that are kept.
+/// Largest number of samples.
 constexpr std::uint64_t most_repetitions = 1'000'000;
 
 struct CommandOptions {
@@ -32,7 +32,7 @@ struct CommandOptions {
   int threads = 0, processes = 8;
 };
 
-/// A line a benchmark when its last repetition is done: median, spread, counters.
+/// Prints one line when the last repetition of a benchmark is done: median, spread, counters.
 class LineReporter : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -79,7 +79,7 @@ void say_context(const CommandOptions& options) {
       "threads", std::to_string(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
 }
 
-/// Google Benchmark takes its options as a command line.
+/// Passes options to Google Benchmark, which takes them as a command line.
 void initialize(const CommandOptions& options) {
   std::vector<std::string> words{"ogc"};
   if (!options.json.empty())
@@ -103,7 +103,7 @@ void run_benchmarks(const CommandOptions& options) {
   if (!reporter.failed.empty()) throw std::runtime_error(reporter.failed.front());
 }
 
-/// The options that measure, for a process of its own.
+/// Returns the measuring options as words for a process of its own.
 std::vector<std::string> words_of(const CommandOptions& options) {
   std::vector<std::string> words{"bench",
                                  "--processes",

@@ -1,5 +1,5 @@
-// `ogc compare`: the fast path's stages against the reference, on generated cases, real states, single problems and
-// saved failures.
+// `ogc compare`: judges the fast path's stages against the reference, on generated cases, real states, single problems
+// and saved failures.
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -33,9 +33,9 @@ using compare::InputError;
 using compare::Stage;
 using compare::StageReport;
 
-// Of each generator, so that one which fails everywhere does not hide the others.
+// Mismatches printed for each generator, so that one which fails everywhere does not hide the others.
 constexpr std::size_t printed_mismatches = 3;
-// At 10⁷ cases a second more than a day of judging.
+// 10⁷ cases a second take more than a day for this number.
 constexpr std::uint64_t most_cases = 1'000'000'000'000;
 
 struct CompareOptions {
@@ -52,10 +52,10 @@ fast::Backend backend_of(const std::string& name) {
   throw InputError("--backend " + name + ": there is no such backend; known: cpu, cuda");
 }
 
-/// Who is judged: our backend, or a plug-in with our backend timed beside it.
+/// Holds the contestant that is judged: our backend, or a plug-in, beside which our backend is timed.
 struct Judged {
   compare::Contestant contestant;
-  std::shared_ptr<PluginProcess> plugin;  ///< null where there is none
+  std::shared_ptr<PluginProcess> plugin;  ///< null without a plug-in
   std::shared_ptr<Times> times = std::make_shared<Times>();
   std::string backend;
 };
@@ -71,7 +71,8 @@ Judged judged_of(const CompareOptions& options) {
   return judged;
 }
 
-/// What a plug-in has decides which stages are judged where none is named; one that is named must be there.
+/// Selects the stages that the plug-in has if none is named. Throws InputError if it lacks a named stage, or has none
+/// at all.
 void choose_stages_of_plugin(CompareOptions& options, const Judged& judged) {
   if (judged.plugin->offered().empty())
     throw InputError(options.plugin +
@@ -85,8 +86,8 @@ void choose_stages_of_plugin(CompareOptions& options, const Judged& judged) {
     if (judged.plugin->has(compare::stage_name(stage))) options.stages.emplace_back(compare::stage_name(stage));
 }
 
-/// The stages asked for, in the order of all_stages; all of those that the generator and both sides have where none is
-/// named.
+/// Returns the requested stages in the order of all_stages; without names, all stages that the generator and both sides
+/// have.
 std::vector<Stage> stages_of(const CompareOptions& options) {
   std::vector<Stage> stages;
   for (const std::string& name : options.stages) {
@@ -105,7 +106,7 @@ std::vector<Stage> stages_of(const CompareOptions& options) {
   return stages;
 }
 
-/// A stage that is named must be there.
+/// Throws InputError if a named stage does not exist on both sides.
 void check_stages(const CompareOptions& options, const Judged& judged, const compare::Authority& authority) {
   if (options.stages.empty()) return;
   for (const Stage stage : stages_of(options))
@@ -114,7 +115,7 @@ void check_stages(const CompareOptions& options, const Judged& judged, const com
                        "; a kernel of your own may: --plugin FILE (compare/plugin.h)");
 }
 
-/// Cases given one by one: --problem, --batch, --replay.
+/// Returns the cases that were given one by one: --problem, --batch, --replay.
 std::vector<compare::TestCase> given_cases(const CompareOptions& options, OpenStates& states) {
   std::vector<compare::TestCase> cases;
   if (!options.replay.empty()) cases.push_back(compare::load_case(options.replay));
@@ -156,13 +157,13 @@ void write_report(const std::filesystem::path& folder, const std::vector<StageRe
   compare::write_bytes(folder / "report.html", compare::report_page(reports, judged + " against the reference"));
 }
 
-/// --list: what there is to compare.
+/// Lists the stages (--list).
 int list_stages(const CompareOptions& options) {
   print_result(options.markdown ? stage_list_markdown() : stage_list_text());
   return exit_success;
 }
 
-/// --determinism: no truth is asked for, only whether bits stay the same.
+/// Checks only whether bits are repeatable, not whether they are right (--determinism).
 int judge_bits(const CompareOptions& options, const CommandContext& context) {
   const auto reports = determinism_of(backend_of(options.backend), stages_of(options), options.cases, options.seed);
   if (context.json)
@@ -201,7 +202,7 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
 int run(CompareOptions options, const CommandContext& context) {
   if (options.list) return list_stages(options);
   if (!options.report.empty())
-    std::filesystem::create_directories(options.report);  // a wrong path is told before the cases are judged
+    std::filesystem::create_directories(options.report);  // a wrong path is reported before the cases are judged
   if (options.determinism) return judge_bits(options, context);
   const Judged judged = judged_of(options);
   if (judged.plugin) choose_stages_of_plugin(options, judged);
@@ -214,7 +215,7 @@ int run(CompareOptions options, const CommandContext& context) {
     throw InputError(options.batch + ": holds no problem; write one problem string a line");
   std::vector<StageReport> reports = is_given ? compare::judge_cases(given, judged.contestant, authority)
                                               : judge_generated(options, states, judged.contestant, authority);
-  if (judged.plugin)  // the judge's clock ran while the question travelled, and while ours answered
+  if (judged.plugin)  // the judge's clock also ran while the question travelled and while our backend answered
     for (StageReport& report : reports)
       report.tally.contestant_seconds = judged.plugin->seconds(compare::stage_name(report.tally.stage));
   std::optional<PluginSeen> plugin;

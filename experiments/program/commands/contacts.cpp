@@ -1,4 +1,5 @@
-// `ogc contacts`: the contact sets and bounds of a mesh, for a look, for another program, or to compare engines.
+// `ogc contacts`: prints the contact sets and bounds of a mesh, for inspection, for another program, or to compare
+// engines.
 #include <chrono>
 #include <map>
 #include <memory>
@@ -19,11 +20,11 @@ namespace ogc::experiments {
 
 namespace {
 
-/// r_q where none is given: the ratio at which Settings caps it.
+/// Default of r_q in r: the ratio at which Settings caps it.
 constexpr double default_query_ratio = 4;
-/// The largest lengths of settings: of r, and of r_q, whose cap counts in r.
+/// Limits of lengths as in settings: of r, and of r_q, whose cap is given in r.
 constexpr double least_radius = 0x1p-20, most_radius = 0x1p20, most_query_radius = 0x1p30;
-/// r where none is given: cloth scenes of the paper lie between a fifth of an edge (twist) and a whole one
+/// Default of r in edges: the paper's cloth scenes lie between a fifth of an edge (twist) and a whole one
 /// (large_radius_twist).
 constexpr double default_radius_ratio = 0.2;
 
@@ -36,7 +37,7 @@ struct Options {
   bool schema = false, margins = true, squares = false;
 };
 
-/// What the file calls vertices and triangles, which the JSON numbers from 0.
+/// Returns the file's numbers of vertices and triangles, which the JSON numbers from 0.
 Json numbers_in_file(const MeshInput& input) {
   const compare::MeshSource& source = input.source;
   const auto listed = [&](const std::vector<compare::Index>& numbers, std::size_t count) {
@@ -50,7 +51,7 @@ Json numbers_in_file(const MeshInput& input) {
   return json;
 }
 
-/// Before a large mesh is read for nothing.
+/// Throws compare::ResourceError if there is no such engine, before a large mesh is read in vain.
 void expect_engine(const std::string& engine) {
   if (engine != "cuda") return;
   const fast::BackendInfo device = fast::backend_info(fast::Backend::cuda);
@@ -77,10 +78,10 @@ void run(const Options& options, const CommandContext& context) {
     throw compare::InputError("--query-radius " + number(query_radius) + " is below the contact radius " +
                               number(contact_radius) + "; give at least that");
   const std::map<std::string, Engine> engines{{"exact", Engine::exact}, {"cpu", Engine::cpu}, {"cuda", Engine::cuda}};
-  const auto bound_relaxation = static_cast<float>(compare::Settings{}.bound_relaxation);
+  const auto bounds_relaxation = static_cast<float>(compare::Settings{}.bounds_relaxation);
   const auto start = std::chrono::steady_clock::now();
   const ContactReport report = find_contacts(mesh, engines.at(options.engine), static_cast<float>(contact_radius),
-                                             static_cast<float>(query_radius), bound_relaxation, options.further);
+                                             static_cast<float>(query_radius), bounds_relaxation, options.further);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::size_t intersections = compare::audit(report.topology, mesh.positions).count;
   if (intersections > 0)
@@ -90,12 +91,12 @@ void run(const Options& options, const CommandContext& context) {
   Json head{{"format", "ogc contacts 2"},
             {"mesh", options.mesh},
             {"engine", options.engine},
-            {"bound_relaxation", bound_relaxation},
+            {"bounds_relaxation", bounds_relaxation},
             {"intersections", intersections},
             {"threads", options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()},
             {"seconds", seconds}};
   head.update(numbers_in_file(input));
-  if (options.squares) head.update(exact_squares(report, bound_relaxation));
+  if (options.squares) head.update(exact_squares(report, bounds_relaxation));
   print_json(head, report, options.margins);
 }
 

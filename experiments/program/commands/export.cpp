@@ -1,4 +1,4 @@
-// `ogc export`: frames as mesh files.
+// `ogc export`: writes frames as mesh files.
 #include <memory>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// `ogc illustrate`: the data of the paper's drawings as JSON, one file each, for
+// `ogc illustrate`: writes the data of the paper's drawings as JSON, one file each, for
 // paper_figures/figures/illustrations.py.
 #include <filesystem>
 #include <memory>

@@ -1,4 +1,4 @@
-// `ogc laws`: scenes whose motion is known in closed form, asked of each solver.
+// `ogc laws`: runs scenes whose motion is known in closed form with each solver.
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -30,8 +30,9 @@ void check(const Options& options) {
   if (!device.usable) throw compare::ResourceError("--backend cuda: " + device.description);
 }
 
-/// Whom the options ask. Without any: vbd on the CPU with both bounds, newton, ipc; --backend asks vbd alone. Newton's
-/// motion does not depend on its bounds, only its way there, so that balls are enough where none are named.
+/// Returns the solvers that the options select. Without options: vbd on the CPU with both bounds, newton, ipc.
+/// --backend selects vbd alone. The bounds of newton affect only the way to its motion, not the motion, so that balls
+/// suffice if no bounds are named.
 std::vector<LawAsked> asked_by(const Options& options) {
   check(options);
   const auto is_asked = [&](const char* solver) {

@@ -1,4 +1,4 @@
-// `ogc run`: options to a RunRequest, and the result to an exit status.
+// `ogc run`: turns options into a RunRequest, and the result into an exit status.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -23,7 +23,7 @@ std::string introduction(const RunRequest& request) {
          number(scene.settings.time_step) + " s; writes " + request.folder.string();
 }
 
-/// What --resume leaves open: no bit depends on it.
+/// Options that --resume accepts, because no bit depends on them.
 constexpr std::array<std::string_view, 4> free_options{"--resume", "--threads", "--checkpoint", "--json"};
 
 ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {

@@ -1,4 +1,4 @@
-// `ogc scenes`: what can be run, and how to get it onto the disk to change it.
+// `ogc scenes`: lists the built-in scenes, and writes them to files that can be changed.
 #include <algorithm>
 #include <memory>
 
@@ -85,7 +85,8 @@ void show(const std::string& name, const CommandContext& context) {
                "\nsettings at small\n" + table(settings, 3));
 }
 
-/// Moves the files of `from` to `folder`; throws, and moves none, where it holds one of them already.
+/// Moves the files of `from` to `folder`. Throws, and moves none, if the folder already holds one of them and `force`
+/// is false.
 void move_files(const std::filesystem::path& from, const std::filesystem::path& folder, bool force) {
   std::string there;
   std::vector<std::filesystem::path> names;
@@ -99,7 +100,8 @@ void move_files(const std::filesystem::path& from, const std::filesystem::path& 
   for (const auto& name : names) std::filesystem::rename(from / name, folder / name);
 }
 
-/// Beside its place first: which files a scene has is known when they are written.
+/// Writes the files to a folder beside their place first, because the names of a scene's files are known only after
+/// writing.
 std::filesystem::path write_files(const Options& options) {
   const compare::Scene scene = make_scene(options.scene, parse_scale(options.scale), data_folder(options.assignments));
   const std::filesystem::path folder(options.folder), partial = compare::partial_name(folder / options.scene);

@@ -1,4 +1,4 @@
-// `ogc suggest`: what to run a mesh with, and why.
+// `ogc suggest`: suggests settings for a mesh, with their reasons.
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -26,24 +26,24 @@ struct Options {
   std::optional<double> fall;
 };
 
-/// One suggested number, by the name that --set knows.
+/// Holds one suggested number under its name in --set.
 struct Row {
   std::string setting, unit;
   SuggestedNumber suggested;
 };
 
 std::vector<Row> rows_of(const Suggestion& found) {
-  // r_q is set by its cap, which counts in r.
+  // r_q is set by its cap, in multiples of r.
   const SuggestedNumber cap{found.query_radius.value / found.contact_radius.value,
                             "r_q up to " + number(found.query_radius.value) + " m, " + found.query_radius.reason};
   return {{"contact_radius", "m", found.contact_radius},
-          {"query_radius_cap", "r", cap},
+          {"detection_radius_cap", "r", cap},
           {"contact_stiffness", "N/m", found.contact_stiffness},
           {"time_step", "s", found.time_step},
           {"iterations", "1", found.iterations}};
 }
 
-/// One word for a shell, whatever is in it.
+/// Quotes any text as one word for a shell.
 std::string quoted(const std::string& word) {
   const auto is_plain = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '/' || c == '.' || c == '_' || c == '-';
@@ -54,7 +54,8 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// The run that has these settings, with the ground so far below that the mesh falls as was said.
+/// Returns the command that runs the mesh with these settings and with the ground at the depth that gives the requested
+/// fall.
 std::string command_line(const std::string& mesh, double ground, const std::vector<Row>& rows) {
   std::string text = "ogc run " + quoted(mesh) + " --ground " + compare::shortest(ground);
   for (const Row& row : rows) text += " --set " + row.setting + "=" + compare::shortest(row.suggested.value);

@@ -19,14 +19,14 @@ Axis parse_axis(const std::string& text) {
     begin = comma + 1;
   }
   if (axis.key.empty() || axis.values.empty() || std::ranges::find(axis.values, "") != axis.values.end())
-    throw compare::InputError("--vary " + text + ": give key=a,b,c, for example --vary activation=ogc,ipc_log");
+    throw compare::InputError("--vary " + text + ": give key=a,b,c, for example --vary contact_activation=ogc,ipc_log");
   return axis;
 }
 
-/// The name of a point at which everything is the scene's.
+/// The name of the point whose values are all the scene's.
 constexpr const char* unchanged = "default";
 
-/// The points of --point, over an axis for each key that one of them has; one point without axes where there is none.
+/// Returns the points of --point over an axis for each key that occurs in them; without --point one point without axes.
 std::vector<Point> listed_points(const std::vector<std::string>& texts, std::vector<Axis>& axes) {
   std::vector<Point> points;
   for (const std::string& text : texts) {
@@ -57,7 +57,7 @@ std::vector<Point> listed_points(const std::vector<std::string>& texts, std::vec
   return points;
 }
 
-/// Each of `points` with all combinations of the values of `axes`.
+/// Returns each of `points` combined with all values of `axes`.
 std::vector<Point> combined(std::vector<Point> points, std::span<const Axis> axes) {
   for (const Axis& axis : axes) {
     std::vector<Point> longer;

@@ -30,7 +30,7 @@ std::vector<double> values_of(const Rows& rows, const std::function<double(const
   return values;
 }
 
-/// Not-a-number where there is one among them, as below.
+/// Returns the median; not-a-number if the values contain one, like the functions below.
 double median_of(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double value) { return std::isnan(value); }) ? nan : median(values);
 }
@@ -65,7 +65,7 @@ double energy(const StepMetrics& row) {
   return row.kinetic_energy + row.elastic_energy + row.contact_energy + row.gravity_energy;
 }
 
-/// A metric that steps.csv holds: one number a step, and what becomes of them.
+/// A metric computed from steps.csv: a number of each step, and how the steps are combined.
 struct StepMetric {
   Metric metric;
   double (*value)(const StepMetrics& row);
@@ -103,10 +103,11 @@ const std::array<StepMetric, 21>& step_metrics() {
   return metrics;
 }
 
-/// With the contacts of the last detection, at the end of each step: a step's last row of iterations.csv.
+/// Metrics of the residual at the end of each step with the contacts of the last detection: the last row of a step in
+/// iterations.csv.
 constexpr std::array stale_residuals{Metric{"median_stale_residual", "1"}, Metric{"largest_stale_residual", "1"}};
 
-/// As `stale_residuals`; not-a-number where the run has no such rows.
+/// Returns the values of `stale_residuals`; not-a-number if the run has no such rows.
 std::array<double, stale_residuals.size()> stale_residuals_of(const std::filesystem::path& folder) {
   std::ifstream file(folder / "iterations.csv");
   std::map<std::string, double> by_step;
@@ -131,7 +132,7 @@ std::array<double, stale_residuals.size()> stale_residuals_of(const std::filesys
 
 std::string text(double value) { return number(value, 3); }
 
-/// Of a ratio near 1 more digits, so that it does not read as 1.
+/// Returns a ratio; one near 1 gets more digits, so that it does not read as 1.
 std::string ratio(double value) { return number(value, std::abs(value - 1) < 0.01 ? 6 : 3); }
 
 std::string with_unit(double value, const Metric& metric) {

@@ -1,6 +1,6 @@
-// What the runs of an ablation come to: the metrics of each run, their medians and ranges a setting, and what may be
-// said of two settings. A run is read from its folder alone, so that a grid that was cut off, or was computed by many
-// jobs, is tabulated like one that was not.
+// Tabulates the runs of an ablation: the metrics of each run, their medians and ranges for each setting, and the
+// statements that compare two settings. A run is read from its folder alone, so that a grid that was interrupted, or
+// was computed by many jobs, is tabulated like any other.
 #pragma once
 
 #include <filesystem>
@@ -10,52 +10,54 @@
 
 namespace ogc::experiments {
 
-/// A column of the table.
+/// Holds name and unit of a column of the table.
 struct Metric {
   std::string_view name, unit;
 };
 
-/// All metrics, in the order of the table: times, counts, momentum, residuals, distance, energies, lag.
+/// Returns all metrics in the order of the table: times, counts, momentum, residuals, distance, energies, lag, stretch.
 std::vector<Metric> ablation_metrics();
 
-/// What one run came to.
+/// Holds the results of one run.
 struct RunRow {
-  std::string status;           ///< the first word of run.json's
-  std::int64_t steps = 0;       ///< rows of steps.csv
-  std::vector<double> metrics;  ///< in the order of ablation_metrics; not-a-number where it was not measured
-  /// as in run.json; `guarantee_kept`: "yes", "no" or "not checked"
+  std::string status;           ///< run.json's status up to the first colon
+  std::int64_t steps = 0;       ///< number of rows of steps.csv
+  std::vector<double> metrics;  ///< in the order of ablation_metrics; not-a-number if not measured
+  /// as in run.json; `guarantee_kept` is "not checked" if run.json has none
   std::string guarantee_kept, audited_states, final_hash, device, folder;
 };
 
 /// Reads a run's folder. Throws compare::InputError that names the file.
 RunRow read_run_row(const std::filesystem::path& folder);
 
-/// Runs of one setting, of different seeds.
+/// Holds the runs of one setting with different seeds.
 struct SettingRows {
-  std::string name;  ///< "activation=ogc,membrane=…"
+  std::string name;  ///< "contact_activation=ogc,membrane=…"
   std::vector<RunRow> rows;
 };
 
-/// Median and range of a metric over the finished runs of a setting.
+/// Holds median and range of a metric over the finished runs of a setting.
 struct MetricRange {
   std::size_t runs = 0;                          ///< finished runs
-  double median = 0, smallest = 0, largest = 0;  ///< not-a-number unless every one of them measured it
+  double median = 0, smallest = 0, largest = 0;  ///< not-a-number unless all of these runs measured it
 };
-/// The median of an even number of runs is the mean of the middle two.
+/// Returns the range of a metric. The median of an even number of runs is the mean of the middle two.
 MetricRange range_of(const SettingRows& setting, std::size_t metric);
 
-/// What may be said of `one` against `other` in a metric: "is 1.8 times …, range 1.6 to 2.1" where every run of one is
-/// above, or below, every run of the other; else that no difference is shown. The range is that of the ratios of any
-/// two runs, or of their differences where a value is 0 or of another sign. One sentence, empty where one of the two
-/// did not measure it.
+/// Returns one sentence that compares `one` with `other` in a metric: "is 1.8 times …, range 1.6 to 2.1" if every run
+/// of one lies above, or below, every run of the other; otherwise that no difference is shown. The range is that of the
+/// ratios of any two runs, or of their differences if a value is not positive. Empty if one of the two did not measure
+/// the metric.
 std::string sentence(const Metric& metric, const SettingRows& one, const MetricRange& range_of_one,
                      const SettingRows& other, const MetricRange& range_of_other);
 
-/// Every setting against the first, metric by metric, with how often such sentences come about by chance. Lines.
+/// Returns lines that compare every setting with the first one, metric by metric, and state how often such sentences
+/// arise by chance.
 std::vector<std::string> findings(const std::vector<SettingRows>& settings);
 
-/// The probability that the ranges of `n` and `m` values of one continuous distribution lie apart: 2 / C(n + m, n),
-/// because all orders of the n + m values are equally likely, and in two of them one sort comes first.
+/// Returns the probability that the ranges of `n` and `m` values of one continuous distribution do not overlap: 2 / C(n
+/// + m, n), because all orders of the n + m values are equally likely, and in two of them all values of one group come
+/// first.
 double apart_by_chance(std::size_t n, std::size_t m);
 
 }  // namespace ogc::experiments

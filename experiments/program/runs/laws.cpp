@@ -26,7 +26,7 @@ std::string solver_of(const LawRow& row) {
 
 std::string backend_of(const LawRow& row) { return row.asked.on_device ? "cuda" : "cpu"; }
 
-/// IPC has bounds of its own, found by continuous detection.
+/// Returns the name of the bounds. IPC has bounds of its own, found by continuous detection.
 std::string bounds_of(const LawRow& row) {
   if (row.asked.solver == Solver::ipc) return "ccd";
   return std::string(name_of(row.asked.bounds));
@@ -42,7 +42,7 @@ compare::LawState state_of(const compare::Snapshot& snapshot) {
           is_exact ? snapshot.exact_velocities : compare::to_double(snapshot.velocities)};
 }
 
-/// Why a run ended before its last step.
+/// Returns why a run ended before its last step.
 std::string failure_of(const compare::StepMetrics& row) {
   std::string text = "step " + std::to_string(row.step);
   if ((row.status & compare::step_not_converged) != 0) text += " did not converge";
@@ -56,14 +56,14 @@ std::string failure_of(const compare::StepMetrics& row) {
 constexpr std::uint32_t ends_run = compare::step_not_finite | compare::step_bound_violated |
                                    compare::step_not_converged | compare::step_indefinite | compare::step_met;
 
-/// What a solver needs beside the law's scene. IPC: barriers that begin where contacts do, so that what lies on a floor
-/// begins there, too.
+/// Sets what a solver needs beyond the law's scene. IPC's barriers get the range of contacts, so that a body on a floor
+/// starts at its equilibrium.
 void prepare(compare::Scene& scene, const LawAsked& asked) {
   scene.settings.bounds = asked.bounds;
   if (asked.solver == Solver::ipc) compare::set_setting(scene.settings, "ipc_distance", scene.settings.contact_radius);
 }
 
-/// Throws std::runtime_error where a step fails.
+/// Runs the scene. Throws std::runtime_error if a step fails.
 compare::Trajectory moved(compare::Scene scene, const LawAsked& asked) {
   prepare(scene, asked);
   const auto simulation = contestant_of(asked.solver, asked.on_device).start(scene, {});

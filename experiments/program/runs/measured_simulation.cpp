@@ -24,7 +24,7 @@ using compare::StepMetrics;
 
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 
-/// How the time of a step is spread over its events.
+/// Splits the time of a step into its events.
 struct EventTimes {
   double begin = 0, detection = 0, sweep = 0;  ///< before the first event; of one event [ms]
 };
@@ -95,8 +95,8 @@ class MeasuredSimulation : public compare::Simulation {
   std::string device() const override { return inner_->device(); }
 
  private:
-  /// The scene whose first step is the one after `before`: a trace knows no other, so that each motion becomes
-  /// two keyframes, its targets at the step's begin and end, which turn frames as the motion does.
+  /// Returns the scene whose first step is the one after `before`, because a trace starts at the first step. Each
+  /// motion becomes two keyframes, its targets at the step's begin and end, which rotate frames as the motion does.
   compare::Scene scene_at(const Snapshot& before) const {
     compare::Scene scene = scene_;
     const double h = scene.settings.time_step, now = static_cast<double>(before.step) * h;
@@ -137,8 +137,8 @@ class MeasuredSimulation : public compare::Simulation {
     return states;
   }
 
-  /// Along the states at which a step detected, to its end. Between two of them bounds hold, so that a meeting breaks
-  /// them.
+  /// Adds the meetings along the states at which a step detected, up to its end. Bounds hold between two of them, so
+  /// that a meeting violates them.
   void add_meetings(const std::vector<std::vector<compare::Vec3f>>& states, const std::vector<compare::Vec3f>& end,
                     StepMetrics& step) {
     for (std::size_t k = 0; k < states.size(); ++k)
@@ -158,7 +158,7 @@ class MeasuredSimulation : public compare::Simulation {
       step.notes.push_back("further meetings are counted, not named");
   }
 
-  /// As the contestant's own detections find them.
+  /// Returns the contacts that the contestant's own detections find.
   reference::ContactSets contacts_at(const std::vector<compare::Vec3f>& positions) const {
     const auto radius = static_cast<float>(scene_.settings.contact_radius);
     const compare::DetectIn in{&topology_, exclusions_, positions, radius, radius};
@@ -208,16 +208,16 @@ class MeasuredSimulation : public compare::Simulation {
   compare::Topology topology_;
   compare::Exclusions exclusions_;
   std::unique_ptr<Simulation> inner_;
-  compare::WayTeller* teller_;  ///< inner_, if it is one
+  compare::WayTeller* teller_;  ///< inner_, if it is a teller; else null
   compare::Contestant contestant_;
   bool has_rows_;
   std::optional<StepRange> meetings_;
   static constexpr std::size_t most_named = 10;  ///< a baseline may have thousands
-  std::size_t named_ = 0;                        ///< meetings that notes named so far
+  std::size_t named_ = 0;                        ///< number of meetings named in notes so far
   std::optional<reference::ResidualMeter> meter_;
   std::optional<reference::LedgerWriter> ledger_;
   reference::ContactSets contacts_;       ///< of the trace's last detection
-  std::vector<compare::Vec3f> previous_;  ///< where it was
+  std::vector<compare::Vec3f> previous_;  ///< positions at that detection
 };
 
 }  // namespace

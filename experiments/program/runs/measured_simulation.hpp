@@ -1,4 +1,4 @@
-// Eq. 29 for contestants that do not know their residual: measured by the reference at the states that they come to,
+// Measures Eq. 29 for contestants that do not compute their residual: the reference evaluates it at their states,
 // beside the run and outside its times.
 #pragma once
 
@@ -10,35 +10,40 @@
 
 namespace ogc::experiments {
 
-/// Steps first to last, from 1.
+/// Holds the steps from first to last, counted from 1.
 struct StepRange {
-  std::int64_t first = 1, last = 0;  ///< none where last is before first
+  std::int64_t first = 1, last = 0;  ///< empty if last is before first
   bool holds(std::int64_t step) const { return first <= step && step <= last; }
   friend bool operator==(const StepRange&, const StepRange&) = default;
 };
-/// "40:139". Throws compare::InputError for another text.
+/// Parses "40:139". Throws compare::InputError for another text.
 StepRange step_range(const std::string& text);
 std::string text_of(const StepRange& range);
 
-/// What is measured beside a run.
+/// Selects what is measured beside a run.
 struct Measured {
   bool residual = false;                ///< StepMetrics::residual
   bool iterations = false;              ///< StepMetrics::iteration_rows, and the residual
   bool ledger = false;                  ///< StepMetrics::ledger
   std::optional<StepRange> meetings{};  ///< StepMetrics::meetings of these steps
-  /// Whether there is anything.
+  /// Returns whether anything is selected.
   bool any() const { return residual || iterations || ledger || meetings; }
 };
 
-/// The contestant, with what is asked for filled. The residual: forces in double, contacts detected at the end of the
-/// step (method.md §6). Rows and ledgers come from the trace of its own step (Contestant::step), which its simulation
-/// takes to the same bits; a row's residual has the contacts of the contestant's last detection. Times of rows: the
-/// step's time but its detections and iterations, then each of these with an equal share of what all of them took;
-/// without SimulationOptions::profile iterations share the whole. A trace that ends in another state than the step
-/// throws std::logic_error.
-/// Meetings are counted from each X_prev to the next, and from the last to the end of the step, as the simulation tells
-/// (compare::WayTeller) or the trace; of a contestant that has neither from the begin of a step to its end. Where the
-/// scene's bounds forbid them, and states of detections show them, the row says step_met, and names pairs in its notes.
+/// Returns a contestant that also fills what `what` selects.
+///
+/// The residual has forces in double and contacts detected at the end of the step (method.md §6). Rows and ledgers come
+/// from the trace of the contestant's own step (Contestant::step), which its simulation repeats bit by bit; the
+/// residual of a row has the contacts of the last detection. A trace that ends in another state than the step throws
+/// std::logic_error.
+///
+/// Times of rows: the time of the stages before the first event comes first; each detection and iteration then adds an
+/// equal share of the time of its kind. Without SimulationOptions::profile the iterations share the whole time.
+///
+/// Meetings are counted from each X_prev to the next, and from the last to the end of the step, as told by the
+/// simulation (compare::WayTeller) or by the trace; of a contestant that has neither, from the begin of a step to its
+/// end. If detections tell the states and the scene's bounds forbid meetings, the row's status is step_met, and its
+/// notes name pairs.
 compare::Contestant measured(compare::Contestant contestant, const Measured& what);
 
 }  // namespace ogc::experiments

@@ -19,9 +19,9 @@ namespace {
 
 using compare::Vec3;
 
-constexpr double ground_widths = 3;  ///< of the mesh, that a ground measures
+constexpr double ground_widths = 3;  ///< width of the ground in widths of the mesh
 constexpr double ground_edges =
-    10;  ///< of the cloth, that an edge of the ground measures: triangles at most a hundred times as large
+    10;  ///< length of the ground's edges in edges of the cloth: its triangles are at most a hundred times as large
 constexpr double most_ground_cells = 100;
 
 struct Box {
@@ -40,7 +40,7 @@ Box box_of(const compare::Mesh& mesh) {
   return box;
 }
 
-/// Names become file names.
+/// Makes a name from that of the file, because names of bodies become names of files.
 std::string usable_name(const std::string& file) {
   std::string name = std::filesystem::path(file).stem().string();
   const auto is_usable = [](char c) {
@@ -51,7 +51,7 @@ std::string usable_name(const std::string& file) {
   return name.empty() ? "mesh" : name;
 }
 
-/// Relative to the height `origin`, as the box is; `ground` is in the file's coordinates.
+/// Returns the height relative to `origin`, like the box; `ground` is in the file's coordinates.
 double height_of_ground(const std::string& file, const Box& box, std::optional<double> ground, double origin) {
   if (!ground) return box.low.y - box.fall();
   if (!std::isfinite(*ground)) throw compare::InputError("--ground " + number(*ground) + ": give a height [m]");
@@ -70,7 +70,7 @@ compare::Mesh ground_below(const Box& box, double height, double edge) {
   return mesh;
 }
 
-/// The body that falls, in words.
+/// Describes the falling body in words.
 std::string made_of(const compare::Body& body) {
   const compare::Material& material = body.material;
   if (!body.is_solid()) return "cloth of " + number(material.density) + " kg/m²";

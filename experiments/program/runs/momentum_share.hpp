@@ -1,4 +1,4 @@
-// What share of the momentum that a step is to have its guess loop lost (method.md §5.3), where the start is known.
+// Computes the share of a step's momentum that its guess loop lost (method.md §5.3), for steps whose start is known.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,21 @@
 
 namespace ogc::experiments {
 
-/// Remembers of the states that it is shown what the next step is to move, so that its row's loss, which is relative to
-/// ‖Σ m (y − xᵗ)‖ and means nothing where directions cancel, becomes one relative to Σ m ‖y − xᵗ‖.
+/// Makes a step's loss meaningful. A row's loss is relative to ‖Σ m (y − xᵗ)‖, which means nothing where directions
+/// cancel; this class remembers starts of steps and converts the loss to one relative to Σ m ‖y − xᵗ‖.
 class MomentumShare {
  public:
-  /// Of a valid scene, which need not outlive it.
+  /// Takes a valid scene, which need not outlive this object.
   explicit MomentumShare(const compare::Scene& scene);
-  /// The step after `step` begins with these velocities [m/s].
+  /// Remembers that the step after `step` begins with these velocities [m/s].
   void begin_after(std::int64_t step, const std::vector<compare::Vec3f>& velocities);
-  /// ‖Σ m (x − y)‖ / Σ m ‖y − xᵗ‖ after the guess loop, at most 1 but for what moving partners carry along, where the
-  /// row's step is known and did all its rounds. Contacts ended the other guess loops, and give back what these lost.
+  /// Returns ‖Σ m (x − y)‖ / Σ m ‖y − xᵗ‖ after the guess loop; it is at most 1 unless moving partners carry vertices
+  /// along. Empty if the start of the row's step is not known, or if its guess loop did not do all rounds: then
+  /// contacts ended it, and give back what it lost.
   std::optional<double> lost(const compare::StepMetrics& row) const;
 
  private:
-  std::vector<double> mass_;  ///< by vertex [kg]; 0 where it is not free
+  std::vector<double> mass_;  ///< mass by vertex [kg]; 0 if it is not free
   compare::Vec3 fall_;        ///< h² a [m]
   double step_;               ///< h [s]
   std::int64_t guess_rounds_;

@@ -26,8 +26,8 @@ void check_end(const std::string& folder, const compare::RunReader& run) {
                             "/frames/" + compare::frame_name(run.frame_step(run.frame_count() - 1)) + ".h5");
 }
 
-/// Another commit, compiler or toolkit may compute other bits. Changes that are not committed have no name: they are
-/// told.
+/// Throws if commit, compiler or toolkit differ, because these may compute other bits. It can only warn of uncommitted
+/// changes, because these have no name.
 void check_program(const std::string& folder, const Provenance& run) {
   const BuildInfo build = build_info();
   const auto same = [&](const std::string& what, const std::string& theirs, const std::string& ours) {
@@ -47,7 +47,7 @@ void check_program(const std::string& folder, const Provenance& run) {
         "be checked");
 }
 
-/// A CPU may be another one, and have other threads: no bit depends on them.
+/// Throws if the CUDA device differs. The CPU and its number of threads may differ, because no bit depends on them.
 void check_device(const std::string& folder, const Provenance& run) {
   if (run.backend != "cuda") return;
   const fast::BackendInfo here = fast::backend_info(fast::Backend::cuda);
@@ -61,7 +61,8 @@ void check_device(const std::string& folder, const Provenance& run) {
                               ": another device or driver may give other bits. Resume it there, or " + remedy);
 }
 
-/// A row for each step up to the checkpoint's, from which the totals of the summary are counted.
+/// Throws unless there is a row for each step up to the checkpoint's. The totals of the summary are counted from these
+/// rows.
 void check_rows(const std::filesystem::path& folder, std::int64_t step) {
   const std::vector<compare::StepMetrics> rows = compare::read_steps(folder, step).rows;
   bool whole = rows.empty() || rows.back().step == step;

@@ -31,8 +31,8 @@ std::string value_text(const compare::Settings& settings, const compare::Setting
 
 bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); }
 
-constexpr std::string_view data_key = "data=", contact_key = "contact=";
-/// A day.
+constexpr std::string_view data_key = "data=", contact_key = "body_contact=";
+/// one day
 constexpr double most_checkpoint_seconds = 86400;
 
 void check_scene_options(const RunOptions& options, const std::string& data) {
@@ -49,7 +49,7 @@ void check_scene_options(const RunOptions& options, const std::string& data) {
     throw compare::InputError("--scale belongs to the built-in scenes (" + scene_names() + "); a file has one size");
 }
 
-/// The scene before --set, and its scale; says what was taken otherwise than its files have it.
+/// Returns the scene before --set, and its scale; logs what was taken differently from its files.
 compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
   const std::string data = data_folder(options.assignments);
   check_scene_options(options, data);
@@ -64,7 +64,7 @@ compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
   return {make_scene(options.scene, parse_scale(scale), data), {}, {}};
 }
 
-/// The model of that name for every body that has one; false where `key` names no model.
+/// Sets the model of that name for every body that has a model; returns false if `key` names no model.
 template <class Model>
 bool set_model(compare::Scene& scene, const std::string& key, std::string_view wanted_key, const std::string& value,
                std::span<const std::string_view> names, Model compare::Material::*model) {
@@ -76,13 +76,13 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
   return true;
 }
 
-/// Throws where --set knows no such key.
+/// Throws if --set has no such key.
 void expect_setting(const std::string& key) {
-  std::vector<std::string_view> names{"membrane", "bending", "contact"};
+  std::vector<std::string_view> names{"membrane", "bending", "body_contact"};
   for (const MaterialSetting& constant : material_settings()) names.push_back(constant.name);
   for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);
   if (std::ranges::find(names, key) != names.end()) return;
-  throw compare::InputError(compare::unknown_name("setting", key, names));
+  throw compare::InputError(compare::unknown_setting(key, names));
 }
 
 void set(compare::Scene& scene, const std::string& key, const std::string& value) {
@@ -94,11 +94,12 @@ void set(compare::Scene& scene, const std::string& key, const std::string& value
     compare::set_setting(scene.settings, key, value);
 }
 
-/// Before all settings, one of which goes with it.
+/// Sets the kind of contact. It comes before all settings, because it changes one of them.
 void apply_contact(compare::Scene& scene, const std::string& value) {
   const auto names = compare::choice_names<compare::BodyContact>;
   const auto found = std::ranges::find(names, value);
-  if (found == names.end()) throw compare::InputError("contact: " + compare::unknown_name("contact", value, names));
+  if (found == names.end())
+    throw compare::InputError("body_contact: " + compare::unknown_name("contact", value, names));
   set_body_contact(scene, static_cast<compare::BodyContact>(found - names.begin()));
 }
 
@@ -232,8 +233,8 @@ std::string settings_help() {
       "how cloth resists bending: the model of every body that does");
   for (const MaterialSetting& constant : material_settings())
     add(constant.name, constant.unit, "the scene's", constant.range, constant.meaning);
-  add("contact", "1", "the scene's", compare::joined(compare::choice_names<compare::BodyContact>),
-      "bodies that a motion drives: inside the guarantee, or volumes that push out, with redetect_fraction 0 or 0.01");
+  add("body_contact", "1", "the scene's", compare::joined(compare::choice_names<compare::BodyContact>),
+      "bodies that a motion drives: inside the guarantee, or volumes that push out, with detection_fraction 0 or 0.01");
   add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
   std::istringstream lines(table(rows, 4));
   const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file ";
@@ -242,8 +243,8 @@ std::string settings_help() {
   return text;
 }
 
-/// Two states of curves say nothing about the way between them, so that an audit of every step asks the way, too; at
-/// paper scale, where traces are slow, only where it is told to.
+/// Returns the steps whose meetings are counted. Two states of curves prove nothing about the motion between them, so
+/// an audit of every step counts meetings, too; at paper scale, where traces are slow, only on request.
 std::optional<StepRange> meetings_of(const RunOptions& options, const RunRequest& request) {
   if (options.audit_meetings == "off") return std::nullopt;
   try {

@@ -1,4 +1,4 @@
-// What a run begins with: its state, and what meets there.
+// Prepares the start of a run: its state, and the faces that intersect there.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ using compare::Snapshot;
 
 namespace {
 
-constexpr std::size_t most_told = 20;  ///< intersections of a start that is tolerated
+constexpr std::size_t most_told = 20;  ///< intersections that are listed of a tolerated start
 
 }  // namespace
 
@@ -87,7 +87,7 @@ void RunSession::tell_pairs() const {
            judge_->describe(listed));
 }
 
-/// Where the intersections of a state are, and the file of them, or how to get one.
+/// Returns where the intersections of a state are, and their file or how to get one.
 std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
   const compare::Topology topology = build_topology(request_.scene);
   const std::vector<compare::Vec3> positions = compare::to_double(state.positions);
@@ -96,7 +96,7 @@ std::string RunSession::show(const std::string& name, const Snapshot& state, con
   return where + "\n" + show_offenders(request_.show, name, result, topology, positions);
 }
 
-/// Of a run that goes on, those that its frames have left open.
+/// Finds the pairs of the start. A run that continues keeps those that its frames leave open.
 void RunSession::name_pairs() {
   if (!request_.resume) {
     pairs_.emplace(request_.scene, start_.positions);
@@ -135,7 +135,7 @@ void RunSession::start_simulation() {
                                    .condition = request_.condition});
 }
 
-/// After a frame. What has come apart is held apart from the next step on.
+/// Closes pairs after a frame. Faces that have come apart are held apart from the next step on.
 void RunSession::close_pairs() {
   const Snapshot now = simulation_->snapshot();
   if (pairs_->close_apart(now.positions)) {
@@ -150,7 +150,7 @@ void RunSession::close_pairs() {
   write_pairs();
 }
 
-/// Whole each time: what was written stays readable, whatever ends the run.
+/// Writes the whole file each time, so that it stays readable however the run ends.
 void RunSession::write_pairs() const {
   compare::write_bytes(request_.folder / "start_pairs.csv", "step,open_pairs\n" + pairs_csv_);
 }

@@ -1,4 +1,4 @@
-// What a run says at its end, for people and for programs.
+// Describes the end of a run, for people and for programs.
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -11,13 +11,13 @@ namespace {
 
 std::string integer(std::int64_t value) { return std::to_string(value); }
 
-/// A run may end before it comes to a state that is to be audited.
+/// Returns why nothing was checked: a run may end before it reaches a state that is to be audited.
 std::string not_checked(const RunSummary& summary) {
   if (summary.audit == AuditMode::off) return "not checked (audit off)";
   return "not checked (audit " + name_of(summary.audit) + ", but the run came to no state to audit)";
 }
 
-/// What it leaves out of vertices that met at the start; empty where nothing.
+/// Returns what the guarantee leaves out because vertices met at the start; empty if nothing.
 std::string but_for(const RunSummary& summary) {
   if (summary.start_pairs == 0) return "";
   return "but for " + counted(summary.start_pairs, "pair") + " of vertices that met at the start, " +

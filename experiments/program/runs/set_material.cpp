@@ -16,14 +16,14 @@ namespace {
 using compare::Material;
 using compare::MaterialInfo;
 
-/// Of E and ν, which are not in the table, because the Lamé constants say the same.
+/// E and ν are not in the table, because the Lamé constants contain the same information.
 constexpr MaterialInfo young{"solid_young",       "Pa",   "tetrahedra: Young's modulus", compare::least_young,
                              compare::most_young, nullptr},
     poisson{"solid_poisson", "1", "tetrahedra: Poisson's ratio", 0, compare::most_poisson, nullptr};
 
 bool is_of_solids(std::string_view name) { return name.starts_with("solid_"); }
 
-/// Of cloth a scene has its own constants, which differ from body to body.
+/// Returns whether --set offers the constant. Constants of cloth differ from body to body, so the scene sets them.
 bool is_offered(const MaterialInfo& info) {
   return is_of_solids(info.name) || info.name == "contact_stiffness" || info.name == "friction";
 }

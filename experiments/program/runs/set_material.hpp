@@ -1,5 +1,5 @@
-// Constants of materials that --set can be given: of contact for every body, of solids for every one that has
-// tetrahedra.
+// Declares the constants of materials that --set accepts: those of contact for every body, those of solids for every
+// body with tetrahedra.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace ogc::experiments {
 
-/// One constant, for lists and help.
+/// Holds one constant, for lists and help.
 struct MaterialSetting {
   std::string_view name, unit;
   std::string range;  ///< "0 to 1024"
   std::string meaning;
 };
 
-/// All of them.
+/// Returns all constants.
 std::vector<MaterialSetting> material_settings();
 
-/// Gives the constant of that name to the scene's bodies; false where there is no such constant. Young's modulus keeps
-/// Poisson's ratio, and the other way round. Throws compare::InputError for a value that is no number or out of range,
-/// and for a constant of solids where the scene has none.
+/// Sets the constant of that name for the scene's bodies; returns false if there is no such constant. Setting Young's
+/// modulus keeps Poisson's ratio, and vice versa. Throws compare::InputError for a value that is not a number or out of
+/// range, and for a constant of solids if the scene has none.
 bool set_material(compare::Scene& scene, const std::string& key, const std::string& value);
 
-/// Of all "key=value" those that name a constant of solids, given to the scene: what a solid is made of must be known
-/// before settings can follow from it. Others are left alone.
+/// Sets those "key=value" that name a constant of solids and leaves the others alone. The material of a solid must be
+/// known before settings are derived from it.
 void set_solid_constants(compare::Scene& scene, const std::vector<std::string>& assignments);
 
 }  // namespace ogc::experiments

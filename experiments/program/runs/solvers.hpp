@@ -1,4 +1,4 @@
-// The solvers of `ogc run`, and which of its options each of them has.
+// Lists the solvers of `ogc run` and the options that each of them has.
 #pragma once
 
 #include <span>
@@ -10,30 +10,30 @@
 
 namespace ogc::experiments {
 
-/// Who computes a step.
+/// The method that computes a step.
 enum class Solver { vbd, newton, reference_vbd, ipc, penalty };
 
-/// Of `--solver`, in the order of the enumeration.
+/// Returns the names for `--solver`, in the order of the enumeration.
 std::span<const std::string_view> solver_names();
-/// Throws compare::InputError that names what there is.
+/// Throws compare::InputError that lists the names.
 Solver parse_solver(std::string_view name);
 
-/// Which options belong to a solver.
+/// Says which options belong to a solver.
 struct SolverOptions {
   bool has_backends = false;           ///< --backend; the others run on the CPU
   bool has_condition = false;          ///< --condition
   bool has_measured_residual = false;  ///< --residual: the column holds Eq. 29
-  bool has_traced_rows = false;        ///< --iterations writes rows of a trace beside the run
-  bool is_penalty = false;             ///< bounds=off and activation=quadratic, whatever the scene says
+  bool has_traced_rows = false;        ///< --iterations writes rows of a trace that runs beside the simulation
+  bool is_penalty = false;             ///< bounds=off and contact_activation=quadratic, whatever the scene says
 };
-/// Of one solver.
+/// Returns the options of one solver.
 SolverOptions options_of(Solver solver);
 
-/// What the solver needs of the settings, which run.json then has. Throws compare::InputError where `assigned`, the
-/// key=value of --set, asks for something else.
+/// Sets what the solver needs in the settings, which run.json then has. Throws compare::InputError if `assigned`, the
+/// key=value of --set, contradicts it.
 void require_settings(Solver solver, std::span<const std::string> assigned, compare::Settings& settings);
 
-/// Who computes it. `on_device`: for solvers with backends.
+/// Returns the contestant of the solver. `on_device`: for solvers with backends.
 compare::Contestant contestant_of(Solver solver, bool on_device);
 
 }  // namespace ogc::experiments

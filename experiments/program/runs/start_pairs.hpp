@@ -1,7 +1,7 @@
-// Pairs of vertices whose faces meet where a run begins, for `ogc run --tolerate-start`. While a pair is open, a
-// face of the one vertex and a face of the other are no contact; no bound keeps them apart, and they are not audited. A
-// pair closes for good when no two faces that have it meet any more. So two faces that meet always have an open pair,
-// and all other faces are held apart.
+// Tracks pairs of vertices whose faces intersect at the start of a run, for `ogc run --tolerate-start`. While a pair is
+// open, a face of one vertex and a face of the other are no contact, no bound holds them apart, and they are not
+// audited. A pair closes for good once no two of its faces intersect. So two faces that intersect always have an open
+// pair, and all other faces are held apart.
 #pragma once
 
 #include <vector>
@@ -11,19 +11,20 @@
 
 namespace ogc::experiments {
 
-/// The pairs of one run.
+/// Holds the pairs of one run.
 class StartPairs {
  public:
-  /// All that meet at these positions [m] beside what the scene leaves out itself. The scene must outlive it.
+  /// Finds all pairs that intersect at these positions [m], apart from those that the scene itself leaves out. The
+  /// scene must outlive this object.
   StartPairs(const compare::Scene& scene, const std::vector<compare::Vec3f>& start);
-  /// Closes the open ones of which no two faces meet here, and returns whether there was any.
+  /// Closes the open pairs of which no two faces intersect at these positions; returns whether there was any.
   bool close_apart(const std::vector<compare::Vec3f>& positions);
-  /// How many there were, and how many are open.
+  /// Return the number of pairs at the start, and of open pairs.
   std::size_t named() const { return named_; }
   std::size_t open() const { return open_.size(); }
-  /// What meets at the start.
+  /// Returns the intersections at the start.
   const compare::AuditResult& at_start() const { return at_start_; }
-  /// The scene in which open pairs are excluded.
+  /// Returns the scene in which open pairs are excluded.
   compare::Scene tolerant_scene() const;
 
  private:

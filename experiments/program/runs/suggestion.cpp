@@ -1,4 +1,4 @@
-// Each number is one function: what it has to satisfy, solved for the number, then rounded to the safe side.
+// Each number has a function that solves a condition for it and then rounds to the safe side.
 #include "experiments/program/runs/suggestion.hpp"
 
 #include <algorithm>
@@ -19,24 +19,25 @@ namespace {
 using compare::Vec3;
 
 constexpr double gravity = 9.81;  ///< [m/s²]
-/// r is a quarter of an edge: the paper's cloths lie between a fifth (twist) and a whole one.
+/// r is a quarter of an edge; in the paper's cloths it lies between a fifth of an edge (twist) and a whole one.
 constexpr double edges_a_radius = 4;
-constexpr double least_edges_a_radius = 20;  ///< below that contacts are thinner than any mesh resolves
-constexpr double most_radii = 16;  ///< of r_q, whatever the edges: the lists of candidates grow with its square
-constexpr double weights_held =
-    10;  ///< layers that may lie on a vertex before its contact is pressed to half its radius
-constexpr double detections_a_step = 4;     ///< that a step at the speed of the fall may take
-constexpr double longest_step = 1.0 / 100;  ///< [s] of the paper's scenes
+/// smallest r: a twentieth of an edge, below which contacts are thinner than any mesh resolves
+constexpr double least_edges_a_radius = 20;
+/// largest r_q in r, whatever the edges: the lists of candidates grow with its square
+constexpr double most_radii = 16;
+constexpr double weights_held = 10;         ///< layers that press a vertex's contact to half its radius
+constexpr double detections_a_step = 4;     ///< detections that a step at the speed of the fall may take
+constexpr double longest_step = 1.0 / 100;  ///< the longest of the paper's scenes [s]
 constexpr double fewest_iterations = 10, most_iterations = 100;
-/// Of the extension of what hangs, by which sweeps that end early may leave it longer.
+/// Share by which sweeps that end early may leave an extension under weight too large.
 constexpr double most_excess = 0.01;
-/// Modes are not quite smooth, and colours are not rows: the exponent of method.md §7.7 is right to 0.9 to 1.2 times
-/// (tests/experiments/program/runs/suggestion.cpp).
+/// The exponent of method.md §7.7 is right to 0.9 to 1.2 times, because modes are not quite smooth and colours are not
+/// rows (tests/experiments/program/runs/suggestion.cpp).
 constexpr double least_rate = 0.9;
-/// Sweeps that a step of a stack at rest takes for each of its layers and each r that they fall in the step, g h²: a
-/// step begins with all of them fallen, and sweeps carry the ground's support up layer by layer. Stacks of 10 to 50
-/// aligned sheets keep their gaps with 16 where g h² is from r/64 to r/4, and are squeezed until they tremble with 12.
-/// Where a layer falls by r and more contacts hold it back at the step's start, and 8 a layer are enough
+/// Sweeps in a step of a stack at rest, for each of its layers and each r that they fall in the step, g h². A step
+/// begins after all layers have fallen, and sweeps propagate the ground's support up layer by layer. Stacks of 10 to 50
+/// aligned sheets keep their gaps with 16 where g h² is from r/64 to r/4; with 12 they are squeezed until they tremble.
+/// If a layer falls by r or more, contacts hold it back at the step's start, and 8 for each layer are enough
 /// (tests/experiments/stacks.cpp).
 constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
 
@@ -44,11 +45,11 @@ struct Measures {
   double edge = 0;  ///< length that stands for all edges [m]
   std::string edge_name;
   double gap = 0;     ///< smallest distance of primitives without a common vertex [m]; infinite where there is no pair
-  double mass = 0;    ///< mean of a vertex, of a solid of one on its surface [kg]
-  double speed = 0;   ///< at the end of the fall [m/s]
-  double layers = 1;  ///< that lie on one another, on average over what is below them
-  double stiffness = 0;  ///< q, of vertices over their mass, as stiffness_by_mass [1/s²]
-  double slowest = 0;    ///< ω² of the slowest stretch of the mesh hung by an end, as slowest_stretch [1/s²]
+  double mass = 0;    ///< mean mass of a vertex; of a solid, that of a surface vertex [kg]
+  double speed = 0;   ///< speed at the end of the fall [m/s]
+  double layers = 1;  ///< layers on top of one another, averaged over the area below them
+  double stiffness = 0;  ///< q, stiffness of vertices over mass; see stiffness_by_mass [1/s²]
+  double slowest = 0;    ///< ω² of the slowest stretch of the mesh hung by an end; see slowest_stretch [1/s²]
 };
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -58,7 +59,7 @@ double area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x) / 2;
 }
 
-/// Seen from above: the area of all triangles by that of the rectangle around them; at least 1.
+/// Returns the area of all triangles, seen from above, divided by that of the rectangle around them; at least 1.
 double layers_of(const compare::Mesh& mesh) {
   const auto flat = [&](compare::Index v) {
     const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
@@ -82,7 +83,7 @@ double volume(const Vec3& o, const Vec3& p, const Vec3& q, const Vec3& r) {
   return std::abs(u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) + u.z * (v.x * w.y - v.y * w.x)) / 6;
 }
 
-/// ρ A of cloth, ρ V of a solid [kg].
+/// Returns the mass: ρ A of cloth, ρ V of a solid [kg].
 double mass_of(const compare::Mesh& mesh, const compare::Material& material) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
   double mass = 0;
@@ -100,8 +101,8 @@ std::size_t surface_vertices(const compare::Topology& topology) {
   return count;
 }
 
-/// Σ size ‖∇N‖² over the corners of a simplex, with ‖∇N‖ = G/(dimension · size) and G the size of the face opposite to
-/// a corner.
+/// Returns Σ size ‖∇N‖² over the corners of a simplex, with ‖∇N‖ = G/(dimension · size) and G the size of the face
+/// opposite to a corner.
 template <std::size_t n>
 double gradients(double size, const std::array<double, n>& opposite) {
   constexpr double dimension = n - 1;
@@ -110,8 +111,9 @@ double gradients(double size, const std::array<double, n>& opposite) {
   return sum;
 }
 
-/// q: Σ size ‖∇N‖² (μ + (λ + μ)/dimension), the stiffness of vertices whose neighbours stand still on average over
-/// directions, over the mass [1/s²]. Both are sums over all vertices, since that is how sweeps treat a smooth mode.
+/// Returns q: Σ size ‖∇N‖² (μ + (λ + μ)/dimension), the stiffness of vertices whose neighbours stand still, averaged
+/// over directions, divided by the mass [1/s²]. Both are sums over all vertices, because sweeps treat a smooth mode
+/// like that.
 double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& material) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
   const auto over = [](double mu, double lambda, double dimension) { return mu + (lambda + mu) / dimension; };
@@ -129,8 +131,8 @@ double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& mat
   return over(material.lame_mu, material.lame_lambda, 2) * sum / mass_of(mesh, material);
 }
 
-/// A strip as long as the mesh is at most along an axis, L, one of whose ends is held: ω = π/(2L) √(E/ρ), with Young's
-/// modulus E in plane stress, of a solid in space.
+/// Returns ω² of a strip as long as the mesh is at most along an axis, L, with one end held: ω = π/(2L) √(E/ρ), with
+/// Young's modulus E in plane stress, or in space for a solid.
 double slowest_stretch(const compare::Mesh& mesh, const compare::Material& material) {
   Vec3 low = mesh.positions[0], high = low;
   for (const Vec3& p : mesh.positions) {
@@ -149,7 +151,7 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
   const compare::Topology topology = compare::build_topology(mesh);
   std::vector<double> lengths;
   for (const auto& [a, b] : topology.edges) lengths.push_back(distance(at(a), at(b)));
-  // Where a tenth of the edges is far shorter than most, like those around a can, they decide what may be called near.
+  // If a tenth of the edges is far shorter than most, like those around a can, these decide which distances are near.
   std::ranges::sort(lengths);
   const double middle = lengths[lengths.size() / 2], shortest = 2 * lengths[lengths.size() / 10];
   const compare::SmallestDistances gaps = compare::smallest_distances(topology, mesh.positions);
@@ -163,13 +165,13 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
           slowest_stretch(mesh, material)};
 }
 
-/// `value` with two digits, not above it.
+/// Returns `value` rounded down to two digits.
 double two_digits(double value) {
   const double units = std::pow(10, 1 - std::floor(std::log10(value)));
   return std::floor(value * units) / units;
 }
 
-/// 1, 2 or 5 times a power of ten: the smallest such number that is not below `value`.
+/// Returns the smallest number that is not below `value` and is 1, 2 or 5 times a power of ten.
 double round_number_above(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
   for (const double step : {1.0, 2.0, 5.0})
@@ -177,7 +179,7 @@ double round_number_above(double value) {
   return 10 * power;
 }
 
-/// `value` within the range that the program takes.
+/// Returns `value` limited to the range that the program accepts.
 SuggestedNumber within(double minimum, double maximum, SuggestedNumber suggested) {
   const double value = std::clamp(suggested.value, minimum, maximum);
   if (value != suggested.value)
@@ -209,7 +211,7 @@ SuggestedNumber radius_of(const Measures& mesh) {
 }
 
 SuggestedNumber query_radius_of(const Measures& mesh, double contact_radius) {
-  const double least = compare::Settings{}.query_radius_cap * contact_radius;
+  const double least = compare::Settings{}.detection_radius_cap * contact_radius;
   const double value = std::clamp(two_digits(mesh.edge), least, most_radii * contact_radius);
   return {value,
           "about one edge, from 4 r to 16 r: a vertex may move γ_p r_q before contacts are detected again, and the "
@@ -228,14 +230,14 @@ SuggestedNumber stiffness_of(const Measures& mesh, double contact_radius) {
                                            " m/s, the end of the fall, is stopped within half of r: k_c (r/2)² ≥ m v²"};
 }
 
-/// Sweeps that the layers ask for.
+/// Returns the number of sweeps that the layers need.
 double layer_sweeps(const Measures& mesh, double contact_radius, double step) {
   const double fallen = gravity * step * step / contact_radius;
   return mesh.layers * std::min(sweeps_a_layer_and_radius * fallen, most_sweeps_a_layer);
 }
 
 SuggestedNumber time_step_of(const Measures& mesh, double contact_radius, double query_radius) {
-  const double way = detections_a_step * compare::Settings{}.bound_relaxation * query_radius;
+  const double way = detections_a_step * compare::Settings{}.bounds_relaxation * query_radius;
   const double settled = std::sqrt(most_iterations * contact_radius /
                                    (sweeps_a_layer_and_radius * gravity * mesh.layers));
   if (layer_sweeps(mesh, contact_radius, longest_step) > most_iterations && mesh.speed * settled <= way)
@@ -249,17 +251,17 @@ SuggestedNumber time_step_of(const Measures& mesh, double contact_radius, double
               " m/s, the end of the fall, a step is not longer than 4 γ_p r_q, what four detections let a vertex move"};
 }
 
-/// D and 1 + h² ω² of method.md §7.7.
+/// Holds D and 1 + h² ω² of method.md §7.7.
 struct Sweeping {
   double block, mode;
   Sweeping(const Measures& mesh, double step)
       : block(1 + step * step * mesh.stiffness), mode(1 + step * step * mesh.slowest) {}
-  /// The share by which so many sweeps leave an extension larger than it should be, and sweeps that leave 1 % or less.
+  /// Returns the share by which so many sweeps leave an extension too large; `enough`: sweeps that leave 1 % or less.
   double excess(double iterations) const { return mode / std::expm1(2 * iterations * mode / block); }
   double enough() const { return block / (2 * mode * least_rate) * std::log1p(mode / most_excess); }
 };
 
-/// The longest step below `step` in which so many iterations leave 1 %; enough() grows with the step.
+/// Returns the longest step below `step` in which so many iterations leave 1 %; enough() grows with the step.
 double step_for(const Measures& mesh, double iterations, double step) {
   double low = 0, high = step;
   for (int halving = 0; halving < 50; ++halving) {
@@ -269,7 +271,7 @@ double step_for(const Measures& mesh, double iterations, double step) {
   return low;
 }
 
-/// What sweeps cost: how much longer they leave what hangs, and what would help where that is more than it may be.
+/// Says by how much the sweeps leave a hanging mesh too long, and, if that exceeds the limit, what would help.
 std::string hanging(const Measures& mesh, double iterations, double step) {
   const Sweeping sweeping(mesh, step);
   const std::string text = "hung by an end the mesh stretches about " + number(100 * sweeping.excess(iterations)) +
@@ -315,7 +317,7 @@ Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material,
 
 void apply(const Suggestion& suggestion, compare::Scene& scene) {
   scene.settings.contact_radius = suggestion.contact_radius.value;
-  scene.settings.query_radius_cap = suggestion.query_radius.value / suggestion.contact_radius.value;
+  scene.settings.detection_radius_cap = suggestion.query_radius.value / suggestion.contact_radius.value;
   scene.settings.time_step = suggestion.time_step.value;
   scene.settings.iterations = static_cast<std::int64_t>(suggestion.iterations.value);
   for (compare::Body& body : scene.bodies) body.material.contact_stiffness = suggestion.contact_stiffness.value;

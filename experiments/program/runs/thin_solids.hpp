@@ -1,4 +1,4 @@
-// Solids that are thinner than the contact radius at rest.
+// Warns of solids that are thinner than the contact radius at rest.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace ogc::experiments {
 
-/// Which solid's own faces are in contact at rest, by the contact sets of its rest shape alone: how many pairs, and how
-/// thin it is there [m]. Of several solids the thinnest. Empty where none is.
+/// Returns a warning about the thinnest solid whose own faces are in contact at rest, by the contact sets of its rest
+/// shape alone: the number of pairs and the thickness there [m]. Empty if there is none.
 std::string thin_solid_warning(const compare::Scene& scene);
 
 }  // namespace ogc::experiments

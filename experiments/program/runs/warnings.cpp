@@ -15,7 +15,7 @@ namespace {
 
 using compare::Vec3;
 
-/// Of what gravity changes in a step a tenth may be left undone, where nobody knows better.
+/// Share of the speed that gravity adds in a step which a solver may leave out, where nothing better is known.
 constexpr double share_of_gravity = 0.1;
 
 double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
@@ -40,7 +40,7 @@ std::string box_warning(const compare::Scene& scene) {
          " m: lengths are metres; a mesh in millimetres is to be scaled by 0.001, one in centimetres by 0.01";
 }
 
-/// Of the edges of the body's triangles, sides of two triangles twice; 0 where it has none.
+/// Returns the median edge of the body's triangles, counting an edge of two triangles twice; 0 if there is none.
 double median_edge(const compare::Scene& scene, const compare::Body& body) {
   std::vector<double> lengths;
   const auto at = [&](compare::Index v) { return scene.mesh.positions[static_cast<std::size_t>(v)]; };
@@ -54,7 +54,7 @@ double median_edge(const compare::Scene& scene, const compare::Body& body) {
   return *middle;
 }
 
-/// Of the body with the shortest edges: it has the most contacts.
+/// Warns of a large r for the body with the shortest edges, which has the most contacts.
 std::string radius_warning(const compare::Scene& scene) {
   const double contact_radius = scene.settings.contact_radius;
   const compare::Body* finest = nullptr;
@@ -70,7 +70,8 @@ std::string radius_warning(const compare::Scene& scene) {
          " m, one edge, or a coarser mesh (ogc suggest says more)";
 }
 
-/// Where a step may leave undone what gravity changes in it, what rests and what has begun to slide look alike.
+/// Warns if a step may leave out all that gravity changes in it: then a body at rest and one that begins to slide look
+/// alike.
 std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
   if (solver != Solver::ipc) return "";
   const double speed = reference::ipc_end_speed(scene), gained = length(scene.gravity) * scene.settings.time_step;
@@ -83,7 +84,8 @@ std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
          " m/s in a step: what should begin to move may stay; take " + setting + "=" + number(least, 1);
 }
 
-/// Where keyframes hold the k-th vertex of their motion at t = 0: between two keys, or at the first or last of them.
+/// Returns where keyframes place the k-th vertex of their motion at t = 0: between two keys, or at the first or last
+/// one.
 Vec3 at_start(const compare::PrescribedMotion& motion, std::size_t k) {
   const std::vector<double>& times = motion.keyframes.times;
   const auto key = [&](std::size_t frame) {
@@ -97,7 +99,7 @@ Vec3 at_start(const compare::PrescribedMotion& motion, std::size_t k) {
   return {from.x + s * (to.x - from.x), from.y + s * (to.y - from.y), from.z + s * (to.z - from.z)};
 }
 
-/// Of the motion whose keys begin farthest from where its vertices are.
+/// Warns of the motion whose keyframes begin farthest from their vertices.
 std::string keys_warning(const compare::Scene& scene) {
   double farthest = most_radii_from_keys * scene.settings.contact_radius;
   const compare::PrescribedMotion* of = nullptr;
@@ -174,7 +176,7 @@ std::string Warnings::momentum_text() const {
          " % of what was to move, by mass and way, to truncation, above " + number(100 * most_momentum_lost) +
          " %, after all " + std::to_string(guess_rounds_) +
          " rounds of the guess: what moves is faster than bounds let it; take a smaller time_step, or a larger "
-         "query_radius_cap, contact_radius or guess_rounds";
+         "detection_radius_cap, contact_radius or guess_rounds";
 }
 
 std::string Warnings::force_text() const {
@@ -188,14 +190,14 @@ std::string Warnings::held_text() const {
   return counted(static_cast<std::size_t>(longest_held_), "step") + " in a row ended with every one of the " +
          std::to_string(free_) + " free vertices" +
          " cut by its bound: nothing moves as forces ask, and what hangs still is no equilibrium; look at the smallest "
-         "distances of the start (ogc audit), or take a smaller time_step or a larger query_radius_cap or "
+         "distances of the start (ogc audit), or take a smaller time_step or a larger detection_radius_cap or "
          "contact_radius";
 }
 
 std::string Warnings::lag_text() const {
   return "prescribed vertices lag " + number(lag_->value) + " m behind their motion in step " +
          std::to_string(lag_->step) + ", above contact_radius (" + number(radius_) +
-         " m): bounds hold them; move them slower, or take a smaller time_step or a larger query_radius_cap";
+         " m): bounds hold them; move them slower, or take a smaller time_step or a larger detection_radius_cap";
 }
 
 }  // namespace ogc::experiments

@@ -1,7 +1,8 @@
 """One table of the studies that were run, as results keep it: `python3 -m paper_figures.figures.ablations.gather
-FOLDER... --out ablations_SCALE.csv`, FOLDERs that study.py left; a long one is compressed, as .csv.gz. `--keep TABLE`:
-an older one, of which the scenes that the folders do not have stay. A metric that is one number in every run of a scene
-is left out, as it tells no setting from another, but for how many runs of a point kept the guarantee."""
+FOLDER... --out ablations_SCALE.csv`, with the FOLDERs that study.py wrote; a long table is compressed, as .csv.gz.
+`--keep TABLE`: an older table, which keeps its scenes that the folders lack. A metric with one value in every run of a
+scene is left out, because it does not distinguish settings; the number of runs of a point that kept the guarantee
+stays."""
 
 import argparse
 import csv
@@ -18,7 +19,7 @@ NUMBERS = ("median", "smallest", "largest")
 
 
 def told(rows):
-    """Rows of one study's scene whose metric differs between any two runs."""
+    """Returns the rows of one study's scene whose metric differs between any two runs."""
     values = {}
     for row in rows:
         values.setdefault(row["metric"], set()).update(row[name] for name in NUMBERS if row[name] not in ("", "nan"))
@@ -26,7 +27,7 @@ def told(rows):
 
 
 def by_scene(path):
-    """(study, scene) -> rows of a table, compressed or not."""
+    """Returns (study, scene) -> rows of a table, compressed or not."""
     data, scenes = path.read_bytes(), {}
     for row in csv.DictReader(io.StringIO((gzip.decompress(data) if path.suffix == ".gz" else data).decode())):
         scenes.setdefault((row["study"], row["scene"]), []).append(row)

@@ -1,13 +1,15 @@
 """Runs one study of the method's parts, points x scenes x seeds, tabulates and draws it. Usage: python3 -m
 paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
 
-NAME.yaml beside this file says all: `study` has `jitter` [m], `repeat`, `audit`, and `scenes`, each with `points` (of
-`ogc ablate --point`; the others are held against the first; where they differ by scale, one list a scale), and by
-scale `set` (settings of all points) and `options` (further options of `ogc ablate`); `scales` names those that the
-scene is run at, where it is not at all. With `solver` in `study` that one runs it, on the CPU. FOLDER then holds a
-folder of `ogc ablate` for each scene, ablations.csv (a row a scene, metric and point), NAME.txt (findings), NAME.png
-and NAME.pdf. Cut off and called again, it goes on with the run that was cut off; with --made it tabulates and draws
-the scenes that there are."""
+NAME.yaml beside this file defines the study. `study` has `jitter` [m], `repeat`, `audit`, and `scenes`, each with
+`points` (of `ogc ablate --point`; the others are compared with the first; one list for each scale if they differ by
+scale), and by scale `set` (settings of all points) and `options` (further options of `ogc ablate`); `scales` names the
+scales at which the scene is run, if it is not run at all of them. If `study` has `solver`, that solver runs it, on the
+CPU.
+
+FOLDER then holds a folder of `ogc ablate` for each scene, ablations.csv (a row for each scene, metric and point),
+NAME.txt (findings), NAME.png and NAME.pdf. If it is interrupted and called again, it continues with the interrupted
+run; with --made it tabulates and draws the existing scenes."""
 
 import argparse
 import csv
@@ -27,24 +29,24 @@ from plots import ablation, style
 
 HERE = Path(__file__).parent
 TABLE = "ablations.csv"
-KEPT = "guarantee_kept"  # the metric whose number is how many runs of a point kept it
-JUDGED = ("yes", "no")  # what an audit says of a run's guarantee
+KEPT = "guarantee_kept"  # the metric whose number is how many runs of a point kept the guarantee
+JUDGED = ("yes", "no")  # an audit's answers about a run's guarantee
 KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver"}
 SCENE_KEYS = {"points", "set", "options", "scales"}
 CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
-AXES = 2.8  # inches that a column's axes and their titles need beside the names of points
+AXES = 2.8  # inches for a column's axes and their titles beside the names of points
 LETTER = 0.06  # inches of a letter of a name
-LETTERS = 14  # of the title to an inch
+LETTERS = 14  # letters of the title to an inch
 PANELS = ("median_step", "detections_a_step", "contacts_a_step", "largest_momentum_lost_end", "smallest_distance",
           "last_energy")
 
 
 class StudyError(Exception):
-    """A study that can't be run or drawn; the message says what is wrong and where."""
+    """Raised if a study can't be run or drawn; the message says what is wrong and where."""
 
 
 def load(name):
-    """The part `study` of NAME.yaml. Throws StudyError where it has a key that nobody reads."""
+    """Returns the part `study` of NAME.yaml. Throws StudyError if it has a key that nothing reads."""
     path = HERE / f"{name}.yaml"
     if not path.is_file():
         there = ", ".join(sorted(path.stem for path in HERE.glob("*.yaml")))
@@ -58,17 +60,18 @@ def load(name):
 
 
 def scenes_at(study, scale):
-    """Names of the scenes that are run at this scale."""
+    """Returns the names of the scenes that are run at this scale."""
     return [name for name, body in study["scenes"].items() if scale in body.get("scales", [scale])]
 
 
 def points_at(body, scale):
-    """Points of a scene at this scale."""
+    """Returns the points of a scene at this scale."""
     return body["points"][scale] if isinstance(body["points"], dict) else body["points"]
 
 
 def command(study, scene, scale, backend, data=""):
-    """Words of `ogc ablate` behind the program, without --out. `data`: of the published dress, else a stand-in."""
+    """Returns the words of `ogc ablate` after the program, without --out. `data`: folder of the published dress;
+    without it a stand-in is used."""
     body = study["scenes"][scene]
     points = [word for point in points_at(body, scale) for word in ("--point", point)]
     chosen = [*body.get("set", {}).get(scale, []), *([f"data={data}"] if data and scene == "dress" else [])]
@@ -80,14 +83,14 @@ def command(study, scene, scale, backend, data=""):
 
 
 def program():
-    """What tells one program's runs from another's, where the workflow says so."""
+    """Returns what distinguishes the runs of different programs, if the workflow names it."""
     stamp = Path(os.environ.get("OGC_STAMP", ""))
     return stamp.read_text() if stamp.is_file() else ""
 
 
 def run(ogc, words, folder, jobs=1):
-    """The runs of a scene, `jobs` at a time; those of another program or question go first. Throws StudyError where
-    they do not come to an end."""
+    """Makes the runs of a scene, `jobs` at a time, after removing those of another program or question. Throws
+    StudyError if they do not finish."""
     question = json.dumps({"program": program(), "words": words})
     note = folder.with_suffix(".json")
     if folder.is_dir() and not (note.is_file() and note.read_text() == question):
@@ -101,14 +104,14 @@ def run(ogc, words, folder, jobs=1):
 
 
 def origin(folder):
-    """Commit and device of the scene's runs."""
+    """Returns commit and device of the scene's runs."""
     manifest = json.loads(next(iter(sorted(folder.glob("*/run.json")))).read_text())
     return {"commit": manifest["commit"][:10] + (" (dirty)" if manifest["dirty"] else ""),
             "device": manifest["device"]}
 
 
 def membrane(folder, point):
-    """The model of the cloth's membranes at a point; empty where there is no cloth."""
+    """Returns the model of the cloth's membranes at a point; empty if there is no cloth."""
     own = [path for path in sorted(folder.glob("*/run.json")) if "membrane=" not in path.parent.name]
     found = " and ".join(sorted(membranes_of(json.loads(own[0].read_text())))) if own else ""
     chosen = [word.partition("=")[2] for word in point.split(",") if word.startswith("membrane=")]
@@ -116,7 +119,7 @@ def membrane(folder, point):
 
 
 def rows(folder, study, scene):
-    """Rows of the study's table: a metric and point of a scene."""
+    """Returns the rows of a scene in the study's table: one for each metric and point."""
     made_by = origin(folder)
     with (folder / ablation.TABLE).open(newline="") as file:
         for row in csv.DictReader(file):
@@ -128,7 +131,7 @@ def rows(folder, study, scene):
                    "membrane": membrane(folder, point)}
     for point, runs in of_points(folder).items():
         if not any(run["guarantee_kept"] in JUDGED for run in runs):
-            continue  # nothing was audited: no run is known to have kept it, or not
+            continue  # nothing was audited: whether a run kept it is not known
         kept = sum(run["guarantee_kept"] == "yes" for run in runs)
         ended = sum(run["status"] == "finished" for run in runs)
         yield {"study": study, "scene": scene, "metric": KEPT, "point": point, "unit": "1", "runs": len(runs),
@@ -137,7 +140,7 @@ def rows(folder, study, scene):
 
 
 def of_points(folder):
-    """point -> rows of its runs, those that failed, too."""
+    """Returns point -> rows of its runs, including failed ones."""
     found = {}
     with (folder / "ablation.csv").open(newline="") as file:
         for row in csv.DictReader(file):
@@ -148,7 +151,7 @@ def of_points(folder):
 
 
 def draw(folders, panels, title, out):
-    """A row a metric that any scene has, a column a scene."""
+    """Draws a row for each metric that any scene has, and a column for each scene."""
     plt = style.use()
     panels = [name for name in panels if any(name in metrics for metrics in folders.values())]
     points = [list(settings) for metrics in folders.values() for _, settings in metrics.values()]

@@ -1,13 +1,13 @@
 """§5.5.3's two energies held side by side in three ways: at one k_c, at one curvature, at one smallest distance; under
 three loads. Runs, tables and picture.
 
-Fig. 21's cloth falls with each energy; its last step is solved again from its own state before it by VBD in double,
-and the iterations to three residuals are counted. IPC's energy is −κ k_c (d − r)² ln(d/r) with κ from 0.1 to 40. The
-load of a row is the median force of OGC's contacts at the end, in units of k_c r. From OGC's row and those of IPC's
+Fig. 21's cloth falls with each energy. VBD in double then solves its last step again from the energy's own state before
+it, and the iterations to three residuals are counted. IPC's energy is −κ k_c (d − r)² ln(d/r) with κ from 0.1 to 40.
+The load of a row is the median force of OGC's contacts at the end, in units of k_c r. From OGC's row and those of IPC's
 energy follow, by interpolation over ln κ, the κ at which both keep the same smallest distance, and the κ at which the
 logarithm's curvature at the force of the load is that of OGC's, which is k_c in the quadratic stage and f²/(k_c r²/4)
-in the other; under a high load there is no such κ, and the table then says by how much the logarithm is the stiffer at
-least.
+in the other. Under a high load this κ does not exist, and the table then gives the least ratio of the logarithm's
+curvature to OGC's.
 """
 
 import math
@@ -25,7 +25,7 @@ from plots import style
 from plots.run_folder import Run, RunError
 
 NAME = "activation_load"
-STIFFNESSES = (10, 1, 0.2)  # k_c [N/m]: the printed one, and softer ones, so that contacts are pressed harder
+STIFFNESSES = (10, 1, 0.2)  # k_c [N/m]: the printed one, and softer ones, which press contacts harder
 RATIOS = (0.1, 0.25, 0.5, 1, 2, 3, 7, 40)  # κ
 SEEDS = {"smoke": 1, "small": 1}  # solved to convergence: nothing is chaotic
 JITTER = 1e-6  # [m]
@@ -35,7 +35,7 @@ WAYS = ("contact stiffness", "curvature at the load", "smallest distance")
 
 @dataclass(frozen=True)
 class Point:
-    """An energy, k_c of OGC's beside it, κ and a seed."""
+    """Holds an energy, the k_c of OGC's beside it, κ and a seed."""
 
     energy: str
     stiffness: float
@@ -48,7 +48,7 @@ class Point:
 
     def words(self, scale):
         return (commands.ACTIVATIONS, "--scale", scale, "--steps", commands.ACTIVATION_STEPS[scale], *commands.BY_VBD,
-                "--set", f"contact_stiffness={self.ratio * self.stiffness:g}", "--set", f"activation={self.energy}")
+                "--set", f"contact_stiffness={self.ratio * self.stiffness:g}", "--set", f"contact_activation={self.energy}")
 
     def fall(self, scale):
         return Job(self.name, (*self.words(scale), *commands.FRAMES, "--jitter", f"{JITTER:g}", "--seed", self.seed))
@@ -66,12 +66,12 @@ def points(scale):
 
 
 def chains(scale):
-    """Of jobs, a chain a point."""
+    """Returns the jobs, a chain for each point."""
     return [(point.fall(scale), point.last_step(scale)) for point in points(scale)]
 
 
 def measured(point, folder, ogc, scale):
-    """{quantity: number} of a point; iterations that were not enough are infinitely many."""
+    """Returns {quantity: number} of a point; an insufficient number of iterations becomes infinity."""
     run, last = Run(folder / point.name), Run(folder / f"{point.name}_last")
     rows = iterations(last, commands.ACTIVATION_STEPS[scale])
     sweeps = {f"iterations to {name} [1]": first_below(rows, level) for name, level in LEVELS.items()}
@@ -92,7 +92,7 @@ def middle(values):
 
 
 def table(scale, folder, ogc):
-    """A row an energy, load and κ: medians and ranges over the seeds."""
+    """Returns a row for each energy, load and κ: medians and ranges over the seeds."""
     groups = {}
     for point in points(scale):
         groups.setdefault((point.stiffness, point.energy, point.ratio), []).append(point)
@@ -108,17 +108,17 @@ def table(scale, folder, ogc):
 
 
 def log_force(u):
-    """Of IPC's energy with κ = 1, over k_c r; u = d/r."""
+    """Returns the force of IPC's energy with κ = 1, over k_c r; u = d/r."""
     return 2 * (u - 1) * math.log(u) + (u - 1)**2 / u
 
 
 def log_curvature(u):
-    """Its second derivative over k_c."""
+    """Returns the second derivative of that energy over k_c."""
     return -2 * math.log(u) - 4 * (u - 1) / u + (u - 1)**2 / u**2
 
 
 def distance_at(force):
-    """d/r at which IPC's energy with κ = 1 pushes with `force` k_c r: the force falls with the distance."""
+    """Returns d/r at which IPC's energy with κ = 1 pushes with `force` k_c r: the force falls with the distance."""
     near, far = 1e-12, 1.0
     for _ in range(200):
         halfway = (near + far) / 2
@@ -127,14 +127,14 @@ def distance_at(force):
 
 
 def stiffer(force, ratio):
-    """Curvature of IPC's energy over OGC's where both push with `force` k_c r."""
+    """Returns the ratio of IPC's curvature to OGC's where both push with `force` k_c r."""
     own = 1 if force <= 0.5 else 4 * force**2
     return ratio * log_curvature(distance_at(force / ratio)) / own
 
 
 def crossing(values, wanted):
-    """ln κ at which the piecewise linear `values` over ln κ of RATIOS come to `wanted`, the largest; None where they do
-    not."""
+    """Returns the largest ln κ at which the piecewise linear `values` over ln κ of RATIOS equal `wanted`; None if there
+    is none."""
     logs = np.log(RATIOS)
     for left in reversed(range(len(RATIOS) - 1)):
         a, b = values[left] - wanted, values[left + 1] - wanted
@@ -148,7 +148,7 @@ def number(row, name):
 
 
 def equal(rows):
-    """A row a load and way of comparison: κ, and IPC's iterations over OGC's."""
+    """Returns a row for each load and way of comparison: κ, and the ratio of IPC's iterations to OGC's."""
     for stiffness in (f"{one:g}" for one in STIFFNESSES):
         mine = [row for row in rows if row["k_c [N/m]"] == stiffness]
         ours = next(row for row in mine if row["activation"] == "ogc")
@@ -165,7 +165,7 @@ def equal(rows):
                 name = f"iterations to {level} [1]"
                 counts = [number(one, name) for one in logs]
                 ratio = math.nan if place is None else np.interp(place, np.log(RATIOS), counts) / number(ours, name)
-                is_told = 0 < ratio < math.inf  # both come to that residual
+                is_told = 0 < ratio < math.inf  # both reach that residual
                 row[f"logarithm's over OGC's iterations to {level} [1]"] = f"{ratio:.3g}" if is_told else ""
             yield row | {key: ours[key] for key in ("device", "commit")}
 

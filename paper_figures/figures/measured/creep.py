@@ -1,11 +1,11 @@
 """A sheet on a slope for ten seconds, with friction below, at and above the tangent of the slope's angle, for three
-ε_v: how far it comes, and how fast it creeps; and what few iterations and a stiff contact make of it. Runs, table and
+ε_v: how far it slides, and how fast it creeps; and the effect of few iterations and of a stiff contact. Runs, table and
 picture.
 
 Friction grows over speeds up to ε_v, so nothing ever sticks: a sheet that static friction would hold creeps at the
 speed at which friction carries it. With f(x) = 2x − x² of Eq. 24 that is v = ε_v (1 − √(1 − tan α/μ)) for μ ≥ tan α;
-below it the sheet falls with g (sin α − μ cos α). What is measured is the mean speed of the sheet's centre over the
-second half of the time.
+below it the sheet accelerates by g (sin α − μ cos α). The measured number is the mean speed of the sheet's centre over
+the second half of the time.
 """
 
 import json
@@ -23,16 +23,16 @@ from paper_figures.workflow.runs import provenance, write_table
 from plots import style
 from plots.run_folder import Run
 
-SIDE = 12  # vertices of the sheet's
+SIDE = 12  # vertices along a side of the sheet
 STEPS = {"smoke": 300, "small": 3000, "paper": 3000}  # 1 s and 10 s
 FRAMES = 30
 OVER_TANGENT = (0.5, 0.9, 1, 1.1, 2)  # friction over tan α
 VELOCITIES = (1e-2, 1e-3, 1e-4)  # ε_v [m/s]: as printed, and in cm/s
-BEHIND, AHEAD, BROAD = 1, 20, 1  # cells of 1 m that the plane has
+BEHIND, AHEAD, BROAD = 1, 20, 1  # cells of 1 m of the plane
 
 
 def plane():
-    """(positions, faces) of a rectangle of cells of 1 m."""
+    """Returns (positions, faces) of a rectangle of cells of 1 m."""
     rows, columns = BEHIND + AHEAD + 1, 2 * BROAD + 1
     points = array("d")
     for i in range(rows):
@@ -49,7 +49,7 @@ def plane():
 
 @dataclass(frozen=True)
 class Slope:
-    """The scene as a file below the folder of the runs (jobs.Job)."""
+    """Holds the scene, written to a file below the folder of the runs (jobs.Job)."""
 
     steps: int
 
@@ -58,7 +58,7 @@ class Slope:
         return f"scenes/slope_{self.steps}/slope.json"
 
     def write(self, program, root):
-        """Where it is missing."""
+        """Writes the scene if it is missing."""
         path = root / self.path
         if path.is_file():
             return
@@ -70,7 +70,8 @@ class Slope:
 
 @dataclass(frozen=True)
 class Case:
-    """`stiffness` k_c [N/m]: with 2 a vertex rests 0.2 mm below r, with 100, m/h² being 3.8 N/m, 4 µm."""
+    """Holds one case. `stiffness` k_c [N/m]: with 2 a vertex rests 0.2 mm below r, with 100, m/h² being 3.8 N/m, 4
+    µm."""
 
     over: float
     velocity: float
@@ -85,11 +86,11 @@ class Case:
         return f"friction_{self.over:g}_velocity_{self.velocity:g}{kind}"
 
     def steps(self, scale):
-        """Newton's take a hundred times as long."""
+        """Returns the number of steps; a step of Newton takes a hundred times as long."""
         return NEWTON_STEPS if self.solver == "newton" else STEPS[scale]
 
     def words(self, backend):
-        solver = ("--solver", "newton", "--set", "friction_solves=20") if self.solver == "newton" else \
+        solver = ("--solver", "newton", "--set", "newton_friction_solves=20") if self.solver == "newton" else \
             ("--backend", backend, "--set", f"iterations={self.iterations}")
         return (*solver, "--set", f"contact_stiffness={self.stiffness:g}", "--set",
                 f"friction={self.over * math.tan(slide.ANGLE):.7g}", "--set", f"friction_velocity={self.velocity:g}")
@@ -109,7 +110,7 @@ def jobs(scale, backend):
 
 
 def ways(run):
-    """(times [s], ways of the sheet's centre down the slope [m]) of the stored states."""
+    """Returns (times [s], distances of the sheet's centre down the slope [m]) of the stored states."""
     frames = [run.frame(path) for path in run.frames]
     sheet = slice(0, SIDE * SIDE)
     start = run.start_positions[sheet, 0].mean()
@@ -118,20 +119,20 @@ def ways(run):
 
 
 def predicted(over, velocity, begin, end):
-    """Mean speed between two times [m/s]."""
+    """Returns the mean speed between two times [m/s]."""
     if over < 1:
         return slide.ALONG * (1 - over) * (begin + end) / 2
     return velocity * (1 - math.sqrt(1 - 1 / over))
 
 
 def finished(folder):
-    """case -> Run of those that have ended."""
+    """Returns case -> Run of the finished runs."""
     return {case: Run(folder / case.name) for case in CASES
             if manifest_of(folder / case.name).get("status") == "finished"}
 
 
 def speed(run):
-    """(of the centre over the second half of the time [m/s], begin and end of that [s])."""
+    """Returns (speed of the centre over the second half of the time [m/s], begin and end of that [s])."""
     times, way = ways(run)
     half = len(times) // 2
     return (way[-1] - way[half]) / (times[-1] - times[half]), times[half], times[-1]

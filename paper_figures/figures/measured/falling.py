@@ -1,9 +1,9 @@
 """What falls fast beside something near (Fig. 22b): two triangles side by side, 10 mm apart, and a sheet beside a
-sheet, with each kind of bounds and by IPC. How far they come in 0.2 s, over the way of a free fall, and how many
-detections a step takes. Runs, table and picture.
+sheet, with each kind of bounds and by IPC. How far they fall in 0.2 s, relative to a free fall, and how many detections
+a step takes. Runs, table and picture.
 
-Nothing ever touches, so what lacks of the way is what truncation took. A sheet is limited by its own mesh, too: a
-vertex's nearest facets that do not hold it are an edge away.
+Nothing ever touches, so the missing distance is what truncation took. A sheet is limited by its own mesh, too: the
+nearest facets without a vertex are an edge away from it.
 """
 
 import json
@@ -26,19 +26,19 @@ TIME_STEP, STEPS = 0.01, 20  # [s]
 SIDE, SPACING = 12, 1 / 69  # of a sheet [vertices], [m]
 SPEEDS = (0, 1, 3, 10, 30)  # downwards at the start [m/s]
 KINDS = ("triangles", "sheets")
-LEFT = array("d", (-0.025, 0, 0, -0.005, 0, 0, -0.015, 0.015, 0))  # as Fig. 22b has it
+LEFT = array("d", (-0.025, 0, 0, -0.005, 0, 0, -0.015, 0.015, 0))  # as in Fig. 22b
 POLICIES = {"ball": (), "ball, one round": ("--set", "guess_rounds=1"), "planes": ("--set", "bounds=planes"),
             "planes, nothing slides": ("--set", "bounds=dat"), "off": ("--set", "bounds=off"),
             "ipc": ("--solver", "ipc")}
 
 
 def mirrored(points):
-    """At x → −x."""
+    """Mirrors points at x = 0."""
     return array("d", (-value if i % 3 == 0 else value for i, value in enumerate(points)))
 
 
 def left(kind):
-    """(positions, faces) of the body at negative x; sheets stand in planes of constant x and fall in them."""
+    """Returns (positions, faces) of the body at negative x; sheets stand in planes of constant x and fall in them."""
     if kind == "triangles":
         return LEFT, layers.face(0, 1, 2)
     level = layers.positions(SIDE, SPACING, 0.0)
@@ -50,7 +50,7 @@ def left(kind):
 
 @dataclass(frozen=True)
 class Fall:
-    """The scene as a file below the folder of the runs (jobs.Job)."""
+    """Holds the scene, written to a file below the folder of the runs (jobs.Job)."""
 
     kind: str
     speed: float
@@ -60,7 +60,7 @@ class Fall:
         return f"scenes/{self.kind}_{self.speed:g}/falling.json"
 
     def write(self, program, root):
-        """Where it is missing."""
+        """Writes the scene if it is missing."""
         path = root / self.path
         if path.is_file():
             return
@@ -91,7 +91,7 @@ class Case:
 
     @property
     def free_way(self):
-        """By backward Euler [m]: the n-th step goes h (v + n h g)."""
+        """Returns the distance of a free fall by backward Euler [m]: the n-th step moves by h (v + n h g)."""
         return TIME_STEP * sum(self.speed + n * TIME_STEP * GRAVITY for n in range(1, STEPS + 1))
 
 

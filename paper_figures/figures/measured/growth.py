@@ -1,7 +1,7 @@
 """Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads
 of the CPU: runs, table and picture. Not in the paper.
 
-Timed are the steps from FIRST on; those before let lists grow and contacts settle. The exponent is the slope of a
+The steps from FIRST on are timed; during those before, lists grow and contacts settle. The exponent is the slope of a
 straight line through the logarithms of the medians, by least squares, over all sizes and over the larger half.
 """
 
@@ -21,7 +21,7 @@ FIRST = 5
 
 
 def row_of(name, run, memory):
-    """Numbers of one run over its timed steps."""
+    """Returns the numbers of one run over its timed steps."""
     m = run.manifest
     timed = [i for i, step in enumerate(run.column("step")) if step >= FIRST]
     names = ("wall", "discrete_detections", "vertex_facet_contacts", "edge_edge_contacts", "repeats")
@@ -43,7 +43,7 @@ def row_of(name, run, memory):
 
 
 def table(folder):
-    """Rows of the finished runs, sizes and numbers of threads ascending."""
+    """Returns the rows of the finished runs, sizes and numbers of threads ascending."""
     rows = []
     for path in sorted(folder.glob("*/run.json"),
                        key=lambda path: (path.parent.name.partition("_")[0], int(path.parent.name.rpartition("_")[2]))):
@@ -54,14 +54,14 @@ def table(folder):
 
 
 def exponent(rows):
-    """(p, factor) of median = factor · vertices^p, by least squares on logarithms."""
+    """Returns (p, factor) of median = factor · vertices^p, by least squares on logarithms."""
     x, y = ([math.log(row[name]) for row in rows] for name in ("vertices", "median [ms]"))
     slope, intercept = statistics.linear_regression(x, y)
     return slope, math.exp(intercept)
 
 
 def in_words(rows):
-    """A line a backend and one of the threads."""
+    """Returns a line for each backend and one for the threads."""
     lines = []
     for backend in dict.fromkeys(row["backend"] for row in rows if row["over"] == "vertices"):
         line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]
@@ -83,7 +83,7 @@ def in_words(rows):
 
 
 def draw(rows, out):
-    from plots import style  # here, so that runs and table need no matplotlib
+    from plots import style  # imported here, so that runs and table need no matplotlib
     plt = style.use()
     alone = [row for row in rows if row["over"] == "threads"]
     widths = [1.6, 1] + [1.2] * bool(alone)

@@ -3,7 +3,7 @@ still: `twist`, `fifty_layers` and a sheet that slides without friction, by ball
 picture; reference/ledger.md defines every column. The first two begin with a state of a plain run, where truncation
 takes most. Not in the paper.
 
-Runs and table need Python's own library alone; the picture needs matplotlib and is left out with --no-picture.
+Runs and table need only Python's own library; the picture needs matplotlib and is left out with --no-picture.
 """
 
 import csv
@@ -16,11 +16,11 @@ from paper_figures.workflow.evidence import run_at
 from paper_figures.workflow.jobs import RunFailure, options_of_figure
 
 PARTS = ("guess", "detection", "sweep", "truncation", "commit")
-MOVERS = ("guess", "sweep", "truncation")  # of momentum; the others leave it as it is
+MOVERS = ("guess", "sweep", "truncation")  # parts that change momentum; the others leave it unchanged
 BOUNDS = ("ball", "planes")
-AXES = {"twist": "x", "fifty_layers": "y", "slide": "x"}  # along which momentum is shown: axis, fall, way down
-CARRIERS = {"twist": "the cloth", "fifty_layers": "all layers", "slide": "the sheet"}  # of that momentum
-POINTS = 60  # shares are drawn of so many parts of a run
+AXES = {"twist": "x", "fifty_layers": "y", "slide": "x"}  # direction of the shown momentum: axis, fall, downhill
+CARRIERS = {"twist": "the cloth", "fifty_layers": "all layers", "slide": "the sheet"}  # bodies with that momentum
+POINTS = 60  # shares are drawn for so many parts of a run
 
 
 def free_vertices(manifest):
@@ -29,12 +29,12 @@ def free_vertices(manifest):
 
 
 def share(part, whole):
-    """None where there is nothing to share."""
+    """Returns None if there is nothing to share."""
     return part / whole if whole > 0 else None
 
 
 def row_of(scene, bounds, run):
-    """Sums over a run: energies and momenta by part, shares of motion, vertices that stand still."""
+    """Returns sums over a run: energies and momenta by part, shares of motion, vertices that stand still."""
     m, steps = run.manifest, run.step_count
     summed = ("energy_", "momentum_", "motion_")
     total = {name: sum(run.column(name)) for name in run.columns if name.startswith(summed)}
@@ -58,7 +58,7 @@ def row_of(scene, bounds, run):
 
 
 def finished(folder):
-    """(scene, bounds) -> the finished run."""
+    """Returns (scene, bounds) -> the finished run."""
     runs = {}
     for scene in AXES:
         for bounds in BOUNDS:
@@ -69,7 +69,7 @@ def finished(folder):
 
 
 def write(folder, runs):
-    """The table of the runs, from Python's own library."""
+    """Writes the table of the runs, with Python's own library alone."""
     rows = [row_of(*key, run) for key, run in runs.items()]
     with (folder / "ledger.csv").open("w", newline="") as file:
         table = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
@@ -78,7 +78,7 @@ def write(folder, runs):
 
 
 def sums_of_parts(values, parts):
-    """Sums over consecutive parts of a column, as equal as can be."""
+    """Returns sums over consecutive parts of a column, as equal as can be."""
     edges = [round(k * len(values) / parts) for k in range(parts + 1)]
     return [sum(values[a:b]) for a, b in zip(edges, edges[1:])]
 
@@ -102,8 +102,8 @@ def draw_shares(axes, run, dash, colours):
 
 
 def note_on_shares(taken):
-    """What a panel of shares says in words where lines are missing: truncation takes nothing, or not with some bounds.
-    `taken`: of each kind of bounds, the sum over its run. Empty where no line is missing."""
+    """Returns the note in a panel of shares about missing lines: truncation takes nothing, or not with some bounds.
+    `taken`: the sum over its run for each kind of bounds. Empty if no line is missing."""
     nothing = [bounds for bounds, total in taken.items() if not total > 0]
     if not nothing:
         return ""
@@ -122,8 +122,8 @@ def draw_still(axes, run, dash, colours):
 
 
 def picture(runs, scale):
-    """A row of panels a scene."""
-    from plots import style  # here, so that runs and table need no matplotlib
+    """Draws a row of panels for each scene."""
+    from plots import style  # imported here, so that runs and table need no matplotlib
     plt = style.use()
     scenes = [scene for scene in AXES if any(key[0] == scene for key in runs)]
     figure, panels = plt.subplots(len(scenes), 4, figsize=(14, 3.1 * len(scenes)), squeeze=False)

@@ -1,8 +1,10 @@
 """The twisted mat as a volume (§3.9's faster variant: what enters is pushed out again) beside the mat that bounds keep
-from entering itself: time a step, who is inside and how deep, and the mat at four times. Runs, table and picture.
+from entering itself: time a step, the vertices inside and their depth, and the mat at four times. Runs, table and
+picture.
 
-The mat is one body of tetrahedra: as a surface its boundary has balls or planes, as a volume it has no bound, and its
-boundary vertices ask its own tetrahedra. What is inside is the audit's, of states every sixth of a second at `paper`.
+The mat is one body of tetrahedra. As a surface its boundary has balls or planes; as a volume it has no bound, and its
+boundary vertices are tested against its own tetrahedra. The audit counts what is inside, in states every sixth of a
+second at `paper`.
 """
 
 import sys
@@ -22,13 +24,13 @@ from plots.scene_figure import bodies_of
 NAME = "mat_volumes"
 ROWS = {commands.MAT_VOLUMES: "volume", commands.MAT: "balls", commands.MAT_PLANES: "planes"}
 SHARES = (25, 50, 75, 100)  # of the run [%]
-EARLY = 2.75  # [s]: until then few vertices are inside
+EARLY = 2.75  # [s]: before that few vertices are inside
 FROM_AUDIT = {"most vertices inside [1]": "most_vertices_inside", "deepest [m]": "deepest_m",
               "most edges through [1]": "most_edges_meeting_volumes"}
 
 
 def runs_of(options):
-    """row -> Run. Throws RunError."""
+    """Returns row -> Run. Throws RunError."""
     try:
         for job in () if options.made else commands.mat_as_volume(options.scale, options.backend):
             job.make(options.ogc, options.folder, Limit(), True)
@@ -57,7 +59,7 @@ def row_of(kind, run):
 
 
 def frame_at(run, share):
-    """The stored state that is nearest to so many hundredths of the run's steps."""
+    """Returns the stored state that is nearest to so many hundredths of the run's steps."""
     wanted = share * int(run.column("step")[-1]) / 100
     return min(run.frames, key=lambda path: abs(int(path.stem.removeprefix("frame_")) - wanted))
 

@@ -1,9 +1,9 @@
 """Time to quality: how long a step takes until its residual (Eq. 29) has fallen to a tenth and to a hundredth of the
-step's start, with the paper's bounds and with planes, from states of Table 1's whole runs. A step of many times the
-scene's iterations is watched; the time up to the k-th of n iterations is k/n of the median of five such steps, so that
-the guess loop and detections are spread over all of them. Not in the paper.
+step's start, with the paper's bounds and with planes, from states of Table 1's whole runs. The residual of a step with
+many times the scene's iterations is measured after each iteration. The time up to the k-th of n iterations is k/n of
+the median of five such steps, so that the guess loop and detections are spread over all of them. Not in the paper.
 
-Runs and table need Python's own library alone; the picture needs matplotlib and is left out with --no-picture.
+Runs and table need only Python's own library; the picture needs matplotlib and is left out with --no-picture.
 """
 
 import csv
@@ -21,10 +21,10 @@ SHARES = {"a tenth": 0.1, "a hundredth": 0.01}
 
 @dataclass
 class Watched:
-    """One step: milliseconds and residual before its iterations and after each."""
+    """Holds one step: milliseconds and residual before its iterations and after each."""
 
     row: str
-    share: int  # of the whole run, where it begins [%]
+    share: int  # place of its begin in the whole run [%]
     run: object
     times: list
     residuals: list
@@ -35,12 +35,12 @@ class Watched:
 
 
 def table1_of(folder, scale, backend):
-    """Where the workflow makes Table 1's whole runs, which begin everything here."""
+    """Returns the folder of the workflow with Table 1's whole runs, from which everything here begins."""
     return Path(folder).parent / f"table1-{scale}-{backend}"
 
 
 def watched(folder):
-    """The finished steps below the folder of Table 1."""
+    """Returns the finished steps below the folder of Table 1."""
     found = []
     for row in commands.QUALITY_ROWS:
         for share in commands.QUALITY_SHARES:
@@ -57,7 +57,7 @@ def watched(folder):
 
 
 def first_at(step, limit):
-    """Milliseconds until the residual is at most `limit`; None where it never is."""
+    """Returns the milliseconds until the residual is at most `limit`; None if it never is."""
     return next((t for t, left in zip(step.times, step.residuals) if left <= limit), None)
 
 
@@ -84,8 +84,8 @@ def write(out, steps):
 
 
 def picture(steps, scale):
-    """A panel a scene; a colour a state."""
-    from plots import style  # here, so that runs and table need no matplotlib
+    """Draws a panel for each scene, with a colour for each state."""
+    from plots import style  # imported here, so that runs and table need no matplotlib
     plt = style.use()
     scenes = list(dict.fromkeys(commands.scene_of(step.row) for step in steps))
     columns = min(3, len(scenes))

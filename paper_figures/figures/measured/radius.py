@@ -1,13 +1,14 @@
 """Three contact sets at five radii (§2.2, Fig. 2): a level sheet that its weight presses on a level plate with other
-vertices, for a hundred steps. How much of the force goes sideways, how rough the sheet becomes, how the force swings
-and how many contacts it takes. Runs, table and picture.
+vertices, for a hundred steps. How much of the force is tangential, how rough the sheet becomes, how the force
+oscillates and how many contacts there are. Runs, table and picture.
 
 All sets have one activation and one k_c, with which a vertex that bears its own weight by one contact rests at 0.9 r.
 Tangential share: Σ‖f_t‖ / Σ‖f‖ over the sheet's vertices at the start, 0.95 r above the plate, of the sum of the
-contact forces on each, computed here of closest points; the method's contacts are those of `ogc contacts`. At the
-sheet's rim the method pushes outwards what lies beside it, so that the share is said of inner vertices, too.
+contact forces on each, computed here from closest points; the method's contacts are those of `ogc contacts`. At the
+sheet's rim the method pushes outwards what lies beside it, so that the share is also given for inner vertices.
 Roughness: the root mean square of the Laplacian of heights (four neighbours) over r at the end. Oscillation: standard
-deviation over mean of the force on the sheet in the last twenty steps, which follows from its centre's acceleration.
+deviation over mean of the force on the sheet in the last twenty steps, which follows from the acceleration of its
+centre.
 """
 
 import json
@@ -32,7 +33,7 @@ PLATE_SPACING, PLATE_ANGLE = 1.13 * SPACING, 0.3  # so that no two vertices lie 
 SHIFT = (0.21 * SPACING, 0.37 * SPACING)
 DENSITY, GRAVITY = 0.2, 9.81  # [kg/m²], [m/s²]
 TIME_STEP, STEPS, LAST = 1 / 300, 100, 20  # [s]
-DEPTH, START = 0.1, 0.95  # of r: what one contact a vertex would sink, and the height at the start
+DEPTH, START = 0.1, 0.95  # share of r that one contact would sink for each vertex, and the height at the start in r
 RATIOS = (0.1, 0.25, 0.5, 1, 2)  # r over the sheet's spacing
 SETS = {"ogc": "OGC's", "pairs": "every pair (IPC's)", "distance": "distance field"}
 SEEDS = {"smoke": 1, "small": 10}  # nothing here is chaotic
@@ -40,7 +41,7 @@ JITTER = 1e-6  # [m]
 
 
 def plate():
-    """Positions of the plate, turned and shifted."""
+    """Returns the positions of the plate, turned and shifted."""
     points = np.array(layers.positions(PLATE_SIDE, PLATE_SPACING, 0.0)).reshape(-1, 3)
     c, s = math.cos(PLATE_ANGLE), math.sin(PLATE_ANGLE)
     turned = points @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]]) + (SHIFT[0], 0, SHIFT[1])
@@ -49,7 +50,7 @@ def plate():
 
 @dataclass(frozen=True)
 class Pressed:
-    """The scene as a file below the folder of the runs (jobs.Job)."""
+    """Holds the scene, written to a file below the folder of the runs (jobs.Job)."""
 
     ratio: float
 
@@ -66,7 +67,7 @@ class Pressed:
         return f"scenes/pressed_{self.ratio:g}/pressed.json"
 
     def write(self, program, root):
-        """Where it is missing."""
+        """Writes the scene if it is missing."""
         path = root / self.path
         if path.is_file():
             return
@@ -95,7 +96,8 @@ class Case:
 
     @property
     def job(self):
-        words = ("--solver", "reference_vbd", "--set", f"contact_set={self.contacts}", "--jitter", f"{JITTER:g}",
+        words = ("--solver", "reference_vbd", "--set", f"reference_contact_set={self.contacts}",
+                 "--jitter", f"{JITTER:g}",
                  "--seed", self.seed, "--audit", "end")
         return Job(self.name, words, scene=Pressed(self.ratio))
 
@@ -105,7 +107,8 @@ def cases(scale):
 
 
 def on_face(p, corners):
-    """Weights of the corners at the closest point of a closed face: of its interior, else of its nearest side."""
+    """Returns the weights of the corners at the closest point of a closed face: of its interior, or of its nearest
+    side."""
     if len(corners) == 1:
         return np.ones(1)
     if len(corners) == 2:
@@ -126,8 +129,8 @@ def on_face(p, corners):
 
 
 def on_edges(p, q):
-    """Weights of the four ends at the closest points of two closed edges: of both interiors, else of the nearest of
-    the four pairs of an end and an edge."""
+    """Returns the weights of the four ends at the closest points of two closed edges: of both interiors, or of the
+    nearest of the four pairs of an end and an edge."""
     d, e, apart = p[1] - p[0], q[1] - q[0], q[0] - p[0]
     gram = np.array([[d @ d, -(d @ e)], [-(d @ e), e @ e]])
     if np.linalg.det(gram) > 1e-12 * (d @ d) * (e @ e):
@@ -149,7 +152,7 @@ def edges_of(triangles):
 
 
 class Start:
-    """Both bodies where the runs begin. A contact is (vertices of one side, of the other)."""
+    """Holds both bodies at the start of the runs. A contact is (vertices of one side, of the other)."""
 
     def __init__(self, pressed):
         self.radius = pressed.radius
@@ -159,14 +162,16 @@ class Start:
         self.triangles = np.vstack((face_array(SIDE), face_array(PLATE_SIDE) + self.count))
 
     def near(self, corners, other):
-        """Numbers of the primitives `other` whose boxes come within r of that of `corners`, and that share none."""
+        """Returns the numbers of the primitives `other` whose boxes are within r of that of `corners`, and that share
+        no vertex."""
         low, high = self.x[other].min(axis=1) - self.radius, self.x[other].max(axis=1) + self.radius
         own = self.x[corners]
         near = np.all((own.max(axis=0) >= low) & (own.min(axis=0) <= high), axis=1)
         return np.flatnonzero(near & ~np.isin(other, corners).any(axis=1))
 
     def pairs(self):
-        """Each vertex and triangle and each two edges whose boxes are near, at least one of them the sheet's."""
+        """Returns pairs of a vertex and a triangle and pairs of edges whose boxes are near, at least one of them the
+        sheet's."""
         edges = edges_of(self.triangles)
         for v in range(len(self.x)):
             for t in self.near([v], self.triangles):
@@ -177,7 +182,7 @@ class Start:
                     yield tuple(ends), tuple(edges[f])
 
     def field(self):
-        """Of each vertex the nearest triangle of the other body."""
+        """Returns for each vertex the nearest triangle of the other body."""
         of_plate = self.triangles[:, 0] >= self.count
         for v in range(len(self.x)):
             others = self.triangles[of_plate if v < self.count else ~of_plate]
@@ -185,7 +190,7 @@ class Start:
             yield from sorted(near, key=lambda contact: np.linalg.norm(self.gap(contact)[2]))[:1]
 
     def method(self, ogc, folder):
-        """As the program finds them."""
+        """Returns the contacts that the program finds."""
         with (folder / "start.obj").open("w") as file:
             file.writelines("v {} {} {}\n".format(*point) for point in self.x)
             file.writelines("f {} {} {}\n".format(*(corners + 1)) for corners in self.triangles)
@@ -194,7 +199,7 @@ class Start:
         yield from (tuple(tuple(c[side]["vertices"]) for side in ("first", "second")) for c in found["edge_edge"])
 
     def gap(self, contact):
-        """(weights of the two sides at their closest points, the vector between these)."""
+        """Returns (weights of the two sides at their closest points, the vector between these)."""
         p, q = (self.x[list(side)] for side in contact)
         if len(p) > 1 and len(q) > 1:
             weights = on_edges(p, q)
@@ -205,7 +210,7 @@ class Start:
         return *weights, weights[0] @ p - weights[1] @ q
 
     def forces(self, contacts):
-        """On the sheet's vertices, in units of k_c r."""
+        """Returns the forces on the sheet's vertices, in units of k_c r."""
         force = np.zeros_like(self.x)
         for contact in contacts:
             if min(min(side) for side in contact) >= self.count:
@@ -221,7 +226,8 @@ class Start:
 
 
 def tangential_shares(pressed, ogc, folder):
-    """By set, of all vertices and of those that the rim is farther from than the largest r."""
+    """Yields the tangential share by set, of all vertices and of those that are farther from the rim than the largest
+    r."""
     start = Start(pressed)
     contacts = {"ogc": start.method(ogc, folder), "pairs": start.pairs(), "distance": start.field()}
     rim = math.ceil(max(RATIOS)) + 1
@@ -239,7 +245,7 @@ def face_array(side):
 
 
 def heights(run):
-    """By stored state, of the sheet [m]."""
+    """Returns the heights of the sheet by stored state [m]."""
     return np.array([run.frame(path).positions[:SIDE * SIDE, 1].astype(float) for path in run.frames])
 
 
@@ -250,14 +256,14 @@ def roughness(height, radius):
 
 
 def vertex_share():
-    """Of each vertex of the sheet in its mass."""
+    """Returns the share of each vertex of the sheet in its mass."""
     share = np.zeros(SIDE * SIDE)
     np.add.at(share, face_array(SIDE).ravel(), 1)
     return share / share.sum()
 
 
 def oscillation(height):
-    """Of the force on the sheet over its weight, from its centre's accelerations."""
+    """Returns standard deviation over mean of the force on the sheet, from the accelerations of its centre."""
     centre = height @ vertex_share()
     force = 1 + (centre[2:] - 2 * centre[1:-1] + centre[:-2]) / TIME_STEP**2 / GRAVITY
     return float(np.std(force[-LAST:]) / np.mean(force[-LAST:]))
@@ -277,7 +283,7 @@ def finished(folder, scale):
 
 
 def table(runs, ogc, folder):
-    """A row a set and radius: median and range over the seeds."""
+    """Returns a row for each set and radius: median and range over the seeds."""
     for ratio in RATIOS:
         shares = dict(tangential_shares(Pressed(ratio), ogc, folder))
         for contacts in SETS:

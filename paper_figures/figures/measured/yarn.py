@@ -1,10 +1,10 @@
 """Fig. 15 and 16: a knitted cloth of one yarn is pulled apart, or twisted and let go, by OGC and by the same sweep with
-a quadratic force and without bounds (the baseline, the paper's "Newton"). Pictures at four moments, meetings of
-threads and mean tension over time; runs, table, picture and movie.
+a quadratic force and without bounds (the baseline, the paper's "Newton"). Pictures at four moments, meetings of threads
+and mean tension over time; runs, table, picture and movie.
 
-Fig. 15's number is the tension at the first meeting over k_c r, the most that a contact of the quadratic force
-carries. Fig. 16's are the meetings, how far each vertex of the twisted cloth is from its start, and how far that of the
-released cloth is from the cloth that hangs as it is. A step whose way was not asked for meetings counts for nothing.
+Fig. 15's number is the tension at the first meeting over k_c r, the largest force of a contact with the quadratic
+energy. Fig. 16's are the meetings, the distance of each vertex of the twisted cloth from its start, and that of the
+released cloth from the cloth that hangs untwisted. Steps whose meetings were not counted do not enter any number.
 """
 
 import argparse
@@ -26,16 +26,17 @@ FIGURE = {commands.STRETCH: "fig15", commands.YARN_TWIST: "fig16"}
 PICTURES = {commands.STRETCH: "fig15.png", commands.YARN_TWIST: "fig16.png"}
 JOBS = {commands.STRETCH: commands.yarn_stretched, commands.YARN_TWIST: commands.yarn_twisted}
 KINDS = {"ogc": "OGC", "baseline": "baseline"}
-SHOWN = (0, 1 / 3, 2 / 3, 1)  # of the run
-# Where the eye is, and what is up: from above, pulled from left to right; from the front, turned about the vertical.
+SHOWN = (0, 1 / 3, 2 / 3, 1)  # as parts of the run
+# Place of the eye, and the upward direction: from above, pulled from left to right; from the front, turned about the
+# vertical.
 VIEWS = {commands.STRETCH: ((0, 1, 0), (1, 0, 0)), commands.YARN_TWIST: ((0.25, 0.1, 1), (0, 1, 0))}
-AT_REST = 0.01  # m/s: a cloth that is slower, in the root mean square, hangs still
-MARGIN, ANGLE = 1.08, 30  # of a picture around the yarn; PyVista's angle of view [degrees]
+AT_REST = 0.01  # m/s: a cloth with a smaller root mean square speed hangs still
+MARGIN, ANGLE = 1.08, 30  # margin of a picture around the yarn; PyVista's angle of view [degrees]
 SIZE = {commands.STRETCH: (640, 480), commands.YARN_TWIST: (640, 720)}
 
 
 def runs_of(options):
-    """name -> Run with at least one step, made where it is not there yet; with --made those that there are."""
+    """Returns name -> Run with at least one step, made if it does not exist; with --made the existing ones."""
     folder, jobs = Path(options.folder), list(chain.from_iterable(JOBS[options.scene](options.scale, options.backend)))
     try:
         for job in () if options.made else jobs:
@@ -56,12 +57,12 @@ def has_steps(folder):
 
 
 def main_runs(scene):
-    """kind -> name of the run that is shown."""
+    """Returns kind -> name of the run that is shown."""
     return {kind: kind if scene == commands.YARN_TWIST else f"{kind}_{commands.YARN_STIFFNESS[0]}" for kind in KINDS}
 
 
 def material(run):
-    """(k_s [N], k_c [N/m]) of the yarn."""
+    """Returns (k_s [N], k_c [N/m]) of the yarn."""
     found = run.manifest["scene"]["bodies"][0]["material"]
     return found["rod"]["stretch"]["value"], found["contact_stiffness"]["value"]
 
@@ -75,36 +76,37 @@ def seconds(run):
 
 
 def tension(run):
-    """Mean tension of the segments [N]."""
+    """Returns the mean tension of the segments [N]."""
     return material(run)[0] * run.column("mean_stretch")
 
 
 def meetings(run):
-    """Of each step; not-a-number where the way was not asked."""
+    """Returns the meetings of each step; not-a-number if they were not counted."""
     return run.steps.get("meetings", np.full(len(run.column("step")), np.nan))
 
 
 def asked_of(parts):
-    """(times [s], meetings) of the steps whose way was asked in a run or its windows, each once, in order."""
+    """Returns (times [s], meetings) of the steps in which meetings were counted in a run or its windows, each once, in
+    order."""
     found = {step: (time, met) for part in parts
              for step, time, met in zip(part.column("step"), seconds(part), meetings(part)) if np.isfinite(met)}
     return np.array([found[step] for step in sorted(found)]).reshape(-1, 2).T
 
 
 def first_meeting(run):
-    """Row of the first step on whose way threads met, or None."""
+    """Returns the row of the first step on whose way threads met, or None."""
     met = np.flatnonzero(meetings(run) > 0)
     return int(met[0]) if len(met) else None
 
 
 def windows_of(name, runs):
-    """The windows of a run in which meetings were asked for, by step."""
+    """Returns the windows of a run in which meetings were counted, by step."""
     found = [run for other, run in runs.items() if other.startswith(name + commands.WINDOW_OF)]
     return sorted(found, key=lambda run: run.column("step")[0])
 
 
 def first_among(parts):
-    """(part, row) of the first meeting in a run or its windows; (the run, None) where threads never met."""
+    """Returns (part, row) of the first meeting in a run or its windows; (the run, None) if threads never met."""
     return next(((part, row) for part in parts if (row := first_meeting(part)) is not None), (parts[0], None))
 
 
@@ -133,20 +135,21 @@ def row_of(name, run, windows=()):
 
 
 def distances(run, to):
-    """Of each vertex of the last frame from the positions `to` [m]."""
+    """Returns the distance of each vertex of the last frame from the positions `to` [m]."""
     return np.linalg.norm(run.frame(run.frames[-1]).positions.astype(float) - to.astype(float), axis=1)
 
 
 def speed(run):
-    """Of the yarn at the end, its root mean square by mass [m/s]; its vertices are in the order of the rod."""
+    """Returns the root mean square speed of the yarn at the end, by mass [m/s]; its vertices are in the order of the
+    rod."""
     rod = run.manifest["scene"]["bodies"][0]["material"]["rod"]
     length = np.linalg.norm(np.diff(run.start_positions.astype(float), axis=0), axis=1).sum()
     return float(np.sqrt(2 * run.column("kinetic_energy")[-1] / (rod["density"]["value"] * length)))
 
 
 def far(runs):
-    """name -> distances [m] of Fig. 16: of twisted cloths from their start, of released ones from the cloth that hangs
-    as it is."""
+    """Returns name -> distances [m] of Fig. 16: of twisted cloths from their start, of released ones from the cloth
+    that hangs untwisted."""
     found = {}
     for kind in KINDS:
         if kind in runs:
@@ -158,8 +161,8 @@ def far(runs):
 
 
 def table(runs, how_far):
-    """A row a run, its windows in it; empty cells where nothing was asked or found. A distance from the cloth that
-    hangs counts where both are at rest."""
+    """Returns a row for each run with its windows; cells are empty if nothing was counted or found. A distance from the
+    hanging cloth is given if both are at rest."""
     shares = {"median": 50, "nine vertices in ten within": 90, "largest": 100}
     rows, speeds = [], {name: speed(runs[name]) for name in how_far.keys() | ({"hanging"} & runs.keys())}
     for name, run in runs.items():
@@ -176,7 +179,7 @@ def table(runs, how_far):
 
 
 def camera_of(scene, points, size):
-    """(eye, target, up) from which all `points` fill the picture."""
+    """Returns (eye, target, up) from which all `points` fill the picture."""
     back, up = (np.array(v, float) / np.linalg.norm(v) for v in VIEWS[scene])
     right = np.cross(up, back) / np.linalg.norm(np.cross(up, back))
     axes = np.stack([right, np.cross(back, right), back])
@@ -207,7 +210,7 @@ def label(run):
 
 
 def drawn_over_time(runs):
-    """Runs of the scene from its start."""
+    """Returns the runs of the scene that begin at its start."""
     return {name: run for name, run in runs.items()
             if commands.WINDOW_OF not in name and run.column("step")[0] == 1 and name != "hanging"}
 
@@ -246,7 +249,7 @@ def draw_distances(axes, how_far):
 
 
 def draw_reached(axes, runs):
-    """Tension at the first meeting over k_c r; where threads never met, how far the tension came."""
+    """Draws the tension at the first meeting over k_c r; if threads never met, the largest tension."""
     chosen = drawn_over_time(runs)
     for place, (name, run) in enumerate(chosen.items()):
         parts = [run, *windows_of(name, runs)]
@@ -275,7 +278,8 @@ def draw(scene, runs, how_far, out):
         draw_reached(panels[2], runs)
     ours = runs[main_runs(scene)["ogc"]]
     figure.suptitle(f"{scene} ({ours.manifest['scale']}), {ours.manifest['backend']} ({ours.manifest['device']}), "
-                    f"{commits_in_words(list(runs.values()))}; baseline: bounds=off, activation=quadratic", fontsize=8)
+                    f"{commits_in_words(list(runs.values()))}; baseline: bounds=off, "
+                    "contact_activation=quadratic", fontsize=8)
     style.save(figure, out)
 
 

@@ -1,10 +1,11 @@
 """Whether a knit that is twisted returns, with all varied that the paper leaves open: how far and how fast it is
-turned, how stiff the yarn is, how well the twist is solved, whether threads rub while it is turned, whether it swings
-before it is braked. `python3 -m paper_figures.figures.measured.yarn_return FOLDER --scale paper --backend cuda`.
+turned, how stiff the yarn is, how well the twist is solved, whether threads have friction while it is turned, whether
+it swings before it is braked. `python3 -m paper_figures.figures.measured.yarn_return FOLDER --scale paper --backend
+cuda`.
 
-In the end all cloths are braked without friction until they hang still (yarn_rest.py says why), each held against one
-of the same yarn that was never twisted. Twisted ones of stiffer yarn are braked longer, as half of their vertices still
-come more than a millimetre a second where the others rest.
+In the end all cloths are braked without friction until they hang still (yarn_rest.py gives the reason), and each is
+compared with one of the same yarn that was never twisted. Twisted ones of stiffer yarn are braked longer, because half
+of their vertices still move more than a millimetre a second when the others rest.
 """
 
 import sys
@@ -23,16 +24,16 @@ from plots.run_folder import Run, RunError, commits_in_words
 
 NAME = "yarn_return"
 TURNS = {"smoke": (0.01, 0.02), "small": (1, 2, 5), "paper": (1, 2, 3, 5)}
-HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # until it is let go [s]
-LONGER = 3  # times as many steps brake a twisted cloth of stiffer yarn
-COARSE = ("--set", "time_step=4e-4", "--set", "iterations=4")  # the scene's own
+HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # duration of the hold before it is let go [s]
+LONGER = 3  # factor of the steps that brake a twisted cloth of stiffer yarn
+COARSE = ("--set", "time_step=4e-4", "--set", "iterations=4")  # the scene's own settings
 
 
 @dataclass(frozen=True)
 class Case:
-    """How a cloth comes to hang. `turns`: 0 if it was never twisted. `fine`: twisted by steps like those that it is
-    braked with. `friction`: while it is turned and swings. `swings`: until it is braked, as long as in Fig. 16.
-    `seed`: of a start moved by a micrometre at most; 0 if it is not."""
+    """Describes how a cloth comes to hang. `turns`: 0 if it was never twisted. `fine`: twisted by steps like those that
+    brake it. `friction`: while it is turned and swings. `swings`: until it is braked, as long as in Fig. 16. `seed`: of
+    a start moved by at most a micrometre; 0 for the start itself."""
 
     turns: float = 0
     pace: float = 1
@@ -53,7 +54,7 @@ class Case:
 
     @property
     def twist_settings(self):
-        """Words of `ogc run`: step and iterations while it is turned."""
+        """Returns words of `ogc run`: step and iterations while it is turned."""
         return commands.FINE if self.fine else COARSE
 
     @property
@@ -61,7 +62,7 @@ class Case:
         return Case(stiffness=self.stiffness).name
 
     def jobs(self, scale, backend):
-        """In their order; the last one's end is what hangs."""
+        """Returns the jobs in their order; the end of the last one is the hanging cloth."""
         common = ("--backend", backend, "--audit", "end", "--audit-meetings", "off", "--set")
         kept = (*common, f"frame_steps={commands.REST_FRAME_STEPS[scale]}")
         rubs = () if self.friction else ("--set", "friction=0")
@@ -86,8 +87,8 @@ class Case:
 
 
 def cases(scale):
-    """One choice changed at a time: few turns and Fig. 16's, quickly solved and well; then the others. From three
-    starts where it is turned as in Fig. 16 and solved well, braked at once or not."""
+    """Returns cases that differ in one choice at a time: few turns and Fig. 16's, solved coarsely and well; then the
+    others. Those turned as in Fig. 16 and solved well, braked at once or not, have three starts."""
     turns = TURNS[scale]
     most = turns[-1]
     yield from (Case(stiffness=stiffness) for stiffness in (1, 10, 100))
@@ -100,7 +101,7 @@ def cases(scale):
 
 
 def runs_of(options, chosen):
-    """name -> finished Run of the cases, made where they are not there yet; with --made those that there are."""
+    """Returns name -> finished Run of the cases, made if they do not exist; with --made the existing ones."""
     folder = Path(options.folder)
     for case in () if options.made else chosen:
         try:
@@ -115,7 +116,8 @@ def runs_of(options, chosen):
 
 
 def row_of(case, run, beside):
-    """`beside`: the run of the cloth that was never twisted; distances to it count where both are at rest."""
+    """Returns a row. `beside`: the run of the cloth that was never twisted; distances to it are given if both are at
+    rest."""
     farthest, seconds = way(run)
     apart = distances(run, last_frame(beside).positions)
     kept = kept_threads(run, beside)
@@ -136,7 +138,8 @@ def row_of(case, run, beside):
 
 
 def draw(runs, out):
-    """The cloths where they hang, from the front, coloured by the distance from where the untwisted one has them."""
+    """Draws the cloths where they hang, from the front, coloured by the distance from the place that each vertex has in
+    the untwisted cloth."""
     from matplotlib.collections import LineCollection
 
     plt = style.use()

@@ -1,5 +1,5 @@
 // The energy −½ qᵀ M q − b·q on the unit sphere of ℝ⁴ over any number type, and its minimiser from a start by Newton's
-// method there: neither the eigenvectors of M nor the equation of its multiplier enter.
+// method there, which uses neither the eigenvectors of M nor the equation of its multiplier.
 #pragma once
 
 #include <cmath>
@@ -9,11 +9,11 @@
 
 namespace ogc::reference::on_sphere {
 
-/// Binary128, of 113 bits: the compiler's own, whose exponents need no care.
+/// Binary128 with 113 bits: the compiler's own type, whose exponents need no care.
 __extension__ using Many = __float128;
 
 inline double root(double x) { return std::sqrt(x); }
-/// Newton's method on the root in double, which doubles its bits twice.
+/// Takes the root in double and improves it by two steps of Newton's method, each of which doubles its bits.
 inline Many root(const Many& x) {
   if (!(x > 0)) return 0;
   Many r = std::sqrt(static_cast<double>(x));
@@ -23,7 +23,7 @@ inline Many root(const Many& x) {
 
 template <class T>
 using Four = FourOf<T>;
-/// Symmetric, 3×3: of the tangent space.
+/// Symmetric 3×3 matrix of the tangent space.
 template <class T>
 using Square = std::array<Triple<T>, 3>;
 
@@ -44,7 +44,7 @@ T length_of(const Triple<T>& a) {
   return root(dot(a, a));
 }
 
-/// i, j, k, 1.
+/// Returns the k-th of i, j, k, 1.
 template <class T>
 Four<T> basis(std::size_t k) {
   Four<T> e{T(0.0), T(0.0), T(0.0), T(0.0)};
@@ -52,7 +52,7 @@ Four<T> basis(std::size_t k) {
   return e;
 }
 
-/// What the energy −½ qᵀ M q − b·q consists of.
+/// The quantities of the energy −½ qᵀ M q − b·q.
 template <class T>
 struct Problem {
   Triple<T> apart, direction;  ///< D [m], c [1]
@@ -66,7 +66,7 @@ struct Problem {
       for (std::size_t row = 0; row < 4; ++row) matrix[row][k] = column[row];
     }
   }
-  /// M q.
+  /// Returns M q.
   Four<T> turned(const Four<T>& q) const {
     return scaled(T(T(-2.0) * stretch), product(product(pure(apart), q), pure(direction)));
   }
@@ -96,7 +96,7 @@ struct Problem {
   }
 };
 
-/// A basis of the tangent space at q: q i, q j, q k.
+/// Returns a basis of the tangent space at q: q i, q j, q k.
 template <class T>
 std::array<Four<T>, 3> tangents(const Four<T>& q) {
   return {product(q, basis<T>(0)), product(q, basis<T>(1)), product(q, basis<T>(2))};
@@ -121,7 +121,7 @@ struct OnSphere {
   }
 };
 
-/// The solution of (A + shift I) x = y by Cholesky's method; none where that matrix is not positive definite.
+/// Returns the solution of (A + shift I) x = y by Cholesky's method; empty where that matrix is not positive definite.
 template <class T>
 std::optional<Triple<T>> solve(const Square<T>& a, const T& shift, const Triple<T>& y) {
   std::array<Triple<T>, 3> lower;
@@ -144,8 +144,8 @@ std::optional<Triple<T>> solve(const Square<T>& a, const T& shift, const Triple<
   return x;
 }
 
-/// Minimises from q on; until the slope is `enough` of `unit`, or nothing gets lower. A shift makes the second
-/// derivative positive definite where it is not.
+/// Minimises from q on, until the slope is below `enough` of `unit` or the energy no longer falls. A shift makes the
+/// second derivative positive definite where it is not.
 template <class T>
 Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double enough) {
   q = scaled(T(T(1.0) / size_of(q)), q);
@@ -156,7 +156,8 @@ Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double en
     T shift(0.0);
     auto turn = solve(at.bend, shift, at.slope);
     while (!turn) {
-      shift = shift > 0.0 ? T(T(16.0) * shift) : T(T(0x1p-120) * unit);  // as small as will do: curvatures differ
+      // starts as small as possible, since curvatures differ
+      shift = shift > 0.0 ? T(T(16.0) * shift) : T(T(0x1p-120) * unit);
       turn = solve(at.bend, shift, at.slope);
     }
     bool lower = false;
@@ -165,7 +166,7 @@ Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double en
           q, Four<T>{T(0.0) - share * (*turn)[0], T(0.0) - share * (*turn)[1], T(0.0) - share * (*turn)[2], T(1.0)});
       there = scaled(T(T(1.0) / size_of(there)), there);
       const T found = problem.energy(there);
-      // Near the end the energy no longer tells, and full steps are right.
+      // Near the minimum the energy can't tell steps apart, and full steps are right.
       const bool is_small = length_of(*turn) < T(1e-4) && shift == 0.0;
       if (found < energy || (is_small && share == 1.0)) q = there, energy = found, lower = true;
     }

@@ -1,5 +1,5 @@
-// Directions come from exact differences; what follows is in extended precision, 2⁻⁶⁴, of which a rod of 10⁵ segments
-// loses 17 bits at most: far from single precision.
+// Computes directions from exact differences, and everything else in extended precision, 2⁻⁶⁴. A rod of 10⁵ segments
+// loses at most 17 bits of it, which is far from single precision.
 #include <CGAL/Mpzf.h>
 
 #include <cmath>
@@ -37,13 +37,14 @@ Frame normalised(const Frame& q) {
   return unit;
 }
 
-/// A rotation between two directions, and how a small error of them counts in it.
+/// A rotation between two directions, and the factor by which it magnifies a small error of them.
 struct Turn {
   Frame rotation;
   double factor;  ///< 1/cos(θ/2)
 };
 
-/// Half-way vectors: the product of both directions as quaternions is cos θ + sin θ axis, its root the rotation.
+/// Uses half-way vectors: the product of both directions as quaternions is cos θ + sin θ axis; its root is the
+/// rotation.
 Turn smallest_turn(const Direction& from, const Direction& to) {
   const Triple<Wide> across = cross(from, to);
   const Wide along = dot(from, to), one = std::sqrt(dot(from, from) * dot(to, to));
@@ -124,7 +125,7 @@ class Rods {
     }
   }
 
-  /// From a segment with its frame through one of its ends, as far as there are neighbours without one.
+  /// Carries the frame of segment `e` through its end `end` to the following segments, as long as they have none.
   void follow(std::size_t e, std::size_t end) {
     while (segment(e).neighbour[end] >= 0) {
       const auto next = static_cast<std::size_t>(segment(e).neighbour[end]);

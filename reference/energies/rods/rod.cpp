@@ -39,8 +39,8 @@ struct Segment {
       strain[axis] = (Input(1.0) / length) * apart[axis] - ByOwnTwice<Input>(director[axis]);
     return stretch_energy(strain, stretch, length);
   }
-  /// The change of R(q)ᵀ D/l. Its square is that of D/l − R(q) R(qᵗ)ᵀ Dᵗ/l for unit quaternions alone, and the contract
-  /// has that vector.
+  /// Returns the energy of the change of R(q)ᵀ D/l. Its norm equals that of D/l − R(q) R(qᵗ)ᵀ Dᵗ/l for unit quaternions
+  /// alone; the contract defines the energy by the latter vector.
   ByOwnTwice<Input> viscous() const {
     const Triple<Input> held = rotated(q, rotated(conjugate(start), before));
     Triple<ByOwnTwice<Input>> change;

@@ -4,10 +4,10 @@
 
 namespace ogc::reference {
 
-/// The answer to one case.
+/// Returns the answer to one case.
 compare::ForceAnswer rod(const compare::RodCase& question);
 
-/// The stage `rod`.
+/// Computes the stage `rod`.
 compare::ForceTruth rod(const compare::RodIn& in);
 
 }  // namespace ogc::reference

@@ -7,11 +7,11 @@
 
 namespace ogc::reference {
 
-/// What stands before i, j, k, then the real part.
+/// A quaternion: the factors of i, j, k, then the real part.
 template <class T>
 using FourOf = std::array<T, 4>;
 
-/// a b.
+/// Returns a b.
 template <class T>
 FourOf<T> product(const FourOf<T>& a, const FourOf<T>& b) {
   const Triple<T> u{a[0], a[1], a[2]}, v{b[0], b[1], b[2]}, across = cross(u, v);
@@ -36,21 +36,22 @@ T inner(const FourOf<T>& a, const FourOf<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// R(q) v, as compare/stages/rod.hpp writes it: of a q that is off unit length another polynomial gives another vector.
+/// Returns R(q) v by the formula of compare/stages/rod.hpp: for a q that is not of unit length another polynomial gives
+/// another vector.
 template <class T>
 Triple<T> rotated(const FourOf<T>& q, const Triple<T>& v) {
   const Triple<T> u{q[0], q[1], q[2]}, once = cross(u, v), twice = once + once;
   return v + q[3] * twice + cross(u, twice);
 }
 
-/// e₃ = (0, 0, 1), the direction of a segment in its own frame.
+/// Returns e₃ = (0, 0, 1), the direction of a segment in its own frame.
 template <class T>
 Triple<T> own_axis() {
   return {T(0.0), T(0.0), T(1.0)};
 }
 
-/// k_s l/2 ‖Γ − Γ'‖² of two strains, D/l − R(q) e₃ where it counts from rest, and R(q)ᵀ D/l − R(qᵗ)ᵀ Dᵗ/l where from
-/// the start of the step.
+/// Returns k_s l/2 ‖Γ − Γ'‖² for a change of strain: D/l − R(q) e₃ from rest, R(q)ᵀ D/l − R(qᵗ)ᵀ Dᵗ/l from the start of
+/// the step.
 template <class T, class Number>
 T stretch_energy(const Triple<T>& change, const Number& stretch, const Number& length) {
   return (Number(0.5) * stretch * length) * dot(change, change);

@@ -1,9 +1,9 @@
 // Several doubles side by side in vector registers as one number type, so that several stencils of one kind are
 // differentiated by the code for one. Each lane does what a double would do, operation by operation: no result depends
-// on the width, or on what stands in the other lanes.
+// on the width, or on the contents of the other lanes.
 //
 // Branches. A comparison gives a mask, which decides a branch where all lanes agree. Where they do not, the branch is
-// taken as if it were false and `lanes_differ` is set: the caller asks again for each lane alone.
+// taken as if the mask were false and `lanes_differ` is set: the caller then evaluates each lane alone.
 //
 // A file that uses lanes may be compiled for several machines. Each has a namespace of its own, so that the linker
 // never merges code for a larger one into a program that runs on a smaller one.
@@ -42,7 +42,7 @@ using PackBits [[gnu::vector_size(8 * pack_width)]] = std::int64_t;
 /// Set by a branch on which lanes do not agree; a caller clears it first.
 inline constinit thread_local bool lanes_differ = false;
 
-/// What a comparison of lanes gives: all bits of a lane are set, or none.
+/// The result of a comparison of lanes: all bits of a lane are set, or none.
 template <std::size_t Packs>
 struct Mask {
   PackBits part[Packs];
@@ -57,7 +57,7 @@ struct Mask {
     for (std::size_t p = 1; p < Packs; ++p) each &= part[p];
     return is_zero(~each);
   }
-  /// For branches.
+  /// Decides a branch.
   explicit operator bool() const {
     if (!any()) return false;
     if (all()) return true;
@@ -105,7 +105,7 @@ struct Lanes {
   Lanes(double value) {
     for (Pack& pack : part) pack = everywhere(value);
   }
-  /// Takes `width` doubles that lie in a row.
+  /// Loads `width` consecutive doubles.
   static Lanes load(const double* from) {
     Lanes x;
     std::memcpy(x.part, from, sizeof x.part);
@@ -187,7 +187,7 @@ struct Lanes {
       for (std::size_t i = 0; i < pack_width; ++i) y.part[p][i] = std::atan2(y.part[p][i], x.part[p][i]);
     return y;
   }
-  /// −1 where a < 0, else 1.
+  /// Returns −1 where a < 0, else 1.
   friend Lanes sign_of(const Lanes& a) { return select(a < Lanes(0.0), Lanes(-1.0), Lanes(1.0)); }
   friend Lanes plain(const Lanes& a) { return a; }
 
@@ -197,7 +197,7 @@ struct Lanes {
     for (std::size_t i = 0; i < pack_width; ++i) pack[i] = value;
     return pack;
   }
-  // By name where g++ 12 fails on a comparison of vectors with -frounding-math (an internal error).
+  // Written as intrinsics where g++ 12 fails on a comparison of vectors with -frounding-math (an internal error).
 #if defined(__AVX2__)
   static PackBits less(Pack a, Pack b) { return reinterpret_cast<PackBits>(_mm256_cmp_pd(a, b, _CMP_LT_OQ)); }
   static PackBits at_most(Pack a, Pack b) { return reinterpret_cast<PackBits>(_mm256_cmp_pd(a, b, _CMP_LE_OQ)); }

@@ -1,11 +1,11 @@
-// The projection of symmetric matrices to positive semidefinite ones, several matrices side by side. Most of its time
-// is a chain of roots and quotients that nothing runs beside in one matrix; side by side the chains of several hide
-// each other's latency.
+// Projects symmetric matrices to positive semidefinite ones, several matrices side by side. For one matrix most of the
+// time is a chain of dependent roots and quotients; side by side the chains of several matrices hide each other's
+// latency.
 //
-// Householder's reduction to a tridiagonal matrix, then QL with implicit shifts (Bowdler, Martin, Reinsch and Wilkinson
-// 1968), in which each lane has its own part of the matrix at work; a lane without one is turned by nothing. Both are
-// changes of basis, so the eigenvalues are off by some roundings of the largest one at most; what QL neglects beside
-// the diagonal is below 2⁻⁵³ of the largest entry.
+// The method is Householder's reduction to a tridiagonal matrix, then QL with implicit shifts (Bowdler, Martin, Reinsch
+// and Wilkinson 1968). Each lane works on its own part of its matrix; a lane that is done is rotated by nothing. Both
+// are changes of basis, so the eigenvalues are off by at most some roundings of the largest one; the entries beside the
+// diagonal that QL neglects are below 2⁻⁵³ of the largest entry.
 #pragma once
 
 #include "reference/energies/stencils/lanes.hpp"
@@ -13,7 +13,7 @@
 namespace ogc::reference {
 inline namespace OGC_LANES {
 
-/// Rows of the lower triangle, as in Second::bend.
+/// Rows of the lower triangle, in the order of Second::bend.
 template <std::size_t N, class Number>
 using LowerTriangle = std::array<Number, N*(N + 1) / 2>;
 
@@ -37,13 +37,13 @@ class Eigensystem {
   }
 
  private:
-  static constexpr int most_sweeps = 30;         ///< for an eigenvalue; two are the rule
-  static constexpr double negligible = 0x1p-53;  ///< beside the diagonal
-  static constexpr double nothing = 0x1p-400;    ///< squares below it are of entries that are nothing beside 1
+  static constexpr int most_sweeps = 30;         ///< sweeps of one eigenvalue; two are usual
+  static constexpr double negligible = 0x1p-53;  ///< largest neglected entry beside the diagonal
+  static constexpr double nothing = 0x1p-400;    ///< squares below it belong to entries that are negligible beside 1
 
-  std::array<L, N> beside_;  ///< beside the diagonal: entry i couples i and i + 1; the last one is not read
+  std::array<L, N> beside_;  ///< entries beside the diagonal: entry i couples i and i + 1; the last one is not read
 
-  /// To a tridiagonal matrix, whose basis is left in `column`.
+  /// Reduces `a` to a tridiagonal matrix, whose basis is left in `column`.
   void reduce(LowerTriangle<N, L>& a) {
     std::array<std::array<L, N>, N> mirror;  // v of each reflection I − β v vᵀ
     std::array<L, N> beta;
@@ -83,8 +83,8 @@ class Eigensystem {
       }
   }
 
-  /// One sweep towards the eigenvalue `first`, in each lane from the first split of the matrix behind it. False where
-  /// there is none left to do.
+  /// Does one sweep towards the eigenvalue `first`, in each lane from the first split of the matrix behind it. Returns
+  /// false where no lane has one left to do.
   bool turn(std::size_t first) {
     L last(static_cast<double>(N - 1));
     for (std::size_t k = N - 1; k-- > first;)
@@ -101,7 +101,7 @@ class Eigensystem {
       const M at_work = goes && L(static_cast<double>(i)) < last;
       if (!at_work.any()) continue;
       const L f = sine * beside_[i], b = cosine * beside_[i], square = f * f + g * g;
-      // Root and quotient side by side: r/r² is 1/r but for a rounding.
+      // Root and quotient are computed in parallel: r/r² is 1/r up to a rounding.
       const L r = sqrt(square), inverse = r * (L(1.0) / square);
       const M turns = at_work && square > L(nothing), ends = at_work && !turns;
       const L s = f * inverse, c = g * inverse, before = value[i + 1] - p, t = (value[i] - before) * s + L(2.0) * c * b,
@@ -128,8 +128,8 @@ class Eigensystem {
   }
 };
 
-/// Where Gauss's elimination meets positive pivots alone, which tells a definite matrix at a hundredth of its
-/// eigenvalues' price; also where all is 0.
+/// Returns where Gauss's elimination meets positive pivots alone: this shows that a matrix is definite, at a hundredth
+/// of the cost of its eigenvalues. Also true where all entries are 0.
 template <std::size_t N, std::size_t Packs>
 Mask<Packs> needs_none(LowerTriangle<N, Lanes<Packs>> a, const Lanes<Packs>& largest) {
   using L = Lanes<Packs>;
@@ -146,8 +146,8 @@ Mask<Packs> needs_none(LowerTriangle<N, Lanes<Packs>> a, const Lanes<Packs>& lar
   return definite || largest == L(0.0);
 }
 
-/// Replaces each negative eigenvalue by 0 or, with `absolute`, by its modulus; matrices without any are left as they
-/// are, to the bit.
+/// Replaces each negative eigenvalue by 0 or, with `absolute`, by its modulus; leaves matrices without negative
+/// eigenvalues unchanged, to the bit.
 template <std::size_t N, std::size_t Packs>
 [[gnu::noinline]] void project(LowerTriangle<N, Lanes<Packs>>& h, bool absolute) {
   using L = Lanes<Packs>;

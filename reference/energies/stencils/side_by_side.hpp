@@ -1,5 +1,5 @@
-// Derivatives of a batch of stencils: pack by pack through the energy as one function of lanes, then all of the batch
-// through the projection, then back to the vertices. For the files that are compiled for several machines.
+// Differentiates a batch of stencils: pack by pack through the energy as one function of lanes, then the whole batch
+// through the projection, then back to the vertices. Included by the files that are compiled for several machines.
 #pragma once
 
 #include <utility>
@@ -12,7 +12,7 @@ inline namespace OGC_LANES {
 
 using One = Lanes<1>;
 
-/// `of(lane)`: the number of a lane.
+/// Fills the lanes; `of(lane)` returns the number of a lane.
 template <class Of>
 void pack(One& to, Of of) {
   for (std::size_t lane = 0; lane < One::width; ++lane) to.part[0][lane] = of(lane);
@@ -26,7 +26,7 @@ void pack(std::array<T, N>& to, Of of) {
 
 using LaneNumbers = std::array<std::size_t, One::width>;
 
-/// Stencils of one batch in the lanes of a pack.
+/// Returns stencils of one batch in the lanes of a pack.
 template <template <class> class TermOf, class Terms>
 TermOf<One> packed(const Terms& terms, const LaneNumbers& stencil) {
   TermOf<One> all;
@@ -50,7 +50,7 @@ struct ByDifferences {
   template <class Corners>
   struct Coordinates {
     Coordinates(const Term<One>&, const Corners&) {}
-    /// The share of vertex k in coordinate d, 0 for k > d + 1.
+    /// Returns the share of vertex k in coordinate d, 0 for k > d + 1.
     double share(std::size_t k, std::size_t d) const { return q[k][d]; }
     static constexpr auto q = without_translation<Count>();
   };
@@ -145,7 +145,7 @@ class SideBySide {
     return Kind::energy(term, x, Coordinates(term, x));
   }
 
-  /// Through the energy together, or one by one where stencils take different branches.
+  /// Evaluates stencils together, or one by one where they take different branches.
   void evaluate(std::size_t first) {
     if (first >= batch_.size) return clear(first);
     const LaneNumbers all = stencils(first);
@@ -175,7 +175,7 @@ class SideBySide {
     for (std::size_t i = 0; i < h.size(); ++i) h[i].store(bend_[i].data());
   }
 
-  /// From the coordinates back to the vertices.
+  /// Transforms derivatives from the coordinates back to the vertices.
   void expand(std::size_t first) {
     const LaneNumbers stencil = stencils(first);
     const Coordinates at(packed<Kind::template TermOf>(batch_.term, stencil), Corners{});
@@ -206,7 +206,7 @@ class SideBySide {
     return Kind::moving == count - 1 && vertex > 0 ? vertex - 1 : 0;
   }
 
-  /// Of one lane: entries are the width apart.
+  /// Writes the derivatives of one lane; its entries are One::width apart.
   void scatter(std::size_t stencil, const double* gradient, const double* hessian) const {
     StencilDerivatives& to = *batch_.result[stencil];
     to.energy = energy_[stencil];
@@ -227,7 +227,7 @@ class SideBySide {
       const auto& place = batch_.place[stencil];
       write([&](std::size_t k) { return std::size_t{place[k]}; });
     } else {
-      // All places are taken, so that the order of terms can be theirs.
+      // All four places are used, so the corners are in the order of the places.
       write([](std::size_t k) { return k; });
     }
   }

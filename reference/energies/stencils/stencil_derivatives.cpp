@@ -8,7 +8,7 @@
 namespace ogc::reference {
 namespace {
 
-/// One matrix in all lanes: what a batch does to it.
+/// Projects one matrix, copied into all lanes, by the code that batches use.
 template <std::size_t N>
 void project_sized(double* matrix, bool absolute) {
   LowerTriangle<N, Lanes<1>> h;

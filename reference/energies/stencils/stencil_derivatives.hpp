@@ -1,6 +1,6 @@
 // Gradient and Hessian of a stencil over all of its vertices. No energy reacts to a translation, so derivatives are
 // taken in coordinates orthogonal to all translations: three variables fewer, and the eigenvalues of the smaller matrix
-// are those of the whole one but its three zeros.
+// are those of the whole one except its three zeros.
 #pragma once
 
 #include <array>
@@ -10,20 +10,20 @@
 
 namespace ogc::reference {
 
-/// How Newton's method makes a stencil's Hessian positive semidefinite: not at all, negative eigenvalues to 0, or to
-/// their absolute values.
+/// How Newton's method makes a stencil's Hessian positive semidefinite: not at all, by setting negative eigenvalues to
+/// 0, or to their absolute values.
 enum class HessianProjection : std::uint8_t { none, clamp, absolute };
 
-/// Of a stencil of n ≤ 4 vertices: gradient [N] in 3n entries, Hessian [N/m] as rows of 12 numbers of which 3n are
-/// used.
+/// Derivatives of a stencil of n ≤ 4 vertices: gradient [N] in 3n entries, Hessian [N/m] as rows of 12 numbers of which
+/// 3n are used.
 struct StencilDerivatives {
   double energy = 0;
   std::array<double, 12> gradient{};
   std::array<double, 144> hessian{};
 };
 
-/// Orthonormal: row k, column d is the share of vertex k in the d-th coordinate; each column adds up to 0. Above column
-/// k − 1 row k holds no zeros.
+/// Orthonormal coordinates: row k, column d is the share of vertex k in the d-th coordinate; each column adds up to 0.
+/// From column k − 1 on row k has no zeros.
 template <std::size_t Count>
 constexpr std::size_t coordinate_count = 3 * (Count - 1);
 template <std::size_t Count>
@@ -38,10 +38,12 @@ constexpr std::array<std::array<double, Count - 1>, Count> without_translation()
   return q;
 }
 
-/// Makes the symmetric matrix of `size` rows positive semidefinite in place; row-major. `none` leaves it as it is.
+/// Makes the symmetric matrix of `size` rows positive semidefinite in place; row-major. `none` leaves it unchanged.
+/// Throws std::invalid_argument for sizes other than 3, 6 and 9.
 void project(double* matrix, std::size_t size, HessianProjection projection);
 
-/// The stencil's vertices as variables. Positions relative to the first vertex, which changes nothing but roundings.
+/// Returns the stencil's vertices as variables. Positions are relative to the first vertex, which changes only
+/// roundings.
 template <std::size_t Count>
 std::array<Triple<Second<coordinate_count<Count>>>, Count> stencil_variables(
     const std::array<Triple<double>, Count>& x) {
@@ -55,7 +57,7 @@ std::array<Triple<Second<coordinate_count<Count>>>, Count> stencil_variables(
   return variables;
 }
 
-/// From the reduced coordinates back to the vertices.
+/// Transforms derivatives from the reduced coordinates back to the vertices.
 template <std::size_t Count>
 StencilDerivatives expanded(const Second<coordinate_count<Count>>& energy, HessianProjection projection) {
   constexpr std::size_t size = coordinate_count<Count>;
@@ -82,7 +84,8 @@ StencilDerivatives expanded(const Second<coordinate_count<Count>>& energy, Hessi
   return result;
 }
 
-/// `energy` maps the stencil's vertices to a number of their type; it must not react to a translation.
+/// Returns the derivatives of a stencil. `energy` maps the stencil's vertices to a number of their type; it must not
+/// react to a translation.
 template <std::size_t Count, class Energy>
 StencilDerivatives stencil_derivatives(const std::array<Triple<double>, Count>& x, HessianProjection projection,
                                        Energy energy) {

@@ -1,5 +1,5 @@
-// Derivatives of stencils, several of one kind side by side: what Newton's method asks for. The functions are compiled
-// for several machines and give the same bits on each, those of a stencil alone (stencil_derivatives.hpp).
+// Derivatives of stencils for Newton's method, several of one kind side by side. The functions are compiled for several
+// machines and give the same bits on each, and the same as for a stencil alone (stencil_derivatives.hpp).
 #pragma once
 
 #include "reference/energies/stencil_terms.hpp"
@@ -7,26 +7,26 @@
 
 namespace ogc::reference {
 
-/// So many stencils are projected at once.
+/// Number of stencils that are projected at once.
 constexpr std::size_t batch_width = 8;
 
-/// Some stencils of one kind, with their corners and where their derivatives go.
+/// Some stencils of one kind, with their corners and the destinations of their derivatives.
 template <class Term, std::size_t Count>
 struct Batch {
   std::size_t size = 0;  ///< at most batch_width, at least 1
   std::array<const Term*, batch_width> term{};
   std::array<std::array<Triple<double>, Count>, batch_width> corner{};
-  /// of the corners in the result's gradient and Hessian
+  /// Places of the corners in the result's gradient and Hessian.
   std::array<std::array<std::uint8_t, Count>, batch_width> place{};
   std::array<StencilDerivatives*, batch_width> result{};
 
-  /// One stencil more, whose vertices are in the order of its corners.
+  /// Adds a stencil whose vertices are in the order of its corners.
   void add(const Term& with, const std::array<Triple<double>, Count>& at, StencilDerivatives& to) {
     std::array<std::uint8_t, Count> places;
     for (std::size_t k = 0; k < Count; ++k) places[k] = static_cast<std::uint8_t>(k);
     add(with, at, places, to);
   }
-  /// Adds a term whose derivatives go to other places of the stencil.
+  /// Adds a stencil whose derivatives go to other places.
   void add(const Term& with, const std::array<Triple<double>, Count>& at, const std::array<std::uint8_t, Count>& places,
            StencilDerivatives& to) {
     term[size] = &with;
@@ -36,19 +36,19 @@ struct Batch {
   }
 };
 
-/// A contact as a function of its form's vertices alone; fixed weights are of all four places.
+/// A contact as a function of its form's vertices alone; a form of fixed weights uses all four places.
 template <class Number>
 struct PlacedContactOf {
   ContactTermOf<Number> contact;
   std::array<Number, 4> weight{};
   FormKind form = FormKind::points;
 
-  /// By the vertices of the form [J].
+  /// Returns the energy at the vertices of the form [J].
   template <class T, std::size_t N>
   T energy(const std::array<Triple<T>, N>& x) const {
     return contact.energy(ClosestForm{form, {0, 1, 2, 3}, {}}, x);
   }
-  /// Of fixed weights, by Σ wᵢ xᵢ.
+  /// Returns the energy of a form of fixed weights, by Σ wᵢ xᵢ [J].
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     using std::sqrt;
@@ -68,22 +68,22 @@ struct StencilKernels {
   using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
   Function<MembraneTerm, 3> membranes;
   Function<HingeTerm, 4> hinges;
-  Function<SpringTerm, 4> springs;  ///< by Σ wᵢ xᵢ, as weighted contacts
+  Function<SpringTerm, 4> springs;  ///< by Σ wᵢ xᵢ, like weighted contacts
   Function<TetrahedronTerm, 4> tetrahedra;
   Function<PlacedContact, 2> contacts_of_2;  ///< by the vertices of their forms
   Function<PlacedContact, 3> contacts_of_3;
   Function<PlacedContact, 4> contacts_of_4;
-  /// Functions of Σ wᵢ xᵢ alone; vertices that the stencil lacks have the weight 0.
+  /// Functions of Σ wᵢ xᵢ alone; missing vertices have the weight 0.
   Function<PlacedContact, 4> weighted_contacts;
   Function<FrictionTerm, 4> frictions;
 };
 
-/// For any machine, and for one with AVX2.
+/// Kernels for any machine, and for one with AVX2.
 extern const StencilKernels stencil_kernels_baseline, stencil_kernels_avx2;
 
-/// Whether this program and this machine have the latter.
+/// Returns whether both this program and this machine have AVX2.
 bool has_avx2();
-/// Those for this machine.
+/// Returns the kernels for this machine.
 const StencilKernels& stencil_kernels();
 
 }  // namespace ogc::reference

@@ -10,11 +10,11 @@ namespace ogc::reference {
 namespace {
 
 constexpr int most_iterations = 500;
-/// ‖A z − θ z‖ ≤ tolerance θ puts an eigenvalue within the same of the Ritz value θ. It is small so that the largest
-/// has time to appear beside its neighbours.
+/// ‖A z − θ z‖ ≤ tolerance θ implies an eigenvalue within tolerance θ of the Ritz value θ. The tolerance is small so
+/// that the iteration has time to tell the largest eigenvalue from its neighbours.
 constexpr double tolerance = 0x1p-20;
 
-/// Numbers in [−1, 1) without a pattern, the same in every run: a start that is orthogonal to the largest eigenvector
+/// Returns numbers in [−1, 1) without a pattern, the same in every run: a start orthogonal to the largest eigenvector
 /// would never find it.
 Eigen::VectorXd start(Eigen::Index size) {
   std::mt19937 engine;
@@ -23,7 +23,8 @@ Eigen::VectorXd start(Eigen::Index size) {
   return x.normalized();
 }
 
-/// Lanczos with full reorthogonalisation; the largest eigenvalue of a symmetric positive definite operator.
+/// Returns the largest eigenvalue of a symmetric positive definite operator, by Lanczos' method with full
+/// reorthogonalisation.
 template <class Apply>
 double largest_eigenvalue(Eigen::Index size, Apply apply) {
   std::vector<Eigen::VectorXd> basis{start(size)};
@@ -47,7 +48,7 @@ double largest_eigenvalue(Eigen::Index size, Apply apply) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// An operation on rows as one on Eigen's vectors.
+/// Turns an operation on rows into one on Eigen's vectors.
 template <class Operation>
 auto through(Operation operation) {
   return [operation](const Eigen::VectorXd& x) -> Eigen::VectorXd {

@@ -1,7 +1,7 @@
-// CHOLMOD copies the entries of each small supernode with four OpenMP threads whatever the machine, and BLAS may add as
+// CHOLMOD copies the entries of each small supernode with four OpenMP threads on every machine, and BLAS may add as
 // many threads as there are cores. Both spin while they wait: on two busy cores the factorisation of 14,700 rows took
-// 2.4 times as long as with one thread. So OpenMP is kept to one here; BLAS has one unless OPENBLAS_NUM_THREADS asks
-// for more.
+// 2.4 times as long as with one thread. So OpenMP is limited to one thread here, and BLAS to one unless
+// OPENBLAS_NUM_THREADS is set.
 #include "reference/solvers/newton/factor.hpp"
 
 #include <cstdlib>
@@ -10,7 +10,7 @@
 
 #include "compare/problem/error.hpp"
 
-// Present where CHOLMOD was built with OpenMP, and where BLAS is OpenBLAS.
+// Defined where CHOLMOD was built with OpenMP, and where BLAS is OpenBLAS.
 extern "C" {
 [[gnu::weak]] void omp_set_max_active_levels(int levels);
 [[gnu::weak]] void openblas_set_num_threads(int threads);
@@ -44,7 +44,7 @@ struct Factor::Memory {
 
 namespace {
 
-/// A view: CHOLMOD reads the matrix where it is, and changes nothing of it.
+/// Returns a view: CHOLMOD reads the matrix in place and does not change it.
 cholmod_sparse view(const BlockMatrix& matrix) {
   cholmod_sparse a{};
   a.nrow = a.ncol = matrix.rows();
@@ -73,7 +73,7 @@ void Factor::analyze(const BlockMatrix& matrix) {
 }
 
 bool Factor::factorize(const BlockMatrix& matrix) {
-  if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);  // of the calling thread
+  if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);  // affects the calling thread
   cholmod_sparse a = view(matrix);
   cholmod_factorize(&a, memory_->factor, &memory_->common);
   memory_->check();

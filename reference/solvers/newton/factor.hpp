@@ -1,5 +1,5 @@
-// A supernodal Cholesky factorisation whose symbolic part is kept while the pattern holds. CHOLMOD appears behind this
-// header only.
+// A supernodal Cholesky factorisation whose symbolic part is kept while the pattern stays. Only this header's source
+// uses CHOLMOD.
 #pragma once
 
 #include <memory>
@@ -19,9 +19,9 @@ class Factor {
 
   /// Orders the pattern for little fill. Throws compare::ResourceError where memory runs out.
   void analyze(const BlockMatrix& matrix);
-  /// False where the matrix is not positive definite (or holds a not-a-number). Throws as `analyze`.
+  /// Returns false where the matrix is not positive definite (or holds a not-a-number). Throws like `analyze`.
   bool factorize(const BlockMatrix& matrix);
-  /// A⁻¹ b. The last factorisation must have succeeded.
+  /// Returns A⁻¹ b. The last factorisation must have succeeded.
   std::vector<double> solve(const std::vector<double>& b);
 
  private:

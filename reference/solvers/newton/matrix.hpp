@@ -1,6 +1,6 @@
 // The sparse system matrix of Newton's method: the lower triangle of a symmetric matrix of 3×3 blocks, one row of
 // blocks for each free vertex, in compressed columns as CHOLMOD reads it. Its pattern is kept as long as it holds all
-// blocks that the stencils need; each value is summed by one thread, in the order of the stencils, so that threads
+// blocks that the stencils need. Each value is summed by one thread, in the order of the stencils, so that threads
 // change no bit.
 #pragma once
 
@@ -12,52 +12,52 @@
 
 namespace ogc::reference {
 
-/// Vertices of a stencil in the order of its derivatives; those that it lacks are −1.
+/// Vertices of a stencil in the order of its derivatives; missing ones are −1.
 using StencilVertices = std::array<compare::Index, 4>;
 
 /// The matrix of the free vertices, lower triangle, by columns.
 class BlockMatrix {
  public:
-  /// A row of blocks for each vertex that is free.
+  /// Makes a row of blocks for each free vertex.
   explicit BlockMatrix(const std::vector<Mobility>& mobility);
 
-  /// Finds the blocks of these stencils, of which the first `steady` are the same in every call that gives this number.
+  /// Finds the blocks of these stencils. The first `steady` of them must be the same in every call with this number.
   /// Returns whether the pattern changed.
   bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
-  /// The next stencils get a pattern of their own. A kept one may hold more blocks than they need, and decides the
-  /// order of elimination: with it a step's last bits would depend on the steps before, and a run that goes on from a
-  /// state could not have those of one that was never cut off.
+  /// Makes the next stencils get a pattern of their own. A kept pattern may hold more blocks than they need, and it
+  /// decides the order of elimination: with it a step's last bits would depend on earlier steps, and a run that is
+  /// continued from a stored state could not have the bits of an uninterrupted one.
   void forget_pattern() { blocks_.clear(); }
-  /// Sums the stencils' Hessians and, by vertex, what stands on the diagonal (m/h²) [N/m].
+  /// Sums the stencils' Hessians and, by vertex, the term of the diagonal (m/h²) [N/m].
   void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
-  /// Adds `value` ≥ 0 to the diagonal of row `row` of blocks, until the next assemble: a positive definite matrix stays
+  /// Adds `value` ≥ 0 to the diagonal of row `row` of blocks, until the next assemble. A positive definite matrix stays
   /// so.
   void add_to_diagonal(std::size_t row, double value);
 
-  /// Three a free vertex.
+  /// Returns the number of scalar rows, three for each free vertex.
   std::size_t rows() const { return 3 * free_.size(); }
-  /// As CHOLMOD has it: where each column begins.
+  /// Returns where each column begins, as CHOLMOD reads it.
   const std::vector<std::int32_t>& column_begin() const { return column_begin_; }
-  /// The row of each entry.
+  /// Returns the row of each entry.
   const std::vector<std::int32_t>& row_index() const { return row_index_; }
-  /// The entries [N/m].
+  /// Returns the entries [N/m].
   std::vector<double>& values() { return values_; }
   const std::vector<double>& values() const { return values_; }
-  /// Vertex of each row of blocks.
+  /// Returns the vertex of each row of blocks.
   const std::vector<std::size_t>& free_vertices() const { return free_; }
-  /// A x, with x and the result as the rows.
+  /// Returns A x; x and the result are ordered like the rows.
   std::vector<double> times(const std::vector<double>& x) const;
 
  private:
-  /// Which entry of which stencil's Hessian belongs to a block: places k and l of the rows and columns.
+  /// The part of a stencil's Hessian that is added to a block: the block at places `row` and `column` of the stencil.
   struct Share {
     std::uint64_t block = 0;  ///< column · 2³² + row
     std::uint32_t stencil = 0;
     std::uint8_t row = 0, column = 0;
   };
   static bool earlier(const Share& a, const Share& b);
-  /// The shares of the stencils from `first` on, sorted.
+  /// Returns the shares of the stencils from `first` on, sorted.
   std::vector<Share> shares_of(std::span<const StencilVertices> stencils, std::size_t first) const;
   std::vector<std::uint64_t> needed_blocks() const;
   void set_pattern(std::vector<std::uint64_t> blocks);
@@ -69,7 +69,7 @@ class BlockMatrix {
   std::vector<std::uint64_t> blocks_;                   ///< ascending
   std::vector<std::size_t> block_begin_, share_begin_;  ///< by column; by block
   std::vector<Share> shares_, steady_shares_;
-  std::size_t steady_ = 0;  ///< stencils that steady_shares_ belong to
+  std::size_t steady_ = 0;  ///< number of stencils that steady_shares_ belong to
   std::vector<std::int32_t> column_begin_, row_index_;
   std::vector<double> values_;
 };

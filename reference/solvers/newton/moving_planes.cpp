@@ -7,20 +7,20 @@
 namespace ogc::reference {
 namespace {
 
-/// Sweeps over pairs that come too near, at most: see `truncated`.
+/// Most sweeps over pairs that come too near (see `truncated`).
 constexpr int most_sweeps = 64;
-/// Rounds in which vertices are scaled on their own, before all are scaled alike.
+/// Rounds in which vertices are scaled one by one, before all are scaled alike.
 constexpr int most_scalings = 16;
-/// Share of the room that a pair gets back when it is moved apart, so that sweeps end.
+/// Share of its room that a pair gets back when it is moved apart, so that sweeps end.
 constexpr double given_back = 0x1p-6;
-/// Σ of three products and a difference of two such sums, in double: each rounding is 2⁻⁵³ of what it adds up.
+/// Rounding of a difference of two sums of three products in double: each operation rounds by 2⁻⁵³ of its result.
 constexpr double height_noise = 0x1p-49;
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 double largest(const Triple<double>& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
 Triple<double> wide(const compare::Vec3f& p) { return {p.x, p.y, p.z}; }
 
-/// How far rounding to single precision moves a point with coordinates below `size` [m], as FeasibleRegions has it.
+/// Returns how far rounding to single precision moves a point with coordinates below `size` [m], as in FeasibleRegions.
 double rounding_of(double size) { return std::sqrt(3.0) * ((0x1p-24 + 0x1p-50) * size + 0x1p-149); }
 
 }  // namespace
@@ -52,7 +52,7 @@ MovingPlanes::MovingPlanes(const std::vector<NearPair>& pairs, const std::vector
       pair.vertices[k] = static_cast<std::size_t>(near.vertices[k]);
       size = std::max(size, largest(centre_[pair.vertices[k]]) + radius_[pair.vertices[k]]);
     }
-    // n is a unit vector up to 2⁻²²; x and what is stored of it may both be off, each side's by so much.
+    // n is a unit vector up to 2⁻²²; both x and its stored value may be off, on each side by this much.
     const double noise = 2 * (1 + 0x1p-20) * rounding_of(size) + 3 * height_noise * size;
     pair.gap = separation(pair, [&](std::size_t v) { return centre_[v]; });
     pair.least = (1 - 2 * relaxation) * pair.gap + noise;
@@ -76,7 +76,7 @@ void MovingPlanes::enter(State& x) const {
     if (stays(v)) x[v] = centre_[v];
 }
 
-/// Of Eq. 27's kind: ‖a + s b‖ = R with ‖a‖ ≤ R has one root s ≥ 0.
+/// Solves ‖a + s b‖ = R for the ball of Eq. 27: with ‖a‖ ≤ R it has one root s ≥ 0.
 double MovingPlanes::share_in_ball(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const {
   const Triple<double> away = x - centre_[vertex];
   if (!(length(away + step) > radius_[vertex])) return 1;
@@ -85,7 +85,7 @@ double MovingPlanes::share_in_ball(std::size_t vertex, const Triple<double>& x, 
   return std::clamp((std::sqrt(ab * ab + bb * room) - ab) / bb * (1 - 0x1p-40), 0.0, 1.0);
 }
 
-/// Those whose sides could come too near if they went straight for one another, twice as far as they go.
+/// Returns the pairs whose sides could come too near if both moved straight towards each other by twice their steps.
 std::vector<std::uint32_t> MovingPlanes::endangered(const State& x, const State& step) const {
   std::vector<double> reach(x.size());
   for (std::size_t v = 0; v < x.size(); ++v) reach[v] = length(step[v]);
@@ -129,7 +129,8 @@ bool MovingPlanes::shares(const State& x, const State& step, std::vector<double>
   for (const Pair& pair : pairs_) {
     const double after = separation(pair, [&](std::size_t v) { return x[v] + step[v]; });
     if (after >= pair.least) continue;
-    // concave on the way: it is at least what lies on the straight line between its values at both ends
+    // the separation is concave along the way, so it is at least the linear interpolation between its values at both
+    // ends
     const double before = separation(pair, [&](std::size_t v) { return x[v]; }),
                  left = std::max(0.0, (before - pair.least) / (before - after)) * (1 - 0x1p-40);
     for (const std::size_t v : pair.vertices) share[v] = std::min(share[v], left);

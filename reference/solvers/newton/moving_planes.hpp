@@ -1,20 +1,20 @@
-// How far Newton's step may take the free vertices between two detections, pair by pair. A ball, or a half-space that
-// stays where it is, holds two near vertices back although they travel together; a plane that travels with them does
-// not. At X_prev a pair (p, q) within r_q has a unit vector n, from closest point to closest point, and the gap
+// How far Newton's step may move the free vertices between two detections, pair by pair. A ball or a half-space that
+// stands still holds back two near vertices although they travel together; a plane that travels with them does not. At
+// X_prev a pair (p, q) within r_q has a unit vector n, from closest point to closest point, and the gap
 //
 //   g = min over q of n·X_prev − max over p of n·X_prev.
 //
-// A state is inside if every such pair still has
+// A state is inside if for every pair
 //
 //   min over q of n·x − max over p of n·x ≥ (1 − 2γ_p) g                                                          (*)
 //
-// and no vertex has gone more than γ_p r_q, so that pairs farther apart than r_q can't meet. The left side of (*) is
-// the smallest of linear functions of all positions, so inside is convex: on the straight way from X_prev to a state
-// that is inside, and from one of them to another, the hulls of p and q always have a plane with the normal n between
-// them. What two balls of γ_p d allow obeys (*), too: this is Eq. 21 for relative motion, and only towards each other.
+// and no vertex has moved by more than γ_p r_q, so that pairs farther apart than r_q can't meet. The left side of (*)
+// is the smallest of linear functions of all positions, so the set of inside states is convex: on the straight way from
+// X_prev to an inside state, and between two inside states, a plane with the normal n always lies between the hulls of
+// p and q. Two balls of radius γ_p d keep (*), too: it is Eq. 21 for relative motion, and restricts approach alone.
 //
-// Positions are doubles within a step, and X_prev and what is stored are rounded: (*) is asked with as much more room
-// as rounding takes. Where the gap is too small for that the pair's vertices stay at X_prev.
+// Positions are doubles within a step, but X_prev and what is stored are rounded: (*) is tested with additional room
+// for rounding. Where the gap is too small for that, the pair's vertices stay at X_prev.
 #pragma once
 
 #include <cstdint>
@@ -25,25 +25,25 @@
 
 namespace ogc::reference {
 
-/// Of one detection.
+/// The pairs of one detection and their planes.
 class MovingPlanes {
  public:
   MovingPlanes() = default;
-  /// All pairs within r_q [m] at X_prev, of vertices with this mobility; `relaxation` is γ_p.
+  /// Takes all pairs within r_q [m] at X_prev, of vertices with this mobility; `relaxation` is γ_p.
   MovingPlanes(const std::vector<NearPair>& pairs, const std::vector<compare::Vec3f>& previous,
                const std::vector<Mobility>& mobility, double query_radius, double relaxation);
 
-  /// Puts vertices that must stay at X_prev there; x is X_prev up to rounding.
+  /// Moves vertices that must stay at X_prev there; x is X_prev up to rounding.
   void enter(State& x) const;
-  /// A step of the free vertices near `step` [m] that stays inside from x on, which is: into the balls, then both sides
-  /// of pairs that would come too near are moved apart, in sweeps; what these leave is scaled, for the vertices
-  /// concerned.
+  /// Returns a step of the free vertices near `step` [m] that stays inside; x must be inside. Cuts the step to the
+  /// balls, then moves apart, in sweeps, both sides of pairs that would come too near; what the sweeps leave is scaled
+  /// for the vertices concerned.
   State truncated(const State& x, State step) const;
-  /// The largest share in [0, 1] of `step` that surely stays inside.
+  /// Returns the largest share in [0, 1] of `step` that surely stays inside.
   double share_inside(const State& x, const State& step) const;
-  /// The same where `vertex` alone moves.
+  /// Returns the same where only `vertex` moves.
   double share_inside(const State& x, std::size_t vertex, const Triple<double>& step) const;
-  /// Whether stored positions keep every pair apart, exactly.
+  /// Checks whether stored positions keep every pair apart, exactly.
   bool kept_by(const std::vector<compare::Vec3f>& stored) const;
 
  private:
@@ -51,16 +51,16 @@ class MovingPlanes {
     std::array<std::size_t, 4> vertices{};
     std::size_t second_from = 1;
     Triple<double> normal;
-    double least = 0;  ///< what remains of the gap inside [m]
+    double least = 0;  ///< what must remain of the gap [m]
     double gap = 0;    ///< [m]
   };
-  /// min over q of n·x − max over p of n·x, x a function of the vertex.
+  /// Returns min over q of n·x − max over p of n·x; `at` maps a vertex to x.
   template <class At>
   static double separation(const Pair& pair, At at);
   double share_in_ball(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
   std::vector<std::uint32_t> endangered(const State& x, const State& step) const;
   bool move_apart(const Pair& pair, const State& x, State& step) const;
-  /// By vertex the smallest share that its ball and its pairs leave; whether all are 1.
+  /// Sets for each vertex the smallest share that its ball and its pairs leave; returns whether all are 1.
   bool shares(const State& x, const State& step, std::vector<double>& share) const;
 
   bool stays(std::size_t vertex) const { return mobility_[vertex] == Mobility::fixed || radius_[vertex] == 0; }

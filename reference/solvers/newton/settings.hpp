@@ -1,4 +1,4 @@
-// What Newton's method is set to beside the problem's own settings; IPC shares friction_solves and projection.
+// Settings of Newton's method beside the problem's own; IPC shares newton_friction_solves and newton_projection.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace ogc::reference {
 
-/// What Newton's step is held to between two detections.
+/// What bounds Newton's step between two detections.
 enum class Truncation {
-  vertex,  ///< each vertex to its own region, a ball or what `bounds` says
-  pair     ///< near pairs to planes that travel with them (moving_planes.hpp)
+  vertex,  ///< each vertex has its own region, by `bounds`
+  pair     ///< near pairs have planes that travel with them (moving_planes.hpp)
 };
-/// Whether planes travel with near pairs.
+/// Returns whether planes travel with near pairs.
 constexpr bool moves_planes(Truncation truncation) {
   switch (truncation) {
     case Truncation::vertex: return false;
@@ -22,18 +22,18 @@ constexpr bool moves_planes(Truncation truncation) {
   return false;
 }
 
-/// See the table of settings for ranges and defaults.
+/// Newton's settings. The table of settings has ranges and defaults.
 struct NewtonSettings {
-  std::int64_t iterations;       ///< a step at most
+  std::int64_t iterations;       ///< most iterations of a step
   double tolerance;              ///< residual (Eq. 29) at which a step has converged; 0: all iterations are done
   double step_tolerance;         ///< a step has also converged where no vertex wants to move faster than this [m/s]
-  std::int64_t friction_solves;  ///< solves a step, each with friction lagged to the one before
+  std::int64_t friction_solves;  ///< solves of a step, each with friction lagged to the solve before
   HessianProjection projection;  ///< of each stencil's Hessian
   Truncation truncation;
 };
 
-/// As the problem carries them: newton_iterations, newton_tolerance, newton_step_tolerance, friction_solves,
-/// projection and truncation.
+/// Reads newton_iterations, newton_tolerance, newton_step_tolerance, newton_friction_solves, newton_projection and
+/// newton_truncation from the problem's settings.
 NewtonSettings newton_settings(const compare::Settings& settings);
 
 }  // namespace ogc::reference

@@ -12,16 +12,17 @@ namespace {
 
 using compare::Vec3f;
 
-/// So many times as much a scaled step must lower the energy to be preferred: see the head of solver.hpp.
+/// A scaled step is preferred if it lowers the energy this many times as much: see the head of solver.hpp.
 constexpr double far_more = 2;
-/// So often a solve that has converged goes on although the contacts found at its result are no better than those
-/// before: see the head of solver.hpp.
+/// The number of judgements after which a converged solve ends although the contacts found at its result are no better
+/// than those before: see the head of solver.hpp.
 constexpr int most_judgements = 4;
-/// ‖δ_v‖/‖δ'_v‖ at most: a vertex whose ball leaves it nothing stands as good as still.
+/// Largest ‖δ_v‖/‖δ'_v‖ that counts: beyond it a vertex practically stands still.
 constexpr double most_pinned = 1e6;
 /// Each round costs a factorisation; from the third on they rarely lower the energy more.
 constexpr int most_pin_rounds = 6;
-/// A line search that accepts less of a direction has come to a standstill, in its balls or at a kink of its contacts.
+/// A line search that accepts a smaller share of a direction has come to a standstill, in its balls or at a kink of its
+/// contacts.
 constexpr double least_share = 1e-3;
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
@@ -55,12 +56,13 @@ StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector
   pattern_stale_ = true;
   guess(GuessEnd::contact);
   if (!moves_planes(newton_.truncation)) return finish(status_of(solve()));
-  detect_next_ = true;  // the guess loop knows balls alone
+  detect_next_ = true;  // the guess loop has balls alone
   const std::uint32_t status = status_of(solve());
   return finish(end_between_planes(status));
 }
 
-/// What is stored keeps the planes of the last detection; the bounds that are reported are those of one more, there.
+/// Checks that what is stored keeps the planes of the last detection; then detects there once more, for the reported
+/// bounds.
 std::uint32_t NewtonSolver::end_between_planes(std::uint32_t status) {
   if (status == compare::step_not_finite) return status;
   if (!planes_.kept_by(rounded(x_))) return compare::step_bound_violated;
@@ -71,7 +73,7 @@ std::uint32_t NewtonSolver::end_between_planes(std::uint32_t status) {
 void NewtonSolver::detect_with_planes() {
   detect_here();
   planes_ = timed(detection, [&] {
-    const double relaxation = settings_.bound_relaxation;
+    const double relaxation = settings_.bounds_relaxation;
     return MovingPlanes(detect_pairs(topology_, exclusions_, detected_.previous, query_radius_, relaxation),
                         detected_.previous, potential_.mobility(), double{query_radius_}, relaxation);
   });
@@ -116,8 +118,8 @@ NewtonSolver::Outcome NewtonSolver::solve() {
   }
 }
 
-/// Each round does an iteration or detects because the residual is small enough; two of the latter never follow one
-/// another, but for prescribed vertices that creep towards their targets. The limit ends both.
+/// Each round does an iteration, or detects because the residual is small enough. Two such detections never follow one
+/// another, except while prescribed vertices creep towards their targets. The limit ends both.
 NewtonSolver::Outcome NewtonSolver::solve_once() {
   for (std::int64_t round = 0; round <= 2 * newton_.iterations + 1; ++round)
     if (const std::optional<Outcome> outcome = iterate()) return *outcome;
@@ -130,8 +132,8 @@ double NewtonSolver::mean_force() const {
   return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
 }
 
-/// Like forces, torques are held against those after the guess, or against what rounding leaves of them: a straight rod
-/// that falls freely has none at all.
+/// Compares torques, like forces, with those after the guess, or with what rounding leaves of them: a straight rod that
+/// falls freely has none.
 bool NewtonSolver::has_small_torque() {
   double sum = 0;
   for (std::size_t i = x_.size(); i < derivatives_.gradient.size(); ++i) sum += length(derivatives_.gradient[i]);
@@ -166,8 +168,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   return advance(prescribed_cut);
 }
 
-/// Whether solves have found for the last time that their result is none with the contacts there. Rounds whose force
-/// halves lead somewhere and don't count.
+/// Returns whether most_judgements solves have converged without being converged for the contacts found at their
+/// result. Rounds that halve the force are progress and don't count.
 bool NewtonSolver::judged_in_vain(double force) {
   if (judgements_ == 0 || force > 0.5 * least_judged_) ++judgements_;
   least_judged_ = std::min(least_judged_, force);
@@ -266,8 +268,8 @@ void NewtonSolver::truncate(Direction& direction) const {
   }
 }
 
-/// Adds springs to the matrix that hold each cut vertex where it is, and factorises it. A vertex that nothing but
-/// inertia holds then goes as far as its ball allows; sheets that travel together do, too.
+/// Adds springs to the matrix that hold each cut vertex where it is, and factorises it. A vertex that only inertia
+/// holds then goes as far as its ball allows; so do sheets that travel together.
 bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   const std::vector<std::size_t>& free = matrix_.free_vertices();
   const std::vector<double> inertias = potential_.inertias();
@@ -283,8 +285,8 @@ bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   return timed(factorization, [&] { return factor_.factorize(matrix_); });
 }
 
-/// Along δ' of the system with pins, which are stiffened where vertices are cut again, as long as that lowers the
-/// energy more.
+/// Searches along δ' of the system with pins, which are stiffened where vertices are cut again, as long as that lowers
+/// the energy more.
 Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
   Accepted best;
   std::vector<double> pins(derivatives_.gradient.size(), 0);
@@ -340,7 +342,8 @@ double NewtonSolver::room_for(const State& delta) const {
   return room;
 }
 
-/// Along δ'; where that was cut and along δ scaled to fit all balls the energy falls far more, along the latter.
+/// Searches along δ'; where it was cut, also along δ scaled to fit all balls, which is taken if the energy falls far
+/// more.
 Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
   Accepted best = backtracked(potential_, unknowns(), direction.truncated, 1, before, noise);
   if (direction.cut > 0) {

@@ -28,7 +28,7 @@ Frame unit(const Frame& q) { return on_sphere::scaled(1 / std::sqrt(inner(q, q))
 
 double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// q̄_e q_f ahead, q̄_f q_e behind: what p° is of.
+/// Returns q̄_e q_f for the neighbour ahead, q̄_f q_e for the one behind: the product whose rest value is p°.
 Frame relative(const Frame& own, const Frame& other, std::size_t end) {
   return end == 1 ? product(conjugate(own), other) : product(conjugate(other), own);
 }
@@ -148,7 +148,7 @@ void RodSystem::turn(const Positions& x) {
     const Index held = terms_[e].held;
     if (held > 0 && says_turn(scene_.motions[place(held) - 1]))
       q_[e] = unit(product(wide(prescribed_turn(scene_.motions[place(held) - 1], before, before + h)), start_[e]));
-    else if (held > 0 || (held < 0 && turns(scene_.settings.start_frames)))
+    else if (held > 0 || (held < 0 && turns(scene_.settings.rod_start)))
       q_[e] = turned_along(apart(e, start_positions_), apart(e, x), start_[e]);
     else
       q_[e] = start_[e];
@@ -179,13 +179,15 @@ on_sphere::Problem<double> RodSystem::problem(std::size_t e, const Positions& x)
 
 namespace {
 
-/// Of a segment without neighbours every q with its director along D is as good: the one nearest to the old.
+/// Returns the minimiser of a segment without neighbours: every q with its director along D is equally good, so it
+/// takes the one nearest to the old.
 Frame without_neighbours(const on_sphere::Problem<double>& problem, const Frame& old, double sigma) {
   const Frame upper = on_sphere::sum(on_sphere::scaled(sigma, old), problem.turned(old));
   return inner(upper, upper) > 1e-20 * sigma * sigma ? unit(upper) : old;
 }
 
-/// A minimiser, or where the way from `old` ends in one that is not the least, the least of those from other starts.
+/// Returns the minimiser that descent from `old` reaches or, where it is not the global one, the least of those from
+/// other starts.
 Frame least(const on_sphere::Problem<double>& problem, const Frame& old, double sigma, double pull) {
   constexpr double enough = 1e-14;
   const double size = sigma + pull;
@@ -200,7 +202,7 @@ Frame least(const on_sphere::Problem<double>& problem, const Frame& old, double 
   return best;
 }
 
-/// q ∝ (μ + M) b with μ = σ + ‖b‖, as printed in Hsu et al. 2025.
+/// Returns q ∝ (μ + M) b with μ = σ + ‖b‖, as printed in Hsu et al. 2025.
 Frame as_published(const on_sphere::Problem<double>& problem, double sigma, double pull) {
   return unit(on_sphere::sum(on_sphere::scaled(sigma + pull, problem.vector), problem.turned(problem.vector)));
 }
@@ -218,15 +220,15 @@ void RodSystem::sweep(const Positions& x) {
       if (!(pull > 0))
         q_[e] = without_neighbours(own, q_[e], sigma);
       else
-        q_[e] = minimises(scene_.settings.orientation) ? least(own, q_[e], sigma, pull)
-                                                       : as_published(own, sigma, pull);
+        q_[e] = minimises(scene_.settings.rod_orientation) ? least(own, q_[e], sigma, pull)
+                                                           : as_published(own, sigma, pull);
     });
 }
 
 namespace {
 
-/// k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²): the change of strain has the length of what it is turned
-/// into by R(q).
+/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²): rotation by R(q) keeps the length of the change of
+/// strain.
 template <class T>
 T segment_energy(const RodTerm& term, const Triple<T>& apart, const FourOf<T>& q, double damping) {
   const auto about = [&](const Triple<double>& own) {
@@ -245,7 +247,7 @@ FourOf<T> constant(const Frame& q) {
   return {T(q[0]), T(q[1]), T(q[2]), T(q[3])};
 }
 
-/// w/2 ‖p − s p°‖² of unit quaternions, s the better sign.
+/// Returns w/2 ‖p − s p°‖² of unit quaternions, with the better sign s.
 template <class T>
 T joint_energy(const FourOf<T>& own, const FourOf<T>& other, std::size_t end, double weight, const Frame& rest) {
   const FourOf<T> p = end == 1 ? product(conjugate(own), other) : product(conjugate(other), own);
@@ -259,7 +261,7 @@ T joint_energy(const FourOf<T>& own, const FourOf<T>& other, std::size_t end, do
   return 0.5 * weight * sum;
 }
 
-/// q exp(ω/2) to the second order, of unit length.
+/// Returns q exp(ω/2) to the second order, of unit length.
 template <class T>
 FourOf<T> turned_by(const Frame& q, const Triple<T>& omega) {
   using std::sqrt;
@@ -270,7 +272,7 @@ FourOf<T> turned_by(const Frame& q, const Triple<T>& omega) {
 
 using Six = Second<6, double>;
 
-/// Three of the six variables, at 0.
+/// Returns three of the six variables, at 0.
 Triple<Six> variables(std::size_t first) {
   Triple<Six> x;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -340,7 +342,7 @@ StencilDerivatives RodSystem::derivatives(std::size_t stencil, const Positions& 
   for (std::size_t i = 0, k = 0; i < 6; ++i)
     for (std::size_t j = 0; j <= i; ++j, ++k) matrix[6 * i + j] = matrix[6 * j + i] = energy.bend(k);
   project(matrix.data(), 6, projection);
-  // Of a segment the first three are of D = x₁ − x₀.
+  // A segment's first three variables are D = x₁ − x₀.
   struct Part {
     std::size_t place, variable;
     double sign;

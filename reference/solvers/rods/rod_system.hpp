@@ -1,5 +1,5 @@
-// The rods of a scene in double, for whole runs: quaternions of all segments, how a step begins them, their sweep, the
-// forces that vertices feel from them, energies and residual (compare/rods.md).
+// The rods of a scene in double, for whole runs: quaternions of all segments, their start in a step, their sweep, their
+// forces on vertices, energies and residual (compare/rods.md).
 #pragma once
 
 #include <span>
@@ -15,68 +15,73 @@
 
 namespace ogc::reference {
 
-/// A segment with what of it is constant in a step.
+/// A segment with its quantities that are constant in a step.
 struct RodTerm {
   std::array<compare::Index, 2> vertex{-1, -1};     ///< x₀, x₁
   double length = 0, stretch = 0, damping = 0;      ///< l [m], k_s [N], k [1]
   Triple<double> start{};                           ///< R(qᵗ)ᵀ Dᵗ/l
   std::array<compare::Index, 2> neighbour{-1, -1};  ///< behind, ahead
   std::array<double, 2> weight{};                   ///< w = 4 k_b/l̄ [N m]
-  std::array<FourOf<double>, 2> rest{}, before{};   ///< p°, pᵗ, as the segment sees them
-  compare::Index held = -1;                         ///< as compare::segment_groups
+  std::array<FourOf<double>, 2> rest{}, before{};   ///< p°, pᵗ, as this segment reads them
+  compare::Index held = -1;                         ///< the segment's entry of compare::segment_groups
 };
 
-/// Colours of the segments that nothing holds, −1 of others: no two neighbours share one, and each has the lowest that
-/// its lower-numbered neighbours leave.
+/// Returns colours of the free segments, −1 for others: no two neighbours share one, and each has the lowest that its
+/// lower-numbered neighbours leave.
 std::vector<compare::Index> segment_colours_of(const compare::RestStateOut& rest,
                                                const std::vector<compare::Index>& held);
 
-/// Orientations of the scene's start: those that it gives, or of the rest shape, turned to where each segment starts.
+/// Returns the orientations of the scene's start: those that the scene gives, or those of the rest shape, turned into
+/// each segment's starting direction.
 std::vector<compare::Quaternion> start_orientations(const compare::Scene& scene, const compare::RestStateOut& rest);
 
-/// q after the smallest rotation from one direction to another; half a turn about the first axis of q between opposite
-/// ones, and q itself where one of them is 0.
+/// Returns q after the smallest rotation from one direction to another: half a turn about the first axis of q between
+/// opposite directions, q itself where one of them is 0.
 FourOf<double> turned_along(const Triple<double>& from, const Triple<double>& to, const FourOf<double>& q);
 
 /// The rods of one scene, step after step.
 class RodSystem {
  public:
-  /// The scene must be rounded and outlive it.
+  /// The scene must be rounded and outlive this.
   RodSystem(const compare::Scene& scene, const compare::RestStateOut& rest);
 
-  bool is_used() const { return !terms_.empty(); }  ///< whether there are any
-  /// qᵗ of the next step; those of the scene's start where there are none.
+  bool is_used() const { return !terms_.empty(); }  ///< whether the scene has rods
+  /// Sets qᵗ of the next step; an empty span means the orientations of the scene's start. Throws std::invalid_argument
+  /// for another number of segments.
   void set_start(std::span<const compare::Quaternion> orientations);
-  /// q of a state that another solver made; where there are none, q stays.
+  /// Sets q of a state that another solver made; an empty span keeps q. Throws std::invalid_argument for another number
+  /// of segments.
   void put(std::span<const compare::Quaternion> orientations);
-  /// q, rounded.
+  /// Returns q, rounded.
   std::vector<compare::Quaternion> orientations() const;
 
-  /// xᵗ: what damping counts from.
+  /// Begins a step at xᵗ, from which damping counts, with q = qᵗ.
   void begin_step(const std::vector<Triple<double>>& start, std::int64_t number);
-  /// After the guess loop: q turned from qᵗ as segments have turned from xᵗ to x.
+  /// Sets q after the guess loop: turns qᵗ as the segment has turned from xᵗ to x, or as its prescribed motion turns.
+  /// Fixed segments keep qᵗ, and so do free ones with rod_start=kept.
   void turn(const std::vector<Triple<double>>& x);
-  /// Each free segment to its minimiser, colour by colour.
+  /// Moves each free segment to its minimiser, colour by colour.
   void sweep(const std::vector<Triple<double>>& x);
 
-  /// All segments.
+  /// Returns all segments.
   std::span<const RodTerm> terms() const { return terms_; }
-  /// Adds segment `e` as its end `end` feels it; `ends`: where its ends are.
+  /// Adds the force of segment `e` on its end `end`; `ends`: positions of its ends.
   void add_force(compare::Index e, std::size_t end, const std::array<Triple<double>, 2>& ends,
                  VertexSystemOf<double>& sum) const;
 
-  // As stencils of Newton's method: segments, then joints. Behind the vertices, at `vertex_count + e`, stands ω of
-  // segment e, three unknowns: positions that hold it mean q exp(ω/2), others q.
+  // Stencils of Newton's method: segments, then joints. Behind the vertices, at `vertex_count + e`, are the three
+  // unknowns ω of segment e: positions that include them mean q exp(ω/2), others q.
   std::size_t size() const { return terms_.size() + joints_.size(); }
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
-  /// How many of these, the first ones, are vertices: two of a segment, none of a joint.
+  /// Returns how many of the stencil's first unknowns are vertices: two for a segment, none for a joint.
   std::size_t corners(std::size_t stencil) const { return stencil < terms_.size() ? 2 : 0; }
-  /// Damping included [J].
+  /// Returns the energy, damping included [J].
   double energy(std::size_t stencil, const std::vector<Triple<double>>& x) const;
-  /// At ω = 0.
+  /// Returns the derivatives at ω = 0.
   StencilDerivatives derivatives(std::size_t stencil, const std::vector<Triple<double>>& x,
                                  HessianProjection projection) const;
-  /// Into the places behind `to`. Calls `finished` with the number of each stencil, on the thread that did it.
+  /// Writes the derivatives into the places from `to` on. Calls `finished` with the number of each stencil, on the
+  /// thread that did it.
   template <class Finished>
   void differentiate(const std::vector<Triple<double>>& x, HessianProjection projection, StencilDerivatives* to,
                      Finished finished) const {
@@ -88,15 +93,15 @@ class RodSystem {
   double length(std::size_t segment) const { return terms_[segment].length; }  ///< l [m]
   std::size_t segments() const { return terms_.size(); }
   bool is_free(std::size_t segment) const { return terms_[segment].held == -1; }
-  /// What stands on the diagonal of ω, so that a matrix in which a twist is free is definite: far below k_s l [N m].
+  /// Returns the diagonal term of ω, which makes a matrix with a free twist definite: far below k_s l [N m].
   double regularisation(std::size_t segment) const { return 1e-8 * terms_[segment].stretch * terms_[segment].length; }
-  /// q ← q exp(ω/2), where there are ω behind the positions.
+  /// Sets q ← q exp(ω/2), where x includes ω behind the positions.
   void turn_by(const std::vector<Triple<double>>& x);
 
   double elastic_energy(const std::vector<Triple<double>>& x) const;  ///< without damping [J]
-  /// Adds it to a sum [J].
+  /// Adds the elastic energy to a sum [J].
   void add_elastic(const std::vector<Triple<double>>& x, double& sum) const { sum += elastic_energy(x); }
-  /// Mean of ‖(I − q qᵀ)(M q + b)‖ over the free segments [N m].
+  /// Returns the mean of ‖(I − q qᵀ)(M q + b)‖ over the free segments [N m].
   double mean_torque(const std::vector<Triple<double>>& x) const;
   /// Mean and largest ‖D‖/l − 1.
   struct Stretch {
@@ -108,7 +113,7 @@ class RodSystem {
   using Positions = std::vector<Triple<double>>;
   Triple<double> apart(std::size_t e, const Positions& x) const;
   on_sphere::Problem<double> problem(std::size_t e, const Positions& x) const;
-  /// A neighbour `second` across end `end` of segment `first` < `second`.
+  /// The neighbour `second` across end `end` of segment `first` < `second`.
   struct Joint {
     std::size_t first, end, second;
   };

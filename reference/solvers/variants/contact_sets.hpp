@@ -1,4 +1,4 @@
-// Contact sets that are not the method's, for ablations (§2.2, Fig. 2 of the paper).
+// Contact sets other than the method's, for ablations (§2.2, Fig. 2 of the paper).
 #pragma once
 
 #include <span>
@@ -10,18 +10,19 @@
 
 namespace ogc::reference {
 
-/// What a set lists.
+/// The contacts of a set.
 struct ListedContacts {
-  std::vector<compare::VertexFacetContact> vertex_facet;  ///< by vertex and triangle
-  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< by the edges that generate them
+  std::vector<compare::VertexFacetContact> vertex_facet;  ///< sorted by vertex and triangle
+  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< sorted by the edges that generate them
 };
 
-/// The contacts nearer than in.contact_radius; in.query_radius is not read. `body`: by vertex.
+/// Returns the contacts nearer than in.contact_radius; in.query_radius is not read. `body`: by vertex. Throws
+/// std::logic_error for the method's own set.
 ///
-/// ContactSet::pairs: of each vertex and triangle, and of each two edges, that are no neighbours the closest faces of
-/// the two. A face that is closest in several pairs is listed as often, so that its force is a multiple; no block is
-/// asked. ContactSet::distance: of each vertex the closest face of each other body, the lowest-numbered triangle's
-/// where several are as near; edges have none. Throws std::logic_error for the method's own set.
+/// ContactSet::pairs: the closest faces of each vertex and triangle, and of each two edges, that are no neighbours. A
+/// face that is closest in several pairs is listed once a pair, so that its force is a multiple; no block is tested.
+/// ContactSet::distance: for each vertex the closest face of each other body, by the lowest-numbered triangle where
+/// several are equally near; edges have no contacts.
 ListedContacts contact_variant(ContactSet set, const compare::DetectIn& in, std::span<const compare::Index> body);
 
 }  // namespace ogc::reference
