@@ -1,4 +1,4 @@
-// The public way to contact sets: checks at the edge, then the engine of the backend.
+// Implements the public way to contact sets: checks the input, then calls the engine of the backend.
 #include "fast/contact_sets.hpp"
 
 #include <algorithm>
@@ -38,9 +38,9 @@ void check(const ContactQuery& query) {
     throw compare::InputError("contact query: 0 < contact_radius <= query_radius < infinity is needed, not " +
                               std::to_string(query.contact_radius) + " and " + std::to_string(query.query_radius));
   }
-  if (!(query.bound_relaxation > 0 && query.bound_relaxation < 0.5F)) {
-    throw compare::InputError("contact query: bound_relaxation must lie between 0 and 0.5, not at " +
-                              std::to_string(query.bound_relaxation));
+  if (!(query.bounds_relaxation > 0 && query.bounds_relaxation < 0.5F)) {
+    throw compare::InputError("contact query: bounds_relaxation must lie between 0 and 0.5, not at " +
+                              std::to_string(query.bounds_relaxation));
   }
 }
 

@@ -1,6 +1,6 @@
-// Contact sets, smallest distances and conservative bounds for a solver outside of this project: it gives positions and
-// gets everything that Offset Geometric Contact needs for one step. Lists grow by themselves; no contact is ever
-// dropped; the same positions give the same bits.
+// Finds contact sets, smallest distances and conservative bounds for a solver outside of this project: it gives
+// positions and gets everything that Offset Geometric Contact needs for one step. Lists grow by themselves; no contact
+// is ever dropped; the same positions give the same bits.
 //
 //   ogc::fast::ContactFinder finder(vertex_count, triangles, loose_edges);
 //   const ogc::fast::ContactSets sets = finder.find(positions, {.contact_radius = 0.005f, .query_radius = 0.01f});
@@ -19,14 +19,15 @@
 
 namespace ogc::fast {
 
-/// Lengths [m].
+/// Parameters of a detection [m].
 struct ContactQuery {
-  float contact_radius = 0;        ///< r > 0
-  float query_radius = 0;          ///< r_q ≥ r: nothing is looked for beyond it, so no bound exceeds γ_p r_q
-  float bound_relaxation = 0.45F;  ///< γ_p of Eq. 21, in (0, 0.5)
+  float contact_radius = 0;         ///< r > 0
+  float query_radius = 0;           ///< r_q ≥ r: nothing is searched beyond it, so no bound exceeds γ_p r_q
+  float bounds_relaxation = 0.45F;  ///< γ_p of Eq. 21, in (0, 0.5)
 };
 
-/// Results on the host, in canonical order (compare/stages); distances and bounds are never above the exact ones.
+/// Holds the results on the host, in canonical order (compare/stages); distances and bounds are never above the exact
+/// ones.
 struct ContactSets {
   std::vector<compare::VertexFacetContact> vertex_facet;        ///< F_OGC(v) for all v
   std::vector<compare::EdgeEdgeContact> edge_edge;              ///< E_OGC; edge numbers: ContactFinder::topology()
@@ -35,35 +36,36 @@ struct ContactSets {
   friend bool operator==(const ContactSets&, const ContactSets&) = default;
 };
 
-/// What ContactFinder runs on; one for each backend.
+/// Runs a ContactFinder; there is one for each backend.
 class ContactEngine {
  public:
   virtual ~ContactEngine() = default;
-  /// As ContactFinder::find, of checked input.
+  /// Does the work of ContactFinder::find; its input has been checked.
   virtual ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) = 0;
-  /// As ContactFinder::find_resident, of a checked query.
+  /// Does the work of ContactFinder::find_resident; its query has been checked.
   virtual ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) = 0;
 };
 
-/// One mesh, any number of positions. Not for use by several threads at a time.
+/// Finds contacts of one mesh at any number of positions. Only one thread at a time may use it.
 class ContactFinder {
  public:
   /// `exclusions`: pairs that are left out, by groups of vertices and by partners; a vector of numbers, one for each
-  /// vertex, are groups. Throws compare::InputError where an index is out of range or repeated, compare::ResourceError
-  /// as `contestant(backend)`.
+  /// vertex, converts to groups. Throws compare::InputError if an index is out of range or repeated, or if exclusions
+  /// do not have one entry for each vertex, and compare::ResourceError as `contestant(backend)` does.
   ContactFinder(compare::Index vertex_count, std::span<const compare::Triangle> triangles,
                 std::span<const compare::Edge> loose_edges = {}, Backend backend = Backend::cpu,
                 const compare::ExclusionView& exclusions = {});
 
-  /// Names of edges and adjacency.
+  /// Returns the numbers of edges, and the adjacency.
   const compare::Topology& topology() const { return *topology_; }
 
-  /// Positions [m] on the host, results on the host. Throws compare::InputError where the number of positions is not
-  /// the mesh's, a coordinate is not finite, or the query is out of range.
+  /// Takes positions [m] on the host, and returns results on the host. Throws compare::InputError if the number of
+  /// positions is not the mesh's, a coordinate is not finite, or the query is out of range.
   ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query);
 
-  /// Positions where the backend computes (device memory for Backend::cuda), one for each vertex; results stay there,
-  /// complete on return, until the next call. Coordinates are not checked.
+  /// Takes positions where the backend computes (device memory for Backend::cuda), one for each vertex; results stay
+  /// there, complete on return, until the next call. Coordinates are not checked. Throws compare::InputError if the
+  /// query is out of range.
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query);
 
  private:

@@ -1,44 +1,46 @@
-// What a detection leaves on the device for the sweep: plain pointers, valid until the lists grow.
+// Holds what a detection leaves on the device for the sweep: plain pointers, valid until the lists grow.
 #pragma once
 
 #include <cstdint>
 
 namespace ogc::fast {
 
-/// (v, a): corner[1] = corner[2] = -1 where a is a vertex, corner[2] = -1 where it is an edge.
+/// A contact (v, a): corner[1] = corner[2] = -1 if a is a vertex, corner[2] = -1 if it is an edge.
 struct alignas(16) VertexFacetRecord {
   int vertex;     ///< v
   int corner[3];  ///< vertices of a, those of a triangle in the order of the mesh
 };
 
-/// {p, q}: first[1] = -1 where p is a vertex, likewise second. `first_edge`, `second_edge`: see
-/// compare/stages/detect_edge_edge.hpp; where both are interiors they are p and q themselves (rest lengths for the
+/// A contact {p, q}: first[1] = -1 if p is a vertex, second[1] = -1 if q is. `first_edge`, `second_edge`: see
+/// compare/stages/detect_edge_edge.hpp; if both faces are interiors they are p and q themselves (rest lengths for the
 /// mollifier).
 struct alignas(8) EdgeEdgeRecord {
   int first[2];   ///< vertices of p, those of an edge smaller first
-  int second[2];  ///< vertices of q, likewise
+  int second[2];  ///< vertices of q, those of an edge smaller first
   /// the edges that generate the contact: one that is p or ends at p, one that is q or ends at q
   int first_edge, second_edge;
 };
 
-/// One contact seen from one of its vertices: ascending codes within a vertex's row, so that sums have a fixed order.
-/// Vertex–facet: role 0 is the vertex, roles 1 … 3 the corners. Edge–edge: roles 0, 1 the vertices of p, 2, 3 those of
-/// q.
+/// One contact seen from one of its vertices. Codes ascend within a vertex's row, so that sums have a fixed order.
+/// Vertex–facet: role 0 is the vertex, roles 1 … 3 are the corners. Edge–edge: roles 0, 1 are the vertices of p, 2, 3
+/// those of q.
 struct Incidence {
   std::uint32_t code;  ///< bit 31: edge–edge; bits 2 … 30: number of the record; bits 0, 1: role
 };
 
-/// Records stand in canonical order (compare/stages), so numbers and sums do not depend on the order of atomics.
+/// Holds the contacts of a detection. Records stand in canonical order (compare/stages), so numbers and sums do not
+/// depend on the order of atomics.
 struct ContactView {
-  /// All on the backend. After a detection that overflowed nothing here is of use.
+  /// All pointers are to the backend. After a detection that overflowed nothing here is of use.
   const VertexFacetRecord* vertex_facet = nullptr;
   const EdgeEdgeRecord* edge_edge = nullptr;
-  const int* vertex_facet_count = nullptr;  ///< of the records; the host does not know it
-  const int* edge_edge_count = nullptr;     ///< likewise
+  const int* vertex_facet_count = nullptr;  ///< number of records; the host does not know it
+  const int* edge_edge_count = nullptr;     ///< number of records
   const int* incidence_offsets = nullptr;   ///< vertex_count + 1
   const Incidence* incidences = nullptr;    ///< row of vertex v: from incidence_offsets[v]
   const float* bound = nullptr;             ///< b_v, Eq. 21 [m]
-  const float* d_min_vertex = nullptr;  ///< Eq. 22 by vertex [m], at most r_q; with planes of all pairs of the vertex
+  /// Eq. 22 by vertex [m], at most r_q; with planes, over all pairs of the vertex
+  const float* d_min_vertex = nullptr;
 };
 
 }  // namespace ogc::fast

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/settings.hpp"
 #include "compare/problem/text.hpp"
 
 namespace ogc::compare {
@@ -120,8 +121,11 @@ void JsonObject::finish() const {
   if (!is_object_) return;
   const std::vector<std::string_view> known(asked_.begin(), asked_.end());
   for (const auto& [key, value] : node_.value().items()) {
-    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end())
-      node_.child(key).fail(unknown_name("key", key, known), "rename or remove it");
+    if (std::ranges::find(known, key) != known.end()) continue;
+    const std::string_view now = renamed_setting(key);
+    const bool has_now = std::ranges::find(known, now) != known.end();
+    node_.child(key).fail(has_now ? unknown_setting(key, known) : unknown_name("key", key, known),
+                          "rename or remove it");
   }
 }
 

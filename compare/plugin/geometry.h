@@ -103,7 +103,7 @@ OGC_PLUGIN_EXPORT int ogc_detect_edge_edge(const ogc_detect_in* in, ogc_detect_e
 typedef struct ogc_bound_in {
   ogc_topology topology;
   const float *d_min_vertex, *d_min_edge, *d_min_triangle; /* [vertex_count], [edge_count], [triangle_count] */
-  float bound_relaxation;                                  /* gamma_p */
+  float bounds_relaxation;                                  /* gamma_p */
   const uint8_t* inside_solid;                             /* [vertex_count] as in ogc_detect_in */
 } ogc_bound_in;
 
@@ -123,7 +123,7 @@ typedef struct ogc_plane_in {
   const ogc_vec3* positions;   /* [vertex_count] */
   const uint8_t* is_fixed;     /* [vertex_count] 1: the vertex never moves, and bears no plane */
   float query_radius;          /* r_q */
-  float bound_relaxation;      /* gamma_p */
+  float bounds_relaxation;      /* gamma_p */
   const uint8_t* inside_solid; /* [vertex_count] as in ogc_detect_in */
 } ogc_plane_in;
 

@@ -33,10 +33,10 @@ typedef struct ogc_scene_spring {
 
 /* Settings of compare/problem/settings.hpp. */
 typedef struct ogc_settings {
-  float time_step, contact_radius, query_radius_cap, bound_relaxation, redetect_fraction, friction_velocity;
-  int64_t iterations, redetect_every, guess_rounds;
-  int64_t lanes;                    /* width of sums; 0: the library chooses */
-  int64_t activation, damping_form; /* OGC_ACTIVATION_…, OGC_DAMPING_… */
+  float time_step, contact_radius, detection_radius_cap, bounds_relaxation, detection_fraction, friction_velocity;
+  int64_t iterations, detection_every, guess_rounds;
+  int64_t lanes;                            /* width of sums; 0: the library chooses */
+  int64_t contact_activation, damping_form; /* OGC_ACTIVATION_…, OGC_DAMPING_… */
 } ogc_settings;
 
 typedef struct ogc_scene {

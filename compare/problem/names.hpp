@@ -61,17 +61,17 @@ constexpr std::string_view name_of(Bounds bounds) {
   }
   return {};
 }
-constexpr std::string_view name_of(OrientationUpdate update) {
+constexpr std::string_view name_of(RodOrientation update) {
   switch (update) {
-    case OrientationUpdate::exact: return "exact";
-    case OrientationUpdate::as_published: return "as_published";
+    case RodOrientation::exact: return "exact";
+    case RodOrientation::as_published: return "as_published";
   }
   return {};
 }
-constexpr std::string_view name_of(StartFrames frames) {
-  switch (frames) {
-    case StartFrames::turned: return "turned";
-    case StartFrames::kept: return "kept";
+constexpr std::string_view name_of(RodStart start) {
+  switch (start) {
+    case RodStart::turned: return "turned";
+    case RodStart::kept: return "kept";
   }
   return {};
 }

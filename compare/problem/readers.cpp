@@ -19,17 +19,17 @@ struct Readers {
 
 constexpr auto table = std::to_array<Readers>({
     {"bounds", "dat", {"vbd", "reference_vbd"}, "whose line search scales all vertices at once"},
-    {"truncation", "", {"newton"}, "which holds no pairs to planes that travel with them"},
-    {"orientation", "", {"vbd", "reference_vbd"}, "which sweeps over no frames"},
-    {"contact_set", "", {"reference_vbd", "newton", "penalty"}, "which lists the method's contacts"},
-    {"colours", "", {"reference_vbd"}, "which has colours of its own, or none"},
-    {"contact_blocks", "", {"reference_vbd"}, "which has blocks of its own, or none"},
-    {"cut_after", "", {"reference_vbd"}, "which cuts as the method does"},
+    {"newton_truncation", "", {"newton"}, "which holds no pairs to planes that travel with them"},
+    {"rod_orientation", "", {"vbd", "reference_vbd"}, "which sweeps over no orientations"},
+    {"reference_contact_set", "", {"reference_vbd", "newton", "penalty"}, "which lists the method's contacts"},
+    {"reference_vbd_colours", "", {"reference_vbd"}, "which has colours of its own, or none"},
+    {"reference_vbd_contact_blocks", "", {"reference_vbd"}, "which has blocks of its own, or none"},
+    {"reference_vbd_cut_after", "", {"reference_vbd"}, "which cuts as the method does"},
 });
 
 constexpr auto required = std::to_array<RequiredSetting>({
     {"penalty", "bounds", "off"},
-    {"penalty", "activation", "quadratic"},
+    {"penalty", "contact_activation", "quadratic"},
 });
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "compare/problem/error.hpp"
@@ -30,22 +31,22 @@ constexpr auto problem_table = std::to_array<SettingInfo>({
      most_count, &Settings::iterations},
     {"contact_radius", "m", "distance below which two surfaces push each other apart, r", least_length, most_length,
      &Settings::contact_radius},
-    {"query_radius_cap", "r", "farthest that detection looks for neighbours, in contact radii: the cap of r_q", 1, 1024,
-     &Settings::query_radius_cap},
+    {"detection_radius_cap", "r", "farthest that detection looks for neighbours, in contact radii: the cap of r_q", 1,
+     1024, &Settings::detection_radius_cap},
     {"bounds", "1",
      "what keeps a vertex from passing through others between two detections: a ball as in the paper, planes between "
      "near pairs, nothing, or planes as in Divide and Truncate (vbd)",
      0, last<Bounds>, &Settings::bounds, choice_names<Bounds>},
-    {"bound_relaxation", "1",
+    {"bounds_relaxation", "1",
      "share of its distance to the nearest neighbour that a vertex may move before the next detection, γ_p of Eq. 21",
-     0x1p-10, 0.5 - 0x1p-10, &Settings::bound_relaxation},
+     0x1p-10, 0.5 - 0x1p-10, &Settings::bounds_relaxation},
     {"contact_margin", "r", "how much farther than the contact radius contacts are listed, before they act", 0, 1,
      &Settings::contact_margin},
-    {"redetect_fraction", "1",
+    {"detection_fraction", "1",
      "share of vertices stopped at their bounds from which contacts are detected again within a step, γ_e", 0, 1,
-     &Settings::redetect_fraction},
-    {"redetect_every", "1", "iterations after which contacts are detected again at the latest; 0: never by count", 0,
-     most_count, &Settings::redetect_every},
+     &Settings::detection_fraction},
+    {"detection_every", "1", "iterations after which contacts are detected again at the latest; 0: never by count", 0,
+     most_count, &Settings::detection_every},
     {"guess_rounds", "1",
      "rounds of detecting and moving at most that bring vertices to where inertia takes them; 1: as printed in Eq. 28",
      1, 1 << 20, &Settings::guess_rounds},
@@ -55,17 +56,38 @@ constexpr auto problem_table = std::to_array<SettingInfo>({
      &Settings::frame_steps},
     {"lanes", "1", "partial sums that forces on a vertex are added up in, W (vbd); bits depend on it; 0: by mesh size",
      0, 16, &Settings::lanes},
-    {"activation", "1",
+    {"contact_activation", "1",
      "how the repulsion grows as surfaces approach: the paper's, as printed there, or another to compare with", 0,
-     last<ContactActivation>, &Settings::activation, choice_names<ContactActivation>},
+     last<ContactActivation>, &Settings::contact_activation, choice_names<ContactActivation>},
     {"damping", "1", "what damping resists: the change of strains, or the motion of each vertex alone (vbd)", 0,
      last<DampingForm>, &Settings::damping, choice_names<DampingForm>},
     {"seed", "1", "which of its random starts a scene takes; recorded with the run", 0, most_seed, &Settings::seed},
-    {"orientation", "1",
-     "how a sweep sets the frame of a rod's segment: to the least energy, or as Stable Cosserat Rods has it (vbd)", 0,
-     last<OrientationUpdate>, &Settings::orientation, choice_names<OrientationUpdate>},
-    {"start_frames", "1", "what frames of rods' segments a step begins with: turned with them, or kept (vbd)", 0,
-     last<StartFrames>, &Settings::start_frames, choice_names<StartFrames>},
+    {"rod_orientation", "1",
+     "how a sweep sets the orientation of a rod's segment: to the least energy, or as Stable Cosserat Rods has it "
+     "(vbd)",
+     0, last<RodOrientation>, &Settings::rod_orientation, choice_names<RodOrientation>},
+    {"rod_start", "1",
+     "orientations of rods' segments that a step begins with: turned with the segments, or kept (vbd)", 0,
+     last<RodStart>, &Settings::rod_start, choice_names<RodStart>},
+});
+
+/// Names that settings had before, each with the one that replaces it.
+constexpr auto renamed = std::to_array<std::pair<std::string_view, std::string_view>>({
+    {"activation", "contact_activation"},
+    {"bound_relaxation", "bounds_relaxation"},
+    {"colours", "reference_vbd_colours"},
+    {"contact", "body_contact"},
+    {"contact_blocks", "reference_vbd_contact_blocks"},
+    {"contact_set", "reference_contact_set"},
+    {"cut_after", "reference_vbd_cut_after"},
+    {"friction_solves", "newton_friction_solves"},
+    {"orientation", "rod_orientation"},
+    {"projection", "newton_projection"},
+    {"query_radius_cap", "detection_radius_cap"},
+    {"redetect_every", "detection_every"},
+    {"redetect_fraction", "detection_fraction"},
+    {"start_frames", "rod_start"},
+    {"truncation", "newton_truncation"},
 });
 
 /// Holds the problem's settings, and those that contestants have declared.
@@ -93,7 +115,7 @@ const SettingInfo& find_setting(std::string_view name) {
   if (found != table.end()) return *found;
   std::vector<std::string_view> names;
   for (const SettingInfo& info : table) names.push_back(info.name);
-  throw InputError(unknown_name("setting", name, names));
+  throw InputError(unknown_setting(name, names));
 }
 
 template <class Number>
@@ -129,6 +151,17 @@ std::span<const SettingInfo> setting_table() { return known().rows; }
 SettingsDeclaration::SettingsDeclaration(std::string_view contestant, std::span<const SettingInfo> rows) {
   known().declared[contestant] = rows;
   known().join();
+}
+
+std::string_view renamed_setting(std::string_view old) {
+  const auto found = std::ranges::find(renamed, old, [](const auto& names) { return names.first; });
+  return found == renamed.end() ? std::string_view{} : found->second;
+}
+
+std::string unknown_setting(std::string_view name, std::span<const std::string_view> known) {
+  const std::string_view now = renamed_setting(name);
+  if (now.empty()) return unknown_name("setting", name, known);
+  return "unknown setting '" + std::string(name) + "': it is called " + std::string(now);
 }
 
 SettingKind kind_of(const SettingInfo& info) {

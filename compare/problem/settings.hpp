@@ -32,22 +32,22 @@ constexpr bool damps_strain(DampingForm form) {
 }
 
 /// How a sweep sets the quaternion of a segment (compare/rods.md): to the minimiser, or as Hsu et al. 2025 have it.
-enum class OrientationUpdate : std::int64_t { exact, as_published };
+enum class RodOrientation : std::int64_t { exact, as_published };
 /// Whether a segment's quaternion is the minimiser.
-constexpr bool minimises(OrientationUpdate update) {
+constexpr bool minimises(RodOrientation update) {
   switch (update) {
-    case OrientationUpdate::exact: return true;
-    case OrientationUpdate::as_published: return false;
+    case RodOrientation::exact: return true;
+    case RodOrientation::as_published: return false;
   }
   return true;
 }
-/// What a step begins with: frames turned along with their segments, or as the step before left them.
-enum class StartFrames : std::int64_t { turned, kept };
-/// Whether frames turn before the first sweep.
-constexpr bool turns(StartFrames frames) {
-  switch (frames) {
-    case StartFrames::turned: return true;
-    case StartFrames::kept: return false;
+/// What a step begins with: orientations turned along with their segments, or as the step before left them.
+enum class RodStart : std::int64_t { turned, kept };
+/// Whether orientations turn before the first sweep.
+constexpr bool turns(RodStart start) {
+  switch (start) {
+    case RodStart::turned: return true;
+    case RodStart::kept: return false;
   }
   return true;
 }
@@ -58,23 +58,23 @@ struct Settings {
   std::int64_t steps = 100;         ///< steps of the run
   std::int64_t iterations = 40;     ///< sweeps a step
   double contact_radius = 0.005;    ///< r [m]
-  double query_radius_cap = 4;      ///< cap of r_q, in units of r (method.md §5.3)
+  double detection_radius_cap = 4;  ///< cap of r_q, in units of r (method.md §5.3)
   Bounds bounds = Bounds::ball;     ///< what keeps vertices from passing through others between two detections
-  double bound_relaxation = 0.45;   ///< γ_p, Eq. 21
+  double bounds_relaxation = 0.45;  ///< γ_p, Eq. 21
   double contact_margin = 0;        ///< by which contacts are listed beyond r, in units of r
-  double redetect_fraction = 0.01;  ///< γ_e, Alg. 3 line 29
-  std::int64_t redetect_every = 0;  ///< re-detect at the latest after so many iterations; 0: never by count
+  double detection_fraction = 0.01;  ///< γ_e, Alg. 3 line 29
+  std::int64_t detection_every = 0;  ///< re-detect at the latest after so many iterations; 0: never by count
   std::int64_t guess_rounds = 16;   ///< rounds of the guess loop (method.md §5.2); 1: as printed in Eq. 28
   double friction_velocity = 0.01;  ///< ε_v [m/s]
   std::int64_t frame_steps = 0;     ///< steps between stored frames; 0: max(1, round(1/(60 h)))
   /// W, width of every sum of the sweep: 1, 2, 4, 8, 16 or 32; 0: by mesh size
   std::int64_t lanes = 0;
-  ContactActivation activation = ContactActivation::ogc;  ///< contact energy over distance
+  ContactActivation contact_activation = ContactActivation::ogc;  ///< contact energy over distance
   /// `per_vertex`, the authors' form, brakes translation, too
   DampingForm damping = DampingForm::strain;
   std::int64_t seed = 0;                                     ///< of whatever the scene draws at random
-  OrientationUpdate orientation = OrientationUpdate::exact;  ///< of the segments of rods
-  StartFrames start_frames = StartFrames::turned;            ///< likewise
+  RodOrientation rod_orientation = RodOrientation::exact;    ///< of the segments of rods
+  RodStart rod_start = RodStart::turned;                     ///< of the orientations of segments
   /// Declared by contestants, where not the default: numbers, of a choice the index of its name. By set_setting.
   std::map<std::string, double, std::less<>> declared;
   friend bool operator==(const Settings&, const Settings&) = default;
@@ -95,7 +95,7 @@ struct SettingInfo {
   double minimum, maximum;               ///< inclusive
   /// where the value is kept
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
-               Bounds Settings::*, OrientationUpdate Settings::*, StartFrames Settings::*, DeclaredSetting>
+               Bounds Settings::*, RodOrientation Settings::*, RodStart Settings::*, DeclaredSetting>
       field;
   std::span<const std::string_view> choices{};  ///< names of a choice, in the order of its values; empty for a number
 };
@@ -113,6 +113,12 @@ class SettingsDeclaration {
 
 /// The kind of the row's value.
 SettingKind kind_of(const SettingInfo& info);
+
+/// The name that a setting has in place of one that it had before; "" for any other word.
+std::string_view renamed_setting(std::string_view old);
+
+/// Says that no setting has this name: which one it has now, or the nearest of `known`.
+std::string unknown_setting(std::string_view name, std::span<const std::string_view> known);
 
 /// Sets `name` from text. Throws InputError that names the setting, its unit and its range (and the nearest known name
 /// for an unknown one).

@@ -87,7 +87,7 @@ Json bodies_json(const Scene& scene) {
                     {"first_tetrahedron", body.first_tetrahedron},
                     {"tetrahedron_count", body.tetrahedron_count},
                     {"fixed", body.fixed},
-                    {"contact", name_of(body.contact)},
+                    {"body_contact", name_of(body.contact)},
                     {"prescribed_vertices", prescribed_count(scene, body)},
                     {"material", material_json(body.material)}});
   return json;

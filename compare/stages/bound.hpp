@@ -13,7 +13,7 @@ namespace ogc::compare {
 struct BoundIn {
   const Topology* topology = nullptr;                               ///< of the mesh
   std::span<const float> d_min_vertex, d_min_edge, d_min_triangle;  ///< [m], by vertex, edge, triangle
-  float bound_relaxation = 0.45f;                                   ///< γ_p
+  float bounds_relaxation = 0.45f;                                  ///< γ_p
 };
 
 /// The answer.

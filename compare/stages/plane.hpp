@@ -33,7 +33,7 @@ struct PlaneIn {
   std::span<const Vec3f> positions;        ///< X of the detection [m]
   std::span<const std::uint8_t> is_fixed;  ///< by vertex: 1 if it never moves; it then bears no plane
   float query_radius = 0;                  ///< r_q [m]
-  float bound_relaxation = 0.45f;          ///< γ_p
+  float bounds_relaxation = 0.45f;         ///< γ_p
   /// w by vertex [m], 0 for fixed ones: divides the gap of each pair (bounds=dat); empty: gaps are halved
   std::span<const Vec3f> displacement{};
 };

@@ -1,4 +1,4 @@
-// What `ogc bench` measures, and of what.
+// Holds the options of `ogc bench`, and the scenes that it measures.
 #pragma once
 
 #include <memory>
@@ -11,27 +11,28 @@
 
 namespace ogc::experiments {
 
-/// What `ogc bench` measures.
+/// Says what `ogc bench` measures.
 struct BenchOptions {
-  std::vector<fast::Backend> backends;  ///< whose parts are measured
-  std::string scale = "small";          ///< of the scenes
-  std::int64_t steps = 16;              ///< of a window
-  int repetitions = 4;                  ///< of each benchmark in a process
+  std::vector<fast::Backend> backends;  ///< backends whose parts are measured
+  std::string scale = "small";          ///< scale of the scenes
+  std::int64_t steps = 16;              ///< steps of a window
+  int repetitions = 4;                  ///< repetitions of each benchmark in a process
   std::vector<std::string> states;      ///< frames of runs
 };
 
-/// A scene and where its window begins.
+/// A scene and the state in which its window begins.
 struct BenchScene {
   compare::Scene scene;                    ///< rounded
-  std::optional<compare::Snapshot> start;  ///< none: the scene's own
+  std::optional<compare::Snapshot> start;  ///< none: the scene's own start
 };
 
-/// "cpu", "cuda".
+/// Returns "cpu" or "cuda".
 std::string name_of(fast::Backend backend);
 
-/// The scene of a run folder at one of its frames. Throws compare::InputError.
+/// Returns the scene of a run folder at one of its frames. Throws compare::InputError if it can't be read or does not
+/// fit the scene.
 BenchScene scene_at_frame(const std::string& frame);
-/// As benchmarks are called: "twist@1200".
+/// Returns the frame's name in benchmarks: "twist@1200".
 std::string frame_label(const std::string& frame);
 
 }  // namespace ogc::experiments

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t largest_exact = 50;
 
-/// Number of pairs (b, a) with a > b, a tie counts one half.
+/// Returns the number of pairs (b, a) with a > b; a tie counts one half.
 double u_statistic(std::span<const double> before, std::span<const double> after) {
   double u = 0;
   for (const double b : before)
@@ -19,7 +19,7 @@ double u_statistic(std::span<const double> before, std::span<const double> after
   return u;
 }
 
-/// Σ (t³ − t) over groups of t equal values.
+/// Returns Σ (t³ − t) over groups of t equal values.
 double tie_sum(std::span<const double> before, std::span<const double> after) {
   std::vector<double> all(before.begin(), before.end());
   all.insert(all.end(), after.begin(), after.end());
@@ -33,9 +33,9 @@ double tie_sum(std::span<const double> before, std::span<const double> after) {
   return sum;
 }
 
-/// Share of the orders of n + m values whose U is at most `u`. Orders by U obey f(n, m, u) = f(n − 1, m, u − m) + f(n,
-/// m − 1, u): the largest value is of the first set, and above all m of the second, or of the second. Shares instead of
-/// counts, so that nothing overflows.
+/// Returns the share of the orders of n + m values whose U is at most `u`. Orders by U obey f(n, m, u) = f(n − 1, m, u
+/// − m) + f(n, m − 1, u): the largest value is of the first set, and above all m of the second, or of the second.
+/// Shares instead of counts, so that nothing overflows.
 double share_up_to(std::size_t n, std::size_t m, std::size_t u) {
   const std::size_t most = n * m;
   // by_second[j][u] for the present size of the first set.

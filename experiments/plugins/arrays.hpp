@@ -1,5 +1,5 @@
-// What all stages of a plug-in share on the judge's side: a topology as arrays, and arrays that come back as vectors
-// and contacts.
+// Holds what all stages of a plug-in share on the judge's side: a topology as arrays, and arrays that come back as
+// vectors and contacts.
 #pragma once
 
 #include <cstring>
@@ -13,25 +13,25 @@
 
 namespace ogc::experiments {
 
-/// The sizes of a question whose cases stand alone.
+/// Returns the sizes of a question whose cases stand alone.
 QuestionSizes sizes_of(std::size_t cases);
-/// The sizes of a question about a mesh.
+/// Returns the sizes of a question about a mesh.
 QuestionSizes sizes_of(const compare::Topology& topology);
 
-/// The arrays of ogc_topology, in its order.
+/// Returns the arrays of ogc_topology, in its order.
 std::vector<Bytes> inputs_of(const compare::Topology& topology);
 
-/// By vertex, also where there is no solid.
+/// Returns, by vertex, whether it is inside a solid; also if there is no solid.
 std::vector<std::uint8_t> inside_solid(const compare::Topology& topology);
 
-/// A row for each of `count` vertices, all empty where there are none.
+/// Returns a row for each of `count` vertices, all empty if there are no partners.
 compare::CompressedRows rows_by_vertex(const compare::CompressedRows* partners, std::size_t count);
 
-/// Outputs become vectors one after another.
+/// Turns outputs into vectors, one after another.
 class Outputs {
  public:
   explicit Outputs(const PluginProcess::Answer& answer) : answer_(answer) {}
-  /// The next outputs, each as a vector of its element.
+  /// Copies the next outputs, each into a vector of its element.
   template <class... Items>
   void to(Items&... items) {
     (next(items), ...);
@@ -49,11 +49,12 @@ class Outputs {
   std::size_t next_ = 0;
 };
 
-/// As the plug-in wrote them; throw compare::ContestantFailure for a kind of face that does not exist.
+/// Returns a contact as the plug-in wrote it. All three throw compare::ContestantFailure for a kind of face that does
+/// not exist.
 compare::VertexFacetContact contact_of(const ogc_vertex_facet_contact& c);
-/// Both halves of a contact with a volume.
+/// Returns both halves of a contact with a volume as one.
 compare::VolumeContact contact_of(const ogc_volume_contact& c, const ogc_volume_numbers& numbers);
-/// The contact in the judge's terms.
+/// Returns the contact in the judge's type.
 compare::EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c);
 
 }  // namespace ogc::experiments

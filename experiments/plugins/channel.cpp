@@ -14,22 +14,22 @@ namespace {
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// Time between two looks at whether the other process still runs [ms].
+/// Time between two checks whether the other process still runs [ms].
 constexpr int look_again = 50;
-/// A block grows by so much as its bytes come in, so that memory follows what was sent, not what was announced.
+/// Bytes by which a block grows while it comes in, so that memory follows what was sent, not what was announced.
 constexpr std::uint64_t piece = 16u << 20;
 
 std::optional<double> deadline_of(const Patience& patience) {
   return patience.seconds < 0 ? std::nullopt : std::optional(now() + patience.seconds);
 }
 
-/// Milliseconds for poll, rounded up; -1 waits for ever.
+/// Returns the milliseconds for poll, rounded up; -1 waits for ever.
 int milliseconds_until(const std::optional<double>& deadline) {
   if (!deadline) return -1;
   return static_cast<int>(std::clamp((*deadline - now()) * 1000 + 1, 0.0, 1e9));
 }
 
-/// "88" or "0 to 65536".
+/// Returns "88" or "0 to 65536".
 std::string printed(BlockLength allowed) {
   return (allowed.least == allowed.most ? "" : std::to_string(allowed.least) + " to ") + std::to_string(allowed.most);
 }
@@ -88,7 +88,7 @@ Transfer Channel::receive(std::vector<std::byte>& block, BlockLength allowed, co
 
 Transfer Channel::wait(short until, const Patience& patience, const Deadline& deadline) const {
   for (;;) {
-    // Asked before the socket, in which there may be what it sent before it ended.
+    // Checked before the socket, which may still hold what the process sent before it ended.
     const bool runs = !patience.other_runs || patience.other_runs();
     const int left = milliseconds_until(deadline), soon = left < 0 ? look_again : std::min(left, look_again);
     const int turn = patience.other_runs ? soon : left;

@@ -1,7 +1,7 @@
-// A socket between `ogc` and a worker process, and blocks of bytes over it: each with a mark and its length in front,
-// so that both sides read what was written, and what anybody else wrote into the socket is told from it. A plug-in
-// lives in the worker's process and can reach the socket: nothing that comes out of it is believed before it is
-// checked.
+// Connects `ogc` and a worker process by a socket, and sends blocks of bytes over it. Each block has a mark and its
+// length in front, so that both sides read what was written, and recognise what something else wrote into the socket. A
+// plug-in lives in the worker's process and can reach the socket: all that comes out of it is checked before it is
+// used.
 #pragma once
 
 #include <cstddef>
@@ -20,21 +20,21 @@ namespace ogc::experiments {
 /// A block to send.
 using Bytes = std::span<const std::byte>;
 
-/// The bytes of items that lie one behind the other.
+/// Returns the bytes of items that lie one behind the other.
 template <class Items>
 Bytes bytes_of(const Items& items) {
   static_assert(std::is_trivially_copyable_v<typename Items::value_type>);
   return std::as_bytes(std::span(items.data(), items.size()));
 }
 
-/// The bytes of one item.
+/// Returns the bytes of one item.
 template <class Item>
 Bytes bytes_of_one(const Item& item) {
   static_assert(std::is_trivially_copyable_v<Item>);
   return std::as_bytes(std::span(&item, 1));
 }
 
-/// In front of each block.
+/// The head in front of each block.
 struct BlockHead {
   std::uint64_t mark = right_mark;  ///< tells a head from other bytes
   std::uint64_t length = 0;         ///< of the block behind the head [bytes]
@@ -42,30 +42,30 @@ struct BlockHead {
   static constexpr std::uint64_t right_mark = 0x6b636f6c622d6367;
 };
 
-/// How long a block may be [bytes].
+/// The allowed lengths of a block [bytes].
 struct BlockLength {
   std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();  ///< inclusive
 };
-/// A block of this length alone.
+/// Allows one length only.
 constexpr BlockLength exactly(std::uint64_t bytes) { return {bytes, bytes}; }
 
-/// What came is no block, or not of the length that is due. what() ends the sentence "a message …".
+/// Tells that what came is no block, or not of the length that is due. what() ends the sentence "a message …".
 struct MalformedBlock : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How a block came through.
+/// Says how a block came through.
 enum class Transfer {
   whole,
   end,  ///< the other side is gone, also in the middle of a block
   timeout,
 };
 
-/// How long to wait for the other side.
+/// Says how long to wait for the other side.
 struct Patience {
   double seconds = -1;  ///< < 0: for ever
-  /// Whether the process on the other side still runs. The socket alone can't tell where that process has left children
-  /// behind, which hold it, too.
+  /// Returns whether the process on the other side still runs. The socket alone can't tell if that process has left
+  /// children behind, which hold it, too.
   std::function<bool()> other_runs{};
 };
 
@@ -82,12 +82,12 @@ class Channel {
 
   /// Closes this end; the other side then reads Transfer::end.
   void close();
-  /// Whether there is another side.
+  /// Returns whether there is another side.
   bool is_open() const { return descriptor_ >= 0; }
-  /// The socket's descriptor; negative where closed.
+  /// Returns the socket's descriptor; negative if closed.
   int descriptor() const { return descriptor_; }
   Transfer send(Bytes block, const Patience& patience = {});
-  /// Waits for a block. Throws MalformedBlock, before it takes memory for it, where its head is none or its length not
+  /// Waits for a block. Throws MalformedBlock, before it allocates memory for it, if its head is none or its length not
   /// allowed.
   Transfer receive(std::vector<std::byte>& block, BlockLength allowed, const Patience& patience = {});
 
@@ -98,7 +98,7 @@ class Channel {
   int descriptor_ = -1;
 };
 
-/// A text as it is sent and as it comes back.
+/// Returns a received block as text.
 inline std::string text_of(const std::vector<std::byte>& block) {
   return {reinterpret_cast<const char*>(block.data()), block.size()};
 }

@@ -1,4 +1,4 @@
-// The judge's questions as arrays, in the order of stages.cpp, and the arrays that come back as answers.
+// Turns the judge's questions into arrays, in the order of stages.cpp, and the arrays that come back into answers.
 #include "experiments/plugins/contestant.hpp"
 
 #include <algorithm>
@@ -101,14 +101,14 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
   const std::vector<std::uint8_t> inside = inside_solid(*in.topology);
   inputs.push_back(bytes_of(inside));
   QuestionSizes sizes = sizes_of(*in.topology);
-  sizes.first = in.bound_relaxation;
+  sizes.first = in.bounds_relaxation;
   const auto answer = plugin.ask("bound", sizes, inputs);
   BoundOut out;
   Outputs(answer).to(out.bound);
   return out;
 }
 
-/// One after another as the plug-in wrote them, put into rows.
+/// Sorts the planes that the plug-in wrote one after another into rows.
 VertexPlanes planes_of(const std::vector<ogc_vertex_plane>& all, const std::vector<double>& offsets, Index vertices) {
   std::vector<std::pair<Index, VertexPlane>> planes;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -144,7 +144,7 @@ PlaneOut ask_plane(PluginProcess& plugin, const PlaneIn& in) {
   inputs.push_back(bytes_of(inside));
   QuestionSizes sizes = sizes_of(*in.topology);
   sizes.first = in.query_radius;
-  sizes.second = in.bound_relaxation;
+  sizes.second = in.bounds_relaxation;
   const auto answer = plugin.ask("plane", sizes, inputs);
   PlaneOut out;
   std::vector<ogc_vertex_plane> planes;
@@ -163,7 +163,7 @@ ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
   return out;
 }
 
-/// One entry a case, also where no case has half-spaces.
+/// Returns one entry a case, also if no case has half-spaces.
 HalfSpacesIn half_spaces_by_case(const TruncateIn& in) {
   if (!in.half_spaces.offsets.empty()) return in.half_spaces;
   const std::size_t n = in.bound.size();

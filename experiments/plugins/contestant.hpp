@@ -1,4 +1,4 @@
-// A plug-in as a contestant, so that the judge drives it exactly as it drives ours.
+// Makes a contestant of a plug-in, so that the judge drives it exactly as it drives ours.
 #pragma once
 
 #include <map>
@@ -10,13 +10,15 @@
 
 namespace ogc::experiments {
 
-/// The stages that the plug-in offers. Each throws ContestantFailure where there is no answer that can be judged.
+/// Returns a contestant with the stages that the plug-in offers. Each stage throws ContestantFailure if there is no
+/// answer that can be judged.
 compare::Contestant plugin_contestant(std::shared_ptr<PluginProcess> plugin);
 
-/// Time that ours took for the questions that the plug-in answered, by stage [s].
+/// Time that our contestant took for the questions that the plug-in answered, by stage [s].
 using Times = std::map<std::string, double, std::less<>>;
 
-/// The plug-in, and, asked the same question right after it, ours, whose answer is timed and thrown away.
+/// Returns the plug-in as a contestant that asks `ours` the same question right after it, adds our time to `times`, and
+/// discards our answer.
 compare::Contestant timed_beside(compare::Contestant plugin, const compare::Contestant& ours,
                                  std::shared_ptr<Times> times);
 

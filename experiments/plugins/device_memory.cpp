@@ -1,6 +1,6 @@
-// The driver's interface is declared here by hand: the few functions that move bytes have not changed since CUDA 4, and
-// so a host build can judge a CUDA plug-in, too. The context is the primary one, which the runtime library of the
-// plug-in uses.
+// Implements device memory by the driver's interface, which is declared here by hand: the few functions that move bytes
+// have not changed since CUDA 4, and so a host build can judge a CUDA plug-in, too. The context is the primary one,
+// which the runtime library of the plug-in uses.
 #include <dlfcn.h>
 
 #include <cstring>
@@ -15,7 +15,7 @@ namespace {
 
 using DevicePointer = unsigned long long;
 
-/// The functions of libcuda.so.1 that are needed; each returns 0 or an error number.
+/// Holds the functions of libcuda.so.1 that are needed; each returns 0 or an error number.
 struct Driver {
   int (*init)(unsigned) = nullptr;
   int (*device_get)(int*, int) = nullptr;

@@ -1,6 +1,6 @@
-// The arrays that a plug-in sees. Each lies alone: inputs can't be written, and their end is the end of a page, so that
-// reading on crashes; around outputs lie guard zones, and all of it is filled with a pattern, so that what was written
-// beyond an end, or never written, can be told.
+// Holds the arrays that a plug-in sees. Each array lies alone. Inputs can't be written, and they end at the end of a
+// page, so that reading beyond crashes. Guard zones lie around outputs, and all of it is filled with a pattern, so that
+// bytes written beyond an end, or never written, are found.
 #pragma once
 
 #include <cstddef>
@@ -12,42 +12,42 @@
 
 namespace ogc::experiments {
 
-/// What an array holds before it is written: as a float a signalling NaN that no arithmetic makes, as a byte 0xe7.
+/// Content of an array before it is written: as a float a signalling NaN that no arithmetic makes, as a byte 0xe7.
 inline constexpr std::uint32_t unwritten_word = 0x7fadc0de;
 inline constexpr std::uint8_t unwritten_byte = 0xe7;
 
-/// Where bytes around an array were written.
+/// Says where bytes around an array were written.
 enum class Damage { none, before, behind };
 
-/// Where arrays of a question and its answer lie.
+/// Holds the arrays of a question and its answer.
 class PluginMemory {
  public:
   virtual ~PluginMemory() = default;
-  /// A copy that lives until `release`.
+  /// Returns a copy that lives until `release`.
   virtual const void* input(Bytes content) = 0;
-  /// Room for `bytes`, filled with the pattern of its unit (4 bytes or 1), until `release`.
+  /// Returns room for `bytes`, filled with the pattern of its unit (4 bytes or 1), until `release`.
   virtual void* output(std::size_t bytes, std::size_t unit) = 0;
-  /// Waits until what was begun is done. Throws std::runtime_error where the device reports an error.
+  /// Waits until all that was begun is done. Throws std::runtime_error if the device reports an error.
   virtual void synchronize() = 0;
-  /// On which side of the k-th output bytes were written.
+  /// Returns the side of the k-th output on which bytes were written.
   virtual Damage damage(std::size_t k) = 0;
-  /// The first `bytes` of the k-th output.
+  /// Returns the first `bytes` of the k-th output.
   virtual std::vector<std::byte> content(std::size_t k, std::size_t bytes) = 0;
   /// Frees all arrays.
   virtual void release() = 0;
-  /// Whether the process can be asked again after a call that broke the rules: not where it may have written anywhere
-  /// in the process, nor where the device has given up.
+  /// Returns whether the process can be asked again after a call that broke the rules: not if it may have written
+  /// anywhere in the process, nor if the device has given up.
   virtual bool can_go_on() = 0;
 };
 
-/// Memory of the CPU.
+/// Returns memory of the CPU.
 std::unique_ptr<PluginMemory> host_memory();
 
-/// Memory of CUDA device 0, through the driver's library, so that no build of `ogc` needs to know it. Throws
+/// Returns memory of CUDA device 0, through the driver's library, so that no build of `ogc` needs to know it. Throws
 /// std::runtime_error that says what is missing.
 std::unique_ptr<PluginMemory> device_memory();
 
-/// `bytes` of the pattern.
+/// Returns `bytes` of the pattern.
 std::vector<std::byte> pattern(std::size_t bytes, std::size_t unit);
 /// Bytes of a guard zone.
 inline constexpr std::size_t guard_bytes = 4096;

@@ -8,7 +8,7 @@ namespace ogc::experiments {
 
 namespace {
 
-/// An item of whatever bytes came; its members are checked by who asks for it.
+/// Returns an item of whatever bytes came; the caller checks its members.
 template <class Item>
 Item item(const NextBlock& next) {
   Item item;

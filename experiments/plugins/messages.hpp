@@ -1,5 +1,5 @@
-// What a worker says, block by block. Each length, code and count is checked against the question before anything is
-// done with it: the plug-in shares the worker's process, and may have written any of it.
+// Reads a worker's messages, block by block. Each length, code and count is checked against the question before it is
+// used: the plug-in shares the worker's process, and may have written any of it.
 #pragma once
 
 #include <cstddef>
@@ -13,29 +13,29 @@
 
 namespace ogc::experiments {
 
-/// The next block; throws MalformedBlock where it has no allowed length, and whatever else where there is none.
+/// Returns the next block; throws MalformedBlock if its length is not allowed, and its own error if there is none.
 using NextBlock = std::function<std::vector<std::byte>(BlockLength allowed)>;
 
-/// What a worker says of the library that it has loaded.
+/// A worker's message about the library that it has loaded.
 struct Greeting {
-  LoadStatus status = LoadStatus::loaded;  ///< what became of the library
+  LoadStatus status = LoadStatus::loaded;  ///< result of loading
   std::string text;                        ///< the plug-in's name, or why it was not loaded
-  std::vector<std::uint8_t> has;  ///< of plugin_stages(), where it was loaded: 1 where the library has the stage
+  std::vector<std::uint8_t> has;  ///< by plugin_stages(), if it was loaded: 1 if the library has the stage
 };
 
-/// What a worker says of one question.
+/// A worker's answer to one question.
 struct WorkerAnswer {
-  CallResult result;  ///< what the call came to
-  std::string why;    ///< where it was not answered
+  CallResult result;  ///< outcome of the call
+  std::string why;    ///< reason, if it was not answered
   std::vector<std::vector<std::byte>>
       outputs;  ///< of the stage, in its order, as long as the counts and the question's sizes say
 };
 
-/// Throw MalformedBlock that says what is wrong with a message.
+/// Read a message; throw MalformedBlock that says what is wrong with it.
 Greeting read_greeting(const NextBlock& next);
 WorkerAnswer read_answer(const NextBlock& next, const PluginStage& stage, const QuestionSizes& sizes);
 
-/// A text as it may be sent: its first most_text bytes.
+/// Longest text [bytes]; short_enough() cuts a text to it.
 inline constexpr std::uint64_t most_text = 1 << 16;
 std::string short_enough(std::string text);
 

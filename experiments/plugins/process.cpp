@@ -27,7 +27,7 @@ namespace {
 
 using compare::ContestantFailure;
 
-/// Least time limit after a hang.
+/// Least time limit after a hang [s].
 constexpr unsigned least_limit = 1;
 
 constexpr const char* lost_socket =
@@ -50,7 +50,8 @@ pid_t spawn(const PluginOptions& options, Channel& channel) {
   posix_spawn_file_actions_adddup2(&actions, above, worker_descriptor);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // with what it starts, it is ended together
+  // a group of its own, so that it ends together with what it starts
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string program = options.program.string(), command = "plugin-worker", file = options.file.string();
   char* const words[] = {program.data(), command.data(), file.data(), nullptr};
   pid_t process = -1;
@@ -62,20 +63,19 @@ pid_t spawn(const PluginOptions& options, Channel& channel) {
   return process;
 }
 
-/// Whether the process has not ended yet; one that has is left for waitpid.
+/// Returns whether the process has not ended yet; one that has is left for waitpid.
 bool runs(pid_t process) {
   siginfo_t info{};
   return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
 }
 
-/// Waits a second at most for a process whose socket is closed.
+/// Waits a second at most for a process whose socket is closed; returns whether it ended.
 bool ended_by_itself(pid_t process) {
   for (int i = 0; i < 100 && runs(process); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return !runs(process);
 }
 
-/// Ends what is left of the process and of those that it has started, unless they have left its group; returns its
-/// status.
+/// Ends the rest of the process and those that it has started, unless they have left its group; returns its status.
 int end_group(pid_t process) {
   // Before waitpid, after which the number might be another process's.
   kill(-process, SIGKILL);
@@ -92,7 +92,7 @@ PluginProcess::PluginProcess(PluginOptions options)
   if (!std::filesystem::is_regular_file(options_.file, error))
     throw compare::InputError(options_.file.string() +
                               ": there is no such file; give the shared library that holds your kernels");
-  options_.file = std::filesystem::absolute(options_.file);  // dlopen looks elsewhere for a bare name
+  options_.file = std::filesystem::absolute(options_.file);  // dlopen searches elsewhere for a bare name
   start();
 }
 

@@ -1,5 +1,5 @@
-// Scenes and rest states as arrays in single precision (a judged scene is rounded, so nothing is lost), in the order of
-// stages.cpp; traces as events.
+// Turns scenes and rest states into arrays in single precision (a judged scene is rounded, so nothing is lost), in the
+// order of stages.cpp, and traces into events.
 #include "experiments/plugins/scenes.hpp"
 
 #include <algorithm>
@@ -19,15 +19,15 @@ float single(double x) { return static_cast<float>(x); }
 ogc_settings settings_of(const Settings& s) {
   return {single(s.time_step),
           single(s.contact_radius),
-          single(s.query_radius_cap),
-          single(s.bound_relaxation),
-          single(s.redetect_fraction),
+          single(s.detection_radius_cap),
+          single(s.bounds_relaxation),
+          single(s.detection_fraction),
           single(s.friction_velocity),
           s.iterations,
-          s.redetect_every,
+          s.detection_every,
           s.guess_rounds,
           s.lanes,
-          static_cast<std::int64_t>(s.activation),
+          static_cast<std::int64_t>(s.contact_activation),
           static_cast<std::int64_t>(s.damping)};
 }
 
@@ -56,7 +56,7 @@ ogc_body body_of(const Body& b) {
           single(m.solid_damping)};
 }
 
-/// The arrays of ogc_scene.
+/// Holds the arrays of ogc_scene.
 class SceneArrays {
  public:
   SceneArrays(const Scene& scene, const Topology& topology)
@@ -111,7 +111,7 @@ class SceneArrays {
   std::vector<ogc_scene_spring> springs_;
 };
 
-/// The arrays of ogc_rest, on the way out and back.
+/// Holds the arrays of ogc_rest, to and from the plug-in.
 struct RestArrays {
   std::vector<float> mass;
   std::vector<Triangle> corner;
@@ -195,7 +195,7 @@ ogc_edge_edge_contact plain(const EdgeEdgeContact& c) {
           c.second_edge};
 }
 
-/// Where prescribed vertices are to be after the step; of others where they are.
+/// Returns the targets of prescribed vertices after the step, and the positions of all others.
 std::vector<Vec3f> prescribed_of(const Scene& scene) {
   std::vector<Vec3f> target = to_single(scene.mesh.positions);
   for (const PrescribedMotion& motion : scene.motions) {
@@ -205,7 +205,7 @@ std::vector<Vec3f> prescribed_of(const Scene& scene) {
   return target;
 }
 
-/// The outputs of a step behind those of its rest state.
+/// Holds the outputs of a step behind those of its rest state.
 struct Trace {
   std::vector<float> query_radius;
   std::vector<Index> kind, cut;
@@ -216,15 +216,15 @@ struct Trace {
   std::vector<ogc_edge_edge_contact> edge_edge;
 };
 
-/// The k-th of equal parts.
+/// Returns the k-th of equal parts.
 template <class T>
 std::vector<T> part(const std::vector<T>& all, std::size_t k, std::size_t length) {
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * length);
   return {first, first + static_cast<std::ptrdiff_t>(length)};
 }
 
-/// The entries of all detections between the ends of the k-th and of the one before it, in canonical order, in which
-/// sweeps are asked about them.
+/// Returns the contacts of detection k, between its end and that of the detection before it. They are in canonical
+/// order, in which sweeps get them.
 template <class Contact, class Plain>
 std::vector<Contact> contacts_of(const std::vector<Plain>& all, const std::vector<Index>& ends, std::size_t k) {
   const std::int64_t begin = k == 0 ? 0 : ends[k - 1], end = ends[k];

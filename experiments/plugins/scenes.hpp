@@ -1,4 +1,4 @@
-// The stages that are asked about a whole scene: rest_state, sweep and step.
+// Asks a plug-in the stages about a whole scene: rest_state, sweep and step.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -7,12 +7,12 @@
 
 namespace ogc::experiments {
 
-/// The plug-in's answers. Throw compare::ContestantFailure where there is none, and ask_step where the lists of a trace
-/// do not fit together.
+/// Return the plug-in's answer. All three throw compare::ContestantFailure if there is none, ask_step also if the lists
+/// of a trace do not fit together.
 compare::RestStateOut ask_rest_state(PluginProcess& plugin, const compare::RestStateIn& in);
-/// Stage sweep of the plug-in.
+/// Returns the plug-in's answer to the stage `sweep`.
 compare::SweepOut ask_sweep(PluginProcess& plugin, const compare::SweepIn& in);
-/// Stage step of the plug-in.
+/// Returns the plug-in's answer to the stage `step`.
 compare::StepOut ask_step(PluginProcess& plugin, const compare::StepIn& in);
 
 }  // namespace ogc::experiments

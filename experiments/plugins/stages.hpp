@@ -1,5 +1,5 @@
-// The stages that a plug-in can have: their arrays, how the worker makes the C structures of compare/plugin.h from
-// them, and what it expects back. The judge's side (contestant.cpp) names the same arrays in the same order.
+// Describes the stages that a plug-in can have: their arrays, how the worker makes the C structures of compare/plugin.h
+// from them, and what it expects back. The judge's side (contestant.cpp) names the same arrays in the same order.
 #pragma once
 
 #include <array>
@@ -12,20 +12,20 @@
 
 namespace ogc::experiments {
 
-/// The sizes and numbers of a question; in host memory always.
+/// Holds the sizes and numbers of a question; always in host memory.
 struct QuestionSizes {
-  std::int64_t cases = 0;                               ///< of a stage whose cases stand alone
+  std::int64_t cases = 0;                               ///< cases of a stage whose cases stand alone
   std::int32_t vertices = 0, edges = 0, triangles = 0;  ///< of a mesh
-  float first = 0, second = 0;  ///< the stage's numbers beside its arrays: r and r_q of a detection
-  /// of a scene, and of its rest state
+  float first = 0, second = 0;  ///< numbers of the stage beside its arrays: r and r_q of a detection
+  /// sizes of a scene, and of its rest state
   std::int32_t hinges = 0, bodies = 0, springs = 0, tetrahedra = 0;
   std::int32_t rest_triangles = 0, rest_hinges = 0, rest_tetrahedra = 0;
-  std::int64_t vertex_facet = 0, edge_edge = 0;  ///< contacts that are given
+  std::int64_t vertex_facet = 0, edge_edge = 0;  ///< given contacts
   ogc_settings settings{};
   ogc_vec3 gravity{};
 };
 
-/// What the elements of an output are, and of what there is one group of them.
+/// Type of an output's elements, and the unit that has one group of them.
 enum class Element : std::uint8_t { number, byte, index, real };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
 /// Outputs whose length the plug-in decides.
@@ -42,36 +42,36 @@ enum class List : std::uint8_t {
   volume_contacts
 };
 inline constexpr std::size_t list_count = 10;
-/// For each list its number of entries, or the room for them; 1 for `none`.
+/// Number of entries of each list, or the room for them; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
-/// One array that a stage answers with.
+/// Describes one array that a stage answers with.
 struct OutputInfo {
   std::string_view name;   ///< as in compare/plugin.h
-  Element element;         ///< what the array holds
-  std::size_t elements;    ///< in a group
-  Per per;                 ///< of what there is one group each
-  List list = List::none;  ///< so many groups for each entry of the list
+  Element element;         ///< type of the array
+  std::size_t elements;    ///< elements of a group
+  Per per;                 ///< unit that has one group
+  List list = List::none;  ///< the groups repeat for each entry of this list
 };
 
-/// Bytes of one element, and of one group.
+/// Return the bytes of one element, and of one group.
 constexpr std::size_t bytes_of(Element element) {
   return element == Element::byte ? 1 : element == Element::real ? 8 : 4;
 }
 constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info.element) * info.elements; }
-/// How many groups there are.
+/// Returns the number of groups.
 std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);
-/// Room for the lists at the first call.
+/// Returns the room for the lists at the first call.
 ListSizes first_capacities(const QuestionSizes& sizes);
-/// More entries than these no right answer can have; never below first_capacities.
+/// Returns limits that no right answer exceeds; never below first_capacities.
 ListSizes most_entries(const QuestionSizes& sizes);
-/// What an entry of the list is called; in the plural.
+/// Returns the name of the list's entries, in the plural.
 std::string_view list_name(List list);
 
-/// The arrays of one call, taken one after another.
+/// Holds the arrays of one call, taken one after another.
 class CallArrays {
  public:
-  /// A pointer that becomes what it is assigned to.
+  /// A pointer that converts to the type that it is assigned to.
   template <class Void>
   struct Any {
     Void* data;
@@ -92,7 +92,7 @@ class CallArrays {
 
   const QuestionSizes& sizes;
   const ListSizes& capacities;
-  ListSizes counts{1};  ///< as the plug-in says
+  ListSizes counts{1};  ///< as the plug-in counted
 
  private:
   std::span<const void* const> inputs_;
@@ -100,18 +100,18 @@ class CallArrays {
   std::size_t next_input_ = 0, next_output_ = 0;
 };
 
-/// One stage of compare/plugin.h.
+/// Describes one stage of compare/plugin.h.
 struct PluginStage {
   std::string_view name;                            ///< of the stage; its function is ogc_NAME
-  std::size_t inputs;                               ///< how many arrays
+  std::size_t inputs;                               ///< number of input arrays
   std::span<const OutputInfo> outputs;              ///< in the order of the function's arguments
-  int (*call)(void* function, CallArrays& arrays);  ///< what the function returned
+  int (*call)(void* function, CallArrays& arrays);  ///< returns what the function returned
 };
 
-/// All of them.
+/// Returns all stages.
 std::span<const PluginStage> plugin_stages();
 
-/// Position in plugin_stages().
+/// Returns the position in plugin_stages().
 std::optional<std::size_t> find_plugin_stage(std::string_view name);
 
 }  // namespace ogc::experiments

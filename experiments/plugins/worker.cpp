@@ -33,8 +33,8 @@ struct Refusal : std::runtime_error {
 /// The process that was started; a copy that the plug-in forks has another number.
 const pid_t worker = getpid();
 
-/// Ends a child of the plug-in's that returned from its function: the question was asked of its parent, which answers
-/// it.
+/// Ends a child that the plug-in forked and that returned from its function: the question went to its parent, which
+/// answers it.
 void end_if_copy() {
   if (getpid() != worker) _exit(exit_success);
 }
@@ -45,7 +45,7 @@ void keep_from_children() {
   pthread_atfork(nullptr, nullptr, [] { close(worker_descriptor); });
 }
 
-/// The library, its stages, and the memory that it asks for.
+/// Holds the library, its stages, and the memory that it asks for.
 class Library {
  public:
   explicit Library(const std::string& file) {
@@ -76,11 +76,11 @@ class Library {
   }
 
   std::string name;
-  std::vector<void*> functions;  ///< of plugin_stages(), null where the library lacks it
+  std::vector<void*> functions;  ///< by plugin_stages(); null if the library lacks the stage
   std::unique_ptr<PluginMemory> memory;
 };
 
-/// One question, from its arrays to the outputs.
+/// Carries out one question, from its arrays to the outputs.
 class Call {
  public:
   Call(Library& library, const CallRequest& request, const std::vector<std::vector<std::byte>>& inputs)
@@ -95,13 +95,13 @@ class Call {
   ~Call() {
     try {
       memory_.release();
-    } catch (const std::runtime_error&) {  // a device that has given up, which was reported before
+    } catch (const std::runtime_error&) {  // a device that has given up, as was reported before
     }
   }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
-  /// Throws std::runtime_error that says what the plug-in did wrong.
+  /// Calls the plug-in. Throws std::runtime_error that says what the plug-in did wrong.
   CallResult run() {
     CallResult result = attempt();
     if (!too_long(result)) return result;
@@ -144,7 +144,7 @@ class Call {
     return {CallResult::Status::answered, arrays.counts, seconds};
   }
 
-  /// The first list that is longer than its room.
+  /// Returns the first list that is longer than its room.
   std::optional<std::size_t> too_long(const CallResult& result) const {
     for (std::size_t k = 0; k < list_count; ++k)
       if (result.counts[k] > capacities_[k]) return k;
@@ -212,8 +212,8 @@ bool answer(Channel& channel, Library& library, const CallRequest& request,
   return all;
 }
 
-/// A question; nothing where the other side is gone. Throws MalformedBlock where a part of it is missing, which the
-/// plug-in must have read.
+/// Reads a question; returns nothing if the other side is gone. Throws MalformedBlock if a part of it is missing, which
+/// the plug-in must have read.
 std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_question(Channel& channel) {
   std::vector<std::byte> block;
   CallRequest request;
@@ -226,7 +226,7 @@ std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_
   return std::pair(request, std::move(inputs));
 }
 
-/// Until the other side is gone.
+/// Answers questions until the other side is gone.
 void serve(Channel& channel, Library& library) {
   try {
     while (const auto question = next_question(channel))
@@ -243,7 +243,7 @@ bool greet(Channel& channel, LoadStatus status, const std::string& text) {
 int work(const std::string& file) {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  dup2(STDERR_FILENO, STDOUT_FILENO);  // what the plug-in prints must not stand in a result
+  dup2(STDERR_FILENO, STDOUT_FILENO);  // the plug-in's output must not stand in a result
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   keep_from_children();
   Channel channel(worker_descriptor);
@@ -260,10 +260,10 @@ int work(const std::string& file) {
   std::vector<std::uint8_t> has;
   for (const void* function : library->functions) has.push_back(function != nullptr);
   if (greet(channel, LoadStatus::loaded, library->name) && sent(channel, bytes_of(has))) serve(channel, *library);
-  // Nobody waits for what the plug-in has started.
+  // The processes that the plug-in has started are not waited for.
   signal(SIGTERM, SIG_IGN);
   if (getpgrp() == getpid()) kill(0, SIGTERM);
-  // Without the library's destructors: the answers are given, and what fails now would say nothing.
+  // The library's destructors do not run: the answers are given, and a failure now would tell nothing.
   _exit(exit_success);
 }
 

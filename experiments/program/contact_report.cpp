@@ -58,14 +58,14 @@ ExactGeometry exact_geometry(const ContactReport& report, FurtherSets further) {
 }
 
 void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions,
-                float bound_relaxation, FurtherSets further) {
+                float bounds_relaxation, FurtherSets further) {
   const compare::Authority authority = reference::authority();
   const reference::FilterCounts before = reference::filter_counts();
   report.vertex_facet = authority.detect_vertex_facet(in).exact;
   report.edge_edge = authority.detect_edge_edge(in).exact;
   report.bound = authority
                      .bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge,
-                             report.vertex_facet.d_min_triangle, bound_relaxation})
+                             report.vertex_facet.d_min_triangle, bounds_relaxation})
                      .exact.bound;
   report.vertex_facet_distance = authority.closest_face(vertex_facet_cases(report, positions)).distance;
   report.edge_edge_distance = authority.closest_points(edge_edge_cases(report, positions)).contact_distance;
@@ -74,13 +74,13 @@ void fill_exact(ContactReport& report, const compare::DetectIn& in, const std::v
 }
 
 void fill_fast(ContactReport& report, const compare::DetectIn& in, const std::vector<Vec3f>& positions,
-               float bound_relaxation, fast::Backend backend) {
+               float bounds_relaxation, fast::Backend backend) {
   const compare::Contestant contestant = fast::contestant(backend);
   report.vertex_facet = contestant.detect_vertex_facet(in);
   report.edge_edge = contestant.detect_edge_edge(in);
   report.bound = contestant
                      .bound({&report.topology, report.vertex_facet.d_min_vertex, report.edge_edge.d_min_edge,
-                             report.vertex_facet.d_min_triangle, bound_relaxation})
+                             report.vertex_facet.d_min_triangle, bounds_relaxation})
                      .bound;
   const std::vector<float> facets = contestant.closest_face(vertex_facet_cases(report, positions)).distance;
   const std::vector<float> edges = contestant.closest_points(edge_edge_cases(report, positions)).contact_distance;
@@ -148,7 +148,7 @@ std::string describe(const reference::FilterCounts& filters) {
 }  // namespace
 
 ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius,
-                            float bound_relaxation, FurtherSets further) {
+                            float bounds_relaxation, FurtherSets further) {
   ContactReport report;
   report.topology = compare::build_topology(mesh);
   report.contact_radius = contact_radius;
@@ -157,9 +157,9 @@ ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float cont
   const std::vector<compare::Index> groups(positions.size(), -1);
   const compare::DetectIn in{&report.topology, groups, positions, contact_radius, query_radius};
   if (engine == Engine::exact) {
-    fill_exact(report, in, positions, bound_relaxation, further);
+    fill_exact(report, in, positions, bounds_relaxation, further);
   } else {
-    fill_fast(report, in, positions, bound_relaxation,
+    fill_fast(report, in, positions, bounds_relaxation,
               engine == Engine::cpu ? fast::Backend::cpu : fast::Backend::cuda);
   }
   return report;
@@ -176,9 +176,9 @@ double mean_edge_length(const compare::Mesh& mesh) {
   return topology.edges.empty() ? 0 : sum / static_cast<double>(topology.edges.size());
 }
 
-Json exact_squares(const ContactReport& report, float bound_relaxation) {
+Json exact_squares(const ContactReport& report, float bounds_relaxation) {
   const compare::DetectIn in{&report.topology, {}, report.positions, report.contact_radius, report.query_radius};
-  reference::ExactSquares squares = reference::exact_squares(in, bound_relaxation);
+  reference::ExactSquares squares = reference::exact_squares(in, bounds_relaxation);
   return {{"d_min_vertex_squared", std::move(squares.vertex)},
           {"d_min_edge_squared", std::move(squares.edge)},
           {"d_min_triangle_squared", std::move(squares.triangle)},

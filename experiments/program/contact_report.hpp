@@ -44,13 +44,13 @@ struct FurtherSets {
 
 /// Returns the report of a valid mesh. Throws compare::ResourceError if the engine is not available.
 ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float contact_radius, float query_radius,
-                            float bound_relaxation, FurtherSets further = {});
+                            float bounds_relaxation, FurtherSets further = {});
 
 /// Returns the mean length of all edges [m].
 double mean_edge_length(const compare::Mesh& mesh);
 
 /// Returns d_min² and b_v² of Eq. 21–26 by primitive as fractions [m²] (reference::ExactSquares).
-Json exact_squares(const ContactReport& report, float bound_relaxation);
+Json exact_squares(const ContactReport& report, float bounds_relaxation);
 /// Prints the report in the form of the schema, after the members of `head`. Contacts are printed one by one, because
 /// with their margins they may take gigabytes. The margins of an exact report are computed while it is printed; without
 /// `with_margins` they are left out.

@@ -13,7 +13,7 @@ compare::Scene activation_drop(const ActivationDropSizes& sizes) {
   append_body(scene, {.name = "ground", .fixed = true, .material = sphere_scene_material()},
               ground(sizes.vertices_a_side, -0.272));
   scene.settings.iterations = sizes.iterations;
-  scene.settings.redetect_fraction = 0;
+  scene.settings.detection_fraction = 0;
   set_setting(scene.settings, "newton_iterations", 200);
   return scene;
 }

@@ -32,10 +32,10 @@ struct DressSizes {
 /// in `fifty_layers` [D].
 ///
 /// The body is a volume with the paper's γ_e = 0.01: it stands where its animation places it, and pushes out the
-/// vertices inside it. As a surface (`--set contact=surface`) it obeys bounds, and one cut vertex triggers a detection
-/// (γ_e = 0) [D]: with 0.01 the few vertices between it and the cloth are too few to trigger one; distances fall to 10
-/// nm, nothing moves there any more, and the body lags: by 0.21 m after 200 steps at scale small. With γ_e = 0 nothing
-/// lags there in all 968 steps, and distances stay above 0.45 r.
+/// vertices inside it. As a surface (`--set body_contact=surface`) it obeys bounds, and one cut vertex triggers a
+/// detection (γ_e = 0) [D]: with 0.01 the few vertices between it and the cloth are too few to trigger one; distances
+/// fall to 10 nm, nothing moves there any more, and the body lags: by 0.21 m after 200 steps at scale small. With γ_e =
+/// 0 nothing lags there in all 968 steps, and distances stay above 0.45 r.
 ///
 /// Stitches have 1000 N/m, the scripts' `k_stitch`: a seam that carries 3 N/m (12 % of strain, more than all but the
 /// worst percent of the published start), with a stitch every 7.5 mm, opens by 22 µm, a hundredth of r.

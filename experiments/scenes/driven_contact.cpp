@@ -29,13 +29,13 @@ void set_body_contact(compare::Scene& scene, compare::BodyContact contact) {
     is_any = true;
   }
   if (!is_any)
-    throw compare::InputError("contact: no body of '" + scene.name +
+    throw compare::InputError("body_contact: no body of '" + scene.name +
                               "' is moved whole by a motion, and none has tetrahedra; leave it out, or give a body of "
-                              "a scene file its contact");
+                              "a scene file its body_contact");
   if (driven.empty()) return;
   switch (contact) {
-    case compare::BodyContact::surface: scene.settings.redetect_fraction = 0; break;
-    case compare::BodyContact::volume: scene.settings.redetect_fraction = 0.01; break;
+    case compare::BodyContact::surface: scene.settings.detection_fraction = 0; break;
+    case compare::BodyContact::volume: scene.settings.detection_fraction = 0.01; break;
   }
   compare::round_to_single(scene);
 }

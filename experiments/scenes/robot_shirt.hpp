@@ -26,9 +26,9 @@ struct RobotShirtSizes {
 /// gripper is one motion with keyframes 1/60 s apart: approach and pinch (0.5 s) to 2.2 r, which presses the two layers
 /// between the jaws, because each is r from its neighbours at rest; lift; shake; back, lay down, fold over; open and
 /// withdraw (6 s). While they hold the shirt, jaws move no faster than 0.35 m/s, 0.3 r a step. Jaws are volumes with
-/// the paper's γ_e = 0.01, the table is a surface. As surfaces (`--set contact=surface`) jaws obey bounds, up to γ_p
-/// r_q = 3.6 mm in one detection, but a jaw that carries cloth has it at a distance below r, and both move by less than
-/// half of that: with a lift at 1 m/s and γ_e = 0.01 the few vertices between jaws and shirt trigger no detection,
+/// the paper's γ_e = 0.01, the table is a surface. As surfaces (`--set body_contact=surface`) jaws obey bounds, up to
+/// γ_p r_q = 3.6 mm in one detection, but a jaw that carries cloth has it at a distance below r, and both move by less
+/// than half of that: with a lift at 1 m/s and γ_e = 0.01 the few vertices between jaws and shirt trigger no detection,
 /// distances fall below what single precision can move by, and the lower jaws stay behind for good (by 0.83 m at paper
 /// scale). So one cut vertex then triggers a detection (γ_e = 0) [D], as in `dress`. The material is that of
 /// `fifty_layers`, with Table 1's friction. Stitches of 100 N/m open by 0.2 mm, a tenth of r, where a seam carries 2.6

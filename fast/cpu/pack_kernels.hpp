@@ -15,14 +15,16 @@ struct TeamLaneSums {
   int count = 0;                        ///< items of the part; where they are fewer than W the last sums are 0
 };
 
-/// Parts that are not computed in packs. Null sums: packs compute the part, or there is none.
-struct OtherParts {
-  TeamLaneSums triangles, hinges, springs, tetrahedra, volumes, segments;
+/// Whether packs know a part of a sum (fast/kernels/kinds): those of a vertex where its `is_packed` says so.
+template <class Part>
+inline constexpr bool has_packs = requires(const SweepView& view, const SweepVertex& vertex) {
+  Part::is_packed(view, vertex);
 };
 
-/// As GatherAll with a SerialTeam and the activation `ogc`.
+/// As GatherAll with a SerialTeam and the activation `ogc`. `alone`: by part, the sums of those that are not computed
+/// in packs; null sums of a part that is, or that the vertex does not have.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
-                                        const OtherParts& other);
+                                        const TeamLaneSums* alone);
 /// Sums of vertices, and segments of rods.
 struct PackKernels {
   GatherInPacks gather_4, gather_8, gather_16;  ///< for W = 4, 8, 16 team lanes
@@ -48,11 +50,15 @@ const PackKernels& pack_kernels();
 /// The segments of a loop that one thread runs.
 inline void run_range(const UpdateSegment& f, int begin, int end) { pack_kernels().update_segments(f, begin, end); }
 
-/// As GatherAll: in packs where there are any of a part's models, the other parts item by item; with other activations
-/// all of it.
-struct GatherPacked {
-  static constexpr int parts = GatherAll::parts;  ///< of the sum; devices alone read it
-  static constexpr bool has_volumes = GatherAll::has_volumes;
+/// As a Gather of all: in packs where there are any of a part's models, the other parts item by item; with other
+/// activations all of it.
+template <class All>
+struct PackedGather;
+template <class... Parts>
+struct PackedGather<Gather<AnyActivation, Parts...>> {
+  using All = Gather<AnyActivation, Parts...>;
+  static constexpr int parts = All::parts;  ///< of the sum; devices alone read it
+  static constexpr bool has_volumes = All::has_volumes;
   const PackKernels& kernels = pack_kernels();  ///< those of this machine
 
   template <int W>
@@ -61,7 +67,7 @@ struct GatherPacked {
     if constexpr (W >= 4) {
       if (view.activation == ContactActivation::ogc) return in_packs<W>(view, slot, vertex, own);
     }
-    return GatherAll{}(view, slot, vertex, own, team);
+    return All{}(view, slot, vertex, own, team);
   }
 
  private:
@@ -80,23 +86,25 @@ struct GatherPacked {
     }
   };
 
+  template <int W, class Part>
+  static TeamLaneSums alone(const SweepView& view, int slot, const SweepVertex& vertex, const OwnVertex& own,
+                            Room<W>& room) {
+    if constexpr (has_packs<Part>) {
+      if (Part::is_packed(view, vertex)) return {};
+    }
+    return room.one_by_one(Part::part_of(view, slot, vertex, own));
+  }
+
   template <int W>
   ForceAndBlock in_packs(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own) const {
-    const SurfaceModels models = view.models[vertex.body];
     const OwnVertex at{own, own - view.start[vertex.vertex]};
-    Room<W> triangles, hinges, springs, tetrahedra, volumes, segments;
-    OtherParts other;
-    if (!has_default_membrane(models))
-      other.triangles = triangles.one_by_one(Triangles::part_of(view, slot, vertex, at));
-    if (!has_default_bending(models)) other.hinges = hinges.one_by_one(Hinges::part_of(view, slot, vertex, at));
-    other.springs = springs.one_by_one(Springs::part_of(view, slot, vertex, at));
-    const bool has_tetrahedra = view.tetrahedron_rows != nullptr;
-    if (has_tetrahedra && (view.solids[vertex.body].damping > 0 || !damps_strain(models.damping)))
-      other.tetrahedra = tetrahedra.one_by_one(Tetrahedra::part_of(view, slot, vertex, at));
-    other.volumes = volumes.one_by_one(VolumeContacts::part_of(view, slot, vertex, at));
-    other.segments = segments.one_by_one(Segments::part_of(view, slot, vertex, at));
-    return kernels.gather<W>()(view, slot, vertex, own, other);
+    Room<W> rooms[sizeof...(Parts)];
+    Room<W>* room = rooms;
+    const TeamLaneSums sums[] = {alone<W, Parts>(view, slot, vertex, at, *room++)...};
+    return kernels.gather<W>()(view, slot, vertex, own, sums);
   }
 };
+/// The sum of any scene in packs.
+using GatherPacked = PackedGather<GatherAll>;
 
 }  // namespace ogc::fast

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fast/cpu/pack.hpp"
-#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/items.hpp"
 
 namespace ogc::fast {
 inline namespace OGC_PACKS {
@@ -17,11 +17,29 @@ struct Items {
   Items(const Item* first, int count) : counted(first_of<P>(count)) {
     for (int k = 0; k < P::width; ++k) at[k] = first + (k < count ? k : count - 1);
   }
-  /// number(item) of each.
+  using Number = P;  ///< of the formulas
+
+  /// number(item), and condition(item), of each.
   template <class F>
   P each(F number) const {
     return P::of_each([&](int k) { return number(*at[k]); });
   }
+  template <class F>
+  typename P::Mask which(F condition) const {
+    return each([&](const Item& item) { return condition(item) ? 1.0F : 0.0F; }) > P{};
+  }
+  /// Where the update of a vertex finds the vertices with the encoded indices index(item) [m].
+  template <class F>
+  Vector<P> position(const SweepShared& view, F index) const {
+    return each_position([&](const Item& item) -> const PaddedVec& { return view.old[view.number(index(item))]; });
+  }
+  /// xᵗ of those vertices [m].
+  template <class F>
+  Vector<P> start(const SweepShared& view, F index) const {
+    return each_position([&](const Item& item) -> const PaddedVec& { return view.start.at[decoded(index(item))]; });
+  }
+
+ private:
   /// position(item): where it is.
   template <class F>
   Vector<P> each_position(F position) const {
@@ -37,6 +55,8 @@ Vector<P> everywhere(const Vec& a) {
   return {a.x, a.y, a.z};
 }
 
+}  // namespace packed
+
 /// a where the condition holds, else b.
 template <class P>
 ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>& a, const ForceAndBlockOf<P>& b) {
@@ -46,6 +66,12 @@ ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>
            select(condition, p.yy, q.yy), select(condition, p.yz, q.yz), select(condition, p.zz, q.zz)}};
 }
 
-}  // namespace packed
+/// Adds where the condition holds: add(sum) computes all lanes, and the others keep their sums, bit for bit.
+template <int N, class Add>
+void add_where(PackMaskOf<N> condition, ForceAndBlockOf<PackOf<N>>& sum, Add add) {
+  ForceAndBlockOf<PackOf<N>> with = sum;
+  add(with);
+  sum = selected<PackOf<N>>(condition, with, sum);
+}
 }  // namespace OGC_PACKS
 }  // namespace ogc::fast

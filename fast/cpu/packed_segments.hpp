@@ -1,6 +1,5 @@
-// Segments of a colour, a pack of them at a time: the usual case of UpdateSegment by lane, with both sides of a branch
-// computed and one selected, so that the same bits come out (tests/fast/cpu/packed_segments.cpp). Segments in any other
-// case, and all of rods that damp, are updated one by one.
+// Segments of a colour, a pack of them at a time, to the same bits (tests/fast/cpu/packed_segments.cpp): the usual case
+// of UpdateSegment. Segments in any other case, and all of rods that damp, are updated one by one.
 #pragma once
 
 #include <bit>
@@ -26,38 +25,6 @@ template <class P>
   return {all.x, all.y, all.z, all.w};
 }
 
-/// secular_root by lane: a lane that has arrived stays.
-template <class P>
-P secular_roots(P upper, P lower, P sigma) {
-  constexpr int most_steps = 32;
-  constexpr float enough = 0x3p-23f;
-  const P twice = 2.0f * sigma;
-  P nu = select(upper > lower - twice, upper, lower - twice);
-  for (int step = 0; step < most_steps; ++step) {
-    const P from_upper = upper / nu, from_lower = lower / (nu + twice);
-    const P squared = from_upper * from_upper + from_lower * from_lower, beyond = root(squared) - 1.0f;
-    const typename P::Mask goes_on = beyond > enough;
-    if (is_false(goes_on)) break;
-    nu = select(goes_on,
-                nu + squared * beyond / (from_upper * from_upper / nu + from_lower * from_lower / (nu + twice)), nu);
-  }
-  return nu;
-}
-
-/// The last case of rod_orientation by lane. `usual`: lanes where it is that one.
-template <class P>
-QuatOf<P> orientations(P stretch, const Vector<P>& apart, const Vector<P>& direction, const QuatOf<P>& b,
-                       typename P::Mask& usual) {
-  const P length = root(dot(apart, apart)), size = root(dot(direction, direction));
-  const P sigma = 2.0f * stretch * length * size, pull = root(dot(b, b));
-  const ReflectedFrameOf<P> frame{pure(P(1.0f / length) * apart), pure(P(1.0f / size) * direction)};
-  const QuatOf<P> upper = frame.upper(b), lower = b - upper;
-  const P beta_upper = root(dot(upper, upper)), beta_lower = root(dot(lower, lower));
-  usual = sigma > 0.0f && pull > 0.0f && beta_upper > lost_part * pull;
-  const P nu = secular_roots(beta_upper, beta_lower, sigma);
-  return unit(P(1.0f / nu) * upper + P(1.0f / (nu + 2.0f * sigma)) * lower);
-}
-
 /// Adds what the neighbours at one side of each ask for, undamped.
 template <class P>
 void add_neighbours(const UpdateSegment& f, const SegmentSlot* slots, int side, const QuatOf<P>& old, QuatOf<P>& b) {
@@ -67,11 +34,7 @@ void add_neighbours(const UpdateSegment& f, const SegmentSlot* slots, int side, 
     rest[k] = &slots[k].neighbours.rest[side].rest;
   }
   const P weight = P::of_each([&](int k) { return slots[k].neighbours.rest[side].weight; });
-  const QuatOf<P> with =
-      b + pull_towards(weight, asked_orientation(side == 1, transposed_quats<P>(now), transposed_quats<P>(rest)), old);
-  const typename P::Mask is_there = weight > 0.0f;
-  b = {select(is_there, with.x, b.x), select(is_there, with.y, b.y), select(is_there, with.z, b.z),
-       select(is_there, with.w, b.w)};
+  add_undamped_neighbour(weight, side == 1, transposed_quats<P>(now), transposed_quats<P>(rest), old, b);
 }
 
 /// P::width segments from number `first` of the colour on.
@@ -89,8 +52,9 @@ void update_pack(const UpdateSegment& f, int first) {
   QuatOf<P> b{0.0f, 0.0f, 0.0f, 0.0f};
   for (int side = 0; side < 2; ++side) add_neighbours<P>(f, slots, side, old, b);
   typename P::Mask usual;
-  const QuatOf<P> found = orientations<P>(P::of_each([&](int k) { return slots[k].rest.stretch; }),
-                                          transposed<P>(end[1]) - transposed<P>(end[0]), {0.0f, 0.0f, 1.0f}, b, usual);
+  const QuatOf<P> found = usual_orientation<P>(P::of_each([&](int k) { return slots[k].rest.stretch; }),
+                                               transposed<P>(end[1]) - transposed<P>(end[0]), {0.0f, 0.0f, 1.0f}, b,
+                                               usual);
   float x[P::width], y[P::width], z[P::width], w[P::width];
   found.x.store(x), found.y.store(y), found.z.store(z), found.w.store(w);
   const unsigned together = true_lanes(usual);

@@ -4,7 +4,7 @@
 
 namespace ogc::fast {
 
-const PackKernels OGC_FOR_PACKS(pack_kernels){&packed::gather<4>, &packed::gather<8>, &packed::gather<16>,
+const PackKernels OGC_FOR_PACKS(pack_kernels){&packed::gather_all<4>, &packed::gather_all<8>, &packed::gather_all<16>,
                                               &packed::update_segments};
 
 }  // namespace ogc::fast

@@ -50,7 +50,7 @@ bool CudaBackend::read_flag(const int* flag) {
   return value != 0;
 }
 
-// Relaxed capture: scratch memory may grow and kernels may be loaded while the body is recorded.
+// Capture is relaxed: scratch memory may grow and kernels may be loaded while the body is recorded.
 void CudaBackend::begin_recording() {
   OGC_CUDA_CHECK(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeRelaxed));
   recording_ = true;
@@ -84,8 +84,8 @@ void CudaBackend::abandon_recording() noexcept {
   cudaGetLastError();
 }
 
-// An event carries the capture, and what it stands behind, from one stream to the other. Streams and events live as
-// long as the recording: those of a branch are part of it.
+// Makes one stream wait for the other; the event carries the capture, too. Streams and events live as long as the
+// recording, because those of a branch are part of it.
 void CudaBackend::wait_for(cudaStream_t waiting, cudaStream_t other) {
   cudaEvent_t crossing = nullptr;
   OGC_CUDA_CHECK(cudaEventCreateWithFlags(&crossing, cudaEventDisableTiming));
@@ -94,7 +94,7 @@ void CudaBackend::wait_for(cudaStream_t waiting, cudaStream_t other) {
   OGC_CUDA_CHECK(cudaStreamWaitEvent(waiting, crossing, 0));
 }
 
-// Makes a stream that begins behind what `current_` has captured so far the current one.
+// Makes a new stream current, which begins after all that `current_` has captured so far.
 cudaStream_t CudaBackend::begin_branch() {
   cudaStream_t branch = nullptr;
   OGC_CUDA_CHECK(cudaStreamCreateWithFlags(&branch, cudaStreamNonBlocking));
@@ -130,8 +130,8 @@ cudaGraphConditionalHandle CudaBackend::new_condition() {
   return handle;
 }
 
-// Adds a node after what `current_` has captured so far, and makes a stream that captures into the node's body the
-// current one.
+// Adds a node after all that `current_` has captured so far, and makes a new stream current, which captures into the
+// node's body.
 cudaStream_t CudaBackend::begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type) {
   cudaStreamCaptureStatus status = cudaStreamCaptureStatusNone;
   cudaGraph_t graph = nullptr;

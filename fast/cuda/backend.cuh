@@ -1,16 +1,16 @@
-// The backend of fast/stages/backend.hpp on one CUDA device.
+// Implements the backend of fast/stages/backend.hpp on one CUDA device.
 //
 //   stream_        a blocking stream: Buffer copies (legacy stream) order themselves with it, nothing else waits
-//   current_       where work is enqueued: stream_, or the body of a node while `when` or `repeat` records it
-//   scratch_       temporary memory of scan and sort, shared by all of them: they run one after the other
+//   current_       the stream that takes work: stream_, or the body of a node while `when` or `repeat` records it
+//   scratch_       temporary memory that scan and sort share: they run one after the other
 //   follows_       whether the last thing enqueued there is a kernel, which the next may follow (fast/cuda/follow.cuh)
 //
 // A step is thousands of small kernels; enqueued one by one each costs 3.2 µs of host time, inside a CUDA graph 0.5 µs.
-// So `replay` records what a body enqueues into a graph, once, and launches the graph once for each repetition. It
-// records again when a Buffer has moved, since a graph holds pointers. `when` becomes a conditional IF node there (4.1
-// to 4.9 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel), `repeat` a WHILE node, `at_once` two
-// branches that part and meet. Outside a recording (probes, --profile) flags are read on the host, and branches run one
-// after the other. Conditional nodes need a driver of CUDA 12.4; this runtime (13) asks for a newer one.
+// So `replay` records once what a body enqueues into a graph, and launches the graph for each repetition. It records
+// again after a Buffer has moved, since a graph holds pointers. In a graph `when` becomes a conditional IF node (4.1 to
+// 4.9 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel), `repeat` a WHILE node, `at_once` two branches
+// that part and meet. Outside a recording (probes, --profile) flags are read on the host, and branches run one after
+// the other. Conditional nodes need a driver of CUDA 12.4; this runtime (13) needs a newer one.
 #pragma once
 
 #include <algorithm>
@@ -37,27 +37,28 @@ namespace ogc::fast {
 
 /// Threads of a block; tests take fewer (LaunchShape).
 inline constexpr int cuda_block_size = 128;
-/// What a multiprocessor can hold at once, twice: enough to keep it busy, few enough that a long count-limited loop
-/// costs little.
+/// Threads of a launch for each multiprocessor: twice what it can hold at once. That keeps it busy, and a long
+/// count-limited loop costs little.
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
-/// From so many team lanes of a launch on its teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms and the
-/// order of their sums are the same; a build that contracts may contract the two kernels differently.
+/// From this number of team lanes on the teams of a launch are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms
+/// and the order of their sums are the same; a build that contracts may contract the two kernels differently.
 inline constexpr int serial_lanes_per_multiprocessor = 350;
 
-/// Up to so many blocks of SerialLaneTeams, which the device holds at once, their warps are strided: where blocks come
-/// one after the other anyway, neighbours in one block share more of what they read (measured: fast/PERFORMANCE.md).
+/// Up to this number of blocks of SerialLaneTeams, which the device holds at once, their warps are strided. If blocks
+/// come one after the other anyway, neighbours in one block share more of what they read (measured:
+/// fast/PERFORMANCE.md).
 inline constexpr int strided_blocks_per_multiprocessor = 5;
 
-/// Blocks of a loop's launch that a multiprocessor shall hold at once, as F::resident_blocks says: the compiler then
-/// takes no more registers than leave room for them. 0: as many registers as it likes.
+/// Returns F::resident_blocks, the blocks of a loop's launch that a multiprocessor shall hold at once: the compiler
+/// limits registers accordingly. 0: registers are not limited.
 template <class F>
 constexpr int resident_blocks() {
   if constexpr (requires { F::resident_blocks; }) return F::resident_blocks;
   return 0;
 }
 
-/// f(i) for i < n; a thread takes every k-th item, k the number of threads of the launch.
+/// Runs f(i) for i < n; a thread takes every k-th item, k the number of threads of the launch.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   follow_launch();
@@ -65,13 +66,13 @@ __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n; i += stride) f(i);
 }
 
-/// What f(i) reads that neither this launch nor the one before writes.
+/// Requires ahead(i), which reads what f(i) needs and neither this launch nor the one before writes.
 template <class F>
 concept ReadsAhead = requires(const F& f) {
   f.ahead(0);
 };
 
-/// The same, where the launch before may still run while a thread reads what its first item needs.
+/// Does the same; the launch before may still run while a thread reads what its first item needs.
 template <ReadsAhead F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_ahead(int n, F f) {
   const int stride = static_cast<int>(gridDim.x * blockDim.x);
@@ -85,7 +86,7 @@ __global__ void __launch_bounds__(cuda_block_size) run_each_ahead(int n, F f) {
   }
 }
 
-/// The same for i < *n, which the device reads, and no more than `capacity`.
+/// Does the same for i < *n, which the device reads, and no more than `capacity`.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
     run_each_counted(const int* n, int capacity, F f) {
@@ -95,7 +96,8 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < count; i += stride) f(i);
 }
 
-/// f(i) for i < m, then g(i) for i < *n and no more than `capacity`, shared out to the threads as one row of items.
+/// Runs f(i) for i < m, then g(i) for i < *n and no more than `capacity`; all items are shared out to the threads as
+/// one row.
 template <class F, class G>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
     run_both(int m, F f, const int* n, int capacity, G g) {
@@ -107,7 +109,7 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
   for (i -= m; i < count; i += stride) g(i);
 }
 
-/// f of each row, a warp a row (fast/cuda/least.cuh).
+/// Runs f of each row, a warp a row (fast/cuda/least.cuh).
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_row(int n, const int* offsets, const float* values, F f) {
   follow_launch();
@@ -119,7 +121,7 @@ __global__ void __launch_bounds__(cuda_block_size) run_each_row(int n, const int
   }
 }
 
-/// One thread that decides what a conditional node does.
+/// Runs one thread, which decides what a conditional node does.
 template <class F>
 __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const int* flag) {
   follow_launch();
@@ -127,15 +129,15 @@ __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const 
   cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u);
 }
 
-/// A block is 32/W teams; a team beyond the last works on the last item and writes nothing.
+/// Runs blocks of 32/W teams; a team beyond the last works on the last item and writes nothing.
 template <int W, class F>
 __global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
   const int i = static_cast<int>(blockIdx.x) * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
   f(min(i, n - 1), SpreadTeam<W>(i < n));
 }
 
-/// Likewise; a block is serial_block_size/W teams. `strided`: those of a warp are neighbours, those of its warps are
-/// far apart, so that items which take long and lie side by side are shared out.
+/// Does the same with blocks of serial_block_size/W teams. `strided`: teams of a warp are neighbours, warps of a block
+/// are far apart, so that items which take long and lie side by side are shared out.
 template <int W, class F>
 __global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f, bool strided) {
   const int warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
@@ -151,7 +153,7 @@ class CudaRecording {
   CudaRecording(const CudaRecording&) = delete;
   CudaRecording& operator=(const CudaRecording&) = delete;
   ~CudaRecording() { clear(); }
-  /// The next replay records again: for a body whose constants have changed.
+  /// Makes the next replay record again, after constants of the body have changed.
   void clear() noexcept;
 
  private:
@@ -160,7 +162,7 @@ class CudaRecording {
   std::uint64_t generation_ = 0;
 };
 
-/// One stream of one device, each member as fast/stages/backend.hpp says.
+/// One stream of one device; fast/stages/backend.hpp describes each member.
 class CudaBackend {
  public:
   template <class T>
@@ -168,13 +170,14 @@ class CudaBackend {
   using Sums = DeviceSums;
   using Recording = CudaRecording;
 
-  /// Throws compare::ResourceError where there is no usable device, with cuda_info's reason.
+  /// Throws compare::ResourceError if there is no usable device, with cuda_info's reason, and compare::InputError if
+  /// the threads of `shape` are no multiple of 32 up to cuda_block_size.
   explicit CudaBackend(const LaunchShape& shape = {});
   CudaBackend(CudaBackend&& other) noexcept;
   CudaBackend& operator=(CudaBackend&&) = delete;
   ~CudaBackend();
 
-  /// A thread an item, as far as the device can hold them; a thread of a larger loop takes several.
+  /// Launches a thread an item, as far as the device can hold them; a thread of a larger loop takes several.
   template <class F>
   void for_each(int n, F f) {
     if (n <= 0) return;
@@ -184,35 +187,35 @@ class CudaBackend {
       follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
   }
 
-  /// Room for `capacity` items is launched; the device reads how many there are.
+  /// Launches room for `capacity` items; the device reads how many there are.
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
     if (capacity <= 0) return;
     follow(typeid(F), run_each_counted<F>, blocks(capacity), block_threads_, n, capacity, f);
   }
 
-  /// One launch; both as for_each and for_each_counted.
+  /// Runs both as for_each and for_each_counted do, in one launch.
   template <class F, class G>
   void for_both(int m, F f, const int* n, int capacity, G g) {
     if (m <= 0) return for_each_counted(n, capacity, g);
     follow(typeid(G), run_both<F, G>, blocks(std::int64_t{m} + capacity), block_threads_, m, f, n, capacity, g);
   }
 
-  /// A warp a row; a warp of a larger loop takes several.
+  /// Launches a warp a row; a warp of a larger loop takes several.
   template <class F>
   void for_each_row(int n, const int* offsets, const float* values, F f) {
     if (n <= 0) return;
     follow(typeid(F), run_each_row<F>, blocks(std::int64_t{32} * n), block_threads_, n, offsets, values, f);
   }
 
-  /// Few team lanes: SpreadTeam; as many as fill the device: SerialLaneTeam. `overlapping` lets the launch begin while
-  /// the one before still runs.
+  /// Runs SpreadTeams if there are few team lanes, SerialLaneTeams if they fill the device. Start::overlapping lets the
+  /// launch begin while the one before still runs.
   template <int W, class F>
   void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
     const bool serial = static_cast<std::int64_t>(n) * W >=
                         std::int64_t{multiprocessors_} * serial_lanes_per_multiprocessor;
-    const int teams = (serial ? serial_block_size : 32) / W;  // of a block
+    const int teams = (serial ? serial_block_size : 32) / W;  // in a block
     const int blocks = (n + teams - 1) / teams;
     const bool early = start == Start::overlapping;
     if (serial) {
@@ -225,7 +228,7 @@ class CudaBackend {
     follows_ = true;
   }
 
-  /// One launch by warps (fast/cuda/search.cuh). Throws compare::ResourceError for a tree of more than
+  /// Searches in one launch by warps (fast/cuda/search.cuh). Throws compare::ResourceError for a tree of more than
   /// largest_searched_count primitives.
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
@@ -240,18 +243,18 @@ class CudaBackend {
            second, second_groups);
   }
 
-  /// One launch where both are short, else two; temporary memory may be allocated.
+  /// Scans in one launch if both are short, else in two; may allocate temporary memory.
   void exclusive_scans(const Scan& first, const Scan& second) {
     fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);
     follows_ = true;
   }
-  /// CUB's radix sort; temporary memory may be allocated.
+  /// Sorts by CUB's radix sort; may allocate temporary memory.
   void sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {}) {
     fast::sort_pairs(current_, scratch_, keys, values, n, bits);
     follows_ = false;  // it may end with a copy
   }
 
-  /// In a recording a conditional IF node; elsewhere the host waits for the flag.
+  /// Records a conditional IF node; outside a recording the host waits for the flag.
   template <class F, class Body>
   void when(F decide, const int* flag, Body body) {
     if (!recording_) {
@@ -266,7 +269,7 @@ class CudaBackend {
     end_condition(outer);
   }
 
-  /// In a recording a conditional WHILE node; elsewhere the host waits for the flag before each round.
+  /// Records a conditional WHILE node; outside a recording the host waits for the flag before each round.
   template <class F, class Body, class G>
   void repeat(F decide, const int* flag, Body body, G decide_again) {
     if (!recording_) {
@@ -281,7 +284,7 @@ class CudaBackend {
     end_condition(outer);
   }
 
-  /// In a recording two branches of the graph; elsewhere one after the other.
+  /// Records two branches of the graph; outside a recording runs one after the other.
   template <class Aside, class Body>
   void at_once(Aside aside, Body body) {
     if (!recording_) {
@@ -301,9 +304,9 @@ class CudaBackend {
     join(branch);
   }
 
-  /// Enqueues what `body` enqueues, `times` times over. `body` runs on the host only when `recording` is empty or
-  /// stale, so it must enqueue the same calls with the same arguments every time; what changes from step to step
-  /// (numbers, targets) is counted on the device.
+  /// Enqueues what `body` enqueues, `times` times over. `body` runs on the host only if `recording` is empty or stale,
+  /// so it must enqueue the same calls with the same arguments every time; what changes from step to step (numbers,
+  /// targets) is counted on the device.
   template <class Body>
   void replay(Recording& recording, int times, Body body) {
     if (recording.graph_ == nullptr || recording.generation_ != buffer_generation) {
@@ -320,10 +323,10 @@ class CudaBackend {
     launch(recording, times);
   }
 
-  /// Device time of each repetition since it was asked last [ms]. Host only, after synchronize.
+  /// Returns the device time of each repetition since the last call [ms]. Host only, after synchronize.
   std::vector<double> replay_milliseconds();
 
-  /// Waits for all that was enqueued. Throws where a kernel of it has failed.
+  /// Waits for all that was enqueued. Throws if one of its kernels has failed.
   void synchronize() { OGC_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
 
  private:
@@ -335,8 +338,8 @@ class CudaBackend {
     if (tree.count > largest_searched_count)
       throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
   }
-  /// Searches a warp: few while the device is not full (32 warps a multiprocessor), so that each is short; more spare
-  /// it rounds that do not fill a warp.
+  /// Returns the searches of a warp: few until the device is full (32 warps a multiprocessor), so that each warp is
+  /// short; more spare it rounds that do not fill a warp.
   int search_group(int searches) const {
     const std::int64_t warps = std::int64_t{multiprocessors_} * 32;
     return static_cast<int>(std::clamp<std::int64_t>((searches + warps - 1) / warps, 1, largest_group));
@@ -346,7 +349,8 @@ class CudaBackend {
     if (error != cudaSuccess)
       throw_cuda_error(error, ("the launch of " + readable_type(functor.name())).c_str(), __FILE__, __LINE__);
   }
-  /// A kernel that begins with follow_launch. Only in a recording: elsewhere copies may stand between two launches.
+  /// Launches a kernel that begins with follow_launch. It overlaps only in a recording: elsewhere copies may stand
+  /// between two launches.
   template <class Kernel, class... Arguments>
   void follow(const std::type_info& functor, Kernel kernel, int blocks, int threads, const Arguments&... arguments) {
     launch_kernel(current_, recording_ && follows_, kernel, blocks, threads, arguments...);
@@ -376,9 +380,9 @@ class CudaBackend {
   int block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_;
   std::vector<cudaStream_t> branches_;  // of the recording under way
-  std::vector<cudaEvent_t> crossings_;  // likewise: where branches part and meet
+  std::vector<cudaEvent_t> crossings_;  // of the recording under way: where branches part and meet
   std::vector<cudaEvent_t> events_;     // in the order of time; between two of them lies a repetition, or nothing
-  std::vector<bool> is_end_;            // by event since replay_milliseconds was asked last: of a repetition
+  std::vector<bool> is_end_;            // by event since the last replay_milliseconds: whether it ends a repetition
 };
 
 }  // namespace ogc::fast

@@ -1,6 +1,6 @@
-// Resident arrays on the device: plain cudaMalloc, never managed memory. Copies go through the legacy default stream.
-// It and a backend's (blocking) stream wait for each other, so a copy sees all work enqueued before it. Inside a
-// capture the runtime refuses such a copy; that is what "outside a step" means.
+// Holds resident arrays on the device: plain cudaMalloc, never managed memory. Copies go through the legacy default
+// stream. It and a backend's (blocking) stream wait for each other, so a copy sees all work enqueued before it. Inside
+// a capture the runtime refuses such a copy: copies are for outside a step.
 #pragma once
 
 #include <atomic>
@@ -15,16 +15,16 @@
 
 namespace ogc::fast {
 
-/// Bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError with the
-/// size asked for, the size free and what to do.
+/// Allocates bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError
+/// with the requested size, the free size and what to do.
 void* device_allocate(std::size_t bytes);
-/// Null is nothing.
+/// Frees memory; does nothing for null.
 void device_free(void* memory) noexcept;
 
 /// Counts allocations that moved: a recorded graph holds raw pointers and is stale once this number has changed.
 inline std::atomic<std::uint64_t> buffer_generation{0};
 
-/// A resident array on the device, movable, not copied.
+/// A resident array on the device; it can be moved, not copied.
 template <class T>
 class CudaBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -38,12 +38,12 @@ class CudaBuffer {
   }
   ~CudaBuffer() { device_free(items_); }
 
-  /// Items on the device, size() of them; null until there was one.
+  /// Returns the items on the device, size() of them; null before the first allocation.
   T* data() { return items_; }
   const T* data() const { return items_; }
   std::size_t size() const { return size_; }
 
-  /// Keeps no content and never shrinks; a new allocation starts at zero, as on the host.
+  /// Resizes without keeping content; never shrinks. A new allocation starts at zero, as on the host.
   void resize(std::size_t n) {
     if (n > capacity_) {
       device_free(std::exchange(items_, nullptr));
@@ -63,7 +63,7 @@ class CudaBuffer {
   void download(T* to, std::size_t n) const {
     if (n > 0) OGC_CUDA_CHECK(cudaMemcpy(to, items_, n * sizeof(T), cudaMemcpyDeviceToHost));
   }
-  /// All bytes.
+  /// Sets all bytes to zero.
   void fill_zero() {
     if (size_ > 0) OGC_CUDA_CHECK(cudaMemset(items_, 0, size_ * sizeof(T)));
   }

@@ -1,5 +1,5 @@
-// The one macro for CUDA calls. A failed call becomes an exception that says which call, where, and what the runtime
-// calls the error; an error that an earlier kernel left behind surfaces at the next call that waits, and the text says
+// Defines the one macro for CUDA calls. A failed call becomes an exception that names the call, its place, and the
+// runtime's error; an error that an earlier kernel left behind surfaces at the next call that waits, and the text says
 // so.
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace ogc::fast {
 
-/// Throws compare::ResourceError where device or memory is missing, std::runtime_error otherwise. `what` is the call or
+/// Throws compare::ResourceError if device or memory is missing, std::runtime_error otherwise. `what` is the call or
 /// the kernel.
 [[noreturn]] void throw_cuda_error(cudaError_t error, const char* what, const char* file, int line);
 
-/// Readable name of a type: a failed launch names its functor, and with it the stage.
+/// Returns the readable name of a type: a failed launch names its functor, and with it the stage.
 std::string readable_type(const char* mangled);
 
 }  // namespace ogc::fast

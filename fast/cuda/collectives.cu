@@ -14,17 +14,17 @@
 namespace ogc::fast {
 namespace {
 
-constexpr std::size_t alignment = 256;  // of cudaMalloc, and what CUB asks for
+constexpr std::size_t alignment = 256;  // as cudaMalloc gives it, and CUB needs it
 std::size_t aligned(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
 
 constexpr int scan_threads = 512, scan_items = 4, scan_tile = scan_threads * scan_items;
-/// The last block of a short scan reads them all: 2 µs of what a multiprocessor gets from the second-level cache (64 B
-/// a cycle).
+/// Items of the longest short scan. Its last block reads them all, in 2 µs at what a multiprocessor gets from the
+/// second-level cache (64 B a cycle).
 constexpr int longest_short_scan = 1 << 16;
 
-// A scan without a memory between its blocks: each adds up all that stands before its tile, of a short scan item by
-// item, else from `sums`, those of the tiles. CUB's takes two launches, neither of which may begin early, and a
-// detection has two scans. The first blocks scan the one, the others the other.
+// Scans without communication between blocks: each adds up all that stands before its tile, in a short scan item by
+// item, otherwise from `sums`, the sums of the tiles. CUB's scan takes two launches, neither of which may begin early,
+// and a detection has two scans. The first blocks run the first scan, the others the second.
 __global__ void __launch_bounds__(scan_threads)
     scan_tiles(Scan first_scan, int first_blocks, Scan second_scan, const int* sums) {
   follow_launch();
@@ -33,7 +33,7 @@ __global__ void __launch_bounds__(scan_threads)
   const int* in = scan.in;
   int* out = scan.out;
   const int n = scan.count, block = static_cast<int>(blockIdx.x) - (is_first ? 0 : first_blocks);
-  using Sums = unsigned long long;  // of what stands before the tile, above; of the tile, in the low half
+  using Sums = unsigned long long;  // high half: sum of what stands before the tile; low half: sum of the tile
   using Scan = cub::BlockScan<Sums, scan_threads, cub::BLOCK_SCAN_WARP_SCANS>;
   __shared__ typename Scan::TempStorage memory;
   const int thread = static_cast<int>(threadIdx.x), tile = block * scan_tile, first = tile + thread * scan_items;
@@ -59,7 +59,7 @@ __global__ void __launch_bounds__(scan_threads)
   }
 }
 
-// The sum of each tile of both scans, in the order of the blocks of scan_tiles.
+// Writes the sum of each tile of both scans, in the order of the blocks of scan_tiles.
 __global__ void __launch_bounds__(scan_threads)
     add_tiles(Scan first_scan, int first_blocks, Scan second_scan, int* sums) {
   follow_launch();

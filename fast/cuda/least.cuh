@@ -1,26 +1,26 @@
-// The smallest numbers of a row, by a warp: lane k holds the one that k others come before. A chunk of 32 is sorted and
-// merged into them; one of which nothing is smaller than what is asked for is passed over.
+// Finds the smallest numbers of a row, by a warp: lane k holds the k-th smallest, from 0. A chunk of 32 is sorted and
+// merged into them; a chunk without a number below the largest one that is wanted is passed over.
 #pragma once
 
 #include <cuda_runtime.h>
 
 namespace ogc::fast {
 
-/// The smaller of this lane's number and its partner's, the lane xor `distance`, in lanes that are to have `low`; the
-/// larger in others. Numbers are not NaN.
+/// Returns the smaller of this lane's number and that of its partner, the lane xor `distance`, in lanes with `low`; the
+/// larger one in others. Numbers are not NaN.
 __device__ inline float exchanged(float own, int distance, bool low) {
   const float other = __shfl_xor_sync(0xffffffffu, own, distance);
   return low ? fminf(own, other) : fmaxf(own, other);
 }
 
-/// A bitonic row of 32, a number a lane, sorted in ascending order.
+/// Sorts a bitonic row of 32, a number a lane, in ascending order.
 __device__ inline float merged(float own, int lane) {
 #pragma unroll
   for (int distance = 16; distance > 0; distance /= 2) own = exchanged(own, distance, (lane & distance) == 0);
   return own;
 }
 
-/// Any row of 32 sorted in ascending order: runs of 2, 4, 8 and 16, every second one descending, then all.
+/// Sorts any row of 32 in ascending order: runs of 2, 4, 8 and 16, every second one descending, then all.
 __device__ inline float sorted(float own, int lane) {
 #pragma unroll
   for (int run = 2; run < 32; run *= 2)
@@ -30,8 +30,8 @@ __device__ inline float sorted(float own, int lane) {
   return merged(own, lane);
 }
 
-/// Of values[0] … values[count − 1] lane k gets the one that k others come before, for k ≤ rank < 32; infinite where
-/// there is none. The 32 threads of a warp call it together.
+/// Returns in lane k, for k ≤ rank < 32, the k-th smallest of values[0] … values[count − 1], from 0; infinite if there
+/// is none. The 32 threads of a warp call it together.
 __device__ inline float least_of_row(const float* values, int count, int rank) {
   const int lane = static_cast<int>(threadIdx.x) % 32;
   const float infinite = __int_as_float(0x7f800000);

@@ -51,7 +51,7 @@ void* device_allocate(std::size_t bytes) {
     OGC_CUDA_CHECK(cudaMemGetInfo(&free, &total));
     throw compare::ResourceError("out of device memory: asked for " + mebibytes(bytes) + ", " + mebibytes(free) +
                                  " of " + mebibytes(total) +
-                                 " are free; use a smaller --scale or query_radius_cap, end other programs on the "
+                                 " are free; use a smaller --scale or detection_radius_cap, end other programs on the "
                                  "device, or run with --backend cpu");
   }
   OGC_CUDA_CHECK(error);

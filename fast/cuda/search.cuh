@@ -1,15 +1,15 @@
-// Searches of a tree by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few
+// Searches trees by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few
 // searches to hide the chain node → child → primitive → arithmetic, and the longest of 32 different searches holds up
 // the others. Here a warp takes a few searches and keeps their open ends in lists of its own in shared memory; in each
 // round every lane of the warp takes one item, of any of these searches:
 //
 //   nodes       still to be opened: four lanes open one, a child each
-//   candidates  that leaves offered: a lane asks is_pair
-//   pairs       what is left of them: a lane does the arithmetic (meet), which may lower the search's limit
+//   candidates  offered by leaves: a lane calls is_pair
+//   pairs       candidates that passed: a lane does the arithmetic (meet), which may lower the search's limit
 //
 // The last list that can fill the warp goes first, so lanes idle only when little is left. `nodes` is a stack: a round
-// takes up to 8 from the top, where the lowest level is, so what it pushes of a level (at most 32) meets none of that
-// level left behind: 32 a level are room enough.
+// takes up to 8 from the top, where the lowest level is. So when it pushes nodes of a level (at most 32) no others of
+// that level are left: room for 32 a level is enough.
 #pragma once
 
 #include <algorithm>
@@ -21,17 +21,18 @@
 
 namespace ogc::fast {
 
-inline constexpr int search_warps = 4;   ///< a block, at most
-inline constexpr int largest_group = 8;  ///< searches a warp
+inline constexpr int search_warps = 4;   ///< warps of a block, at most
+inline constexpr int largest_group = 8;  ///< searches of a warp, at most
 
-/// Primitives of a tree whose leaves have numbers of 25 bits.
+/// Largest number of primitives of a tree whose leaf nodes have numbers of 25 bits.
 inline constexpr int largest_searched_count = 4 << 25;
 
 /// A node of the stack: level, search of the group, place in the level.
 struct SearchNode {
   unsigned bits;  ///< from the top: level in 4, slot in 3, place in 25
 
-  /// To bits and back: level < max_levels, slot of the search in its group, place < 2²⁵ of the node in its level.
+  /// Packs level < max_levels, slot of the search in its group and place < 2²⁵ of the node in its level; the functions
+  /// below unpack them.
   __device__ static SearchNode of(int level, int slot, int j) {
     return {static_cast<unsigned>(level) << 28 | static_cast<unsigned>(slot) << 25 | static_cast<unsigned>(j)};
   }
@@ -42,29 +43,29 @@ struct SearchNode {
 
 /// A primitive that a leaf offered to a search of the group.
 struct alignas(16) SearchItem {
-  int slot;  ///< of the search in its group
+  int slot;  ///< number of the search in its group
   Offer offer;
 };
 
-/// Open ends of one warp. A list from which 32 could be taken gets nothing, and no round adds more than 32.
+/// Holds the open ends of one warp. A list with 32 items gets no more, and no round adds more than 32.
 struct SearchMemory {
-  /// A round that may add 32 items to a list finds at most 31 there; of nodes there is one for each search, and at most
-  /// 32 of each level.
+  /// A round that may add 32 items to a list finds at most 31 there; there is a node for each search, and at most 32 of
+  /// each level.
   static constexpr int most_items = 31 + 32, most_nodes = largest_group + 32 * (max_levels - 1);
   Search searches[largest_group];  ///< by slot
-  /// stacks; what is_pair lets through goes from the first to the second
+  /// stacks; is_pair moves items from the first to the second
   SearchItem candidates[most_items], pairs[most_items];
   SearchNode nodes[most_nodes];  ///< stack
 };
 
-/// The searches of one warp. Its 32 threads call `run` together.
+/// Runs the searches of one warp. Its 32 threads call `run` together.
 template <class Query>
 class WarpSearch {
  public:
   __device__ WarpSearch(const Searches<Query>& searches, SearchMemory& memory)
       : tree_(searches.tree), query_(searches.query), memory_(at_hand(memory)), lane_(at_hand(threadIdx.x % 32)) {}
 
-  /// Searches first, first + stride, …, `count` of them.
+  /// Runs the searches first, first + stride, …, `count` of them.
   __device__ void run(int first, int stride, int count) {
     const int lane = static_cast<int>(lane_);
     if (lane < count) {
@@ -88,8 +89,8 @@ class WarpSearch {
  private:
   static constexpr unsigned everyone_ = 0xffffffffU;
 
-  /// The same, to be kept in a register: the compiler would compute addresses in shared memory anew wherever they are
-  /// needed, and read numbers of threads, as it still does in places.
+  /// Returns the same number, kept in a register: the compiler would compute addresses in shared memory and read thread
+  /// numbers anew wherever they are needed, as it still does in places.
   __device__ static unsigned at_hand(unsigned number) {
     asm volatile("" : "+r"(number));
     return number;
@@ -125,12 +126,12 @@ class WarpSearch {
     pair_count_ += __popc(kept);
   }
 
-  /// The innermost loop of a detection: no branch in it, and nothing signed, which would cost divisions by 4 and long
-  /// addresses more.
+  /// Opens nodes. It is the innermost loop of a detection: without branches, and without signed numbers, which would
+  /// cost divisions by 4 and longer addresses.
   __device__ void open() {
     const unsigned take = min(8U, node_count_), own = lane_ / 4, number = lane_ % 4;
     node_count_ -= take;
-    // lanes beyond the last node look at that one and drop the result
+    // lanes beyond the last node read that one and drop the result
     const SearchNode node = memory_.nodes[node_count_ + min(own, take - 1)];
     const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(number);
     const Search& search = memory_.searches[slot];
@@ -154,17 +155,17 @@ class WarpSearch {
   unsigned node_count_ = 0, candidate_count_ = 0, pair_count_ = 0;
 };
 
-/// Warps that a kind's searches are shared out to, up to `group` a warp. A warp takes every `warps`-th: long searches
+/// Shares out the searches of a kind to warps, up to `group` a warp. A warp takes every `warps`-th one: long searches
 /// lie side by side, and a warp that got them all would hold up the launch.
 struct SearchGroups {
   int group, warps;  ///< searches of a warp, at most; warps that have any
 
   SearchGroups(int count, int searches) : group(searches), warps((count + searches - 1) / searches) {}
-  /// Of `block_warps` warps each.
+  /// Returns the number of blocks of `block_warps` warps each.
   int blocks(int block_warps) const { return (warps + block_warps - 1) / block_warps; }
 };
 
-/// The searches of warp number `warp` of a kind; none beyond groups.warps, or where the query is off.
+/// Runs the searches of warp number `warp` of a kind; none beyond groups.warps, or if the query is off.
 template <class Query>
 __device__ void run_group(const Searches<Query>& searches, const SearchGroups& groups, int warp, SearchMemory& memory) {
   if (warp >= groups.warps || searches.query.is_off()) return;
@@ -172,7 +173,7 @@ __device__ void run_group(const Searches<Query>& searches, const SearchGroups& g
       .run(warp, groups.warps, min(groups.group, (searches.count - warp + groups.warps - 1) / groups.warps));
 }
 
-/// The first kind in the first blocks; a block is at most search_warps warps.
+/// Runs both kinds of searches, the first kind in the first blocks; a block has at most search_warps warps.
 template <class First, class Second>
 __global__ void __launch_bounds__(32 * search_warps, 8)
     run_searches(Searches<First> first, SearchGroups first_groups, int first_blocks, Searches<Second> second,

@@ -1,8 +1,9 @@
-// Teams of W team lanes, which are neighbouring threads of a warp, with the bits of SerialTeam<W>, in two forms.
+// Defines teams of W team lanes, which are neighbouring threads of a warp, with the bits of SerialTeam<W>, in two
+// forms.
 //
-// SpreadTeam: a block is as many warps as a sum has parts: warp p runs part p of 32/W teams, so that no warp waits for
-// another kind of term and the chain of dependent instructions, which is what a small launch costs, is the longest
-// part's and not all of them. Team lanes leave their parts in shared memory, warp 0 adds the parts in their order and
+// SpreadTeam: a block has as many warps as a sum has parts. Warp p runs part p of 32/W teams, so that no warp waits for
+// another kind of term, and the chain of dependent instructions, which is what a small launch costs, is that of the
+// longest part and not of all. Team lanes leave their parts in shared memory, warp 0 adds the parts in their order and
 // then the team lanes.
 //
 // SerialLaneTeam: the same team lanes run one part after the other. A launch that fills the device anyway pays for
@@ -17,9 +18,9 @@
 // team lane ends with SerialTeam's total. No product feeds these additions (a shuffle stands between), so contraction
 // cannot change them either.
 //
-// A launch may overlap the one before it (programmatic dependent launch): what a part loads is read at once, then `sum`
-// waits for that launch to end. The next launch is let in only after this wait, so whatever came two launches before
-// has ended too.
+// A launch may overlap the one before it (programmatic dependent launch): a part loads at once, then `sum` waits for
+// that launch to end. The next launch is let in only after this wait, so all launches before the previous one have
+// ended, too.
 #pragma once
 
 #include <cstring>
@@ -36,7 +37,7 @@ inline constexpr int serial_block_size = 128;  ///< threads of a block of Serial
 
 namespace detail {
 
-/// Size of an accumulator in words of 4 B, as shuffles move them.
+/// Returns the size of an accumulator in words of 4 B, which shuffles move.
 template <class Accumulator>
 __device__ constexpr int words() {
   static_assert(std::is_trivially_copyable_v<Accumulator> && sizeof(Accumulator) % sizeof(unsigned) == 0,
@@ -45,7 +46,8 @@ __device__ constexpr int words() {
   return sizeof(Accumulator) / sizeof(unsigned);
 }
 
-/// The accumulator of the thread whose lane is this one's xor `distance`; all threads of the warp call it together.
+/// Returns the accumulator of the thread whose lane is this one's xor `distance`; all threads of the warp call it
+/// together.
 template <class Accumulator>
 __device__ Accumulator from_partner(const Accumulator& mine, int distance) {
   unsigned word[words<Accumulator>()];
@@ -57,7 +59,7 @@ __device__ Accumulator from_partner(const Accumulator& mine, int distance) {
   return partner;
 }
 
-/// The total of W team lanes, in each of them.
+/// Returns the total of W team lanes, in each of them.
 template <int W, class Accumulator>
 __device__ Accumulator total_of_lanes(Accumulator total) {
 #pragma unroll
@@ -65,8 +67,8 @@ __device__ Accumulator total_of_lanes(Accumulator total) {
   return total;
 }
 
-/// This team lane's items of a part. With `begins` the first is loaded while the launch before this one may still run;
-/// then the thread waits for that launch and lets the next one in.
+/// Adds this team lane's items of a part. With `begins` the first is loaded while the launch before this one may still
+/// run; then the thread waits for that launch and lets the next one in.
 template <int W, bool begins, class AnyPart, class Accumulator>
 __device__ void add_part(const AnyPart& part, int lane, Accumulator& own) {
   int k = lane;
@@ -83,33 +85,34 @@ __device__ void add_part(const AnyPart& part, int lane, Accumulator& own) {
   }
 }
 
-/// Shared memory of a block for a pooled part.
+/// Holds the shared memory of a block for a pooled part.
 template <int W, class Accumulator>
 struct Pool {
-  static constexpr int teams = serial_block_size / W;  ///< of a block
+  static constexpr int teams = serial_block_size / W;  ///< teams in a block
   using Scan = cub::BlockScan<int, serial_block_size>;
   typename Scan::TempStorage scan;
-  int begins[teams], offsets[teams + 1];  ///< of the teams' items: in their arrays; in the order of the block
+  /// begin of each team's items in their array; offset of its items in the block
+  int begins[teams], offsets[teams + 1];
   /// two buffers in turn: threads write the next terms while others still read these
   unsigned memory[2][serial_block_size][words<Accumulator>()];
 };
 
-/// One for all parts of a sum.
+/// Returns the pool that all parts of a sum share.
 template <int W, class Accumulator>
 __device__ Pool<W, Accumulator>& pool_of_block() {
   __shared__ Pool<W, Accumulator> pool;
   return pool;
 }
 
-/// This team lane's items of a pooled part, whose terms all threads of the block compute together. A team that is not
-/// `present` has none.
+/// Adds this team lane's items of a pooled part, whose terms all threads of the block compute together. A team that is
+/// not `present` has none.
 template <int W, class Load, class Term, class Accumulator>
 __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Accumulator& own) {
   auto& [scan, begins, offsets, memory] = pool_of_block<W, Accumulator>();
   constexpr int teams = Pool<W, Accumulator>::teams;
   const int thread = static_cast<int>(threadIdx.x), team = thread / W, lane = thread % W;
   int offset = 0, total = 0;
-  // Also threads that still read the terms of the part before.
+  // The barrier also waits for threads that still read the terms of the part before.
   if (__syncthreads_or(present && part.count > 0 ? 1 : 0) == 0) return;
   typename Pool<W, Accumulator>::Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
   if (lane == 0) begins[team] = part.begin, offsets[team] = offset;
@@ -133,7 +136,7 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
 
 }  // namespace detail
 
-/// What W neighbouring threads of a warp ask together (OneLane says what).
+/// Implements the searches and minima of OneLane for W neighbouring threads of a warp together.
 template <int W>
 class NeighbourLanes {
  public:
@@ -155,17 +158,18 @@ class NeighbourLanes {
   }
 
  protected:
-  /// Team lane of this thread, and the first one's lane of its warp.
+  /// Return the team lane of this thread, and the lane in its warp of the team's first thread.
   __device__ static int lane() { return static_cast<int>(threadIdx.x) & (W - 1); }
   __device__ static int begin() { return static_cast<int>(threadIdx.x) & 31 & ~(W - 1); }
 
  private:
-  /// The team's lanes of the warp; other teams may be elsewhere.
+  /// Returns the mask of the team's lanes in the warp; other teams may be elsewhere.
   __device__ static unsigned everyone() { return (0xffffffffu >> (32 - W)) << begin(); }
 };
 
-/// `present` of both: false for a team that only fills a block. `sum` of both: as SerialTeam::sum; every thread of the
-/// block calls it once, or `leave` in its place: the launch after this one relies on the launch before it having ended.
+/// A team whose warps run one part each (head of this file). In both kinds of teams `present` is false for a team that
+/// only fills a block. Every thread of the block calls `sum`, which does what SerialTeam::sum does, once, or `leave` in
+/// its place: the launch after this one relies on the launch before it having ended.
 template <int W>
 class SpreadTeam : public NeighbourLanes<W> {
   using NeighbourLanes<W>::lane;
@@ -181,7 +185,7 @@ class SpreadTeam : public NeighbourLanes<W> {
 
   __device__ static void prefetch(const void*, int) {}
 
-  /// With as many parts as the block has warps.
+  /// Returns the total in warp 0; there are as many parts as the block has warps.
   template <class Accumulator, class... Parts>
   __device__ Accumulator sum(const Parts&... parts) const {
     constexpr int others = sizeof...(Parts) - 1;
@@ -200,9 +204,9 @@ class SpreadTeam : public NeighbourLanes<W> {
     return detail::total_of_lanes<W>(total);
   }
 
-  /// The team lanes of warp 0 have it.
+  /// Returns whether the thread is in warp 0, whose team lanes have the total.
   __device__ bool holds_total() const { return warp() == 0; }
-  /// Team lane 0 of them.
+  /// Returns whether the thread is team lane 0 of them.
   __device__ bool leader() const { return present_ && warp() == 0 && lane() == 0; }
 
  private:
@@ -233,7 +237,8 @@ class SerialLaneTeam : public NeighbourLanes<W> {
       asm volatile("prefetch.global.L2 [%0];" ::"l"(static_cast<const char*>(rows) + at));
   }
 
-  /// The first part must not be a pooled one: what it loads is read while the launch before may still run.
+  /// Returns the total. The first part must not be a pooled one: what it loads is read while the launch before may
+  /// still run.
   template <class Accumulator, class First, class... Others>
   __device__ Accumulator sum(const First& first, const Others&... others) const {
     Accumulator total{};
@@ -242,7 +247,7 @@ class SerialLaneTeam : public NeighbourLanes<W> {
     return detail::total_of_lanes<W>(total);
   }
 
-  /// Each team lane has it.
+  /// Returns true: each team lane has the total.
   __device__ static bool holds_total() { return true; }
   __device__ bool leader() const { return present_ && lane() == 0; }
 

@@ -1,4 +1,5 @@
-// Updates of vertices on a device by the sum of number OGC_SUM in DeviceSums: compiled once a sum (CMakeLists.txt).
+// Instantiates updates of vertices on a device with sum number OGC_SUM of DeviceSums; it is compiled once for each sum
+// (CMakeLists.txt).
 #include "fast/stages/update_vertices.hpp"
 
 #include "fast/cuda/backend.cuh"

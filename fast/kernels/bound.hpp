@@ -1,4 +1,4 @@
-// The conservative bound of a vertex (Eq. 21, 23, 25).
+// Computes the conservative bound of a vertex (Eq. 21, 23, 25).
 #pragma once
 
 #include "fast/kernels/arithmetic/rounding.hpp"
@@ -6,13 +6,14 @@
 
 namespace ogc::fast {
 
-/// b_v of a vertex inside a solid: nothing bounds it.
+/// b_v of a vertex inside a solid, which nothing bounds.
 inline constexpr float largest_float = 0x1.fffffep127f;
 
-/// Smallest distances before a query: r_q, as nothing is known beyond it. Index over the largest of the counts.
+/// Sets the smallest distances to r_q before a query, as nothing is known beyond it. Index over the largest of the
+/// counts.
 struct ResetDistances {
   const float* query_radius;  ///< r_q [m], on the backend
-  const int* overflow;        ///< on the backend; where it is not 0 a list was too small, and nothing is written
+  const int* overflow;        ///< on the backend; if it is not 0 a list was too small, and nothing is written
   int vertex_count, edge_count, triangle_count;
   float *d_min_vertex, *d_min_edge, *d_min_triangle;  ///< by vertex, edge and triangle [m]
 
@@ -24,17 +25,17 @@ struct ResetDistances {
   }
 };
 
-/// for_each over vertices: b_v = γ_p times the smallest distance of v, its edges and its triangles.
+/// Computes b_v, γ_p times the smallest distance of v, its edges and its triangles. Index over vertices.
 struct ConservativeBound {
   SurfaceView surface;
   /// by vertex, edge and triangle [m]: Eq. 22, 24, 26, at most r_q
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;
-  float bound_relaxation;  ///< γ_p of Eq. 21 [1]
-  const int* overflow;     ///< as in ResetDistances
-  float* bound;            ///< b_v by vertex [m], at most γ_p r_q; largest_float inside solids
+  float bounds_relaxation;  ///< γ_p of Eq. 21 [1]
+  const int* overflow;      ///< as in ResetDistances
+  float* bound;             ///< b_v by vertex [m], at most γ_p r_q; largest_float inside solids
 
-  /// The product of two single-precision numbers is exact in double, so the bound is the largest float that is not
-  /// above it.
+  /// Writes the bound. The product of two single-precision numbers is exact in double, so the bound is the largest
+  /// float that is not above it.
   OGC_HD void operator()(int v) const {
     if (*overflow != 0) return;
     if (surface.is_off_surface(v)) {
@@ -47,7 +48,7 @@ struct ConservativeBound {
       d = smaller(d, d_min_edge[vertex_edges.items[k]]);
     for (int k = vertex_triangles.offsets[v]; k < vertex_triangles.offsets[v + 1]; ++k)
       d = smaller(d, d_min_triangle[vertex_triangles.items[k]]);
-    bound[v] = round_down(mul(static_cast<double>(bound_relaxation), static_cast<double>(d)));
+    bound[v] = round_down(mul(static_cast<double>(bounds_relaxation), static_cast<double>(d)));
   }
 };
 

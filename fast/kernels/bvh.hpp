@@ -1,12 +1,12 @@
-// A tree of boxes over primitives in the order of a Hilbert curve, four children to a node. The children of level 0 are
-// the primitives themselves, those of each level above the nodes below, so that node j of level l has the nodes
-// 4j … 4j + 3 of level l − 1 for children and nothing but the start of each level is stored. A traversal keeps the
-// children that it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their
-// current positions, not inflated: the query brings its radius.
+// Builds a tree of boxes over primitives in the order of a Hilbert curve, four children to a node. The children of
+// level 0 are the primitives themselves, those of each level above are the nodes below. So node j of level l has the
+// children 4j … 4j + 3 of level l − 1, and only the start of each level is stored. A traversal keeps the children that
+// it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their current
+// positions, not inflated: the query brings its radius.
 //
-// Beside its box each child carries a `reach`: how far its primitives still have to look. A pair matters only if it is
-// nearer than r or could lower the smallest distance of one of its partners, and for most primitives a neighbour in the
-// mesh bounds that distance far below r_q before any search.
+// Each child also has a `reach`: how far its primitives still have to search. A pair matters only if it is nearer than
+// r or could lower the smallest distance of one of its partners, and for most primitives a neighbour in the mesh bounds
+// that distance far below r_q before any search.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@
 
 namespace ogc::fast {
 
-/// Beyond every distance: where an empty box lies, and a neighbour that a primitive lacks.
+/// Larger than every distance: position of an empty box, distance of a neighbour that a primitive lacks.
 inline constexpr float infinity = __builtin_huge_valf();
 
 /// A closed box; empty at first.
 struct Box {
   Vec lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};  ///< corners [m]
 
-  /// Grows the box just so far that it holds a point, another box.
+  /// Grows the box just enough to hold a point or another box.
   OGC_HD void include(const Vec& p) { include(Box{p, p}); }
   OGC_HD void include(const Box& b) {
     lower = {smaller(lower.x, b.lower.x), smaller(lower.y, b.lower.y), smaller(lower.z, b.lower.z)};
@@ -32,53 +32,53 @@ struct Box {
   }
 };
 
-/// Gap of two intervals; 0 where they meet.
+/// Returns the gap of two intervals; 0 if they meet.
 OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
 #if defined(__CUDA_ARCH__)
-  // one instruction each; another zero has the same square
+  // one instruction each; a zero of the other sign has the same square
   return fmaxf(fmaxf(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
 #else
   return larger(larger(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
 #endif
 }
 
-/// Squared distance of two boxes, at most (1 + u)⁵ times the exact one: one difference (twice), one product, two sums.
-/// Never smaller for a box inside.
+/// Returns the squared distance of two boxes, at most (1 + u)⁵ times the exact one: one difference (twice), one
+/// product, two sums. A box inside another one is never nearer.
 OGC_HD inline float squared_gap(const Box& a, const Box& b) {
   const float x = gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x), y = gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y);
   const float z = gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
   return add(add(mul(x, x), mul(y, y)), mul(z, z));
 }
 
-/// A length that is not above the exact distance of boxes with this squared_gap: the root errs by u, the gap by 2.5 u,
-/// the product by u.
+/// Returns a length that is not above the exact distance of boxes with this squared_gap: the root errs by u, the gap by
+/// 2.5 u, the product by u.
 OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 1 - 0x1p-21F); }
 
-/// A squared gap beyond this limit has gap_below ≥ reach: reach² (1 + 64 u) makes up for its 20 u and for the two
-/// roundings here.
+/// Returns a limit of squared gaps: beyond it gap_below ≥ reach. reach² (1 + 64 u) makes up for the 20 u of gap_below
+/// and for the two roundings here.
 OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0x1p-18F); }
 
-/// A box with the gap limit of its reach and, in level 0, the primitive in it: two reads of 16 B.
+/// Holds a box with the gap limit of its reach and, in level 0, its primitive; a thread reads it in two loads of 16 B.
 struct alignas(16) Child {
   Vec lower{infinity, infinity, infinity};     ///< of the box [m]
-  float reach = 0;                             ///< gap limit of how far its primitives still look [m²]
+  float reach = 0;                             ///< gap limit of the farthest search of its primitives [m²]
   Vec upper{-infinity, -infinity, -infinity};  ///< of the box [m]
   int primitive = -1;  ///< number of the facet or edge; −1 above level 0 and in an empty child
 
   OGC_HD Box box() const { return {lower, upper}; }
 };
 
-/// A node: four children, those without a box empty; as long as a line of a device's cache, and none lies in two.
+/// Holds a node: four children, empty ones without a box. It fills one cache line of a device.
 struct alignas(128) Quad {
   Child child[4];  ///< child k of node j is node 4 j + k of the level below, or place 4 j + k of the order
 
-  /// The box of all children.
+  /// Returns the box of all children.
   OGC_HD Box whole() const {
     Box all = child[0].box();
     for (int k = 1; k < 4; ++k) all.include(child[k].box());
     return all;
   }
-  /// The largest reach of a child.
+  /// Returns the largest reach of a child.
   OGC_HD float whole_reach() const {
     return larger(larger(child[0].reach, child[1].reach), larger(child[2].reach, child[3].reach));
   }
@@ -86,7 +86,7 @@ struct alignas(128) Quad {
 
 inline constexpr int max_levels = 16;  ///< 4 bits each in the 64 of a traversal; 4¹⁶ primitives
 
-/// A tree on the backend.
+/// Holds a tree on the backend.
 struct TreeView {
   Quad* nodes = nullptr;       ///< level by level, from start[level]
   const int* order = nullptr;  ///< primitive at each place
@@ -94,11 +94,11 @@ struct TreeView {
   int levels = 0;              ///< at least 2; the last has one node
   int start[max_levels] = {};  ///< number of each level's first node
 
-  /// Node j of a level, in place.
+  /// Returns node j of a level, by reference.
   OGC_HD Quad& node(int level, int j) const { return nodes[start[level] + j]; }
 };
 
-/// Number of the lowest bit that is set; n > 0.
+/// Returns the number of the lowest bit that is set; n > 0.
 OGC_HD inline int lowest_bit(std::uint64_t n) {
 #if defined(__CUDA_ARCH__)
   return __ffsll(static_cast<long long>(n)) - 1;
@@ -107,8 +107,8 @@ OGC_HD inline int lowest_bit(std::uint64_t n) {
 #endif
 }
 
-/// Squared gaps of a box and the four children, and a bit for each child whose gap is within the limit or the child's
-/// own reach.
+/// Holds the squared gaps of a box to four children, and a bit for each child whose gap is within the limit or the
+/// child's own reach.
 struct QuadGaps {
   float child[4];  ///< squared gaps [m²]
   unsigned near;   ///< bit k: child k
@@ -120,7 +120,7 @@ struct QuadGaps {
 
 #if defined(__CUDACC__)
 
-/// Limits are squared, as gap_limit makes them [m²].
+/// Computes the gaps. Limits are squared, as gap_limit makes them [m²].
 OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
   QuadGaps gaps{{}, 0};
   for (unsigned i = 0; i < 4; ++i) {
@@ -132,19 +132,20 @@ OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limi
 
 #else
 
-/// All four at once: fast/cpu/packed_gaps.hpp.
+/// Computes all four gaps at once; defined in fast/cpu/packed_gaps.hpp.
 inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit);
 
 #endif
 
-/// A primitive that a leaf offers to a search: the squared gap of their boxes, and the gap limit of its reach.
+/// Holds a primitive that a leaf offers to a search, with the squared gap of their boxes and the gap limit of its
+/// reach.
 struct Offer {
   int primitive;     ///< number of the facet or edge
   float gap, reach;  ///< squared gap and gap limit [m²]
 };
 
 /// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own
-/// reach. The visitor may lower `limit` on the way. `Tree`: a TreeView, or one that counts the nodes that are opened
+/// reach. The visitor may lower `limit` meanwhile. `Tree` is a TreeView, or a type that counts opened nodes
 /// (fast/work.cpp).
 template <class Tree, class Visit>
 OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const float& limit, Visit visit) {
@@ -179,21 +180,21 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
   }
 }
 
-/// How far the primitives have to look at most: r_q, or an upper bound of the distance to a neighbour in the mesh
-/// (SurfaceView's seeds). The bound is that of a vertex and an edge whose faces form a pair which the query must find,
-/// so the smallest distance is not above it.
+/// Computes how far primitives have to search at most: r_q, or an upper bound of the distance to a neighbour in the
+/// mesh (SurfaceView's seeds). The bound is the distance of a vertex to an edge whose faces form a pair that the query
+/// must find, so the smallest distance is not above it.
 struct Reach {
   SurfaceView surface;
   const Vec* positions;       ///< by vertex [m]
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// Reach of an edge [m].
+  /// Returns the reach of an edge [m].
   OGC_HD float of_edge(int e) const {
     Nearest nearest;
     for (const int v : surface.edge_seeds[e].vertex) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
     return above(nearest);
   }
-  /// Reach of a facet [m].
+  /// Returns the reach of a facet [m].
   OGC_HD float of_facet(int t) const {
     const Facet& facet = surface.facets[t];
     Nearest nearest;
@@ -201,7 +202,7 @@ struct Reach {
       consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
     return above(nearest);
   }
-  /// Reach of a vertex [m].
+  /// Returns the reach of a vertex [m].
   OGC_HD float of_vertex(int v) const {
     Nearest nearest;
     for (const int e : surface.vertex_seeds[v].edge) {
@@ -220,28 +221,28 @@ struct Reach {
     nearest.squared = smaller(nearest.squared, squared_to_segment(u, e));
     nearest.size = larger(nearest.size, add(norm_1(u), norm_1(e)));
   }
-  /// The root of squared_to_segment errs by 2⁻⁴⁸ of the sum of both lengths.
+  /// Returns the reach, rounded up. The root of squared_to_segment errs by 2⁻⁴⁸ of the sum of both lengths.
   OGC_HD float above(const Nearest& nearest) const {
     return smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
   }
 };
 
-/// Nodes of one level, or with level −1 the primitives; one, with empty children, where there are none.
+/// Returns the number of nodes of a level, or of primitives for level −1; 1, with empty children, if there are none.
 OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
 
-/// Boxes and gap limits of the reaches of all primitives and of the nodes above them, and those limits of the vertices;
-/// index: places of the facets, of the edges, each kind filled up to a multiple of 32, vertices. The thread that
-/// completes the 16 grandchildren of a node goes on with this node: the whole tree in one launch. Which thread it is
-/// changes no bit. A warp of a device holds 32 neighbours, which must call this together, so that the lowest two levels
-/// never leave its registers.
+/// Computes boxes and gap limits of the reach of all primitives and of the nodes above them, and the gap limits of
+/// vertices. Index: places of the facets, of the edges, each filled up to a multiple of 32, then vertices. The thread
+/// that completes the 16 grandchildren of a node goes on with this node, so that one launch refits the whole tree; no
+/// bit depends on which thread it is. A warp of a device holds 32 neighbours that must call this together, so that the
+/// lowest two levels never leave its registers.
 struct RefitTrees {
   Reach reach;
   TreeView facets, edges;               ///< in the order of the last rebuild; their boxes and reaches are written
-  int *facet_arrivals, *edge_arrivals;  ///< a number for each node, 0 between two launches
+  int *facet_arrivals, *edge_arrivals;  ///< a count for each node, 0 between two launches
   float* vertex_limit;                  ///< by vertex: gap limit of its reach [m²], written
   int vertex_count;
 
-  /// Next multiple of a warp, and the items of the launch.
+  /// Returns the next multiple of a warp; count() returns the items of the launch.
   OGC_HD static int filled_up(int count) { return (count + 31) / 32 * 32; }
   OGC_HD int count() const { return filled_up(facets.count) + filled_up(edges.count) + filled_up(vertex_count); }
 
@@ -256,7 +257,7 @@ struct RefitTrees {
     }
   }
 
-  /// A place of a tree, with which its thread climbs; beyond the primitives the child is empty.
+  /// Writes a place of a tree and climbs from it; beyond the primitives the child is empty.
   template <class Of>
   OGC_HD static void place(const TreeView& tree, int* arrivals, int j, Of child_of) {
     Child own;
@@ -281,8 +282,8 @@ struct RefitTrees {
 
   static constexpr unsigned everyone = 0xffffffffU;
 
-  /// The child that holds those of four neighbours, or of four threads that stand `apart` from each other, in each of
-  /// them.
+  /// Returns the child that holds four children: those of neighbouring threads, or of threads that are `apart` from
+  /// each other. All four threads get it.
   OGC_HD static Child of_four(Child child, int apart) {
     for (int step = apart; step <= 2 * apart; step *= 2) {
       const auto other = [step](float number) { return __shfl_xor_sync(everyone, number, step); };
@@ -294,11 +295,11 @@ struct RefitTrees {
     return child;
   }
 
-  /// The child at a place, and up from there. 16 neighbours go on together, as long as they complete the grandchildren
-  /// of a node: each reads one of them.
+  /// Writes the child at a place and climbs from there. 16 neighbours go on together, as long as they complete the
+  /// grandchildren of a node: each reads one of them.
   OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, Child own) {
     const int lane = static_cast<int>(threadIdx.x % 16);
-    int node = j / 16;  // of level 1, and so on
+    int node = j / 16;  // of level 1 first
     bool goes_on = j - lane < tree.count;
     if (j < tree.count) tree.node(0, j / 4).child[j % 4] = own;
     for (int level = 1;; level += 2) {
@@ -322,7 +323,7 @@ struct RefitTrees {
 
 #else
 
-  /// The child at a place, and up from there as far as no other thread is still to come.
+  /// Writes the child at a place and climbs from there until another thread is still to come.
   OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, const Child& own) {
     if (j >= tree.count) return;
     tree.node(0, j / 4).child[j % 4] = own;
@@ -334,13 +335,14 @@ struct RefitTrees {
     }
   }
 
-  /// A node as the child of the one above.
+  /// Returns a node as the child of the node above it.
   OGC_HD static Child whole(const Quad& quad) {
     const Box box = quad.whole();
     return {box.lower, quad.whole_reach(), box.upper, -1};
   }
 
-  /// Given the nodes of level `level` − 1, the children of node j of `level` and itself as a child of the one above.
+  /// Writes the children of node j of `level`, given the nodes of the level below, and the node as a child of the one
+  /// above.
   OGC_HD static void refit_node(const TreeView& tree, int level, int j) {
     Quad& quad = tree.node(level, j);
     const int below = level_size(tree.count, level - 1);
@@ -353,7 +355,7 @@ struct RefitTrees {
 #endif
 };
 
-/// The 20 low bits of n, two zeros between each and the next.
+/// Returns the 20 low bits of n with two zeros between neighbouring bits.
 OGC_HD inline std::uint64_t spread_bits(std::uint64_t n) {
   n = (n | n << 32) & 0x001f00000000ffffULL;
   n = (n | n << 16) & 0x001f0000ff0000ffULL;
@@ -367,9 +369,9 @@ struct Cell {
   std::uint32_t axis[3];  ///< along x, y and z, below 2²⁰
 };
 
-/// The place of a cell on the Hilbert curve (Skilling 2004, "Programming the Hilbert curve"). Cells one after the other
-/// touch, so that each four primitives in this order lie close together; Morton's order jumps, and its nodes overlap
-/// more (fast/PERFORMANCE.md).
+/// Returns the place of a cell on the Hilbert curve (Skilling 2004, "Programming the Hilbert curve"). Consecutive cells
+/// touch, so four consecutive primitives lie close together; Morton's order jumps, and its nodes overlap more
+/// (fast/PERFORMANCE.md).
 OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
   constexpr std::uint32_t top = 1U << 19;
   std::uint32_t* x = cell.axis;
@@ -388,18 +390,18 @@ OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
   return spread_bits(x[0] ^ flips) << 2 | spread_bits(x[1] ^ flips) << 1 | spread_bits(x[2] ^ flips);
 }
 
-/// Hilbert keys of all vertices, edges and facets that are searched, for one sort; two bits above them keep the three
-/// kinds apart.
+/// Writes the Hilbert keys of all vertices, edges and facets that are searched, for one sort; two bits above the keys
+/// keep the three kinds apart.
 struct HilbertKeys {
   static constexpr int kind_bit = 60;
-  /// A sort need not look below this bit: cells of a 1024th of the extent hold few primitives, which then stand in the
+  /// Lowest bit that a sort has to look at: cells of a 1024th of the extent hold few primitives, which then keep the
   /// order of their numbers.
   static constexpr int lowest_sorted_bit = 30;
 
   SurfaceView surface;
   const Vec* positions;    ///< by vertex [m]
-  TreeView facets, edges;  ///< refitted: their roots give the extent
-  std::uint64_t* keys;     ///< kind, from kind_bit on; below: place on the curve
+  TreeView facets, edges;  ///< refitted; their roots give the extent
+  std::uint64_t* keys;     ///< kind from kind_bit on, place on the curve below
   int* values;             ///< number within its kind; the sort moves it with its key
 
   OGC_HD void operator()(int i) const {

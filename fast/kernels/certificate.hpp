@@ -1,4 +1,4 @@
-// The motion certificate (method.md §5.5): on stored positions, in double.
+// Checks the motion certificate (method.md §5.5) on stored positions, in double.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
@@ -7,8 +7,8 @@
 
 namespace ogc::fast {
 
-/// ‖x − X_prev‖ > b_v. Differences of single-precision numbers of one size are exact in double; the squares leave 2⁻⁵²
-/// of b².
+/// Returns whether ‖x − X_prev‖ > b_v. Differences of single-precision numbers of one size are exact in double; the
+/// squares leave an error of 2⁻⁵² b².
 OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
   const Vec& previous = ball.centre;
   const double x = static_cast<double>(position.x) - previous.x, y = static_cast<double>(position.y) - previous.y,
@@ -16,7 +16,8 @@ OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
   return x * x + y * y + z * z > static_cast<double>(ball.radius) * ball.radius;
 }
 
-/// Not in the region for certain: beyond the ball, or a half-space that the test of stored positions refuses.
+/// Returns whether a position is not proved to be in the region: it is beyond the ball, or a half-space fails the test
+/// of stored positions.
 OGC_HD inline bool is_outside(const FeasibleRegion& region, const Vec& position) {
   for (int k = 0; k < region.count; ++k)
     if (!is_behind(region.planes[k], position)) return true;

@@ -1,6 +1,6 @@
-// Point and triangle: distance (in rounded double, with a derived slack), and the face that holds the closest point (by
-// exact signs). The distance does not jump between faces, so it may be taken before, and without, the exact decision;
-// only pairs closer than r pay for that.
+// Computes the distance of a point and a triangle (in rounded double, with a derived slack), and the face that holds
+// the closest point (by exact signs). The distance does not jump between faces, so it may be taken before, and without,
+// the exact decision; only pairs closer than r pay for that.
 #pragma once
 
 #include "compare/stages/closest_face.hpp"
@@ -11,7 +11,7 @@ namespace ogc::fast {
 
 using compare::TriangleFeature;
 
-/// Corners of a triangle in the order of the mesh.
+/// Holds the corners of a triangle in the order of the mesh.
 template <class T>
 struct CornersOf {
   Vector<T> a, b, c;  ///< [m]
@@ -20,19 +20,19 @@ struct CornersOf {
 };
 using Corners = CornersOf<float>;
 
-/// Whether x is surely on the inner side of the edge e from its first end, u = x − first end, w = third corner − first
-/// end: Side beyond its 16 roundings.
+/// Returns whether x is surely on the inner side of the edge e: Side, beyond its 16 roundings. u = x − first end, w =
+/// third corner − first end.
 OGC_HD inline bool is_inside(const Real& u, const Real& w, const Real& e) {
   return perpendicular_product(u, w, e).value > mul(mul(mul(0x1p-48, norm_1(u)), norm_1(w)), squared(e));
 }
 
-/// Distance of x and the closed triangle.
+/// Returns the distance of x and the closed triangle.
 ///
-/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: where a side is in doubt the outline counts. A
-/// foot inside is then nearer to that edge's line, and so to the outline, than 2⁻⁴⁸ ‖u‖₁‖w‖₁‖e‖/‖n‖ ≤ √3 2⁻⁴⁸ S L²/‖n‖;
-/// a foot outside is not moved at all, which matters at a sharp corner, where one that is a rounding beyond two edges
-/// can be far from the triangle. The normal's 4 roundings tilt the plane by less than 2⁻⁵¹ S L²/‖n‖: under 2⁻⁴⁷
-/// together. A triangle lower than 2⁻²⁴ L counts as its outline, no point of it being farther from that. Both limits
+/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: if a side is in doubt the distance to the
+/// outline is taken. A foot inside is then nearer to that edge's line, and so to the outline, than 2⁻⁴⁸ ‖u‖₁‖w‖₁‖e‖/‖n‖
+/// ≤ √3 2⁻⁴⁸ S L²/‖n‖. A foot outside is not moved at all: at a sharp corner a foot that lies beyond two edges by a
+/// rounding can be far from the triangle. The normal's 4 roundings tilt the plane by less than 2⁻⁵¹ S L²/‖n‖: under
+/// 2⁻⁴⁷ together. A triangle lower than 2⁻²⁴ L counts as its outline, from which no point of it is farther. Both limits
 /// stay under 2 u S.
 OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
   const Real u = difference<Rounded>(x, t.a), v = difference<Rounded>(x, t.b), e = difference<Rounded>(t.b, t.a),
@@ -59,9 +59,9 @@ OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
 /// Facet::descending of a triangle whose corners are numbered in order.
 inline constexpr unsigned corners_in_order = 4;
 
-/// The face of the triangle whose interior holds the point closest to x; where two faces meet the lower-dimensional one
-/// wins. The signs partition space; a triangle without area can offer several faces, of which the first is taken.
-/// `descending`: see Facet.
+/// Returns the face of the triangle whose interior holds the point closest to x; where two faces meet the
+/// lower-dimensional one wins. The signs partition space; a triangle without area can offer several faces, of which the
+/// first is taken. `descending`: see Facet.
 OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t, unsigned descending = corners_in_order) {
   bool before[3][2];  // edge k from corner k to k + 1: before its first, its second end
   for (int k = 0; k < 3; ++k) {
@@ -81,7 +81,7 @@ OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t, un
   return TriangleFeature::interior;
 }
 
-/// Barycentric weights of the point of `feature` closest to x, ≥ 0.
+/// Returns the barycentric weights, ≥ 0, of the point of `feature` closest to x.
 OGC_HD inline Vec closest_weights(const Vec& x, const Corners& t, TriangleFeature feature) {
   const auto on_edge = [&x](const Vec& a, const Vec& b) {
     return segment_parameter(difference<Rounded>(x, a), difference<Rounded>(b, a));
@@ -105,8 +105,8 @@ OGC_HD inline Vec closest_weights(const Vec& x, const Corners& t, TriangleFeatur
   return stored(larger(0.0, sub(sub(1.0, at_b), at_c)), larger(0.0, at_b), larger(0.0, at_c));
 }
 
-/// Whether x is nearer than r to the triangle, whose closest face is `feature` and whose distance is `d`: exact where
-/// the slack leaves it open.
+/// Returns whether x is nearer than r to the triangle, whose closest face is `feature` and whose distance is `d`;
+/// decides exactly if the slack leaves it open.
 OGC_HD inline bool is_within(const Vec& x, const Corners& t, TriangleFeature feature, const Distance& d, float r) {
   if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
   switch (feature) {

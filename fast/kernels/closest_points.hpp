@@ -1,6 +1,6 @@
-// Two edges: distance (in rounded double, with a derived slack), and the faces that hold the closest points (by exact
-// signs), with the rule of method.md §1.4 for nearly parallel edges. The least squares problem is convex, so a face
-// pair is right iff its own first-order conditions hold: no solve decides.
+// Computes the distance of two edges (in rounded double, with a derived slack), and the faces that hold the closest
+// points (by exact signs), with the rule of method.md §1.4 for nearly parallel edges. The least squares problem is
+// convex, so a pair of faces is right iff its own first-order conditions hold: no solve decides.
 #pragma once
 
 #include "compare/stages/closest_points.hpp"
@@ -11,7 +11,7 @@ namespace ogc::fast {
 
 using compare::EdgeFeature;
 
-/// The two ends of an edge, lower-numbered vertex first.
+/// Holds the two ends of an edge, lower-numbered vertex first.
 template <class T>
 struct EndsOf {
   Vector<T> a, b;  ///< [m]
@@ -20,25 +20,25 @@ struct EndsOf {
 };
 using Ends = EndsOf<float>;
 
-/// Where on two edges their closest points lie.
+/// The faces of two edges that hold their closest points.
 struct EdgePairFeatures {
   EdgeFeature first = EdgeFeature::interior, second = EdgeFeature::interior;
   bool nearly_parallel = false;  ///< decided with is_overlapping_parallel; closest_edge_features leaves it false
 };
 
-/// Smallest distance of an end of one edge from the other edge [m]: e and f the edges, w from where e starts to where f
-/// does.
+/// Returns the smallest distance of an end of one edge from the other edge [m]; e and f are the edges, w leads from the
+/// start of e to the start of f.
 OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const Real& f) {
   const double of_first = smaller(squared_to_segment(-w, f), squared_to_segment(e - w, f));
   return square_root(smaller(of_first, smaller(squared_to_segment(w, e), squared_to_segment(w + f, e))));
 }
 
-/// Distance of the two closed edges.
+/// Returns the distance of the two closed edges.
 ///
 /// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction and the place of the foot err by 32
 /// roundings of 1/θ and S/θ², and the foot's error moves the distance by θ times as much: under 2⁻⁴⁷ S/θ. At θ < 2⁻²³
-/// two edges are nowhere nearer than an end by more than θ ‖shorter‖. Below θ = 2⁻⁸ the distance is that of a point of
-/// the one edge from the other, never that of the lines: those can meet where the edges end.
+/// no points of two edges are nearer than an end by more than θ ‖shorter‖. Below θ = 2⁻⁸ the distance is taken from a
+/// point of one edge to the other, never between the lines, which can meet where the edges end.
 OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a),
              n = cross(e, f);
@@ -57,8 +57,8 @@ OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   return {smaller(of_point, smallest_end_distance(w, e, f)), slack};
 }
 
-/// The faces that hold the closest points, whatever the angle; of several equally near pairs (parallel or zero-length
-/// edges) the first in order.
+/// Returns the faces that hold the closest points, whatever the angle; of several equally near pairs (parallel or
+/// zero-length edges) the first in order.
 OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& q) {
   // [end][end of the other edge]: the one lies before the other, seen along the other edge
   bool p_before[2][2], q_before[2][2];
@@ -84,16 +84,16 @@ OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& 
   return {};
 }
 
-/// Whether nearly parallel edges have projections that overlap in more than a point; p is the lower-numbered edge, on
-/// whose line they are compared.
+/// Returns whether nearly parallel edges have projections that overlap in more than a point; p is the lower-numbered
+/// edge, on whose line they are compared.
 OGC_HD inline bool is_overlapping_parallel(const Ends& p, const Ends& q) {
   if (exact_sign(NearlyParallel{p.a, p.b, q.a, q.b}) <= 0) return false;
   const bool reaches_a = exact_sign(End{q.a, p.a, p.b}) > 0 || exact_sign(End{q.b, p.a, p.b}) > 0;
   return reaches_a && (exact_sign(End{q.a, p.b, p.a}) > 0 || exact_sign(End{q.b, p.b, p.a}) > 0);
 }
 
-/// Whether the edges are nearer than r, given the faces `on` of closest_edge_features: exact where the slack leaves it
-/// open.
+/// Returns whether the edges are nearer than r, given the faces `on` of closest_edge_features; decides exactly if the
+/// slack leaves it open.
 OGC_HD inline bool is_within(const Ends& p, const Ends& q, EdgePairFeatures on, const Distance& d, float r) {
   if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
   const bool first_inside = on.first == EdgeFeature::interior, second_inside = on.second == EdgeFeature::interior;
@@ -108,9 +108,9 @@ struct EdgeParameters {
   double first = 0, second = 0;
 };
 
-/// One end of the overlap of two nearly parallel edges: q's end or, where that lies beyond p, p's; on p, and as seen
-/// along the line of q. Measured from q's own end where it is that: taken from p's, a difference would be rounded at
-/// the size of p, 10⁷ roundings of an edge that is 10⁻⁷ as long.
+/// Returns one end of the overlap of two nearly parallel edges, on p and projected on the line of q: q's end or, if
+/// that lies beyond p, p's. At q's end the parameter of q is measured from that end: measured from p's, a difference
+/// would be rounded at the size of p, which is 10⁷ roundings of an edge that is 10⁻⁷ as long.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);
@@ -119,17 +119,17 @@ OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) 
   return {divide(along, ee), sub(end, divide(divide(dot(cross(e, u), cross(e, f)).value, ee), ff))};
 }
 
-/// The number of [0, 1] that is nearest to s.
+/// Clamps s to [0, 1].
 OGC_HD inline double clamped_parameter(double s) { return smaller(larger(s, 0.0), 1.0); }
 
-/// Middle of the overlap on the first edge, and its projection on the closed second edge.
+/// Returns the middle of the overlap on the first edge, and its projection on the closed second edge.
 OGC_HD inline EdgeParameters overlap_parameters(const Ends& p, const Ends& q) {
   const EdgeParameters from = overlap_end(p, q, 0), to = overlap_end(p, q, 1);
   return {mul(0.5, add(from.first, to.first)), clamped_parameter(mul(0.5, add(from.second, to.second)))};
 }
 
-/// The points whose distance the force takes, given the faces that hold them. Of nearly parallel edges they are not the
-/// closest ones but the middle of the overlap and its projection (method.md §1.4).
+/// Returns the points whose distance the force takes, given the faces that hold them. For nearly parallel edges these
+/// are the middle of the overlap and its projection (method.md §1.4), not the closest points.
 OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, EdgePairFeatures on) {
   if (on.nearly_parallel) return overlap_parameters(p, q);
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);
@@ -143,7 +143,7 @@ OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, Ed
           clamped_parameter(divide(dot(cross(w, e), n).value, nn))};
 }
 
-/// Distance of the points at these parameters [m].
+/// Returns the distance of the points at these parameters [m].
 OGC_HD inline double points_distance(const Ends& p, const Ends& q, EdgeParameters at) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);
   return square_root(squared(w + Rounded{at.second} * f - Rounded{at.first} * e));

@@ -1,4 +1,5 @@
-// The second half of both detections: of the pairs that the searches noted, those that are contacts, one thread a pair.
+// Decides which of the pairs that the searches noted are contacts, one thread a pair: the second half of both
+// detections.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -8,12 +9,13 @@ namespace ogc::fast {
 
 /// Enters the contacts among the noted pairs. Index over these pairs.
 struct CollectContacts {
-  static constexpr int resident_blocks = 4;  ///< 128 registers; 6 spill more than more warps win (fast/PERFORMANCE.md)
-  CollectVertexFacet vertex_facet;           ///< decides pairs whose first number is negative, ~vertex
+  /// gives 128 registers; at 6 the spills cost more than the added warps win (fast/PERFORMANCE.md)
+  static constexpr int resident_blocks = 4;
+  CollectVertexFacet vertex_facet;  ///< decides pairs whose first number is negative, ~vertex
   /// decides pairs of edges; its radius also leaves out pairs that were noted for their planes alone
   CollectEdgeEdge edge_edge;
-  ListsView lists;                   ///< where contacts are entered, and whose overflow flag ends the launch
-  const float* distances = nullptr;  ///< of the noted pairs, rounded down [m], where those beyond r are noted, too
+  ListsView lists;                   ///< contacts are entered here; the overflow flag ends the launch
+  const float* distances = nullptr;  ///< of the noted pairs, rounded down [m]; set if pairs beyond r are noted, too
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
@@ -22,7 +24,7 @@ struct CollectContacts {
     if (found.bucket >= 0) lists.enter(found, {edge_edge.surface});
   }
 
-  /// The contact that the i-th pair is; its bucket is −1 where it is none.
+  /// Returns the contact of the i-th pair; its bucket is −1 if the pair is none.
   OGC_HD RawContact contact(int i) const {
     if (distances != nullptr && !(distances[i] < edge_edge.contact_radius)) return {-1, -1, -1, -1};
     const NotedPair pair = lists.noted[i];
@@ -31,7 +33,7 @@ struct CollectContacts {
     return pair.first < 0 ? vertex_facet(~pair.first, second, certain) : edge_edge(pair.first, second, certain);
   }
 
-  /// The vertices of both sides of the i-th pair.
+  /// Returns the vertices of both sides of the i-th pair.
   OGC_HD RoleVertices vertices(int i) const {
     const NotedPair pair = lists.noted[i];
     const int second = pair.second < 0 ? ~pair.second : pair.second;

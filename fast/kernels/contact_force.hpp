@@ -39,9 +39,33 @@ OGC_HD inline float closest_on_segment(const Vec& along, const Vec& from_start) 
   return t < length_squared ? t / length_squared : 1.0f;
 }
 
+/// t within [0, 1]; 0 for NaN.
+template <class T>
+OGC_HD T clamp_unit(const T& t) {
+  return select(t > T(0.0f), select(t < T(1.0f), t, T(1.0f)), T(0.0f));
+}
+
 /// Barycentric weights of the point of the closed triangle (a, b, c) closest to p.
-struct TriangleWeights {
-  float a = 0, b = 0, c = 0;  ///< ≥ 0; they add up to 1 but for rounding
+template <class T>
+struct TriangleWeightsOf {
+  T a{}, b{}, c{};  ///< ≥ 0; they add up to 1 but for rounding
+};
+using TriangleWeights = TriangleWeightsOf<float>;
+
+/// Where the point x[0] lies about the triangle (x[1], x[2], x[3]).
+template <class T>
+struct PointAndTriangle {
+  Vector<T> ab, ac, ap;
+  T area, a, b, c;  ///< the squared normal, and the weights over the plane times it
+
+  OGC_HD explicit PointAndTriangle(const Vector<T>* x) : ab(x[2] - x[1]), ac(x[3] - x[1]), ap(x[0] - x[1]) {
+    const Vector<T> normal = cross(ab, ac);
+    area = dot(normal, normal);
+    b = dot(cross(ap, ac), normal), c = dot(cross(ab, ap), normal), a = area - b - c;
+  }
+  /// Whether the point lies over the interior, and then the weights.
+  OGC_HD Mask<T> is_inside() const { return a > T(0.0f) && b > T(0.0f) && c > T(0.0f); }
+  OGC_HD TriangleWeightsOf<T> weights() const { return {a / area, b / area, c / area}; }
 };
 
 namespace detail {
@@ -60,10 +84,10 @@ OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
 /// that is not their common corner wins. Signs of weights decide: distances of points far above a corner agree in all
 /// digits long before their feet do. Below a sine of 2⁻²⁰ at a (16 roundings) the signs say nothing.
 OGC_HD inline TriangleWeights closest_on_triangle(const Vec* x) {
-  const Vec ab = x[2] - x[1], ac = x[3] - x[1], ap = x[0] - x[1], normal = cross(ab, ac);
-  const float area = dot(normal, normal);
-  const float b = dot(cross(ap, ac), normal), c = dot(cross(ab, ap), normal), a = area - b - c;
-  if (a > 0 && b > 0 && c > 0) return {a / area, b / area, c / area};
+  const PointAndTriangle<float> at(x);
+  if (at.is_inside()) return at.weights();
+  const Vec &ab = at.ab, &ac = at.ac, &ap = at.ap;
+  const float area = at.area, a = at.a, b = at.b, c = at.c;
   const Vec bc = x[3] - x[2], bp = x[0] - x[2];
   const float ab_squared = dot(ab, ab), ac_squared = dot(ac, ac);
   if (!(area > 0x1p-40f * ab_squared * ac_squared)) {
@@ -85,35 +109,58 @@ OGC_HD inline TriangleWeights closest_on_triangle(const Vec* x) {
 }
 
 /// Parameters in [0, 1] of the closest points of two closed segments.
-struct SegmentParameters {
-  float first = 0, second = 0;
+template <class T>
+struct SegmentParametersOf {
+  T first{}, second{};
+};
+using SegmentParameters = SegmentParametersOf<float>;
+
+/// Two segments start + s·first and start + between + t·second.
+template <class T>
+struct TwoSegments {
+  Vector<T> first, second, between;
+  T aa, bb, ab, sine, to_start;  ///< squares and product of both, ‖first × second‖², first · between
+
+  OGC_HD TwoSegments(const Vector<T>& along_first, const Vector<T>& along_second, const Vector<T>& apart)
+      : first(along_first),
+        second(along_second),
+        between(apart),
+        aa(dot(first, first)),
+        bb(dot(second, second)),
+        ab(dot(first, second)) {
+    const Vector<T> normal = cross(first, second);
+    sine = dot(normal, normal), to_start = dot(first, between);
+  }
+  /// Whether they are nearly parallel: ‖e × e'‖² < 10⁻⁶ ‖e‖² ‖e'‖².
+  OGC_HD Mask<T> is_parallel() const { return sine < 1e-6f * aa * bb; }
+  /// Whether `parameters` holds: no length is zero, and they are not nearly parallel.
+  OGC_HD Mask<T> is_usual() const { return aa > T(0.0f) && bb > T(0.0f) && !is_parallel(); }
+  OGC_HD SegmentParametersOf<T> parameters() const {
+    return beside(clamp_unit(dot(cross(between, second), cross(first, second)) / sine));
+  }
+  /// The closest point of the second segment to the point s of the first, and, where that is an end, the closest one of
+  /// the first to it.
+  OGC_HD SegmentParametersOf<T> beside(const T& s) const {
+    const T t = (s * ab - dot(second, between)) / bb;
+    const Mask<T> is_inside = t > T(0.0f) && t < T(1.0f);
+    if (is_false(!is_inside)) return {s, t};
+    const T end = select(t > T(0.0f), T(1.0f), T(0.0f));
+    return {select(is_inside, s, clamp_unit((to_start + end * ab) / aa)), select(is_inside, t, end)};
+  }
 };
 
-/// t within [0, 1]; 0 for NaN.
-OGC_HD inline float clamp_unit(float t) { return t > 0 ? (t < 1 ? t : 1.0f) : 0.0f; }
-
-/// Segments start + s·first and start + between + t·second. Nearly parallel (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) with an overlap
-/// of more than a point: the middle of the overlap on the first, its projection on the second (method.md §1.4), which
-/// needs the first to be the lower-numbered edge. Lengths of zero are legal.
-OGC_HD inline SegmentParameters closest_on_segments(const Vec& first, const Vec& second, const Vec& between) {
-  const float aa = dot(first, first), bb = dot(second, second), ab = dot(first, second);
-  const Vec normal = cross(first, second);
-  const float sine = dot(normal, normal), to_start = dot(first, between);
-  if (!(aa > 0)) return {0.0f, closest_on_segment(second, Vec{} - between)};
-  if (!(bb > 0)) return {closest_on_segment(first, between), 0.0f};
-  float s = 0;
-  if (sine < 1e-6f * aa * bb) {
-    const float p = to_start / aa, q = (to_start + ab) / aa;
-    const float low = clamp_unit(p < q ? p : q), high = clamp_unit(p < q ? q : p);
-    s = 0.5f * (low + high);
-    if (high > low) return {s, closest_on_segment(second, s * first - between)};
-  } else {
-    s = clamp_unit(dot(cross(between, second), normal) / sine);
-  }
-  const float t = (s * ab - dot(second, between)) / bb;
-  if (t > 0 && t < 1) return {s, t};
-  const float end = t > 0 ? 1.0f : 0.0f;
-  return {clamp_unit((to_start + end * ab) / aa), end};
+/// Of nearly parallel segments with an overlap of more than a point: the middle of the overlap on the first, its
+/// projection on the second (method.md §1.4), which needs the first to be the lower-numbered edge. Lengths of zero are
+/// legal.
+OGC_HD inline SegmentParameters closest_on_segments(const TwoSegments<float>& at) {
+  if (at.is_usual()) return at.parameters();
+  if (!(at.aa > 0)) return {0.0f, closest_on_segment(at.second, Vec{} - at.between)};
+  if (!(at.bb > 0)) return {closest_on_segment(at.first, at.between), 0.0f};
+  if (!at.is_parallel()) return at.parameters();  // not a number
+  const float p = at.to_start / at.aa, q = (at.to_start + at.ab) / at.aa;
+  const float low = clamp_unit(p < q ? p : q), high = clamp_unit(p < q ? q : p);
+  const float s = 0.5f * (low + high);
+  return high > low ? SegmentParameters{s, closest_on_segment(at.second, s * at.first - at.between)} : at.beside(s);
 }
 
 /// Weights w of the closest points by slot [1]; 0 for a slot that the kind lacks.
@@ -129,6 +176,16 @@ struct ContactWeightsOf {
 };
 using ContactWeights = ContactWeightsOf<float>;
 
+/// Those of a segment and a segment, and of a point and a triangle.
+template <class T>
+OGC_HD ContactWeightsOf<T> weights_of(const SegmentParametersOf<T>& at) {
+  return {{1.0f - at.first, at.first, at.second - 1.0f, -at.second}};
+}
+template <class T>
+OGC_HD ContactWeightsOf<T> weights_of(const TriangleWeightsOf<T>& at) {
+  return {{T(1.0f), -at.a, -at.b, -at.c}};
+}
+
 /// Which pairs a contact is of: where it is known, formulas of kinds that do not occur take no room among a device's
 /// instructions.
 enum class PairKind { any, vertex_facet, edge_edge };
@@ -142,11 +199,9 @@ OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
     return {{1, 0, t - 1, -t}};
   }
   if (pairs == PairKind::edge_edge || (pairs == PairKind::any && kind == ContactKind::segment_segment)) {
-    const SegmentParameters w = closest_on_segments(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
-    return {{1 - w.first, w.first, w.second - 1, -w.second}};
+    return weights_of(closest_on_segments({x[1] - x[0], x[3] - x[2], x[2] - x[0]}));
   }
-  const TriangleWeights w = closest_on_triangle(x);
-  return {{1, -w.a, -w.b, -w.c}};
+  return weights_of(closest_on_triangle(x));
 }
 
 /// Σ w_i x_i, from differences to slot 0.
@@ -167,11 +222,13 @@ struct ContactShapeOf {
 using ContactShape = ContactShapeOf<float>;
 
 /// From Σ w_i x_i.
-OGC_HD inline ContactShape contact_shape(const Vec& separation, float contact_radius) {
-  const float squared = dot(separation, separation);
-  if (!(squared >= 0x1p-126f)) return {};
-  const float distance = sqrtf(squared);
-  return {(1.0f / distance) * separation, distance, distance < contact_radius};
+template <class T>
+OGC_HD ContactShapeOf<T> contact_shape(const Vector<T>& separation, float contact_radius) {
+  const T squared = dot(separation, separation);
+  const Mask<T> is_apart = T(0x1p-126f) <= squared;
+  if (is_false(is_apart)) return {};
+  const T length = root(squared), distance = select(is_apart, length, T(0.0f));
+  return {(1.0f / length) * separation, distance, is_apart && distance < T(contact_radius)};
 }
 
 /// The distance at which slope and curvature are evaluated: within 2⁻²³ r … r. At 2⁻²³ r the logarithmic stage's g'' =

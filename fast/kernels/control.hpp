@@ -1,4 +1,4 @@
-// What the device decides by itself: flags that the host never sees inside a step, counters, and the kernels of one
+// Holds what the device decides by itself: flags that the host never sees inside a step, counters, and kernels of one
 // item that turn counters into flags.
 //
 //   BeginStep ─► detect, guess ─► EndRound ─► … ─► sweep ─► EndIteration ─► … ─► EndCheck ─► FinishStep
@@ -16,74 +16,75 @@
 
 namespace ogc::fast {
 
-/// False for NaN and for infinities.
+/// Returns false for NaN and for infinities.
 OGC_HD inline bool is_finite(float a) { return fabsf(a) <= 3.40282347e38f; }
 OGC_HD inline bool is_finite(const Vec& a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
 
-/// The bits of a non-negative float, which have its order; for maxima by atomic_max.
+/// Returns the bits of a non-negative float. They have the order of the floats, so atomic_max finds maxima.
 OGC_HD inline int float_bits(float a) {
   int bits = 0;
   memcpy(&bits, &a, sizeof bits);
   return bits;
 }
-/// The float of such bits.
+/// Returns the float that has these bits.
 OGC_HD inline float float_from_bits(int bits) {
   float a = 0;
   memcpy(&a, &bits, sizeof a);
   return a;
 }
 
-/// Settings of the control, the same in each step.
+/// Holds the settings of the control, the same in each step.
 struct ControlSettings {
   double redetect_vertices = 1;    ///< γ_e K
-  int redetect_every = 0;          ///< iterations after which a detection is due in any case; 0: none ever is
-  int iterations = 1 << 30;        ///< of a step; after the last no detection is made
-  int guess_rounds = 16;           ///< of a step, at most
-  int sort_every = 1;              ///< steps that keep the order of the trees
+  int detection_every = 0;         ///< iterations after which a detection is due in any case; 0: none ever is
+  int iterations = 1 << 30;        ///< iterations of a step; after the last no detection is made
+  int guess_rounds = 16;           ///< rounds of a step's guess loop, at most
+  int sort_every = 1;              ///< steps between two sorts of the trees
   float contact_radius = 0;        ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
 
-  /// Least number of cut vertices that asks for a detection after an iteration, `times` 1, and after a round of the
-  /// guess loop, `times` its number.
+  /// Returns the least number of cut vertices that requests a detection: after an iteration `times` is 1, after a round
+  /// of the guess loop it is the number of the round.
   OGC_HD int least_cut(int times = 1) const {
     const double least = ceil(times * redetect_vertices);
     return least > 1 ? static_cast<int>(least) : 1;
   }
 };
 
-/// The state of a frame and of its step on the device.
+/// Holds the state of a frame and of its step on the device.
 struct StepControl {
-  // Of the frame.
-  int active = 0;            ///< 1: steps take place; 0: they are no-ops
-  int status = 0;            ///< compare::StepStatus bits that stopped the frame
-  int steps_done = 0;        ///< committed since the frame began: number of the row and of the row of targets
-  int since_sort = 1 << 30;  ///< steps begun in the order that the trees have; the host carries it from frame to frame
-  // Of the step. Flags that `when` reads hold `active` too.
+  // Values of the frame:
+  int active = 0;      ///< 1: steps take place; 0: they are no-ops
+  int status = 0;      ///< compare::StepStatus bits that stopped the frame
+  int steps_done = 0;  ///< steps committed since the frame began; indexes the row of metrics and the row of targets
+  int since_sort = 1 << 30;  ///< steps begun since the last sort of the trees; the host carries it from frame to frame
+  // Values of the step. Flags that `when` reads are 0 unless the frame is active.
   int attempted = 0;                      ///< 1: the step began active
-  int sort = 0;                           ///< a new order of the trees
-  int guess = 0;                          ///< another round of the guess loop
-  int detect = 0;                         ///< detection before the next iteration
-  int turn = 0;                           ///< the iteration that is next, from 0; −1 while a detection is due
+  int sort = 0;                           ///< 1: the trees are sorted anew
+  int guess = 0;                          ///< 1: the guess loop has another round
+  int detect = 0;                         ///< 1: a detection is due before the next iteration
+  int turn = 0;                           ///< next iteration, from 0; −1 while a detection is due
   float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
-  float smallest_bound = 0;               ///< [m]
+  float smallest_bound = 0;               ///< smallest b_v, with planes smallest distance [m]
   /// vertices cut in this round or iteration; cut_last: in the one before, lagging ones included
   int cut = 0, cut_last = 0;
   int deep_inside = 0;  ///< with volumes: vertices that this iteration left deep inside one
-  /// With planes: prescribed vertices behind their targets, whether one has moved since the last detection, and whether
-  /// one has asked for a detection in this step.
+  /// With planes: number of prescribed vertices behind their targets, whether one has moved since the last detection,
+  /// and whether one has requested a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
   int not_finite = 0, violations = 0;
-  int short_rows = 0;  ///< with volumes: a row of contacts had no room; set beside a detection, whose lists have a flag
-  /// With volumes, at the end: contacts, vertices inside; how deep the deepest was at the last detection, bits [m];
-  /// sheets without any way.
+  /// with volumes, 1: a row of contacts had no room; set beside a detection, whose lists have their own flag
+  int short_rows = 0;
+  /// With volumes, at the end: contacts, vertices inside, bits of the largest depth at the last detection [m], sheets
+  /// without any way out.
   int volume_contacts = 0, vertices_inside = 0, deepest = 0, depth_unresolved = 0;
   /// With rods, at the end: bits of the largest ‖D‖/l [1]; smallest distance of contacts that act [m].
   int longest_segment = 0;
   float nearest_contact = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
-  /// Threads of one launch call these together; sums and maxima do not depend on their order.
+  /// Threads of one launch call the counters together; sums and maxima do not depend on their order.
   OGC_HD void count_cut() { atomic_add(&cut, 1); }
   OGC_HD void count_deep_inside() { atomic_add(&deep_inside, 1); }
   OGC_HD void count_lag(bool has_advanced) {
@@ -94,9 +95,9 @@ struct StepControl {
   OGC_HD void count_violation() { atomic_add(&violations, 1); }
 };
 
-/// Whether the vertices that were cut ask for a detection; their counts begin anew. A prescribed vertex behind its
-/// target asks alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut, or
-/// one where a vertex is deep inside a volume.
+/// Returns whether the cut vertices request a detection, and resets their counts. A lagging prescribed vertex requests
+/// one alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut, or one if a
+/// vertex is deep inside a volume.
 OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
              asks = c.cut >= least_cut || (c.cut > 0 && c.deep_inside > 0);
@@ -106,7 +107,7 @@ OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   return asks || lag_asks;
 }
 
-/// Ends the step where something went wrong: nothing of it is committed.
+/// Ends the step if something went wrong; nothing of it is committed then.
 OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.not_finite > 0) c.status |= compare::step_not_finite;
   if (c.violations > 0) c.status |= compare::step_bound_violated;
@@ -114,7 +115,7 @@ OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.status != 0) c.active = c.guess = c.detect = 0;
 }
 
-/// First kernel of a step.
+/// Begins a step: the first kernel that it launches.
 struct BeginStep {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -137,7 +138,7 @@ struct BeginStep {
   }
 };
 
-/// r_q = min(r + largest move, cap) (method.md §5.3).
+/// Chooses r_q = min(r + largest move, cap) (method.md §5.3).
 struct ChooseQueryRadius {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -151,7 +152,7 @@ struct ChooseQueryRadius {
   }
 };
 
-/// After a detection. `overflow`: not zero where a list was too small.
+/// Ends a detection: counts it, and stops the frame if a list was too small (`overflow` is not 0).
 struct EndDetection {
   StepControl* control;  ///< on the backend
   const int* overflow;   ///< on the backend
@@ -167,7 +168,7 @@ struct EndDetection {
   }
 };
 
-/// After a round of the guess loop: another one if enough vertices were cut and rounds are left.
+/// Ends a round of the guess loop. Another one follows if enough vertices were cut and rounds are left.
 struct EndRound {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -180,8 +181,8 @@ struct EndRound {
   }
 };
 
-/// Alg. 3 line 29, and the largest number of iterations between detections. `number`: of the iteration, which ends only
-/// if it was its turn; −1: it was.
+/// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) or `detection_every` iterations
+/// have passed. `number`: of this iteration, which counts only if it is its turn; −1: it always counts.
 struct EndIteration {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -193,7 +194,7 @@ struct EndIteration {
     ++c.iterations;
     ++c.since_detection;
     const bool asked = take_request(c, settings.least_cut());
-    const bool due = settings.redetect_every > 0 && c.since_detection >= settings.redetect_every;
+    const bool due = settings.detection_every > 0 && c.since_detection >= settings.detection_every;
     c.detect = c.active != 0 && c.iterations < settings.iterations && (due || asked) ? 1 : 0;
     stop_if_failed(c);
     c.turn = c.detect != 0 ? -1 : c.iterations;

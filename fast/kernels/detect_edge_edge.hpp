@@ -1,6 +1,6 @@
-// Algorithm 2, each pair once: the edge at place i of the tree order looks at the places behind its own only, and both
-// partners take the distance. Pairs are skipped, and those closer than r decided afterwards, as in
-// detect_vertex_facet.hpp, but for those that are told to be no contact at once (block.hpp).
+// Runs Algorithm 2, each pair once: the edge at place i of the tree order searches the places behind its own only, and
+// both partners take the distance. Pairs are skipped, and those closer than r decided afterwards, as in
+// detect_vertex_facet.hpp; pairs that block.hpp proves to be no contact are not noted.
 #pragma once
 
 #include "fast/kernels/arithmetic/atomic.hpp"
@@ -11,19 +11,19 @@
 
 namespace ogc::fast {
 
-/// The searches of all edges in their tree; a Query of search.hpp.
+/// Searches all edges in their tree; a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
   PaddedVecs positions;  ///< of the detection, by vertex [m]
   TreeView tree;         ///< of all edges, refitted at these positions
-  ListsView lists;       ///< where pairs are noted; with its overflow flag set nothing is searched
+  ListsView lists;       ///< pairs are noted here; with its overflow flag set nothing is searched
   float contact_radius;  ///< r, with the contact margin [m]
   float* d_min_edge;     ///< at most r_q before the launch
 
-  /// Whether a list has overflowed.
+  /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// The search of the edge at place i of the tree, from the place behind it.
+  /// Returns the search of the edge at place i of the tree, from the place behind it.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {.box = child.box(),
@@ -33,7 +33,8 @@ struct DetectEdgeEdge {
             .reach = child.reach};
   }
 
-  /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
+  /// Returns the squared distance up to which a pair matters; negative if its boxes are farther apart, or if it is none
+  /// (method.md §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
     if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return -1.0F;
@@ -41,7 +42,7 @@ struct DetectEdgeEdge {
     return offer.gap > within ? -1.0F : within;
   }
 
-  /// Whether the candidate needs a distance.
+  /// Returns whether the candidate needs a distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -50,7 +51,8 @@ struct DetectEdgeEdge {
     return !is_beyond(apart, within) && !is_idle(search, offer, apart);
   }
 
-  /// Whether a pair within r needs no distance: it lowers none, and is no contact. `apart`: its separation [m].
+  /// Returns whether a pair within r needs no distance: it lowers no smallest distance, and is no contact. `apart`: its
+  /// separation [m].
   OGC_HD bool is_idle(const Search& search, const Offer& offer, float apart) const {
     const float own = atomic_load(&d_min_edge[search.owner]), theirs = atomic_load(&d_min_edge[offer.primitive]);
     const float lowering = larger(smaller(search.reach, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
@@ -59,7 +61,7 @@ struct DetectEdgeEdge {
                                           : is_none(offer.primitive, search.owner);
   }
 
-  /// Its distance, for both partners.
+  /// Takes the distance for both partners; returns the search's new limit.
   OGC_HD float meet(const Search& search, int other, float gap) const {
     const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
     return gap_limit(larger(contact_radius, measure(low, high, gap)));
@@ -72,7 +74,7 @@ struct DetectEdgeEdge {
     return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
 
-  /// The pair's distance for both partners, and the note where it may be a contact; low < high.
+  /// Takes the pair's distance for both partners, and notes the pair if it may be a contact; low < high.
   OGC_HD float measure(int low, int high, float gap) const {
     const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));
     const float below = larger(d.below(), gap_below(gap));
@@ -83,7 +85,7 @@ struct DetectEdgeEdge {
     return below;
   }
 
-  /// No contact for certain; low < high.
+  /// Returns whether the pair is no contact for certain; low < high.
   OGC_HD bool is_none(int low, int high) const {
     return is_surely_no_contact(surface.edges[low], surface.edges[high], surface, positions);
   }
@@ -91,8 +93,8 @@ struct DetectEdgeEdge {
   OGC_HD Ends ends(const EdgeEnds& e) const { return {positions[e.a], positions[e.b]}; }
 };
 
-/// The contact of two edges, low < high; its bucket is −1 where there is none. `certain`: nearer than r without a
-/// doubt.
+/// Returns the contact of two edges, low < high; its bucket is −1 if there is none. `certain`: they are surely nearer
+/// than r.
 struct CollectEdgeEdge {
   SurfaceView surface;
   PaddedVecs positions;  ///< of the detection, by vertex [m]
@@ -119,24 +121,24 @@ struct CollectEdgeEdge {
   }
 
  private:
-  /// No triangle has it.
+  /// Returns whether no triangle has the edge.
   OGC_HD bool is_loose(int e) const { return surface.opposites.offsets[e] == surface.opposites.offsets[e + 1]; }
 
-  /// −1 for the interior.
+  /// Returns the vertex of a feature; −1 for the interior.
   OGC_HD static int end_of(const EdgeEnds& e, EdgeFeature feature) {
     return feature == EdgeFeature::interior ? -1 : feature == EdgeFeature::end_0 ? e.a : e.b;
   }
 
-  /// Both blocks hold the other side's closest point, given that these features hold the closest points (Eq. 14, 15).
-  /// An interior's holds it always.
+  /// Returns whether both blocks hold the other side's closest point, given that these features hold the closest points
+  /// (Eq. 14, 15). The block of an interior always does.
   OGC_HD bool is_hit(const EdgeEnds& p, const EdgeEnds& q, EdgePairFeatures on) const {
     const int v = end_of(p, on.first), w = end_of(q, on.second);
     return (v < 0 || is_end_hit(v, w < 0, w, q)) && (w < 0 || is_end_hit(w, v < 0, v, p));
   }
 
-  /// The same at any end that lies beside the other edge or at an end of it: both, where exactly parallel edges cease
-  /// to overlap. Where blocks hold the points that are the feet of each other, no points are nearer: their own edges
-  /// say so.
+  /// Applies the same test at every pair of ends, and at every end that lies beside the other edge: for exactly
+  /// parallel edges these include both ends of the overlap. If both blocks hold the other side's point, no points of
+  /// the edges are nearer, because each block has a condition for its own edge.
   OGC_HD bool is_hit_beside(const EdgeEnds& p, const EdgeEnds& q) const {
     for (int i = 0; i < 2; ++i) {
       const auto end = static_cast<EdgeFeature>(i);
@@ -147,13 +149,14 @@ struct CollectEdgeEdge {
     return false;
   }
 
-  /// The vertex is seen between the ends of the edge.
+  /// Returns whether the vertex projects between the ends of the edge.
   OGC_HD bool is_beside(int v, const EdgeEnds& e) const {
     const Vec x = positions[v], a = positions[e.a], b = positions[e.b];
     return exact_sign(End{x, a, b}) > 0 && exact_sign(End{x, b, a}) > 0;
   }
 
-  /// The closest point on the other edge, inside it or its end w, lies in the block of v (Eq. 15).
+  /// Returns whether the closest point on the other edge, which is inside it or its end w, lies in the block of v (Eq.
+  /// 15).
   OGC_HD bool is_end_hit(int v, bool is_other_inside, int w, const EdgeEnds& other) const {
     return is_other_inside ? in_vertex_block(other, v, surface, positions)
                            : in_vertex_block(positions[w], v, surface, positions);

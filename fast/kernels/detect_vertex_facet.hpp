@@ -1,9 +1,9 @@
-// Algorithm 1. Each pair's smallest distance also counts the gap of the boxes (never above the exact distance either):
-// then a pair whose gap reaches the minima found so far cannot lower them by one bit, and may be skipped whatever the
-// order in which searches find each other's minima.
+// Runs Algorithm 1. Each pair's smallest distance also takes the gap of the boxes, which never exceeds the exact
+// distance: then a pair whose gap reaches the minima found so far cannot lower them by one bit, and may be skipped in
+// whatever order searches find each other's minima.
 //
-// A search takes the smallest distances and notes each pair that may be closer than r; which of those are contacts, and
-// of which face, is decided afterwards by one thread a pair (collect_contacts.hpp): few pairs need it, and its exact
+// A search takes the smallest distances and notes each pair that may be closer than r. One thread a pair decides
+// afterwards which of those are contacts, and of which face (collect_contacts.hpp): few pairs need it, and its exact
 // predicates are most of the code.
 #pragma once
 
@@ -15,34 +15,36 @@
 
 namespace ogc::fast {
 
-/// The searches of all vertices in the tree of the facets; a Query of search.hpp.
+/// Searches all vertices in the tree of the facets; a Query of search.hpp.
 struct DetectVertexFacet {
   SurfaceView surface;
   PaddedVecs positions;       ///< of the detection, by vertex [m]
   TreeView tree;              ///< of all facets, refitted at these positions
   const int* vertex_order;    ///< vertex of each search, along a Hilbert curve
   const float* vertex_limit;  ///< by vertex: gap limit of its reach
-  ListsView lists;            ///< where pairs are noted; with its overflow flag set nothing is searched
+  ListsView lists;            ///< pairs are noted here; with its overflow flag set nothing is searched
   float contact_radius;       ///< r, with the contact margin [m]
   float* d_min_vertex;        ///< at most r_q before the launch
-  float* d_min_triangle;      ///< likewise
+  float* d_min_triangle;      ///< at most r_q before the launch
 
-  /// Whether a list has overflowed.
+  /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// A vertex inside a solid looks where nothing is: its squared gap to any box is finite, and beyond any limit.
+  /// Returns the position to search from. A vertex inside a solid searches where nothing is: its squared gap to any box
+  /// is finite, and beyond any limit.
   OGC_HD Vec searched_from(int v) const {
     return surface.is_off_surface(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
   }
 
-  /// The search of the i-th vertex along the Hilbert curve.
+  /// Returns the search of the i-th vertex along the Hilbert curve.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
     const Vec x = searched_from(v);
     return {{x, x}, v, 0, larger(gap_limit(contact_radius), vertex_limit[v])};
   }
 
-  /// The squared distance up to which a pair matters; negative where its boxes are farther apart, or it is none.
+  /// Returns the squared distance up to which a pair matters; negative if its boxes are farther apart, or if it is none
+  /// (method.md §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     const int v = search.owner;
     const Facet& facet = surface.facets[offer.primitive];
@@ -52,7 +54,7 @@ struct DetectVertexFacet {
     return offer.gap > within ? -1.0F : within;
   }
 
-  /// Whether the candidate needs a distance.
+  /// Returns whether the candidate needs a distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -60,10 +62,10 @@ struct DetectVertexFacet {
     return !is_beyond(separation(search.box.lower, corners(surface.facets[t])), within);
   }
 
-  /// A pair within r always needs its distance.
+  /// Returns false: a pair within r always needs its distance.
   OGC_HD bool is_idle(const Search&, const Offer&, float) const { return false; }
 
-  /// Its distance, for both partners.
+  /// Takes the distance for both partners; returns the search's new limit.
   OGC_HD float meet(const Search& search, int t, float gap) const {
     return gap_limit(larger(contact_radius, measure(search.owner, t, gap)));
   }
@@ -75,7 +77,7 @@ struct DetectVertexFacet {
     return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
 
-  /// The pair's distance for both partners, and the note where it may be a contact.
+  /// Takes the pair's distance for both partners, and notes the pair if it may be a contact.
   OGC_HD float measure(int v, int t, float gap) const {
     const Distance d = point_triangle_distance(positions[v], corners(surface.facets[t]));
     const float below = larger(d.below(), gap_below(gap));
@@ -90,8 +92,8 @@ struct DetectVertexFacet {
   }
 };
 
-/// The contact of a vertex and a facet; its bucket is −1 where there is none. `certain`: nearer than r without a doubt.
-/// Each triangle around a shared face reports it; the lists keep one.
+/// Returns the contact of a vertex and a facet; its bucket is −1 if there is none. `certain`: it is surely nearer than
+/// r. Each triangle around a shared face reports the contact; the lists keep one.
 struct CollectVertexFacet {
   SurfaceView surface;
   PaddedVecs positions;  ///< of the detection, by vertex [m]

@@ -1,4 +1,4 @@
-// The first launch of a detection: all that its searches start from.
+// Runs the first launch of a detection, which prepares all that its searches start from.
 #pragma once
 
 #include "fast/kernels/bound.hpp"
@@ -9,16 +9,16 @@
 
 namespace ogc::fast {
 
-/// Positions where searches gather them, empty lists, smallest distances at r_q, boxes of the trees. No part reads what
-/// another writes. Index over count(), by whole warps.
+/// Copies positions to where searches gather them, empties the lists, sets smallest distances to r_q and refits the
+/// boxes of the trees. No part reads what another writes. Index over count(), by whole warps.
 struct BeginDetection {
   const Vec* positions;  ///< by vertex [m]
-  PaddedVec* padded;     ///< the same positions, written
+  PaddedVec* padded;     ///< the same positions, aligned, written
   PrepareLists lists;
   ResetDistances distances;
   RefitTrees refit;
 
-  /// The largest of buckets, vertices, primitives and places of the trees.
+  /// Returns the largest of buckets, vertices, primitives and places of the trees.
   OGC_HD int count() const {
     const int buckets = lists.lists.buckets, triangles = distances.triangle_count;
     const int items = buckets > triangles ? buckets : triangles, places = refit.count();

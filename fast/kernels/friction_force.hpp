@@ -1,6 +1,6 @@
-// Friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex Block Descent
-// (method.md §4.4). λ, n and the weights are those of the positions that the update reads and constant in the
-// derivatives.
+// Adds the friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex
+// Block Descent (method.md §4.4). λ, n and the weights are those of the positions that the update reads, and constants
+// of the derivatives.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -11,11 +11,14 @@
 namespace ogc::fast {
 
 /// f₁(y)/y [1/m] with ε = ε_v h [m]: (2 − y/ε)/ε for y < ε, 1/y above; 2/ε at y = 0.
-OGC_HD inline float friction_slope_over_slip(float slip, float limit) {
-  return slip < limit ? (2.0f - slip / limit) / limit : 1.0f / slip;
+template <class T>
+OGC_HD T friction_slope_over_slip(const T& slip, float limit) {
+  const Mask<T> is_slow = slip < T(limit);
+  if (is_false(is_slow)) return 1.0f / slip;
+  return select(is_slow, (2.0f - slip / limit) / limit, 1.0f / slip);
 }
 
-/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ), `majorant` in place of w². `moved` = Σ w_i (x_i −
+/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ), with `majorant` in place of w². `moved` = Σ w_i (x_i −
 /// x_iᵗ), u its tangential part [m]; `normal_force` λ ≥ 0 [N]; `limit` ε_v h [m].
 template <class T>
 OGC_HD void add_friction(const Vector<T>& normal, const Vector<T>& moved, const T& weight, const T& majorant,

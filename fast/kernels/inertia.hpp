@@ -1,4 +1,4 @@
-// Inertia: m/(2h²) ‖x − y‖², and the target y it pulls to.
+// Adds inertia, m/(2h²) ‖x − y‖², and computes its target y.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -7,12 +7,12 @@
 
 namespace ogc::fast {
 
-/// y = xᵗ + h vᵗ + h² a [m].
+/// Returns y = xᵗ + h vᵗ + h² a [m].
 OGC_HD inline Vec inertia_target(const Vec& start, const Vec& velocity, const Vec& acceleration, float step) {
   return start + step * (velocity + step * acceleration);
 }
 
-/// `weight` is m/h² [N/m].
+/// Adds force and block of inertia; `weight` is m/h² [N/m].
 OGC_HD inline void add_inertia(float weight, const Vec& position, const Vec& target, ForceAndBlock& sum) {
   sum.add_force(weight, target - position);
   sum.add_identity(weight);

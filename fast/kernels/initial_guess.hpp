@@ -1,4 +1,4 @@
-// The start of a step and the rounds of the guess loop (Eq. 28; method.md §5.2).
+// Begins a step, and runs the rounds of the guess loop (Eq. 28; method.md §5.2).
 #pragma once
 
 #include <cmath>
@@ -6,30 +6,28 @@
 
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/control.hpp"
+#include "fast/kernels/held.hpp"
 #include "fast/kernels/inertia.hpp"
-#include "fast/kernels/models/hinge.hpp"
-#include "fast/kernels/models/membrane.hpp"
-#include "fast/kernels/models/tetrahedron.hpp"
 #include "fast/kernels/plane_lists.hpp"
 #include "fast/kernels/touching_move.hpp"
 
 namespace ogc::fast {
 
-/// for_each over all vertices: x = xᵗ, y, the largest move. Target of a prescribed vertex: the step's; of a fixed one:
-/// its position.
+/// Sets x = xᵗ and y, and takes the largest move. The target of a prescribed vertex is the step's, that of a fixed one
+/// its position. Index over all vertices.
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
   const int* prescribed_number;   ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
   const Vec* prescribed_targets;  ///< [step of the frame][number]
-  int prescribed_count;           ///< of a row of targets
+  int prescribed_count;           ///< vertices in a row of targets
   Vec acceleration;               ///< a [m/s²]
   float step;                     ///< h [s]
   Vec* position;                  ///< x by vertex [m], written
   Vec* target;                    ///< y by vertex [m], written
-  Vec* taken;                     ///< by vertex, as the guess loop's first round reads it: 0, written
-  StepControl* control;           ///< on the backend: raises largest_move, counts what is not finite
-  /// by vertex, not 0 on driven volumes, which are at their targets from here on; null: there is none
+  Vec* taken;                     ///< by vertex, set to 0 as the first round of the guess loop reads it
+  StepControl* control;           ///< on the backend; largest_move is raised, moves that are not finite are counted
+  /// by vertex, not 0 on driven volumes, which are put at their targets here; null if there are none
   const std::uint8_t* is_driven_volume = nullptr;
 
   OGC_HD void operator()(int v) const {
@@ -51,58 +49,15 @@ struct BeginVertex {
   }
 };
 
-/// for_each over triangles: Gᵗ, for the damping.
-struct BeginTriangle {
-  const TriangleRest* triangles;  ///< by triangle
-  const Vec* start;               ///< xᵗ by vertex [m]
-  Symmetric2* strain_start;       ///< Gᵗ by triangle, written
-
-  OGC_HD void operator()(int t) const {
-    const TriangleRest& rest = triangles[t];
-    const Vec a = start[rest.corner[0]];
-    strain_start[t] = green_strain(
-        deformation_gradient(start[rest.corner[1]] - a, start[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]));
-  }
-};
-
-/// for_each over hinges: θᵗ, for the damping.
-struct BeginHinge {
-  const HingeRest* hinges;  ///< by hinge
-  const Vec* start;         ///< xᵗ by vertex [m]
-  float* angle_start;       ///< θᵗ by hinge [rad], written; 0 where the hinge has collapsed
-
-  OGC_HD void operator()(int i) const {
-    const int* v = hinges[i].vertex;
-    const Vec base = start[v[0]];
-    angle_start[i] = hinge_shape(start[v[1]] - base, start[v[2]] - base, start[v[3]] - base).angle;
-  }
-};
-
-/// for_each over tetrahedra: Gᵗ, for the damping.
-struct BeginTetrahedron {
-  const TetrahedronRest* tetrahedra;  ///< by tetrahedron
-  const Vec* start;                   ///< xᵗ by vertex [m]
-  SolidStrain* strain_start;          ///< Gᵗ by tetrahedron, written
-
-  OGC_HD void operator()(int t) const {
-    const TetrahedronRest& rest = tetrahedra[t];
-    TetrahedronGradients gradients;
-    for (int k = 0; k < 3; ++k) gradients.other[k] = {rest.gradient[k][0], rest.gradient[k][1], rest.gradient[k][2]};
-    const Vec own = start[rest.corner[0]];
-    strain_start[t] = solid_strain(solid_deformation(gradients, start[rest.corner[1]] - own,
-                                                     start[rest.corner[2]] - own, start[rest.corner[3]] - own));
-  }
-};
-
 /// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
 /// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
 struct BeginRegions {
   const Vec* position;          ///< x by vertex [m]
-  FeasibleRegions ended;        ///< those that the last detection left
+  FeasibleRegions ended;        ///< left by the last detection
   Vec* previous;                ///< X_prev by vertex [m], written
-  StepControl* control;         ///< on the backend: counts vertices that their region does not hold
-  Vec* displacement = nullptr;  ///< by vertex, where it divides gaps (bounds=dat) [m]: y − x, or x − X_prev, written
-  const Vec* target = nullptr;  ///< y by vertex in the guess loop, later null; read where displacements are written
+  StepControl* control;         ///< on the backend; vertices outside their region are counted
+  Vec* displacement = nullptr;  ///< y − x or x − X_prev by vertex [m], written; set if it divides gaps (bounds=dat)
+  const Vec* target = nullptr;  ///< y by vertex in the guess loop, later null; read if displacements are written
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
@@ -112,17 +67,18 @@ struct BeginRegions {
   }
 };
 
-/// for_each over all vertices: x ← y truncated about X_prev, and of a free vertex what its contacts leave of the way
-/// there. It slides along half-spaces as inertia alone would have it. A prescribed vertex that touches stays from the
-/// second round on: sweeps move what is in its way.
+/// Sets x ← y truncated about X_prev; a free vertex goes only as far as its contacts leave of that move. It slides
+/// along half-spaces as inertia alone would have it. A prescribed vertex that touches stays from the second round on:
+/// sweeps move what is in its way. Index over all vertices.
 struct GuessVertex {
-  const Vec* target;             ///< y by vertex [m]
-  FeasibleRegions regions;       ///< about X_prev
-  GuessContacts contacts;        ///< `taken` of the first round, that of the second one behind it, and so on in turn
-  int vertex_count;              ///< length of one of both
-  Vec* taken;                    ///< where contacts.taken is
+  const Vec* target;        ///< y by vertex [m]
+  FeasibleRegions regions;  ///< about X_prev
+  /// `taken` is a double buffer: even rounds read its first half and write its second, odd rounds the reverse
+  GuessContacts contacts;
+  int vertex_count;              ///< length of one half
+  Vec* taken;                    ///< the buffer of contacts.taken, written
   Vec* position;                 ///< x by vertex [m], written
-  StepControl* control;          ///< on the backend: its flag `active` and its rounds are read, cuts are counted
+  StepControl* control;          ///< on the backend; `active` and `rounds` are read, cuts are counted
   const int* prescribed_number;  ///< as in BeginVertex
 
   OGC_HD void operator()(int v) const {
@@ -140,7 +96,7 @@ struct GuessVertex {
   }
 
  private:
-  /// Where the vertex goes if nothing truncates it. y itself, to the bit, where no contact holds it.
+  /// Returns where the vertex goes if nothing truncates it: y itself, to the bit, if no contact holds it.
   OGC_HD Vec proposal(int v, const Vec& stay) const {
     const bool is_odd = control->rounds % 2 != 0;
     GuessContacts here = contacts;
@@ -156,13 +112,13 @@ struct GuessVertex {
   }
 };
 
-/// for_each over all vertices, after the guess: xᵗ and x where the sweep gathers them; x in both of its buffers,
-/// because the sweep writes no fixed vertex.
+/// Copies xᵗ and x after the guess to where the sweep gathers them; x goes to both of its buffers, because the sweep
+/// writes no fixed vertex. Index over all vertices.
 struct BeginSweep {
   const Vec* start;         ///< xᵗ by vertex [m]
   const Vec* position;      ///< x by vertex [m]
   PaddedVec* padded_start;  ///< xᵗ by vertex [m], written
-  PaddedVec* padded;        ///< x, in both buffers: the second follows the first
+  PaddedVec* padded;        ///< x by vertex in both buffers, the second behind the first, written
   int vertex_count;         ///< length of one buffer
 
   OGC_HD void operator()(int v) const {

@@ -1,14 +1,15 @@
-// From the pairs that the searches note to records in canonical order and to each vertex's incidences. A contact's
+// Turns the pairs that the searches note into records in canonical order and into each vertex's incidences. A contact's
 // bucket is its first face. Only one pair generates a contact of two interiors; the thread that decides the pair takes
 // a place in the list for it. Several pairs may generate any other contact: threads enter it in a hash table, and the
 // first of them takes the place. Inside a bucket each contact then counts those before it, which costs far less than
 // sorting all, and no thread waits for the longest bucket.
 //
-// Buckets: v for vertex–facet contacts of vertex v; V + p for edge–edge contacts whose first face is p. In this order
-// buckets, and in a bucket the sorted seconds, have the canonical order of compare/stages. The searches note pairs that
-// may be contacts: half as many again as the contacts where r is shorter than the edges, more where it is longer;
-// of edges few then, too (block.hpp).
-// Where a list has no room the detection counts on, so that the host learns how much room it needs, and all later
+// Buckets: v holds the vertex–facet contacts of vertex v, V + p the edge–edge contacts whose first face is p. In this
+// order the buckets, and the sorted second faces in each bucket, have the canonical order of compare/stages. The
+// searches note pairs that may be contacts: half as many again as there are contacts if r is shorter than the edges,
+// more if r is longer. block.hpp keeps the number of noted edge pairs small then, too.
+//
+// If a list has no room the detection goes on counting, so that the host learns how much room it needs, and all later
 // kernels stop at the overflow flag.
 #pragma once
 
@@ -23,51 +24,51 @@ struct alignas(8) NotedPair {
   int first, second;
 };
 
-/// `second` is the other face (SurfaceView's numbers); low < high the edges that generate an edge–edge pair, of no
-/// meaning for vertex–facet.
+/// A contact as one pair generates it. `second` is the other face (SurfaceView's numbers). low < high are the edges
+/// that generate an edge–edge contact; they mean nothing for vertex–facet contacts.
 struct alignas(16) RawContact {
   int bucket, second, low, high;
 };
 
-/// What the table has of a contact. All zeros where there is none, so that an empty table needs no values of its own.
+/// Holds a contact in the hash table. An empty slot is all zeros, so an empty table needs no values of its own.
 struct alignas(16) ContactSlot {
-  std::uint64_t key;  ///< bucket + 1, above, and second
-  /// low, above, and high, inverted: the largest is that of the lowest-numbered edges, and −1 is 0
+  std::uint64_t key;  ///< bucket + 1 in the upper half, second in the lower
+  /// ~(low in the upper half, high in the lower): the largest value has the lowest-numbered edges, and −1, −1 is 0
   std::uint64_t edges;
 };
 
-/// A contact at its place in the list, and where the table has it.
+/// Holds a contact at its place in the list, and where the table has it.
 struct alignas(16) EnteredContact {
-  static constexpr std::uint32_t nowhere = 0xffffffffU;  ///< of one that a single pair generates
+  static constexpr std::uint32_t nowhere = 0xffffffffU;  ///< slot of a contact that a single pair generates
   int bucket, second;                                    ///< as in RawContact
-  std::uint32_t slot;                                    ///< of the table, or `nowhere`
+  std::uint32_t slot;                                    ///< slot of the table, or `nowhere`
 };
 
-/// An incidence that has no order yet, and whose it is.
+/// Holds an incidence that has no order yet, and its vertex.
 struct alignas(8) LooseIncidence {
   std::uint32_t code;  ///< as in Incidence
   int vertex;
 };
 
-/// The vertices of a contact by role (contact_view.hpp); −1: it lacks this role.
+/// Holds the vertices of a contact by role (contact_view.hpp); −1: the contact lacks this role.
 struct RoleVertices {
   int role[4] = {-1, -1, -1, -1};
 };
 
-/// What a contact stands for.
+/// Finds the faces and vertices that a contact stands for.
 struct ContactFaces {
   SurfaceView surface;
 
-  /// Buckets of vertices come first, those of faces of edge–edge contacts behind them.
+  /// Returns whether the bucket is one of a vertex; those come first, buckets of edge–edge contacts behind them.
   OGC_HD bool is_vertex_facet(int bucket) const { return bucket < surface.vertex_count; }
 
-  /// Whether only one pair generates it: the pair of its two interiors, which a search notes once.
+  /// Returns whether only one pair generates the contact: the pair of its two interiors, which a search notes once.
   OGC_HD bool is_of_one_pair(int bucket, int second) const {
     return is_vertex_facet(bucket) ? second >= surface.vertex_count + surface.edge_count
                                    : bucket >= 2 * surface.vertex_count;
   }
 
-  /// Its vertices by role.
+  /// Returns the contact's vertices by role.
   OGC_HD RoleVertices vertices(int bucket, int second) const {
     RoleVertices of;
     if (is_vertex_facet(bucket)) {
@@ -96,61 +97,61 @@ struct ContactFaces {
   }
 };
 
-/// Counters of a detection, on the backend. What counts goes on where a list has no room: the host learns how much the
+/// Counts of a detection, on the backend. Counting goes on if a list has no room: the host learns how much room the
 /// same detection needs.
 struct ListStatus {
-  int contacts = 0;      ///< entered, also those that found no room
+  int contacts = 0;      ///< contacts entered, also those that found no room
   int overflow = 0;      ///< not 0 once a list was too small; sticky
   int edge_edge = 0;     ///< edge–edge records
   int noted = 0;         ///< pairs noted, also those that found no room
-  int without_slot = 0;  ///< contacts that found no slot of the table, as often as they were generated
+  int without_slot = 0;  ///< contacts that found no slot of the table; each counts as often as it was generated
 };
 
-/// The lists on the backend; `contact_count`, `without_slot`, `overflow`, `noted_count` and
-/// `edge_edge_count` point into their ListStatus.
+/// Holds the lists on the backend; `contact_count`, `without_slot`, `overflow`, `noted_count` and `edge_edge_count`
+/// point into their ListStatus.
 struct ListsView {
-  /// Slots that the search for a contact looks at, at most. Of a table that is half full at most, as one whose contacts
-  /// all have room, k slots in a row are the homes of k keys or more with a chance of at most (√e / 2)ᵏ (Chernoff's
-  /// bound of a Poisson number of mean k / 2), 4·10⁻²² for these; where there is such a row all the same, the lists
+  /// Largest number of slots that the search for a contact visits. The table is at most half full while all contacts
+  /// have room. Then k slots in a row are the homes of k keys or more with a probability of at most (√e / 2)ᵏ
+  /// (Chernoff's bound for a Poisson number of mean k / 2), 4·10⁻²² for these; if it happens all the same, the lists
   /// grow.
   static constexpr int longest_search = 256;
 
-  NotedPair* noted = nullptr;         ///< in any order; those surely nearer than r with their second number inverted
+  NotedPair* noted = nullptr;         ///< in any order; pairs surely nearer than r have their second number inverted
   int noted_capacity = 0;             ///< pairs beyond it are counted in noted_count and lost
-  int* noted_count = nullptr;         ///< also those that found no room
-  ContactSlot* table = nullptr;       ///< empty before and after a detection that does not overflow
-  std::uint32_t slot_mask = 0;        ///< slots − 1: a power of two, at least 2 · capacity
-  EnteredContact* entered = nullptr;  ///< in any order, each once
+  int* noted_count = nullptr;         ///< pairs noted, also those that found no room
+  ContactSlot* table = nullptr;       ///< empty before a detection, and after one that does not overflow
+  std::uint32_t slot_mask = 0;        ///< slots − 1; the number of slots is a power of two, at least 2 · capacity
+  EnteredContact* entered = nullptr;  ///< in any order, each contact once
   RawContact* bucketed = nullptr;     ///< bucket by bucket
-  /// of entered, bucketed and both record arrays; incidences have four times as much
+  /// room of entered, bucketed and both record arrays; incidences have four times as much
   int capacity = 0;
   int* contact_count = nullptr;  ///< contacts entered, also those that found no room
-  int* without_slot = nullptr;   ///< contacts that found no slot either, as often as they were generated
+  int* without_slot = nullptr;   ///< contacts that found no slot; each counts as often as it was generated
   int* overflow = nullptr;       ///< sticky
   int buckets = 0;
-  int* record_counts = nullptr;   ///< by bucket, of the contacts that found room
+  int* record_counts = nullptr;   ///< by bucket, of contacts that found room
   int* record_offsets = nullptr;  ///< buckets + 1
   int* record_filled = nullptr;   ///< by bucket
   int* edge_edge_count = nullptr;
   VertexFacetRecord* vertex_facet = nullptr;
   int* vertex_facet_face = nullptr;  ///< the second face of each record
   EdgeEdgeRecord* edge_edge = nullptr;
-  int* incidence_counts = nullptr;   ///< by vertex, of the contacts that found room
+  int* incidence_counts = nullptr;   ///< by vertex, of contacts that found room
   int* incidence_offsets = nullptr;  ///< vertices + 1
   int* incidence_filled = nullptr;   ///< by vertex
-  LooseIncidence* loose = nullptr;   ///< row by row, in any order within one
+  LooseIncidence* loose = nullptr;   ///< row by row, in any order within a row
   Incidence* incidences = nullptr;   ///< row by row, ascending
 
-  /// A pair closer than r, or, where not `certain`, too nearly so for a rounded distance to tell; the second number of
-  /// a certain one is stored inverted.
+  /// Notes a pair that is nearer than r, or, if not `certain`, so near to it that a rounded distance can't tell. The
+  /// second number of a certain pair is stored inverted.
   OGC_HD void note(NotedPair pair, bool certain) const {
     if (certain) pair.second = ~pair.second;
     const int place = atomic_add(noted_count, 1);
     if (place < noted_capacity) noted[place] = pair;
   }
 
-  /// A contact, each time that it is generated: of all times the table keeps the lowest-numbered edges. What one pair
-  /// alone generates needs no table.
+  /// Enters a contact, each time that it is generated; the table keeps the lowest-numbered edges of all times. A
+  /// contact that only one pair generates needs no table.
   OGC_HD void enter(const RawContact& contact, const ContactFaces& faces) const {
     if (faces.is_of_one_pair(contact.bucket, contact.second)) return place(contact, EnteredContact::nowhere, faces);
     const std::uint64_t key = pack(contact.bucket + 1, contact.second), edges = ~pack(contact.low, contact.high);
@@ -169,7 +170,7 @@ struct ListsView {
     atomic_add(without_slot, 1);
   }
 
-  /// Counts the record of a contact and its incidences: `amount` 1, or −1 to take them back.
+  /// Counts the record of a contact and its incidences; `amount` is 1, or −1 to take them back.
   OGC_HD void count(int bucket, const RoleVertices& vertices, int amount) const {
     atomic_add(&record_counts[bucket], amount);
     for (const int v : vertices.role) {
@@ -182,8 +183,8 @@ struct ListsView {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(above)) << 32 | static_cast<std::uint32_t>(below);
   }
 
-  /// Where the search for a key begins: faces and buckets near each other on the surface have keys in rows, and their
-  /// slots shall not stand in rows.
+  /// Returns the slot at which the search for a key begins. Faces and buckets that are near each other on the surface
+  /// have consecutive keys; the hash keeps their slots apart.
   OGC_HD std::uint32_t home(std::uint64_t key) const {
     constexpr std::uint64_t spread = 0x9e3779b97f4a7c15U;  // 2⁶⁴ times the golden ratio
     key *= spread;
@@ -192,7 +193,7 @@ struct ListsView {
 
   OGC_HD void place(const RawContact& contact, std::uint32_t slot, const ContactFaces& faces) const {
     const RoleVertices vertices = faces.vertices(contact.bucket,
-                                                 contact.second);  // read while the contact_count is asked
+                                                 contact.second);  // read while atomic_add is under way
     const int place = atomic_add(contact_count, 1);
     if (place >= capacity) return;
     entered[place] = {contact.bucket, contact.second, slot};
@@ -200,7 +201,7 @@ struct ListsView {
   }
 };
 
-/// Contacts are none, noted pairs stay. Index over the larger of buckets and vertices.
+/// Empties the contacts; noted pairs stay. Index over the larger of buckets and vertices.
 struct ForgetContacts {
   ListsView lists;
   int vertices;
@@ -213,7 +214,7 @@ struct ForgetContacts {
   }
 };
 
-/// Noted pairs are none. One item.
+/// Empties the noted pairs. One item.
 struct ForgetNoted {
   ListsView lists;
 
@@ -222,7 +223,7 @@ struct ForgetNoted {
   }
 };
 
-/// Start of a detection: index over the largest of buckets, vertices and primitives.
+/// Empties all lists at the start of a detection. Index over the largest of buckets, vertices and primitives.
 struct PrepareLists {
   ListsView lists;
   int vertices;
@@ -233,8 +234,8 @@ struct PrepareLists {
   }
 };
 
-/// After the contacts are collected. Pairs that found no room may be contacts, too, so a second try may need still more
-/// room.
+/// Sets the overflow flag if a list was too small, after the contacts are collected. Pairs that found no room may be
+/// contacts, too, so a second try may need still more room.
 struct CheckCapacity {
   ListsView lists;
 
@@ -245,9 +246,9 @@ struct CheckCapacity {
   }
 };
 
-/// Each contact to its bucket, with the edges that the table has by now, and out of the table; those of one pair have
-/// the edges that their faces are. Beside CheckCapacity, so it may or may not see that there was no room: what it does
-/// then nobody reads, and it stays within the buckets as counted. Index over all contacts.
+/// Moves each contact to its bucket, with the edges that the table has by now, and clears its slot. The edges of a
+/// contact of two interiors are its faces. Runs beside CheckCapacity, so it may not see that there was no room; nothing
+/// reads its output then, and it stays within the buckets as counted. Index over all contacts.
 struct FillBuckets {
   ListsView lists;
   int vertex_count;
@@ -267,7 +268,7 @@ struct FillBuckets {
   }
 };
 
-/// Incidences of record `number` of its kind into the rows of its vertices.
+/// Adds the incidences of record `number` of its kind to the rows of its vertices.
 OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& vertices, bool edge_edge, int number) {
   const std::uint32_t code = (edge_edge ? 0x80000000U : 0U) | static_cast<std::uint32_t>(number) << 2;
   int place[4] = {0, 0, 0, 0};
@@ -275,13 +276,13 @@ OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& ve
     const int v = vertices.role[k];
     if (v >= 0) place[k] = lists.incidence_offsets[v] + atomic_add(&lists.incidence_filled[v], 1);
   }
-  for (int k = 0; k < 4; ++k) {  // after all four answers, in place of each after its own
+  for (int k = 0; k < 4; ++k) {  // a loop of its own, so that one latency covers all four atomics
     const int v = vertices.role[k];
     if (v >= 0) lists.loose[place[k]] = {code | static_cast<std::uint32_t>(k), v};
   }
 }
 
-/// Writes the record and the incidences of each contact; index over all contacts in their buckets.
+/// Writes the record and the incidences of each contact. Index over all contacts in their buckets.
 struct WriteRecords {
   ListsView lists;
   ContactFaces faces;
@@ -308,15 +309,15 @@ struct WriteRecords {
   }
 
  private:
-  /// Contacts of all buckets before its own, and those of its own with a smaller second face.
+  /// Returns the number of contacts in all buckets before its own, and of those in its own with a smaller second face.
   OGC_HD int rank(const RawContact& own) const {
     const int begin = lists.record_offsets[own.bucket], end = lists.record_offsets[own.bucket + 1];
     int before = begin;
     for (int k = begin; k < end; ++k) before += lists.bucketed[k].second < own.second ? 1 : 0;
     return before;
   }
-  /// Whether the edge is or ends at the face. Of the two generating edges, `first_edge` is the one that holds the first
-  /// face; the edges share no vertex, so only one does.
+  /// Returns whether the edge is the face or ends at it. Of the two generating edges, `first_edge` is the one that
+  /// holds the first face; the edges share no vertex, so only one does.
   OGC_HD bool holds(int face, int edge) const {
     const EdgeEnds& ends = faces.surface.edges[edge];
     return face < faces.surface.vertex_count ? (ends.a == face || ends.b == face)
@@ -324,8 +325,7 @@ struct WriteRecords {
   }
 };
 
-/// Incidences of records that are there already. Index over all records: first the vertex–facet, then the edge–edge
-/// ones.
+/// Adds the incidences of records that exist already. Index over all records, vertex–facet ones first.
 struct FillIncidences {
   ListsView lists;
   int vertex_facet_count;  ///< vertex–facet records; edge–edge ones follow in the index
@@ -342,7 +342,7 @@ struct FillIncidences {
   }
 };
 
-/// Each row in ascending order, from loose incidences. Index over all incidences. Each counts those of its row that
+/// Sorts each row of loose incidences in ascending order. Index over all incidences. Each counts those of its row that
 /// come before it: rows are short, and no thread waits for the longest of them.
 struct RankIncidences {
   ListsView lists;
@@ -351,7 +351,7 @@ struct RankIncidences {
     if (*lists.overflow == 0) put(lists.loose[i]);
   }
 
-  /// Writes an incidence at its place; returns the place.
+  /// Writes an incidence at its place, and returns the place.
   OGC_HD int put(const LooseIncidence& own) const {
     const int begin = lists.incidence_offsets[own.vertex], end = lists.incidence_offsets[own.vertex + 1];
     int place = begin;

@@ -1,4 +1,4 @@
-// The end of a step: last certificate, commit, and the terms of what a row reports. Terms are in double and only
+// Ends a step: last certificate, commit, and the terms of the row that reports it. Terms are in double and only
 // reported; nothing here feeds a position.
 #pragma once
 
@@ -8,76 +8,43 @@
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
-#include "fast/kernels/models/bending_models.hpp"
-#include "fast/kernels/models/membrane_models.hpp"
-#include "fast/kernels/models/spring.hpp"
-#include "fast/kernels/models/tetrahedron.hpp"
+#include "fast/kernels/sum_columns.hpp"
 
 namespace ogc::fast {
-
-/// Sums over the mesh that a row needs, in this order.
-enum SumColumn : int {
-  sum_kinetic = 0,  ///< Σ m/2 ‖v‖² [J]
-  sum_gravity = 1,  ///< −Σ m a·x [J]
-  sum_lost = 2,     ///< Σ m (x − y), three columns [kg m]
-  sum_moved = 5,    ///< Σ m (y − xᵗ), three columns [kg m]
-  sum_last = 8,     ///< Σ m ‖x − x before the last sweep‖² [kg m²]
-  sum_way = 9,      ///< Σ m ‖x − xᵗ‖² [kg m²]
-  sum_membrane = 10,
-  sum_bending = 11 /* springs included */,
-  sum_vertex_facet = 12,  ///< and of contacts with volumes [J]
-  sum_edge_edge = 13,     ///< [J]
-  sum_solid = 14,         ///< [J]
-  sum_inverted = 15,      ///< tetrahedra with J ≤ 0
-  sum_rod = 16,           ///< stretch, shear, bend and twist of rods [J]
-  sum_stretch = 17,       ///< Σ ‖D‖/l − 1 over segments [1]
-  sum_columns = 18
-};
-/// After the guess loop: the columns of vertices alone.
-inline constexpr int guess_columns = sum_membrane;
-
-/// Sums over free vertices of what a step leaves of forces, in this order.
-enum LeftColumn : int {
-  left_reference = 0,  ///< Σ ‖f*‖ [N]
-  left_force = 1,      ///< Σ ‖f‖ over those that no bound holds [N]
-  left_rounding = 2,   ///< how much of that rounded positions may make [N]
-  left_held = 3,       ///< those that a bound holds
-  left_columns = 4
-};
 
 /// One row of the device's ring; the host makes a compare::StepMetrics of it.
 struct StepRow {
   int status = 0;                                         ///< compare::StepStatus bits; 0: the step was committed
   int vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< records of the last detection
-  /// of the step; cut_last: vertices that its last iteration cut
+  /// counts of the step; cut_last: vertices that its last iteration cut
   int detections = 0, rounds = 0, iterations = 0, cut_last = 0;
-  /// r_q, the largest lag, the smallest b_v or, with planes, distance [m]
+  /// r_q, the largest lag, the smallest b_v or, with planes, the smallest distance [m]
   float query_radius = 0, largest_lag = 0, smallest_bound = 0;
   double lost_guess = 0, lost_end = 0;  ///< ‖Σ m (x − y)‖/‖Σ m (y − xᵗ)‖ after the guess loop and at the end [1]
-  /// at the end [J]; without StepSettings::energies elastic is that of tetrahedra alone, and contact is 0
+  /// at the end [J]; without StepSettings::energies elastic is the energy of tetrahedra alone, and contact is 0
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
   int inverted = 0;  ///< tetrahedra with J ≤ 0
-  /// at the last detection: contacts with volumes, vertices inside, sheets without any way, the deepest vertex [m]
+  /// at the last detection: contacts with volumes, vertices inside, sheets without any way out, largest depth [m]
   int volume_contacts = 0, vertices_inside = 0, depth_unresolved = 0;
   float deepest = 0;
   /// with rods: smallest distance of contacts that act [m], mean and largest ‖D‖/l − 1 of segments
   float smallest_contact = 0, largest_stretch = 0;
   double mean_stretch = 0;
   double last_motion = 0;  ///< way of the last sweep over that of the step, by mass [1]
-  /// where forces were measured: Eq. 29 and what of it may be rounding [1]; vertices that a bound holds
+  /// if forces were measured: Eq. 29 and the part of it that may be rounding [1]; vertices that a bound holds
   double left_residual = 0, left_rounding = 0;
   int left_held = 0;
 };
 
-/// for_each over all vertices, at the end of a step: certificate, largest lag, smallest bound (with half-spaces:
-/// smallest distance).
+/// Checks a vertex at the end of a step: certificate, largest lag, smallest bound (with half-spaces: smallest
+/// distance). Index over all vertices.
 struct CheckVertex {
   const Vec* position;             ///< x by vertex [m]
   FeasibleRegions regions;         ///< of the last detection
   const Vec* target;               ///< y by vertex [m]
   const int* prescribed_number;    ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
-  StepControl* control;            ///< on the backend: counts and extremes are written
-  const float* nearest = nullptr;  ///< smallest distances [m], where there are half-spaces
+  StepControl* control;            ///< on the backend; counts and extremes are written
+  const float* nearest = nullptr;  ///< smallest distances [m], if there are half-spaces
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
@@ -91,19 +58,19 @@ struct CheckVertex {
   }
 };
 
-/// After the certificate: nothing that failed is committed.
+/// Stops the step after the certificate if it failed; nothing of it is committed.
 struct EndCheck {
   StepControl* control;  ///< on the backend
 
   OGC_HD void operator()(int) const { stop_if_failed(*control); }
 };
 
-/// for_each over all vertices of a step that is clean: v = (x − xᵗ)/h, xᵗ = x.
+/// Commits a vertex of a step that did not fail: v = (x − xᵗ)/h, xᵗ = x. Index over all vertices.
 struct CommitVertex {
   const Vec* position;         ///< x by vertex [m]
   float step;                  ///< h [s]
-  const StepControl* control;  ///< on the backend; not active: the step failed, and nothing is written
-  Vec* start;                  ///< xᵗ by vertex [m], becomes x
+  const StepControl* control;  ///< on the backend; if not active the step failed, and nothing is written
+  Vec* start;                  ///< xᵗ by vertex [m]; becomes x
   Vec* velocity;               ///< by vertex [m/s], written
 
   OGC_HD void operator()(int v) const {
@@ -114,7 +81,7 @@ struct CommitVertex {
   }
 };
 
-/// for_each over all vertices, for a snapshot.
+/// Copies bounds for a snapshot. Index over all vertices.
 struct CopyBound {
   const float* from;  ///< b_v by vertex [m]
   float* to;
@@ -122,15 +89,15 @@ struct CopyBound {
   OGC_HD void operator()(int v) const { to[v] = from[v]; }
 };
 
-/// Term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not yet
-/// committed).
+/// Adds the term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not
+/// yet committed).
 struct VertexTerm {
   const Vec* position;           ///< x by vertex [m]
-  const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null: there was none
+  const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null if there was none
   const Vec* start;              ///< xᵗ by vertex [m]
   const Vec* target;             ///< y by vertex [m]
   const float* mass;             ///< by vertex [kg]; 0 on fixed bodies
-  const int* prescribed_number;  ///< as in CheckVertex; momenta are those of free vertices
+  const int* prescribed_number;  ///< as in CheckVertex; only free vertices add to the momenta
   Vec acceleration;              ///< a [m/s²]
   double step;                   ///< h [s]
 
@@ -158,91 +125,6 @@ struct VertexTerm {
   }
 };
 
-/// Energy of a triangle, given the functor of its model.
-struct MembraneEnergy {
-  const TriangleRest& rest;
-  const SurfaceMaterial& material;
-  Vec to_b, to_c;  ///< edges from corner 0 to corners 1 and 2 [m]
-
-  template <class Model>
-  OGC_HD double operator()(Model) const {
-    return Model::energy(rest, material, to_b, to_c);
-  }
-};
-
-/// Term of a triangle.
-struct TriangleTerm {
-  const TriangleRest* triangles;     ///< by triangle
-  const SurfaceMaterial* materials;  ///< by body
-  const SurfaceModels* models;       ///< by body
-  const Vec* position;               ///< x by vertex [m]
-
-  OGC_HD void operator()(int t, double* sum) const {
-    const TriangleRest& rest = triangles[t];
-    const Vec a = position[rest.corner[0]], to_b = position[rest.corner[1]] - a, to_c = position[rest.corner[2]] - a;
-    sum[sum_membrane] += with_membrane(models[rest.body].membrane,
-                                       MembraneEnergy{rest, materials[rest.body], to_b, to_c});
-  }
-};
-
-/// Energy of hinge i, given the functor of its model.
-struct HingeEnergy {
-  const HingeRest& rest;
-  const HingeWeights* weights;  ///< read where the model reads them
-  int i;
-  const Vec* to;  ///< from x0 to x1, o0 and o1 [m]
-
-  template <class Model>
-  OGC_HD double operator()(Model) const {
-    HingeWeights own;
-    if constexpr (Model::reads_weights) own = weights[i];
-    return Model::energy(rest, own, to);
-  }
-};
-
-/// Term of a hinge.
-struct HingeTerm {
-  const HingeRest* hinges;      ///< by hinge
-  const HingeWeights* weights;  ///< read where a body bends isometrically
-  const SurfaceModels* models;  ///< by body
-  const Vec* position;          ///< x by vertex [m]
-
-  OGC_HD void operator()(int i, double* sum) const {
-    const HingeRest& rest = hinges[i];
-    const Vec base = position[rest.vertex[0]];
-    const Vec to[3] = {position[rest.vertex[1]] - base, position[rest.vertex[2]] - base,
-                       position[rest.vertex[3]] - base};
-    sum[sum_bending] += with_bending(models[rest.body].bending, HingeEnergy{rest, weights, i, to});
-  }
-};
-
-/// Term of a spring.
-struct SpringTerm {
-  const SpringRest* springs;  ///< by spring
-  const Vec* position;        ///< x by vertex [m]
-
-  OGC_HD void operator()(int i, double* sum) const {
-    const SpringRest& rest = springs[i];
-    const Vec end[3] = {position[rest.end[0]], position[rest.end[1]], position[rest.end[2]]};
-    sum[sum_bending] += spring_energy(rest, spring_length(spring_apart(rest, end)));
-  }
-};
-
-/// A tetrahedron: its energy, and whether it is inverted.
-struct TetrahedronTerm {
-  const TetrahedronRest* tetrahedra;  ///< by tetrahedron
-  const SolidMaterial* materials;     ///< by body
-  const Vec* position;                ///< x by vertex [m]
-
-  OGC_HD void operator()(int t, double* sum) const {
-    const TetrahedronRest& rest = tetrahedra[t];
-    const Vec own = position[rest.corner[0]], a = position[rest.corner[1]] - own, b = position[rest.corner[2]] - own,
-              c = position[rest.corner[3]] - own;
-    sum[sum_solid] += solid_energy(rest, materials[rest.body], a, b, c);
-    if (!(volume_ratio(rest, a, b, c) > 0)) sum[sum_inverted] += 1;
-  }
-};
-
 /// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖; 0 where nothing was to move.
 OGC_HD inline double momentum_lost(const double* sums) {
   const double lost = sums[sum_lost] * sums[sum_lost] + sums[sum_lost + 1] * sums[sum_lost + 1] +
@@ -252,18 +134,18 @@ OGC_HD inline double momentum_lost(const double* sums) {
   return moved > 0 ? sqrt(lost / moved) : 0.0;
 }
 
-/// Share of a sum in another, 0 where that is 0.
+/// Returns the quotient of two sums; 0 if `whole` is 0.
 OGC_HD inline double share_of(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
 
-/// The last kernel of a step: writes its row, also of one that failed (but not of one that a list stopped: it is
-/// repeated).
+/// Writes the row of a step in its last kernel, also if the step failed. A step that a full list stopped has no row: it
+/// is repeated.
 struct FinishStep {
   StepControl* control;  ///< on the backend
-  ContactView contacts;  ///< whose counts are reported
-  const double* sums;    ///< the first guess_columns after the guess loop, then by SumColumn at the end
+  ContactView contacts;  ///< their counts are reported
+  const double* sums;    ///< the first guess_columns after the guess loop, then SumColumn at the end
   StepRow* rows;         ///< by step of the frame, on the backend
-  int segments = 0;      ///< of rods
-  /// by LeftColumn, on the backend; null where forces were not measured
+  int segments = 0;      ///< segments of rods
+  /// by LeftColumn, on the backend; null if forces were not measured
   const double* left = nullptr;
   int free_vertices = 0;
 
@@ -306,7 +188,7 @@ struct FinishStep {
   }
 
  private:
-  /// Means of Eq. 29: of f over vertices that nothing holds, of f* over all.
+  /// Writes the means of Eq. 29: of f over vertices that no bound holds, of f* over all free ones.
   OGC_HD void add_left(StepRow& row) const {
     const double reference = share_of(left[left_reference], free_vertices), unheld = free_vertices - left[left_held];
     row.left_residual = share_of(share_of(left[left_force], unheld), reference);

@@ -1,5 +1,5 @@
-// The searches of a detection whose pairs get planes: every pair within r_q is noted, whatever else is near its two
-// partners, because only then is it known which pairs a vertex has without a plane.
+// Searches for a detection whose pairs get planes. Every pair within r_q is noted, whatever else is near its two
+// partners, because only then is it known which pairs of a vertex have no plane.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -7,18 +7,18 @@
 
 namespace ogc::fast {
 
-/// The searches of all vertices; a Query of search.hpp.
+/// Searches all vertices; a Query of search.hpp.
 struct NearVertexFacet : DetectVertexFacet {
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// The search of the i-th vertex along the Hilbert curve. Its limit is that of r_q and never falls.
+  /// Returns the search of the i-th vertex along the Hilbert curve. Its limit is that of r_q and never falls.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
     const Vec x = searched_from(v);
     return {{x, x}, v, 0, gap_limit(*query_radius)};
   }
 
-  /// The squared limit of r_q; negative where the boxes are farther apart, or the pair is none.
+  /// Returns the squared limit of r_q; negative if the boxes are farther apart, or the pair is none (method.md §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     if (offer.gap > search.limit) return -1.0F;
     const int v = search.owner;
@@ -28,13 +28,13 @@ struct NearVertexFacet : DetectVertexFacet {
     return search.limit;
   }
 
-  /// Whether a lower bound of the distance leaves the pair within r_q.
+  /// Returns whether a lower bound of the distance leaves the pair within r_q.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     if (candidate_limit(search, offer) < 0) return false;
     return !is_beyond(separation(search.box.lower, corners(surface.facets[offer.primitive])), search.limit);
   }
 
-  /// Notes the pair where it may be nearer than r_q, as certain where it surely is nearer than r.
+  /// Notes the pair if it may be nearer than r_q, as certain if it surely is nearer than r.
   OGC_HD float meet(const Search& search, int t, float) const {
     const Distance d = point_triangle_distance(search.box.lower, corners(surface.facets[t]));
     if (d.may_be_within(*query_radius)) lists.note({~search.owner, t}, d.is_surely_within(contact_radius));
@@ -42,17 +42,17 @@ struct NearVertexFacet : DetectVertexFacet {
   }
 };
 
-/// The searches of all edges; each pair once, as in DetectEdgeEdge.
+/// Searches all edges; each pair once, as in DetectEdgeEdge.
 struct NearEdgeEdge : DetectEdgeEdge {
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// The search of the edge at place i of the tree, from the place behind it; its limit never falls.
+  /// Returns the search of the edge at place i of the tree, from the place behind it; its limit never falls.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {child.box(), child.primitive, i + 1, gap_limit(*query_radius)};
   }
 
-  /// As NearVertexFacet::candidate_limit.
+  /// Returns the same as NearVertexFacet::candidate_limit.
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     if (offer.gap > search.limit) return -1.0F;
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
@@ -60,17 +60,17 @@ struct NearEdgeEdge : DetectEdgeEdge {
     return search.limit;
   }
 
-  /// As NearVertexFacet::is_pair.
+  /// Returns the same as NearVertexFacet::is_pair.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     if (candidate_limit(search, offer) < 0) return false;
     return !is_beyond(separation(ends(surface.edges[search.owner]), ends(surface.edges[offer.primitive])),
                       search.limit);
   }
 
-  /// Each pair is noted, whatever it is.
+  /// Returns false: each pair is noted, whatever it is.
   OGC_HD bool is_idle(const Search&, const Offer&, float) const { return false; }
 
-  /// As NearVertexFacet::meet.
+  /// Notes the pair as NearVertexFacet::meet does.
   OGC_HD float meet(const Search& search, int other, float) const {
     const int low = search.owner < other ? search.owner : other, high = search.owner < other ? other : search.owner;
     const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));

@@ -311,21 +311,4 @@ OGC_HD OGC_OUT_OF_LINE Truncated scale_into(FeasibleRegion region, Vec current, 
   return {slide::scaled(region, current, slide::wide(proposal), lanes), true};
 }
 
-/// The proposal of a free vertex as its region allows it; `cut`: it was changed. All of `lanes` call it together.
-template <class Metric, class Lanes = OneLane>
-OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
-                      const Lanes& lanes = {}) {
-  if (region.count == 0) return truncate(region.ball, proposal);
-  if (is_within(region, proposal, lanes)) return {proposal, false};
-  if (!region.slides) return scale_into(region, region.ball.centre, proposal, lanes);
-  return slide_into(region, current, proposal, metric, lanes);
-}
-
-/// The same of a prescribed vertex.
-OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& current, const Vec& target) {
-  if (region.count == 0) return truncate(region.ball, target);
-  if (is_within(region, target)) return {target, false};
-  return scale_into(region, region.slides ? current : region.ball.centre, target, OneLane{});
-}
-
 }  // namespace ogc::fast

@@ -1,4 +1,4 @@
-// From the pairs within r_q that a search noted to each vertex's half-spaces and ball (method.md §5.6):
+// Turns the pairs within r_q that a search noted into each vertex's half-spaces and ball (method.md §5.6):
 //
 //   MeasurePairs     by pair    its distance, and its place in the row of each of its vertices
 //   (scan of the rows' lengths)
@@ -19,54 +19,43 @@
 
 namespace ogc::fast {
 
-/// Counts a prescribed vertex that did not reach its target.
-OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, const Vec& previous,
-                                const FeasibleRegions& regions) {
-  if (!kept.cut) return;
-  const Vec &x = kept.position, &p = previous;
-  if (!regions.has_planes())
-    control.count_cut();
-  else
-    control.count_lag(x.x != p.x || x.y != p.y || x.z != p.z);
-}
-
 /// The places of a pair in the rows of its vertices.
 struct RowPlaces {
   int at[4];
 };
 
-/// What the kernels of this file share.
+/// Holds what the kernels of this file share.
 struct PlaneListsView {
   SurfaceView surface;
   PaddedVecs positions;                    ///< of the detection
   const std::uint8_t* is_fixed = nullptr;  ///< by vertex
   float share = 0;                         ///< γ_p
-  const Vec* displacement = nullptr;       ///< w by vertex [m], which divides gaps; null: they are halved
+  const Vec* displacement = nullptr;       ///< w by vertex [m], which divides gaps; null: gaps are halved
   const float* query_radius = nullptr;     ///< r_q [m]
   const NotedPair* noted = nullptr;        ///< pairs within r_q in any order, numbered by their place
   float* distance = nullptr;               ///< by noted pair, rounded down [m]
   RowPlaces* places = nullptr;             ///< by noted pair
-  int* pair_counts = nullptr;              ///< by vertex: pairs that it is part of
+  int* pair_counts = nullptr;              ///< by vertex: number of its pairs
   int* pair_offsets = nullptr;             ///< vertices + 1
-  float* pair_rows = nullptr;              ///< distances of a vertex's pairs, in any order: from pair_offsets[v] [m]
+  float* pair_rows = nullptr;              ///< distances of vertex v's pairs [m] from pair_offsets[v] on, in any order
   float* threshold = nullptr;              ///< δ_v [m]
-  float* nearest = nullptr;                ///< by vertex: not above the distance of its nearest pair, at most r_q [m]
-  float* unplaned = nullptr;               ///< the same of its nearest pair without a plane
-  HalfSpace* placed = nullptr;             ///< n·x ≤ o of vertex v from v · most_planes, in any order
-  NotedPair* placed_pairs = nullptr;       ///< beside them: whose planes they are
-  HalfSpace* rows = nullptr;               ///< the same in ascending order of pair
+  float* nearest = nullptr;                ///< by vertex: at most the distance of its nearest pair, and at most r_q [m]
+  float* unplaned = nullptr;               ///< by vertex: the same for its nearest pair without a plane
+  HalfSpace* placed = nullptr;             ///< n·x ≤ o of vertex v from v · most_planes on, in any order
+  NotedPair* placed_pairs = nullptr;       ///< the pair of each of them
+  HalfSpace* rows = nullptr;               ///< the half-spaces in ascending order of pair; `pairs`: the pair of each
   NotedPair* pairs = nullptr;
   int* counts = nullptr;   ///< half-spaces by vertex, at most most_planes
   float* bound = nullptr;  ///< b_v by vertex [m]: γ_p times `unplaned`
 
-  /// Such a pair is stored as ~vertex and facet.
+  /// Returns whether the pair is stored as ~vertex and facet.
   OGC_HD bool is_vertex_facet(const NotedPair& pair) const { return pair.first < 0; }
-  /// A search stores the second number inverted where it is certain of something else.
+  /// Returns noted pair i; a search stores its second number inverted if it is surely within r.
   OGC_HD NotedPair pair(int i) const {
     const NotedPair raw = noted[i];
     return {raw.first, raw.second < 0 ? ~raw.second : raw.second};
   }
-  /// The vertices of a pair; those from `second_from` on belong to the second side.
+  /// Holds the vertices of a pair; those from `second_from` on belong to the second side.
   struct Vertices {
     int at[4], second_from;
   };
@@ -78,7 +67,7 @@ struct PlaneListsView {
     const EdgeEnds p = surface.edges[pair.first], q = surface.edges[pair.second];
     return {{p.a, p.b, q.a, q.b}, 2};
   }
-  /// f of the PairPoints of a pair.
+  /// Returns f of the PairPoints of a pair.
   template <class F>
   OGC_HD auto at_points(const NotedPair& pair, F f) const {
     const Vertices of = vertices(pair);
@@ -89,7 +78,7 @@ struct PlaneListsView {
       return f(PairPoints<1, 3>{{x[v[0]]}, {x[v[1]], x[v[2]], x[v[3]]}, fixed(0, 0), fixed(1, 2) && fixed(3, 3)});
     return f(PairPoints<2, 2>{{x[v[0]], x[v[1]]}, {x[v[2]], x[v[3]]}, fixed(0, 1), fixed(2, 3)});
   }
-  /// The displacements of a pair, as its points.
+  /// Returns the displacements of a pair's points.
   OGC_HD ByApproach<1, 3> approach(const NotedPair& pair, const PairPoints<1, 3>&) const {
     const Vertices of = vertices(pair);
     const Vec* w = displacement;
@@ -100,7 +89,7 @@ struct PlaneListsView {
     const Vec* w = displacement;
     return {{w[of.at[0]], w[of.at[1]]}, {w[of.at[2]], w[of.at[3]]}};
   }
-  /// The plane of a pair that is not nearer than `below`.
+  /// Returns the plane of a pair that is not nearer than `below`.
   OGC_HD PairPlane plane(const NotedPair& pair, float below) const {
     return at_points(pair, [this, &pair, below](const auto& points) {
       if (displacement == nullptr) return plane_of(points, below, share);
@@ -109,7 +98,7 @@ struct PlaneListsView {
   }
 };
 
-/// for_each over vertices, before MeasurePairs.
+/// Resets counts and `unplaned` before MeasurePairs. Index over vertices.
 struct PreparePlanes {
   PlaneListsView lists;
 
@@ -119,25 +108,26 @@ struct PreparePlanes {
   }
 };
 
-/// for_each_counted over noted pairs: their distances, rounded down, and their places in the rows of their vertices.
+/// Computes the distances of noted pairs, rounded down, and their places in the rows of their vertices. Index over
+/// noted pairs.
 struct MeasurePairs {
   PlaneListsView lists;
 
   OGC_HD void operator()(int i) const {
     const NotedPair pair = lists.pair(i);
     const PlaneListsView::Vertices of = lists.vertices(pair);
-    RowPlaces places;  // asked for before the distance: they are on their way meanwhile
+    RowPlaces places;  // taken before the distance, which hides the latency of the atomics
     for (int k = 0; k < 4; ++k)
       places.at[k] = lists.is_fixed[of.at[k]] != 0 ? nowhere : atomic_add(&lists.pair_counts[of.at[k]], 1);
     lists.places[i] = places;
     lists.distance[i] = lists.at_points(pair, [](const auto& points) { return distance_of(points).below(); });
   }
 
-  /// A vertex that never moves has no row.
+  /// The place of a vertex that never moves: it has no row.
   static constexpr int nowhere = -1;
 };
 
-/// for_each_counted over noted pairs: enters each in the rows of its vertices.
+/// Enters each pair in the rows of its vertices. Index over noted pairs.
 struct FillPairRows {
   PlaneListsView lists;
 
@@ -150,7 +140,7 @@ struct FillPairRows {
   }
 };
 
-/// for_each_row over the distances of vertices' pairs: δ_v, infinite where there are at most N.
+/// Writes δ_v, infinite if v has at most N pairs. Called for each row of distances of a vertex's pairs.
 struct ChooseThreshold {
   static constexpr int rank = most_planes;
   PlaneListsView lists;
@@ -161,8 +151,8 @@ struct ChooseThreshold {
   }
 };
 
-/// for_each_counted over noted pairs: the plane, where the pair is nearer than δ_v of all vertices that can move and
-/// the points keep what is computed; otherwise the pair's distance lowers `unplaned` of its vertices.
+/// Places the plane of a pair that is nearer than δ_v of all vertices that can move, and whose points pass the plane's
+/// test; the distance of any other pair lowers `unplaned` of its vertices. Index over noted pairs.
 struct PlacePlanes {
   PlaneListsView lists;
 
@@ -191,7 +181,8 @@ struct PlacePlanes {
   }
 };
 
-/// for_each over N places of each vertex: each plane to its place in the order, the ball beside the first.
+/// Moves each plane to its place in the order; the thread of the first place also writes the ball. Index over N places
+/// of each vertex.
 struct SortHalfSpaces {
   PlaneListsView lists;
 

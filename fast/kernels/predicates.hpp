@@ -1,26 +1,26 @@
-// The polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. Each boundary is one polynomial,
-// used for classification and for membership alike, so that no point falls between two faces (method.md §3.1). Degrees
-// stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
+// Defines the polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. Each boundary is one
+// polynomial, used for classification and for membership alike, so that no point falls between two faces (method.md
+// §3.1). Degrees stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
 #pragma once
 
 #include "fast/kernels/arithmetic/exact_sign.hpp"
 
 namespace ogc::fast {
 
-/// (u·w)(e·e) − (u·e)(w·e): the product of the parts of u and w perpendicular to e, times ‖e‖².
+/// Returns (u·w)(e·e) − (u·e)(w·e): the product of the parts of u and w perpendicular to e, times ‖e‖².
 template <class N>
 OGC_HD N perpendicular_product(const Vector<N>& u, const Vector<N>& w, const Vector<N>& e) {
   return dot(u, w) * dot(e, e) - dot(u, e) * dot(w, e);
 }
 
-/// The same from cross products, in which the parts along e cancel term by term: of parts across it that are 2⁻¹⁰⁰ of
-/// those along it, as small coordinates are beside an edge on an axis, the sums of the form above keep nothing even in
-/// double-double.
+/// Returns the same from cross products, in which the parts along e cancel term by term. If the parts across e are
+/// 2⁻¹⁰⁰ of those along it, as for small coordinates beside an edge on an axis, the sums of the form above keep nothing
+/// even in double-double.
 OGC_HD inline Wide perpendicular_product(const Vector<Wide>& u, const Vector<Wide>& w, const Vector<Wide>& e) {
   return dot(cross(u, e), cross(w, e));
 }
 
-/// Positive where x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for
+/// Is positive if x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for
 /// an edge of zero length.
 struct End {
   /// (x − a)·(b − a) [m²].
@@ -32,8 +32,8 @@ struct End {
   }
 };
 
-/// Positive where x lies on c's side of the edge ab, seen in the triangle's plane; 0 for every x where the triangle has
-/// no area.
+/// Is positive if x lies on c's side of the edge ab, seen in the triangle's plane; 0 for every x if the triangle has no
+/// area.
 struct Side {
   /// ((x − a) × (b − a))·((c − a) × (b − a)) [m⁴].
   static constexpr int degree = 4;
@@ -44,7 +44,7 @@ struct Side {
   }
 };
 
-/// Negative where, from v towards w, the distance to the line ab falls. With c(e, v) inside ab this is the plane of Eq.
+/// Is negative if the distance to the line ab falls from v towards w. With c(e, v) inside ab this is the plane of Eq.
 /// 15 at v: c in U_v iff ≥ 0 for all w.
 struct Receding {
   /// ((v − a) × (b − a))·((w − v) × (b − a)) [m⁴].
@@ -56,7 +56,7 @@ struct Receding {
   }
 };
 
-/// Positive where ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1.4): nearly parallel. Never for an edge of zero length.
+/// Is positive if ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1.4): nearly parallel. Never for an edge of zero length.
 struct NearlyParallel {
   /// ‖e‖² ‖f‖² − 10⁶ ‖e × f‖² [m⁴], e = b − a, f = d − c.
   static constexpr int degree = 4;
@@ -68,7 +68,7 @@ struct NearlyParallel {
   }
 };
 
-/// Negative where x is nearer than r to the point a.
+/// Is negative if x is nearer than r to the point a.
 struct PointReach {
   /// ‖x − a‖² − r² [m²].
   static constexpr int degree = 2;
@@ -81,7 +81,7 @@ struct PointReach {
   }
 };
 
-/// Negative where x is nearer than r to the line ab.
+/// Is negative if x is nearer than r to the line ab.
 struct LineReach {
   /// ‖(x − a) × e‖² − r² ‖e‖² [m⁴], e = b − a.
   static constexpr int degree = 4;
@@ -94,8 +94,8 @@ struct LineReach {
   }
 };
 
-/// Negative where x is nearer than r to the plane through a spanned by b − a and d − c: a triangle's plane with c = a,
-/// or the distance of two lines ab and cd with x = c.
+/// Is negative if x is nearer than r to the plane through a spanned by b − a and d − c. This is a triangle's plane with
+/// c = a, and decides the distance of two lines ab and cd with x = c.
 struct PlaneReach {
   /// ((x − a)·n)² − r² ‖n‖² [m⁶], n = (b − a) × (d − c).
   static constexpr int degree = 6;

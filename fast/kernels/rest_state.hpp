@@ -1,4 +1,4 @@
-// Rest data of one triangle, one hinge and one tetrahedron, in double: computed once, stored in single, so that what
+// Computes the rest data of one triangle, one hinge and one tetrahedron in double: once, stored in single, so that what
 // the sweep reads is the correctly rounded value.
 #pragma once
 
@@ -13,7 +13,7 @@ struct RestVector {
   double x, y, z;  ///< [m]
 };
 
-/// a − b.
+/// Returns a − b; the functions below return dot product, length and cross product.
 inline RestVector rest_difference(const compare::Vec3& a, const compare::Vec3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
@@ -23,14 +23,14 @@ inline RestVector rest_cross(const RestVector& a, const RestVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Area [m²] and the gradients ∇N_k [1/m] of the three linear shape functions in an orthonormal frame of the rest
+/// Holds the area and the gradients ∇N_k of the three linear shape functions in an orthonormal frame of the rest
 /// triangle: F = Σ x_k ∇N_kᵀ (3×2).
 struct RestTriangle {
   double area = 0;             ///< A [m²]
   double gradient[3][2] = {};  ///< ∇N_k by corner [1/m]
 };
 
-/// The triangle must have an area (validate refuses it otherwise).
+/// Returns the rest data of a triangle, which must have an area (validate refuses it otherwise).
 inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& p1, const compare::Vec3& p2) {
   const RestVector first = rest_difference(p1, p0), second = rest_difference(p2, p0);
   const double length = rest_length(first), twice_area = rest_length(rest_cross(first, second));
@@ -45,16 +45,16 @@ inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& 
   return rest;
 }
 
-/// Volume V [m³], the gradients ∇N_k [1/m] of the four linear shape functions, and V ∇N_k·∇N_l [m] of the pairs 01, 02,
-/// 03, 12, 13, 23.
+/// Holds the volume, the gradients ∇N_k of the four linear shape functions, and V ∇N_k·∇N_l of the pairs 01, 02, 03,
+/// 12, 13, 23.
 struct RestTetrahedron {
   double volume = 0;            ///< V [m³]
   RestVector gradient[4] = {};  ///< ∇N_k by corner [1/m]
   double weight[6] = {};        ///< V ∇N_k·∇N_l by pair of corners [m]
 };
 
-/// The volume must be positive (validate refuses it otherwise). ∇N_k = n_k/(6V) with n_k of twice the area of the face
-/// opposite corner k, inward.
+/// Returns the rest data of a tetrahedron, whose volume must be positive (validate refuses it otherwise). ∇N_k =
+/// n_k/(6V), where n_k points inward and has twice the area of the face opposite corner k.
 inline RestTetrahedron rest_tetrahedron(const compare::Vec3& p0, const compare::Vec3& p1, const compare::Vec3& p2,
                                         const compare::Vec3& p3) {
   const RestVector a = rest_difference(p1, p0), b = rest_difference(p2, p0), c = rest_difference(p3, p0),
@@ -70,15 +70,15 @@ inline RestTetrahedron rest_tetrahedron(const compare::Vec3& p0, const compare::
   return rest;
 }
 
-/// Angle θ₀ [rad] between the triangles (x0, x1, o0) and (x1, x0, o1), 0 where flat, in (−π, π], and 3‖e‖²/(A₀ + A₁)
-/// [1], e = x1 − x0; weights of x1, o0 and o1 in the isometric model [1/m]: sums of the cotangents of the angles at x0
+/// Holds the angle θ₀ between the triangles (x0, x1, o0) and (x1, x0, o1), 0 where flat, in [−π, π], and 3‖e‖²/(A₀ +
+/// A₁), e = x1 − x0. The weights of x1, o0 and o1 in the isometric model are sums of the cotangents of the angles at x0
 /// and x1 over ‖e‖.
 struct RestHinge {
   double angle = 0, factor = 0;  ///< θ₀ [rad], 3‖e‖²/(A₀ + A₁) [1]
   double weight[3] = {};         ///< of x1, o0, o1 [1/m]
 };
 
-/// Sign: negative where o1 lies on the side to which (x1 − x0) × (o0 − x0) points. The same as in
+/// Returns the rest data of a hinge. θ₀ is negative if o1 lies on the side to which (x1 − x0) × (o0 − x0) points, as in
 /// fast/kernels/models/discrete_hinge.hpp.
 inline RestHinge rest_hinge(const compare::Vec3& x0, const compare::Vec3& x1, const compare::Vec3& o0,
                             const compare::Vec3& o1) {

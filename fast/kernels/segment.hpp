@@ -1,4 +1,4 @@
-// Distance of a point and a closed segment in rounded double: the piece that both pair distances share.
+// Computes the distance of a point and a closed segment in rounded double, which both pair distances share.
 #pragma once
 
 #include "fast/kernels/arithmetic/exact_sign.hpp"
@@ -8,38 +8,38 @@ namespace ogc::fast {
 /// A vector in rounded double.
 using Real = Vector<Rounded>;
 
-/// A distance [m] and how far it can be from the exact one.
+/// Holds a distance [m] and how far it can be from the exact one.
 struct Distance {
   double value = 0, slack = 0;  ///< [m]: the exact distance lies within value ± slack
 
-  /// Nearer than r: perhaps, where the slack leaves it open; for certain.
+  /// Return whether the exact distance may be below r, if the slack leaves it open, and whether it surely is.
   OGC_HD bool may_be_within(float r) const { return sub(value, slack) < static_cast<double>(r); }
   OGC_HD bool is_surely_within(float r) const { return add(value, slack) < static_cast<double>(r); }
-  /// Never above the exact distance.
+  /// Returns a float that is never above the exact distance.
   OGC_HD float below() const {
     const double low = sub(value, slack);
     return low > 0 ? round_down(low) : 0.0F;
   }
 };
 
-/// ‖a‖₁.
+/// Returns ‖a‖₁.
 OGC_HD inline double norm_1(const Real& a) {
   return add(add(modulus(a.x.value), modulus(a.y.value)), modulus(a.z.value));
 }
 
-/// ‖a‖², rounded operation by operation.
+/// Returns ‖a‖², rounded operation by operation.
 OGC_HD inline double squared(const Real& a) { return dot(a, a).value; }
 
-/// Parameter of the point of the line nearest to x, u = x − a, e = b − a, clamped to [0, 1]; 0 where the edge has no
-/// length.
+/// Returns the parameter of the point of the line nearest to x, clamped to [0, 1]; u = x − a, e = b − a. 0 if the edge
+/// has no length.
 OGC_HD inline double segment_parameter(const Real& u, const Real& e) {
   const double along = dot(u, e).value, whole = squared(e);
   if (!(along > 0)) return 0;
   return along < whole ? divide(along, whole) : 1;
 }
 
-/// Squared distance to the closed segment. Its root errs by less than 2⁻⁴⁸ (‖u‖ + ‖e‖): the parameter by 12 roundings
-/// of ‖u‖/‖e‖, the difference and the norm by 8 of ‖u‖.
+/// Returns the squared distance to the closed segment. Its root errs by less than 2⁻⁴⁸ (‖u‖ + ‖e‖): the parameter by 12
+/// roundings of ‖u‖/‖e‖, the difference and the norm by 8 of ‖u‖.
 OGC_HD inline double squared_to_segment(const Real& u, const Real& e) {
   return squared(u - Rounded{segment_parameter(u, e)} * e);
 }

@@ -1,10 +1,10 @@
-// Lower bounds of distances in single precision: most pairs that a search meets can be told to be too far apart without
-// the double-precision distance.
+// Computes lower bounds of distances in single precision: they prove most pairs that a search meets to be too far apart
+// without the double-precision distance.
 //
-// Along any direction d, two convex sets are no nearer than the gap of their shadows on d, and with d between the
-// closest points that gap is the distance. So d is computed roughly (what it misses makes the bound lower, never
-// wrong), and only the projections on it count as errors: the difference of two points, the product, two sums and two
-// more where three projections meet are 6 u ‖d‖₂ S, S the 1-norms of the differences.
+// Along any direction d, two convex sets are no nearer than the gap of their projections on d, and with d between the
+// closest points that gap is the distance. So d is computed roughly (an error of it makes the bound lower, never
+// wrong), and only the projections on it count as errors: the difference of two points, the product, two sums, and two
+// more sums where three projections meet are 6 u ‖d‖₂ S, S the sum of the 1-norms of the differences.
 #pragma once
 
 #include "fast/kernels/arithmetic/scalar.hpp"
@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Any direction will do, so a quotient need not be right.
+/// Returns a/b roughly: any direction d will do, so the quotient need not be right.
 OGC_HD inline float rough_quotient(float a, float b) {
 #if defined(__CUDA_ARCH__)
   return __fdividef(a, b);
@@ -22,7 +22,7 @@ OGC_HD inline float rough_quotient(float a, float b) {
 #endif
 }
 
-/// 1/√a within 4 u.
+/// Returns 1/√a within 4 u.
 OGC_HD inline float rough_inverse_root(float a) {
 #if defined(__CUDA_ARCH__)
   return rsqrtf(a);
@@ -31,28 +31,28 @@ OGC_HD inline float rough_inverse_root(float a) {
 #endif
 }
 
-/// ‖a‖₁.
+/// Returns ‖a‖₁.
 template <class T>
 OGC_HD T norm_1(const Vector<T>& a) {
   return absolute(a.x) + absolute(a.y) + absolute(a.z);
 }
 
-/// To [0, 1].
+/// Clamps s to [0, 1].
 template <class T>
 OGC_HD T clamped(const T& s) {
   return smaller(larger(s, T{}), T{1.0F});
 }
 
-/// From the gap of the shadows on d (times ‖d‖), d·d and an error of the distance. The root and products err by 8 u.
-/// Where d·d is so small that it may have lost bits there is no bound.
+/// Returns the bound, given the gap of the projections on d (times ‖d‖), d·d and an error of the distance. The root and
+/// products err by 8 u. Returns 0, which is no bound, if d·d is so small that it may have lost bits.
 template <class T>
 OGC_HD T separation(const T& gap, const T& dd, const T& error) {
   return select(dd > 0x1p-100F, gap * rough_inverse_root(dd) * (1 - 0x1p-20F) - error, T{});
 }
 
-/// A length, possibly negative or not a number, that does not exceed what `edge_edge_distance(p, q).below()` gives.
-/// Beside the 6 u S said above that lies under the exact distance by two slacks of at most 2 u S and by one rounding of
-/// at most 2 u S: 12 u S. Taken: 16 u S.
+/// Returns a length, possibly negative or not a number, that does not exceed what `edge_edge_distance(p, q).below()`
+/// gives. Apart from the 6 u S above, that value lies under the exact distance by two slacks of at most 2 u S and by
+/// one rounding of at most 2 u S: 12 u S. The code takes 16 u S.
 template <class T>
 OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
   const Vector<T> e = p.b - p.a, f = q.b - q.a, w = q.a - p.a;
@@ -64,9 +64,9 @@ OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
   return separation<T>(gap, dot(d, d), 0x1p-20F * (norm_1(w) + norm_1(e) + norm_1(f)));
 }
 
-/// The same for `point_triangle_distance(x, corners).below()`, from two directions: the normal, and that to the nearest
-/// point of the outline. Here the projections take x − corner, with S' the sum of their 1-norms: S ≤ 3 S', so two
-/// slacks of 2 u S and the rest are under 20 u S'. Taken: 32 u S'.
+/// Returns the same for `point_triangle_distance(x, corners).below()`, from two directions: the normal, and the
+/// direction to the nearest point of the outline. Here the projections take x − corner, with S' the sum of their
+/// 1-norms: S ≤ 3 S', so two slacks of 2 u S and the rest are under 20 u S'. The code takes 32 u S'.
 template <class T>
 OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
   const Vector<T> u = x - t.a, v = x - t.b, w = x - t.c, e = t.b - t.a, f = t.c - t.b, g = t.a - t.c, n = cross(e, f);
@@ -84,7 +84,7 @@ OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
   return larger(outline, separation<T>(larger(low, -high), dot(n, n), error));
 }
 
-/// Whether a length that a distance is not below lies beyond a limit of gap_limit.
+/// Returns whether a lower bound of a distance lies beyond a limit of gap_limit.
 OGC_HD inline bool is_beyond(float separation, float limit) {
   return separation > 0 && separation * separation > limit;
 }

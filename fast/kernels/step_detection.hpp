@@ -1,5 +1,5 @@
-// The launches of a detection within a step, each with what the step has to do there: a launch of its own for it would
-// cost a device more than the work. Nothing here reads what its neighbour in the same launch writes.
+// Runs the launches of a detection within a step, each together with work of the step that is due there: a launch of
+// its own would cost a device more than the work. Nothing here reads what its neighbour in the same launch writes.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// First launch: the regions that end are certified, X_prev ← x, and the detection begins. Index as of BeginDetection.
+/// First launch: certifies the regions that end, sets X_prev ← x, and begins the detection. Index as in BeginDetection.
 struct BeginStepDetection {
   BeginRegions regions;
   BeginDetection detection;
@@ -20,8 +20,8 @@ struct BeginStepDetection {
   }
 };
 
-/// Beside the last launch: the detection is counted, and each slot gets its row of the contact stream. Index over
-/// slots, at least one.
+/// Beside the last launch: counts the detection, and gives each slot its row of the contact stream. Index over slots,
+/// at least one.
 struct EndStepDetection {
   EndDetection end;
   CopyContactRows<LooseIncidence> rows;
@@ -33,7 +33,7 @@ struct EndStepDetection {
   }
 };
 
-/// Last launch: each incidence at its place, and the same contact in the stream of the sweep. Index over all
+/// Last launch: writes each incidence at its place, and its contact into the stream of the sweep. Index over all
 /// incidences.
 struct RankAndResolve {
   RankIncidences rank;

@@ -1,4 +1,4 @@
-// The complex as kernels see it: names and adjacency in plain arrays, no positions.
+// Holds the complex as kernels see it: numbers and adjacency in plain arrays, no positions.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace ogc::fast {
 
 /// A triangle with its corners in the order of the mesh and the numbers of its edges 01, 12, 20. Bit k of `descending`
-/// is set where edge k starts at its higher-numbered vertex, so that every triangle at an edge can give the edge's
+/// is set if edge k starts at its higher-numbered vertex, so that every triangle at an edge can give the edge's
 /// predicate the same operands.
 struct alignas(16) Facet {
   int corner[3];  ///< vertices in the order of the mesh
@@ -21,7 +21,7 @@ struct alignas(8) EdgeEnds {
   int a, b;
 };
 
-/// A tetrahedron and who lies behind its sides.
+/// A tetrahedron and its neighbours across its sides.
 struct alignas(16) SolidElement {
   int corner[4];  ///< vertices
   int behind[4];  ///< by corner: the tetrahedron across the opposite side, or −1
@@ -33,21 +33,21 @@ struct Rows {
   const int* items = nullptr;    ///< row by row
 };
 
-/// Seeds name pairs that are known to take part in the smallest distances, so that a query need not look farther
-/// (fast/kernels/bvh.hpp); −1: none.
+/// Seeds of an edge. Seeds name pairs that are known to take part in the smallest distances, so that a query need not
+/// search farther (fast/kernels/bvh.hpp); −1: none.
 struct EdgeSeeds {
   int vertex[2];  ///< each has an edge that forms a pair with this one
 };
 /// Seeds of a facet.
 struct FacetSeeds {
-  int vertex[3];  ///< across edge k of the facet: forms a pair with it
+  int vertex[3];  ///< across edge k of the facet; forms a pair with the facet
 };
 /// Seeds of a vertex.
 struct VertexSeeds {
   int edge[2];  ///< each has a facet that forms a pair with the vertex
 };
 
-/// The complex on the backend.
+/// Holds the complex on the backend.
 struct SurfaceView {
   int vertex_count = 0, edge_count = 0, triangle_count = 0;
   const Facet* facets = nullptr;              ///< by triangle
@@ -55,29 +55,30 @@ struct SurfaceView {
   Rows neighbours;                            ///< V_v of Eq. 8 and 15
   Rows opposites;                             ///< V_e of Eq. 9
   Rows vertex_edges, vertex_triangles;        ///< by vertex: numbers of its edges and of its triangles
-  const std::uint8_t* off_surface = nullptr;  ///< by vertex; null where there is none (compare::Topology)
-  const int* groups = nullptr;                ///< pairs whose vertices all carry one number ≥ 0 are left out
+  const std::uint8_t* off_surface = nullptr;  ///< by vertex; null if all are on the surface (compare::Topology)
+  const int* groups = nullptr;                ///< by vertex; pairs whose vertices all have one group ≥ 0 are left out
   const EdgeSeeds* edge_seeds = nullptr;      ///< by edge
   const FacetSeeds* facet_seeds = nullptr;    ///< by triangle
   const VertexSeeds* vertex_seeds = nullptr;  ///< by vertex
-  /// pairs are left out where a vertex of one side stands in the row of one of the other; without offsets where there
-  /// is none
+  /// a pair is left out if a vertex of one side stands in the row of a vertex of the other; without offsets if there
+  /// are no such pairs
   Rows partners;
-  /// What searches look at: numbers of vertices, then of edges, then of facets, without those of volumes; null: all of
-  /// them, in order
+  /// Primitives that take part in searches: numbers of vertices, then of edges, then of facets, without those of
+  /// volumes; null: all of them, in order.
   const int* searched = nullptr;
-  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< how many
+  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< numbers of each
 
-  /// Whether no detection looks at the vertex: inside a solid it is on no boundary triangle (method.md §8.3), and what
-  /// is of a volume is asked for by others (volume_depth.hpp).
+  /// Returns whether no detection looks at the vertex: it is inside a solid, on no boundary triangle (method.md §8.3),
+  /// or belongs to a volume, which other kernels query (volume_depth.hpp).
   OGC_HD bool is_off_surface(int v) const { return off_surface != nullptr && off_surface[v] != 0; }
 
-  /// A face as one number: vertices, then edges, then triangles, so that numbers have the order of compare::Face.
+  /// Returns a face as one number: vertices come first, then edges, then triangles, so that numbers have the order of
+  /// compare::Face.
   OGC_HD int vertex_face(int v) const { return v; }
   OGC_HD int edge_face(int e) const { return vertex_count + e; }
   OGC_HD int triangle_face(int t) const { return vertex_count + edge_count + t; }
 
-  /// A pair that is none although it shares no vertex.
+  /// Returns whether method.md §2.3 leaves out a pair that shares no vertex.
   OGC_HD bool left_out(int v, const Facet& t) const {
     const int g = groups[v];
     if (g >= 0 && groups[t.corner[0]] == g && groups[t.corner[1]] == g && groups[t.corner[2]] == g) return true;
@@ -92,7 +93,7 @@ struct SurfaceView {
   }
 
  private:
-  /// Rows are short, nearly all of them empty.
+  /// Returns whether `of` stands in v's row. Rows are short, nearly all of them empty.
   OGC_HD bool is_partner(int v, int of) const {
     for (int i = partners.offsets[v]; i < partners.offsets[v + 1]; ++i) {
       if (partners.items[i] == of) return true;

@@ -1,5 +1,5 @@
-// What an update of Algorithm 4 reads and writes: the streams of all kinds of elements, in the order of the sweep, and
-// positions.
+// What an update of Algorithm 4 reads and writes beside the elements of a kind, and the form of a kind's stream.
+// kinds/kinds.hpp joins both to the SweepView that kernels get.
 //
 // Gauss–Seidel over colours with two position buffers an iteration (method.md §7.2): a neighbour of lower colour is
 // read from the fresh buffer, any other from the old one. Which of the two is known when the streams are made, so it
@@ -24,13 +24,41 @@ namespace ogc::fast {
 inline constexpr unsigned asks_triangles = 1, asks_hinges = 2, asks_springs = 4, asks_tetrahedra = 8,
                           asks_segments = 16, asks_volumes = 32, asks_any_model = 64, asks_any_activation = 128;
 
+/// The elements of a vertex in the stream of a kind.
+struct Row {
+  int begin = 0, count = 0;  ///< first place among the incidences, and how many
+};
+
+/// Stands for data that a kind of elements does not have.
+struct NoData {};
+
+/// The stream of a kind: what each free vertex of an element sees of it, row by row in the order of slots. `Beside`:
+/// what some models read of an incidence besides. `Start`: of an element when the step starts, for damping. `ByBody`:
+/// constants of a body that no other kind reads.
+template <class Incidence, class Beside = NoData, class Start = NoData, class ByBody = NoData>
+struct StreamView {
+  const Row* rows = nullptr;              ///< by slot; null: SweepVertex has them, or the scene has no such element
+  const Incidence* incidences = nullptr;  ///< row by row
+  const Beside* beside = nullptr;         ///< by incidence; null where no model of the scene reads it
+  const Start* start = nullptr;           ///< by element; read where it is damped
+  const ByBody* by_body = nullptr;        ///< by body; null where no element reads it
+};
+
+/// Says as what index the update of a vertex reads another one.
+struct ColourOrder {
+  const int* colour;  ///< by vertex; −1: not free
+  int own;            ///< colour of the vertex that is updated
+
+  /// The vertex, encoded.
+  int operator()(int vertex) const { return colour[vertex] < own ? ~vertex : vertex; }
+};
+
 /// A free vertex in the order of the sweep, with its rows in the streams.
 struct alignas(16) SweepVertex {
   int vertex = -1;  ///< number in the mesh
   int body = -1;
-  float inertia = 0;                           ///< m/h² [N/m]
-  int membrane_begin = 0, membrane_count = 0;  ///< its row: first place in SweepView::membrane, and how many
-  int hinge_begin = 0, hinge_count = 0;        ///< likewise in SweepView::hinges
+  float inertia = 0;  ///< m/h² [N/m]
+  Row rows[2];        ///< its rows of the kinds that have their place here (`row_in_vertex`)
 };
 
 /// A contact seen from one of its vertices: slots as in contact_force.hpp; `own` is the slot of the vertex itself. The
@@ -49,19 +77,7 @@ struct alignas(16) ContactRow {
   int begin = 0, vertex_facet = 0, count = 0;
 };
 
-struct MembraneIncidence;
-struct HingeIncidence;
-struct IsometricStencil;
-struct SpringIncidence;
-struct SpringRow;
-struct TetrahedronIncidence;
-struct TetrahedronRow;
-struct TetrahedronGradients;
-struct SolidMaterial;
 struct VolumeIncidence;
-struct RodRow;
-struct RodIncidence;
-struct SegmentSlot;
 
 /// The contacts of all slots with volumes: rows of fixed length (fast/kernels/volumes/). Behind those of the slots are
 /// rows of prescribed vertices.
@@ -77,57 +93,30 @@ struct VolumeStream {
   int corner_capacity = 0;             ///< of such a row
 };
 
-/// What the sweep reads and writes of rods (fast/kernels/rods/); null where there is none.
-struct RodStream {
-  const RodRow* rows = nullptr;              ///< by slot of the vertices
-  const RodIncidence* incidences = nullptr;  ///< row by row
-  const SegmentSlot* slots = nullptr;        ///< by slot of the segments
-  const float* damping = nullptr;            ///< by body: k_d/h [1]; null where none damps
-  const Vec* direction = nullptr;            ///< by segment: c, as rod_rest_direction; null where none damps strains
-  const Quat* orientation_start = nullptr;   ///< by segment: qᵗ
-  Quat* orientation = nullptr;               ///< by segment: q
-  bool is_damped_by_vertex = false;          ///< DampingForm::per_vertex
-  bool as_published = false;                 ///< μ = σ + ‖b‖ in place of the root
-};
-
 /// The vertex of an encoded index. No branch: a processor cannot predict which buffer is read.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
 
-/// Everything that an update reads and writes. Plain pointers, valid for one launch sequence.
-struct SweepView {
-  const SweepVertex* vertices = nullptr;        ///< by slot
-  const MembraneIncidence* membrane = nullptr;  ///< row by row, in the order of slots
-  const HingeIncidence* hinges = nullptr;       ///< likewise
-  const ContactRow* contact_rows = nullptr;     ///< by slot
-  const ContactIncidence* contacts = nullptr;   ///< row by row, as contact_rows says
-  const SurfaceMaterial* materials = nullptr;   ///< by body
-  const Symmetric2* strain_start = nullptr;     ///< Gᵗ by triangle
-  const float* angle_start = nullptr;           ///< θᵗ by hinge
-  PaddedVecs start;                             ///< xᵗ
-  const Vec* target = nullptr;                  ///< y
-  FeasibleRegions regions;                      ///< about X_prev; every new position is truncated to them
-  PaddedVec* old = nullptr;                     ///< x before the iteration
-  int to_fresh = 0;                             ///< from a vertex there to the same one in the fresh buffer
-  Vec* position = nullptr;                      ///< as fresh, for all but the sweep, which does not read it
-  StepControl* control = nullptr;               ///< on the backend: cut vertices and such as are not finite are counted
-  const int* turn = nullptr;                    ///< the iteration whose turn it is, on the device; null: this one's
-  int iteration = 0;                            ///< number of this one; nothing is written where it is not its turn
-  float contact_radius = 0;                     ///< r [m]
-  float friction_limit = 0;                     ///< ε_v h [m]
-  const SurfaceModels* models = nullptr;        ///< by body
-  const IsometricStencil* isometric = nullptr;  ///< beside `hinges`; null where no body has the model
-  const SpringRow* spring_rows = nullptr;       ///< by slot; null where there is no spring
-  const SpringIncidence* springs = nullptr;     ///< row by row, as spring_rows says
+/// What updates read and write whatever elements a scene has. Plain pointers, valid for one launch sequence.
+struct SweepShared {
+  const SweepVertex* vertices = nullptr;       ///< by slot
+  const ContactRow* contact_rows = nullptr;    ///< by slot
+  const ContactIncidence* contacts = nullptr;  ///< row by row, as contact_rows says
+  const SurfaceMaterial* materials = nullptr;  ///< by body
+  const SurfaceModels* models = nullptr;       ///< by body
+  PaddedVecs start;                            ///< xᵗ
+  const Vec* target = nullptr;                 ///< y
+  FeasibleRegions regions;                     ///< about X_prev; every new position is truncated to them
+  PaddedVec* old = nullptr;                    ///< x before the iteration
+  int to_fresh = 0;                            ///< from a vertex there to the same one in the fresh buffer
+  Vec* position = nullptr;                     ///< as fresh, for all but the sweep, which does not read it
+  StepControl* control = nullptr;              ///< on the backend: counts cut vertices and positions not finite
+  const int* turn = nullptr;                   ///< the iteration whose turn it is, on the device; null: this one's
+  int iteration = 0;                           ///< number of this one; it writes nothing where it is not its turn
+  float contact_radius = 0;                    ///< r [m]
+  float friction_limit = 0;                    ///< ε_v h [m]
   /// of all contacts; read by sums that give any activation
   ContactActivation activation = ContactActivation::ogc;
-  // Read where there are tetrahedra.
-  const TetrahedronRow* tetrahedron_rows = nullptr;  ///< by slot
-  const TetrahedronIncidence* tetrahedra = nullptr;  ///< row by row, as tetrahedron_rows says
-  const TetrahedronGradients* gradients = nullptr;   ///< beside `tetrahedra`; null where no body damps
-  const SolidMaterial* solids = nullptr;             ///< by body
-  const Symmetric3* solid_start = nullptr;           ///< Gᵗ by tetrahedron
-  VolumeStream volumes;                              ///< read where there are volumes
-  RodStream rods;                                    ///< read where there are rods
+  VolumeStream volumes;  ///< read where there are volumes
 
   /// Whether it is another iteration's turn.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }

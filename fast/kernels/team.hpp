@@ -1,5 +1,5 @@
-// The sum of a team of W team lanes, run by one thread. A sum has parts, one for each kind of term. Item k of a part
-// belongs to team lane k mod W; a team lane adds its items of one part in their order, then its parts in theirs; a
+// Defines the sum of a team of W team lanes, run by one thread. A sum has parts, one for each kind of term. Item k of a
+// part belongs to team lane k mod W; a team lane adds its items of one part in their order, then its parts in theirs; a
 // fixed tree adds the team lanes. A team of any size, on any backend, that keeps this rule gives the same bits, whether
 // one thread or several warps run the parts; only W can change one.
 #pragma once
@@ -19,7 +19,7 @@ struct Part {
   Add add;
 };
 
-/// A Part of these.
+/// Returns a Part of these.
 template <class Load, class Add>
 OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
   return {count, load, add};
@@ -28,7 +28,7 @@ OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
 /// The `load` of a Part whose item k is the k-th of a row.
 template <class Item>
 struct LoadFrom {
-  const Item* first;  ///< of the row
+  const Item* first;  ///< first item of the row
 
   OGC_HD Item operator()(int k) const { return first[k]; }
 };
@@ -42,7 +42,7 @@ struct PooledPart {
   Term term;
 };
 
-/// A PooledPart of these.
+/// Returns a PooledPart of these.
 template <class Load, class Term>
 OGC_HD PooledPart<Load, Term> pooled_part(int begin, int count, Load load, Term term) {
   return {begin, count, load, term};
@@ -66,17 +66,17 @@ OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, A
   sum += part.term(loaded);
 }
 
-/// What a team asks of items k < count, of one lane. A team of several shares the items out; its lanes hold the same
-/// numbers, call together, and get the same answer, which is that of one.
+/// Searches and minima over items k < count, for a team of one lane. A team of several lanes shares the items out; its
+/// lanes hold the same numbers, call together, and get the same answer as one lane.
 struct OneLane {
-  /// The smallest k ≥ from of which is(k) holds; count where there is none.
+  /// Returns the smallest k ≥ from for which is(k) holds; count if there is none.
   template <class Is>
   OGC_HD int first(int count, int from, Is is) const {
     for (int k = from; k < count; ++k)
       if (is(k)) return k;
     return count;
   }
-  /// The smallest of `most` and all of(k), which are numbers.
+  /// Returns the smallest of `most` and all numbers of(k).
   template <class Of>
   OGC_HD double smallest(int count, double most, Of of) const {
     for (int k = 0; k < count; ++k) most = smaller(most, of(k));
@@ -84,20 +84,20 @@ struct OneLane {
   }
 };
 
-/// W team lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded sum
-/// is -0 only of two -0, so leaving out the empty lanes of a part changes no bit.
+/// Runs W team lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded
+/// sum is -0 only for two -0, so leaving out the empty lanes of a part changes no bit.
 template <int W>
 struct SerialTeam : OneLane {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
 
-  /// Fetches `bytes` from `rows` on into a cache, where that helps: the team is going to read them.
+  /// Fetches `bytes` from `rows` on into a cache, if that helps: the team is going to read them.
   OGC_HD static void prefetch(const void*, int) {}
 
-  /// What all teams of a launch call in place of `sum`.
+  /// Takes the place of `sum`; all teams of a launch call one of the two.
   OGC_HD static void leave() {}
 
-  /// Σ over all terms of all parts, for who holds_total().
+  /// Returns Σ over all terms of all parts to the threads that hold the total.
   template <class Accumulator, class... Parts>
   OGC_HD Accumulator sum(const Parts&... parts) const {
     Accumulator lanes[W] = {};
@@ -108,9 +108,9 @@ struct SerialTeam : OneLane {
     return lanes[0];
   }
 
-  /// Whether this thread is one of those that have the total; they may ask `first` and `smallest` together.
+  /// Returns whether this thread has the total; such threads may call `first` and `smallest` together.
   OGC_HD bool holds_total() const { return true; }
-  /// Whether this thread, one of them, writes the team's result.
+  /// Returns whether this thread, one of them, writes the team's result.
   OGC_HD bool leader() const { return true; }
 
  private:

@@ -1,5 +1,5 @@
-// Truncation to the conservative bound (Eq. 27, 28) so that the position that is *stored* obeys it: the cut is made in
-// double, each coordinate rounded towards x_prev, and the stored result tested exactly.
+// Truncates to the conservative bound (Eq. 27, 28) so that the *stored* position obeys it: the cut is made in double,
+// each coordinate rounded towards x_prev, and the stored result tested exactly.
 #pragma once
 
 #include "fast/kernels/arithmetic/vector.hpp"
@@ -8,25 +8,26 @@
 
 namespace ogc::fast {
 
-/// A position that its region holds, and whether the proposal was changed for it.
+/// Holds a position inside its region, and whether the proposal was changed for it.
 struct Truncated {
   Vec position;  ///< [m]
   bool cut = false;
 };
 
-/// ‖x − x_prev‖ < b for certain, seen in single precision. With u = 2⁻²⁴ a difference is right to u, so the sum of
-/// three squares is at least (1 − u)⁵ of the exact one, and b² (1 − 16 u) in two roundings at most (1 + u)² (1 − 16 u)
-/// b² < (1 − u)⁵ b². Squares that underflow are off by 2⁻¹⁵⁰ each, nothing beside 16 u b² where b² ≥ 2⁻¹⁰⁰. Contraction
-/// leaves roundings out and so cannot change what is certain. False where x is not finite.
+/// Returns whether ‖x − x_prev‖ < b for certain, seen in single precision. With u = 2⁻²⁴ a difference is right to u, so
+/// the sum of three squares is at least (1 − u)⁵ of the exact one, and b² (1 − 16 u) in two roundings at most (1 + u)²
+/// (1 − 16 u) b² < (1 − u)⁵ b². Squares that underflow are off by 2⁻¹⁵⁰ each, nothing beside 16 u b² if b² ≥ 2⁻¹⁰⁰.
+/// Contraction leaves roundings out and so cannot change what is certain. False if x is not finite.
 OGC_HD inline bool is_certainly_within(const Ball& ball, const Vec& x) {
   const Vec step = x - ball.centre;
   const float squared = ball.radius * ball.radius;
   return squared >= 0x1p-100f && squared <= 0x1p100f && dot(step, step) < (1.0f - 16 * 0x1p-24f) * squared;
 }
 
-/// A sum of doubles without rounding (Shewchuk's growing expansion): components of growing size that do not overlap.
+/// Holds a sum of doubles without rounding (Shewchuk's growing expansion): components of growing size that do not
+/// overlap.
 struct ExactTotal {
-  double part[8] = {};  ///< in use are the first `count`
+  double part[8] = {};  ///< the first `count` are in use
   int count = 0;        ///< at most 8: each square adds two
 
   /// Adds a number without rounding.
@@ -43,7 +44,7 @@ struct ExactTotal {
     const double p = mul(a, a), rest = fused(a, a, -p);
     grow(sign * p), grow(sign * rest);
   }
-  /// The sum has the sign of its largest component that is not 0.
+  /// Returns whether the sum is positive: it has the sign of its largest component that is not 0.
   OGC_HD bool is_positive() const {
     for (int i = count - 1; i >= 0; --i)
       if (part[i] != 0) return part[i] > 0;
@@ -51,8 +52,9 @@ struct ExactTotal {
   }
 };
 
-/// ‖x − x_prev‖ ≤ b without rounding, for what two doubles cannot tell from the bound: true ties, and a coordinate of
-/// 10⁻²¹ beside one at the bound, which must not pass. A difference that does not fit into a double is beyond.
+/// Returns whether ‖x − x_prev‖ ≤ b, without rounding, if two doubles cannot tell the distance from the bound: true
+/// ties, and a coordinate of 10⁻²¹ beside one at the bound, which must not pass. A difference that does not fit into a
+/// double counts as beyond.
 OGC_HD inline bool is_exactly_within(const Ball& ball, const Vec& x) {
   const Vector<Wide> step = difference<Wide>(x, ball.centre);
   if (step.x.low != 0 || step.y.low != 0 || step.z.low != 0) return false;
@@ -62,7 +64,8 @@ OGC_HD inline bool is_exactly_within(const Ball& ball, const Vec& x) {
   return !margin.is_positive();
 }
 
-/// ‖x − x_prev‖ ≤ b, decided on the stored single-precision numbers without error. False where x is not finite.
+/// Returns whether ‖x − x_prev‖ ≤ b, decided on the stored single-precision numbers without error. False if x is not
+/// finite.
 OGC_HD inline bool is_within(const Ball& ball, const Vec& x) {
   if (is_certainly_within(ball, x)) return true;
   const PointReach reach{x, ball.centre, ball.radius};
@@ -74,14 +77,14 @@ OGC_HD inline bool is_within(const Ball& ball, const Vec& x) {
   return sign < 0 || (sign == 0 && is_exactly_within(ball, x));
 }
 
-/// The float nearest to p + s (x − p) that is no farther from p.
+/// Returns the float nearest to p + s (x − p) that is no farther from p.
 OGC_HD inline float towards(float p, float x, double s) {
   const double step = mul(s, sub(static_cast<double>(x), static_cast<double>(p))),
                place = add(static_cast<double>(p), step);
   return step > 0 ? round_down(place) : round_up(place);
 }
 
-/// `truncate` where single precision does not see x within the bound.
+/// Does the work of `truncate` if single precision does not see x within the bound.
 OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Ball ball, Vec x) {
   if (is_within(ball, x)) return {x, false};
   const Vec& previous = ball.centre;
@@ -97,8 +100,8 @@ OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Ball ball, Vec x) {
   return {previous, true};
 }
 
-/// x where the ball holds it, bit for bit; otherwise the point of the segment from x_prev at distance b, or just
-/// short of it. x_prev where x is not finite.
+/// Returns x, bit for bit, if the ball holds it; otherwise the point of the segment from x_prev at distance b, or just
+/// short of it. Returns x_prev if x is not finite.
 OGC_HD inline Truncated truncate(const Ball& ball, const Vec& x) {
   if (is_certainly_within(ball, x)) return {x, false};
   return truncate_in_double(ball, x);

@@ -1,31 +1,31 @@
-// Who is inside a volume, or nearer to it than r (§3.9, method.md §9): each part of its surface is asked by itself, by
-// the side of its face that is nearest to a point. The search of the nearest begins at the distance of a facet of the
-// part, so that no point is forgotten because it lies deep, and shrinks from there.
+// Finds whether a point is inside a volume, or nearer to it than r (§3.9, method.md §9). Each part of the volume's
+// surface answers by itself, by the side of its face that is nearest to the point. The search of the nearest face
+// begins at the distance of a facet of the part, so that a point may lie at any depth, and shrinks from there.
 //
 // The side of x at a face, all in rounded double:
 //
-//   triangle   that of its normal
-//   edge       that of the sum of its triangles' unit normals: it halves the outside of a ridge, and the inside of a
-//              valley, where x's closest point is on the edge
-//   vertex     that of the edge whose direction from the vertex lies nearest to x's: on the sphere about the vertex the
-//              way from x to that direction crosses no triangle, as a crossing would lie nearer
+//   triangle   the side of its normal
+//   edge       the side of the sum of its triangles' unit normals: it halves the outside of a ridge, and the inside of
+//              a valley, where x's closest point is on the edge
+//   vertex     that of the edge whose direction from the vertex is nearest to x's: on the sphere about the vertex the
+//              way from x to that direction crosses no triangle, as a crossing would be nearer
 //   rim        outside: an edge of one triangle, and a vertex of such an edge, have no inner side
 //
-// Beyond the box of a part nobody is inside of it, so that most points need no search of most parts.
+// No point beyond the box of a part is inside it, so most points need no search of most parts.
 //
-// A driven volume stands still between two detections of a step, and who was far from it has mostly moved little since.
-// So a search that finds a point p far, inside the box, tells how far one may go from p and be far still, ρ. Let D be
-// the distance from p, c the closest point, and each facet t at least d_t away from p, and p at the height h_t over its
-// plane. Whoever is at x, at most ρ < D − r from p, is at least D − ρ > r and at most D + ρ from the part. So the
-// facets around its nearest face are at most D + 2 ρ from p. If each facet has (d_t − D)/2 > ρ or h_t > ρ, x lies on
-// the outer side of all of those. Then so it is for a face of any kind: the sum of their normals is on that side, too,
-// unless two of them are nearly opposite, and so no facet counts by its height whose normal does not lean towards
-// p − c, by 2⁻⁸.
+// A driven volume stands still between two detections of a step, and most points that were far from it have moved
+// little since. So a search that finds a point p far, inside the box, also finds a radius ρ within which every point is
+// far. Let D be the distance of p, c the closest point; let each facet t be at least d_t away from p, and p at the
+// height h_t over its plane. A point x, at most ρ < D − r from p, is at least D − ρ > r and at most D + ρ from the
+// part. So the facets around its nearest face are at most D + 2 ρ from p. If each facet has (d_t − D)/2 > ρ or h_t > ρ,
+// x lies on the outer side of all of those. Then it lies on the outer side of a face of any kind: the sum of their
+// normals is on that side, too, unless two of them are nearly opposite. Therefore no facet counts by its height whose
+// normal does not lean towards p − c, by 2⁻⁸.
 //
-// Rounding: what the search takes for the nearest face may be two slacks farther than that, each at most 2 u S
-// (point_triangle_distance), and S is at most six times the 1-norm L of the box' extent, for p and x alike: 2⁻¹⁹ L.
-// Heights are over the planes that is_outside takes, whose normals err by 2⁻³⁰ where the facet is no sliver, and
-// squares of the ball by 2⁻²² of ρ ≤ L. Taken for all of it: 2⁻¹⁸ L.
+// Rounding: the face that the search takes for the nearest may be two slacks farther than the nearest, each at most 2 u
+// S (point_triangle_distance), and S is at most six times the 1-norm L of the box' extent, for p and x alike: 2⁻¹⁹ L.
+// Heights are over the planes that is_outside takes, whose normals err by 2⁻³⁰ if the facet is no sliver, and squares
+// of the ball by 2⁻²² of ρ ≤ L. All of it is taken as 2⁻¹⁸ L.
 #pragma once
 
 #include "fast/kernels/block.hpp"
@@ -35,14 +35,14 @@
 
 namespace ogc::fast {
 
-/// A tree with what a refit needs beside it.
+/// Holds a tree with what a refit needs beside it.
 struct PartTree {
   TreeView tree;            ///< refitted at these positions
   int* arrivals = nullptr;  ///< as in RefitTrees
-  int first_item = 0;       ///< of its places among those of all trees, each filled up to whole warps
+  int first_item = 0;       ///< number of its first place among those of all trees, each filled up to whole warps
 };
 
-/// A part of a volume with trees of its own: then the search of one meets no facet of others.
+/// A part of a volume with trees of its own, so that the search of one part meets no facet of others.
 struct VolumePart {
   PartTree facets;      ///< of its facets
   PartTree tetrahedra;  ///< of its tetrahedra, if it has any
@@ -50,28 +50,28 @@ struct VolumePart {
   OGC_HD bool is_solid() const { return tetrahedra.tree.count > 0; }
 };
 
-/// The tetrahedra of volumes on the backend.
+/// Holds the tetrahedra of volumes on the backend.
 struct SolidView {
   const SolidElement* elements = nullptr;  ///< by tetrahedron
-  std::uint8_t* is_positive = nullptr;     ///< by tetrahedron: whether it has positive volume, found by the refit
+  std::uint8_t* is_positive = nullptr;     ///< by tetrahedron: whether it has positive volume; the refit finds it
   Rows vertex_elements;                    ///< by vertex: tetrahedra that contain it, ascending
   const int* owner = nullptr;              ///< by facet: the tetrahedron whose boundary it is
 };
 
-/// A volume, or all of a scene, on the backend.
+/// Holds a volume, or all volumes of a scene, on the backend.
 struct VolumeView {
   SurfaceView surface;
   PaddedVecs positions;               ///< by vertex [m]
   const VolumePart* parts = nullptr;  ///< by part
   int part_count = 0;
   float contact_radius = 0;  ///< r [m]
-  SolidView solids{};        ///< of the parts of tetrahedra
+  SolidView solids{};        ///< for parts of tetrahedra
 };
 
-/// What a part is to a point.
+/// Where a point lies as seen from a part.
 enum class VolumeSide : int { far, inside, near };
 
-/// The facet of a part that is nearest to a point, or one of them with the nearest face.
+/// The facet of a part that is nearest to a point, or one of those with the nearest face.
 struct NearestFacet {
   int facet = -1;
   VolumeSide side = VolumeSide::far;  ///< far: outside, and not nearer than r
@@ -79,20 +79,22 @@ struct NearestFacet {
 
 /// One contact of a point with a part; c is the closest point of `face`.
 struct FoundVolumeContact {
-  int triangle = -1, face = -1;  ///< the lowest-numbered facet that contains the face; as SurfaceView numbers faces
+  /// the lowest-numbered facet that contains the face; the face, as SurfaceView numbers it
+  int triangle = -1, face = -1;
   bool inside = false;
   float weights[3] = {};  ///< of c, by corner of the triangle [1]
   Vec direction;          ///< n, out of the part [1]
   float depth = 0;        ///< [m]
 };
 
-/// Who is in it is far from a part, as long as the volume stands still.
+/// Within this ball every point is far from a part, as long as the volume stands still.
 struct alignas(16) ClearBall {
-  /// In place of a radius: nobody has asked since the volume moved; was asked, and no ball is known; none was found.
+  /// Values in place of a radius: the point has not been tested since the volume moved; it was tested, and no ball is
+  /// known; a ball was sought, and there is none.
   static constexpr float unasked = -1, asked = -2, refused = -3;
 
   Vec centre;              ///< [m]
-  float radius = unasked;  ///< [m]; negative: nobody is in it
+  float radius = unasked;  ///< [m]; negative: the ball holds no point
 
   OGC_HD bool holds(const Vec& x) const {
     const Vec d = x - centre;
@@ -100,18 +102,19 @@ struct alignas(16) ClearBall {
   }
 };
 
-/// Of its distance, how far a point in the box of a part may go at most before it is asked again.
+/// Radius of a clear ball, as a share of the point's distance, at most.
 inline constexpr float clear_share = 0.125F;
 
 class SolidQuestion;
 
-/// A point before a volume.
+/// Answers where a point lies relative to a volume.
 class VolumeQuestion {
  public:
   OGC_HD VolumeQuestion(const VolumeView& volume, const Vec& point) : volume_(volume), x_(point) {}
 
-  /// The search begins at the distance of `first`, one of the part's facets, which decides the time alone. `clear`, if
-  /// it is asked for: where the answer stays `far`.
+  /// Returns the nearest facet and the side of the point. The search begins at the distance of `first`, one of the
+  /// part's facets, which changes the time alone. `clear`, if not null, receives a ball within which the answer stays
+  /// `far`.
   OGC_HD NearestFacet nearest_of(int part, int first, ClearBall* clear = nullptr) const {
     const Box box = box_of(part);
     if (squared_gap(box, {x_, x_}) > gap_limit(volume_.contact_radius)) return {first, VolumeSide::far};
@@ -123,8 +126,8 @@ class VolumeQuestion {
     return {nearest.facet, VolumeSide::far};
   }
 
-  /// Calls visit(contact) for each contact with a part, of which `nearest` tells: one at the nearest face of a part
-  /// that holds the point; else one for each face in whose outward block the point lies nearer than r.
+  /// Calls visit(contact) for each contact with a part, given its `nearest`: for a point inside, one at the nearest
+  /// face; else one for each face in whose outward block the point lies nearer than r.
   template <class Visit>
   OGC_HD void visit_contacts(int part, const NearestFacet& nearest, Visit visit) const {
     if (nearest.side == VolumeSide::far) return;
@@ -133,8 +136,8 @@ class VolumeQuestion {
       visit(contact_at(nearest_face, true));
       return;
     }
-    // x lies in the block of the nearest face, whatever rounding says of it: who is near has a contact, if it is not
-    // beyond the box of a part that would hold it
+    // x lies in the block of the nearest face, whatever rounding makes of it: a near point has a contact there, unless
+    // it is beyond the box of a part that would hold it
     if (is_outside(nearest_face)) visit(contact_at(nearest_face, false));
     const float limit = gap_limit(volume_.contact_radius);
     for_each_near(volume_.parts[part].facets.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
@@ -144,7 +147,7 @@ class VolumeQuestion {
   }
 
  private:
-  friend class SolidQuestion;  ///< asks the same of faces (fast/kernels/volumes/solids.hpp)
+  friend class SolidQuestion;  ///< uses the same tests of faces (fast/kernels/volumes/solids.hpp)
 
   struct Nearest {
     Distance distance;
@@ -156,7 +159,7 @@ class VolumeQuestion {
     return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
   }
 
-  /// The face of a facet whose interior holds the facet's point closest to x.
+  /// Returns the face of a facet whose interior holds the facet's point closest to x.
   OGC_HD int face_of(int t) const {
     const Facet& facet = volume_.surface.facets[t];
     const TriangleFeature feature = closest_feature(x_, corners(t), facet.descending);
@@ -166,8 +169,8 @@ class VolumeQuestion {
     return volume_.surface.triangle_face(t);
   }
 
-  /// Of faces at one distance the lowest-numbered: numbers have the order of dimensions. Only then, and in the end,
-  /// faces are asked for, whose predicates are exact.
+  /// Returns the nearest face; among faces at one distance the lowest-numbered, as numbers have the order of
+  /// dimensions. Faces are decided only at equal distances and at the end, because their predicates are exact.
   OGC_HD Nearest search(int part, int first) const {
     Nearest nearest;
     nearest.distance.value = infinity;
@@ -193,7 +196,7 @@ class VolumeQuestion {
     return nearest;
   }
 
-  /// About x, which is far, in the box, and on the outer side of the nearest face.
+  /// Returns the ball about x, which is far, in the box, and on the outer side of the nearest face.
   OGC_HD ClearBall clear_ball(int part, const Nearest& nearest, const Box& box) const {
     const float doubt = mul(0x1p-18F, norm_1(box.upper - box.lower));
     const Corners at = corners(nearest.facet);
@@ -219,7 +222,8 @@ class VolumeQuestion {
     return {x_, radius > doubt ? radius : ClearBall::refused};
   }
 
-  /// Of x over the plane of a facet whose normal is known well and leans towards `away`; −∞ over others.
+  /// Returns the height of x over the plane of a facet whose normal is known well and leans towards `away`; −∞ for
+  /// other facets.
   OGC_HD float height_over(int t, const Real& away) const {
     const Corners at = corners(t);
     const Real e = difference<Rounded>(at.b, at.a), f = difference<Rounded>(at.c, at.a), n = cross(e, f);
@@ -229,7 +233,7 @@ class VolumeQuestion {
     return round_down(divide(dot(difference<Rounded>(x_, at.a), n).value, size));
   }
 
-  /// The box of a part, which no rounding moves.
+  /// Returns the box of a part, which no rounding moves.
   OGC_HD Box box_of(int part) const {
     const TreeView& tree = volume_.parts[part].facets.tree;
     return tree.node(tree.levels - 1, 0).whole();
@@ -239,14 +243,14 @@ class VolumeQuestion {
            box.lower.z <= x_.z && x_.z <= box.upper.z;
   }
 
-  /// Whether x is nearer than r to a facet that is at this distance; exact where its slack leaves that open.
+  /// Returns whether x is nearer than r to a facet at this distance; decides exactly if the slack leaves that open.
   OGC_HD bool is_near(int t, const Distance& d) const {
     const Corners at = corners(t);
     return is_within(x_, at, closest_feature(x_, at, volume_.surface.facets[t].descending), d, volume_.contact_radius);
   }
 
-  /// The face of a facet in whose block x lies nearer than r, if the facet is the lowest-numbered one that contains it;
-  /// else −1.
+  /// Returns the face of a facet in whose block x lies nearer than r, if the facet is the lowest-numbered one that
+  /// contains it; else −1.
   OGC_HD int touched_face(int t) const {
     const SurfaceView& surface = volume_.surface;
     const Corners at = corners(t);
@@ -263,7 +267,7 @@ class VolumeQuestion {
     return face;
   }
 
-  /// The kinds of faces, by number.
+  /// Return the kind of a face, by its number.
   OGC_HD bool is_vertex(int face) const { return face < volume_.surface.vertex_count; }
   OGC_HD bool is_edge(int face) const {
     return !is_vertex(face) && face < volume_.surface.vertex_count + volume_.surface.edge_count;
@@ -297,9 +301,9 @@ class VolumeQuestion {
     return cross(difference<Rounded>(at.b, at.a), difference<Rounded>(at.c, at.a));
   }
 
-  /// Whether w, from a point of the edge, points outward or along the surface; an edge of one facet has no inner side.
-  /// Normals whose sum is below 2⁻¹⁰ are nearly opposite, and their rounding may decide its direction: on a knife's
-  /// edge all is outside, in a crevice inside.
+  /// Returns whether w, from a point of the edge, points outward or along the surface; an edge of one facet has no
+  /// inner side. If the sum of normals is below 2⁻¹⁰ they are nearly opposite, and rounding may decide its direction:
+  /// then all is outside at a knife's edge, and inside in a crevice.
   OGC_HD bool is_outside_of_edge(int e, const Real& w) const {
     Real sum;
     int count = 0, facet[2] = {};
@@ -347,8 +351,8 @@ class VolumeQuestion {
     return dot(difference<Rounded>(x_, corners(t).a), normal(t)).value >= 0;
   }
 
-  /// Weights, direction and depth. On the interior of a facet the direction is its normal; so it is where x − c is
-  /// below 2⁻⁴⁸ of the coordinates that it comes from: their rounding.
+  /// Returns the contact with its weights, direction and depth. On the interior of a facet the direction is its normal,
+  /// and also if x − c is below 2⁻⁴⁸ of the coordinates that it comes from: their rounding.
   OGC_HD FoundVolumeContact contact_at(int face, bool inside) const {
     const SurfaceView& surface = volume_.surface;
     FoundVolumeContact contact;
@@ -384,7 +388,7 @@ class VolumeQuestion {
     return contact;
   }
 
-  /// x − c for a corner or an edge.
+  /// Returns x − c for a corner or an edge.
   OGC_HD Real from_foot(const Corners& at, TriangleFeature feature) const {
     const int f = static_cast<int>(feature);
     if (f < 3) return difference<Rounded>(x_, at[f]);

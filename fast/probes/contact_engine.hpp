@@ -1,4 +1,4 @@
-// A detection that grows its lists until nothing is missing: what the judge's probes and ContactFinder run. The
+// Runs a detection and grows its lists until nothing is missing, for the judge's probes and ContactFinder. The
 // simulation does the same with whole steps.
 #pragma once
 
@@ -29,7 +29,7 @@ class BackendContactEngine : public ContactEngine {
     return detection_.view();
   }
 
-  /// What it runs.
+  /// Returns the detection that it runs.
   const Detection<Backend>& detection() const { return detection_; }
 
  private:
@@ -37,7 +37,7 @@ class BackendContactEngine : public ContactEngine {
     query_radius_.upload(&query.query_radius, 1);
     detection_.rebuild(positions);
     do {
-      detection_.detect(positions, query.contact_radius, query_radius_.data(), query.bound_relaxation);
+      detection_.detect(positions, query.contact_radius, query_radius_.data(), query.bounds_relaxation);
       backend_.synchronize();
     } while (detection_.grow());
   }

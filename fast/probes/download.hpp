@@ -1,5 +1,5 @@
-// From the backend to the host in the words of the contracts: arrays behind plain pointers, and the sets of a
-// detection. For probes, traces and ContactFinder; a step never waits for any of it.
+// Copies from the backend to the host in the types of the contracts: arrays behind plain pointers, and the sets of a
+// detection. Probes, traces and ContactFinder use it; a step never waits for any of it.
 #pragma once
 
 #include <type_traits>
@@ -14,7 +14,7 @@ namespace ogc::fast {
 static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>,
               "positions are copied, not converted");
 
-/// A face from SurfaceView's numbering.
+/// Returns the face of a number of SurfaceView.
 inline compare::Face face_of(int number, const compare::Topology& topology) {
   const int edges = static_cast<int>(topology.edges.size());
   if (number < topology.vertex_count) return {compare::FaceKind::vertex, number};
@@ -23,26 +23,26 @@ inline compare::Face face_of(int number, const compare::Topology& topology) {
                         : compare::Face{compare::FaceKind::triangle, number - edges};
 }
 
-/// The lowest-numbered triangle that contains the face.
+/// Returns the lowest-numbered triangle that contains the face.
 inline compare::Index owner_of(const compare::Face& face, const compare::Topology& topology) {
   if (face.kind == compare::FaceKind::triangle) return face.index;
   const auto& rows = face.kind == compare::FaceKind::vertex ? topology.vertex_triangles : topology.edge_triangles;
   return rows[static_cast<std::size_t>(face.index)].front();
 }
 
-/// One side of an edge–edge record.
+/// Returns one side of an edge–edge record.
 inline compare::Face side_of(const int (&vertices)[2], int edge) {
   return vertices[1] < 0 ? compare::Face{compare::FaceKind::vertex, vertices[0]}
                          : compare::Face{compare::FaceKind::edge, edge};
 }
 
-/// A record as a contact of the contract.
+/// Returns a record as a contact of the contract.
 inline compare::EdgeEdgeContact contact_of(const EdgeEdgeRecord& record) {
   return {side_of(record.first, record.first_edge), side_of(record.second, record.second_edge), record.first_edge,
           record.second_edge};
 }
 
-/// to[i] = from[i].
+/// Sets to[i] = from[i].
 template <class T>
 struct CopyItems {
   const T* from;  ///< on the backend
@@ -51,7 +51,7 @@ struct CopyItems {
   OGC_HD void operator()(int i) const { to[i] = from[i]; }
 };
 
-/// n items that lie on the backend; waits for what is enqueued.
+/// Returns n items that lie on the backend; waits for what is enqueued.
 template <class T, class Backend>
 std::vector<T> download_items(Backend& backend, const T* from, std::size_t n) {
   typename Backend::template Buffer<T> buffer;
@@ -64,7 +64,7 @@ std::vector<T> download_items(Backend& backend, const T* from, std::size_t n) {
   return items;
 }
 
-/// n positions or velocities that lie on the backend; likewise.
+/// Returns n positions or velocities that lie on the backend; waits for what is enqueued.
 template <class Backend>
 std::vector<compare::Vec3f> download_positions(Backend& backend, const Vec* from, std::size_t n) {
   std::vector<compare::Vec3f> positions;
@@ -73,7 +73,7 @@ std::vector<compare::Vec3f> download_positions(Backend& backend, const Vec* from
   return positions;
 }
 
-/// Sets, smallest distances and bounds of the last detection.
+/// Returns sets, smallest distances and bounds of the last detection.
 template <class Backend>
 ContactSets download_contacts(Backend& backend, Detection<Backend>& detection, const compare::Topology& topology) {
   const ContactView view = detection.view();

@@ -1,4 +1,4 @@
-// The judge's way in to the blocks: each question is put to the predicates that the detections call, in the order in
+// Lets the judge test the blocks: each question is answered by the predicates that the detections call, in the order in
 // which they call them.
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace ogc::fast {
 
-/// One question a case.
+/// Answers one question a case.
 struct ProbeBlock {
   SurfaceView surface;
   PaddedVecs positions;                     ///< of the question, by vertex [m]
   const compare::BlockQuestion* questions;  ///< by case
-  std::uint8_t* inside;                     ///< by case: 1 where the block holds the point, written
+  std::uint8_t* inside;                     ///< by case: 1 if the block holds the point, written
 
   OGC_HD void operator()(int i) const {
     const compare::BlockQuestion& question = questions[i];
@@ -35,7 +35,7 @@ struct ProbeBlock {
     return exact_sign(End{x, e.a, e.b}) > 0 && exact_sign(End{x, e.b, e.a}) > 0;
   }
 
-  /// As in DetectVertexFacet::collect.
+  /// Decides as CollectVertexFacet does.
   OGC_HD bool is_vertex_in_surface(int v, const compare::Face& face) const {
     const Vec x = positions[v];
     if (face.kind == compare::FaceKind::vertex) return in_vertex_block(x, face.index, surface, positions);
@@ -46,7 +46,7 @@ struct ProbeBlock {
     return closest_feature(x, corners, facet.descending) == TriangleFeature::interior;
   }
 
-  /// As in DetectEdgeEdge::collect: the lower-numbered edge comes first.
+  /// Decides as CollectEdgeEdge does: the lower-numbered edge comes first.
   OGC_HD bool is_edge_in_edges(int e, const compare::Face& face) const {
     if (face.kind == compare::FaceKind::edge) {
       const bool is_first = face.index < e;
@@ -64,7 +64,7 @@ struct ProbeBlock {
   }
 };
 
-/// The stage `block`.
+/// Answers the stage `block`.
 template <class Backend>
 compare::BlockOut probe_block(Backend& backend, const compare::BlockIn& in) {
   const Surface<Backend> surface(*in.topology, {});

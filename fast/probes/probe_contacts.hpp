@@ -1,6 +1,6 @@
-// The judge's way in to contacts: each case becomes one record of a detection, which makes its incidence as the sweep's
-// stream does, mollifier included, and is added by the functions that the sweep uses. Friction is asked about alone: a
-// difference of sums with and without it would hold their rounding.
+// Lets the judge test contacts: each case becomes one record of a detection, which makes its incidence as the sweep's
+// stream does, mollifier included; the functions that the sweep uses add it. Friction is measured alone: a difference
+// of sums with and without it would hold their rounding.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@
 
 namespace ogc::fast {
 
-/// Cases as records: case i has the vertices 4 i … 4 i + 3, the body i and the edges 2 i and 2 i + 1.
+/// Holds cases as records: case i has the vertices 4 i … 4 i + 3, the body i and the edges 2 i and 2 i + 1.
 struct ContactBatch {
-  /// By case, of which is_edge_edge says which of the two counts.
+  /// by case; is_edge_edge selects the record that counts
   std::vector<VertexFacetRecord> vertex_facet;
   std::vector<EdgeEdgeRecord> edge_edge;
   std::vector<ContactMaterial> materials;                       ///< by body: k_c [N/m], μ [1]
@@ -32,7 +32,7 @@ struct ContactBatch {
 void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start,
             float friction, float slip_limit);
 
-/// Each contact alone, at its positions.
+/// Adds each contact alone, at its positions.
 struct ProbeContact {
   SweepView view;  ///< positions and xᵗ; radius and slip limit are those of the case
   ContactTables tables;
@@ -43,7 +43,7 @@ struct ProbeContact {
   const int* role;
   const std::uint8_t *is_edge_edge, *together;
   const AnyActivation* activation;
-  bool friction;    ///< of friction alone, or of the normal force alone
+  bool friction;    ///< true: friction alone; false: the normal force alone
   ForceArrays out;  ///< by case, written
 
   OGC_HD void operator()(int i) const {
@@ -58,14 +58,13 @@ struct ProbeContact {
       if (k != role[i] && (together[i] >> k & 1) != 0) incidence.together |= static_cast<std::uint8_t>(1 << slot);
     }
     ForceAndBlock sum;
-    const ContactReads reads = read_contact(here, incidence);
-    const ContactAt at = contact_at(incidence, reads, here.contact_radius);
+    const auto at = contacts_at<PairKind::any>(here, OneItem<ContactIncidence>{incidence});
     if (at.acts()) {
       ForceAndBlock normal;
       const float normal_force = add_contact(activation[i], at.shape, at.weight, at.majorant, here.contact_radius,
                                              incidence.stiffness, normal);
       if (friction)
-        add_contact_friction(incidence, reads, at, normal_force, here.friction_limit, sum);
+        add_contact_friction(at, normal_force, here.friction_limit, sum);
       else
         sum = normal;
     }
@@ -73,7 +72,7 @@ struct ProbeContact {
   }
 };
 
-/// All cases of a batch: their friction alone, or their normal forces alone.
+/// Returns the forces of all cases of a batch: their friction alone, or their normal forces alone.
 template <class Backend>
 compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bool friction) {
   ProbeMemory<Backend> memory(backend);
@@ -81,7 +80,7 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   SweepView view;
   view.old = memory.padded(batch.positions);
   view.start = {memory.padded(batch.start)};
-  // Without a body count the material of a pair is that of its second body, here of its case.
+  // With a body count of 0 the material of a pair is that of its second body, here of its case.
   const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials),
                              0, memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.previous)};
   const std::size_t n = batch.role.size();
@@ -102,7 +101,7 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   return out;
 }
 
-/// The stage `contact_force`.
+/// Answers the stage `contact_force`.
 template <class Backend>
 compare::ForceOut probe_contact_force(Backend& backend, const compare::ContactForceIn& in) {
   ContactBatch batch;
@@ -110,7 +109,7 @@ compare::ForceOut probe_contact_force(Backend& backend, const compare::ContactFo
   return probe_contacts(backend, batch, false);
 }
 
-/// The stage `friction_force`.
+/// Answers the stage `friction_force`.
 template <class Backend>
 compare::ForceOut probe_friction_force(Backend& backend, const compare::FrictionForceIn& in) {
   ContactBatch batch;

@@ -1,4 +1,4 @@
-// The judge's way in to the energies: each case becomes one incidence of the sweep's streams, made and added by the
+// Lets the judge test the energies: each case becomes one incidence of the sweep's streams, made and added by the
 // functions that the sweep uses.
 #pragma once
 
@@ -9,14 +9,13 @@
 #include "compare/stages/membrane.hpp"
 #include "compare/stages/spring.hpp"
 #include "compare/stages/tetrahedron.hpp"
-#include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/sweep/gather.hpp"
 #include "fast/probes/probe_memory.hpp"
 #include "fast/stages/sweep.hpp"
 
 namespace ogc::fast {
 
-/// The points of a batch of stencils in one array.
+/// Returns the points of a batch of stencils in one array.
 template <class Case, std::size_t count>
 std::vector<compare::Vec3f> points_of(const std::vector<Case>& cases, std::array<compare::Vec3f, count> Case::*points) {
   std::vector<compare::Vec3f> all;
@@ -24,190 +23,159 @@ std::vector<compare::Vec3f> points_of(const std::vector<Case>& cases, std::array
   return all;
 }
 
-/// Where a probe leaves force and block of each case, on the backend.
+/// Receives force and block of each case, on the backend.
 struct ForceArrays {
   Vec* force;         ///< by case: −∂E/∂x [N]
   Symmetric3* block;  ///< by case [N/m]
 
-  /// The sum of case i.
+  /// Stores the sum of case i.
   OGC_HD void store(int i, const ForceAndBlock& sum) const {
     force[i] = sum.force;
     block[i] = sum.block;
   }
 };
 
-/// Room on the backend for n cases; ProbeMemory::fetch copies it to `out`.
+/// Makes room on the backend for n cases; ProbeMemory::fetch copies it to `out`.
 template <class Backend>
 ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, std::size_t n) {
   return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};
 }
 
-/// Each triangle alone; case i has a body of its own. A usual model is added as UsualTriangles do, any other as
-/// Triangles do.
-struct ProbeMembrane {
-  SweepView view;  ///< by case: incidences, materials and models; case i has the vertices 3 i … 3 i + 2
-  ForceArrays out;
+/// Each element alone, as the sum of its vertex adds it: by `Usual` where its models are those, else by `Any`.
+template <class Usual, class Any>
+struct ProbeElement {
+  SweepView view;                ///< by case: a vertex with one incidence, and a body
+  const std::uint8_t* is_usual;  ///< by case
+  ForceArrays out;               ///< by case, written
 
   OGC_HD void operator()(int i) const {
+    const SweepVertex vertex = view.vertices[i];
+    const Vec own = view.old[vertex.vertex];
+    const OwnVertex at{own, own - view.start[vertex.vertex]};
     ForceAndBlock sum;
-    const SurfaceMaterial material = view.materials[i];
-    const SurfaceModels models = view.models[i];
-    const MembraneIncidence& incidence = view.membrane[i];
-    const Vec own = view.old[3 * i];
-    if (has_default_membrane(models))
-      add_membrane_incidence(incidence, read_membrane(view, incidence, material), material, models.membrane, own, sum);
+    if (is_usual[i] != 0)
+      add_first(Usual::part_of(view, i, vertex, at), sum);
     else
-      add_any_membrane(view, incidence, material, models, {own, own - view.start[3 * i]}, sum);
+      add_first(Any::part_of(view, i, vertex, at), sum);
     out.store(i, sum);
+  }
+
+ private:
+  template <class AnyPart>
+  OGC_HD static void add_first(const AnyPart& part, ForceAndBlock& sum) {
+    add_item(part, load_item(part, 0), sum);
   }
 };
 
-/// The stage `membrane`.
+/// A batch of cases of a kind. Case i is element i, with a body and vertices of its own.
+template <class Kind>
+struct ElementBatch {
+  std::vector<typename Kind::Rest> rest;
+  std::vector<typename Kind::Incidence> incidences;
+  std::vector<typename Kind::Beside> beside;
+  std::vector<typename Kind::ByBody> by_body;
+  std::vector<SurfaceMaterial> materials;
+  std::vector<SurfaceModels> models;
+  std::vector<std::uint8_t> is_usual;
+  std::vector<SweepVertex> vertices;
+  std::vector<Row> rows;
+  std::vector<compare::Vec3f> positions, start;  ///< by vertex: x, xᵗ [m]
+
+  /// Adds a case, seen from its vertex of this role; the caller adds its body, and `beside` where the kind has it.
+  void add(const typename Kind::Rest& element, int role, const SurfaceModels& of_body, bool usual = false) {
+    const int i = static_cast<int>(rest.size()), v = Kind::vertices(element)[role];
+    const std::vector<int> colour(static_cast<std::size_t>(v) + 32, 0);
+    incidences.push_back(Kind::seen(element, i, role, {colour.data(), 0}));
+    rest.push_back(element);
+    models.push_back(of_body);
+    is_usual.push_back(usual ? 1 : 0);
+    rows.push_back({i, 1});
+    SweepVertex vertex;
+    vertex.vertex = v;
+    vertex.body = i;
+    if constexpr (Kind::row_in_vertex >= 0) vertex.rows[Kind::row_in_vertex] = {i, 1};
+    vertices.push_back(vertex);
+  }
+
+  /// Adds up each alone.
+  template <class Usual, class Any, class Backend>
+  compare::ForceOut ask(Backend& backend) const {
+    ProbeMemory<Backend> memory(backend);
+    compare::ForceOut out;
+    const auto n = static_cast<int>(rest.size());
+    SweepView view;
+    auto& stream = Kind::stream(view);
+    stream.rows = memory.template in<Row>(rows);
+    stream.incidences = memory.template in<typename Kind::Incidence>(incidences);
+    stream.beside = memory.template in<typename Kind::Beside>(beside);
+    stream.by_body = memory.template in<typename Kind::ByBody>(by_body);
+    view.vertices = memory.template in<SweepVertex>(vertices);
+    view.materials = memory.template in<SurfaceMaterial>(materials);
+    view.models = memory.template in<SurfaceModels>(models);
+    view.old = memory.padded(positions);
+    view.start = {memory.padded(start)};
+    typename Backend::template Buffer<typename Kind::Start> at_start;
+    if constexpr (requires(const typename Kind::Rest& element, const Vec* x) { Kind::begin(element, x); }) {
+      at_start.resize(rest.size());
+      stream.start = at_start.data();
+      backend.for_each(n, BeginElement<Kind>{memory.template in<typename Kind::Rest>(rest),
+                                             memory.template in<Vec>(start), at_start.data()});
+    }
+    backend.for_each(n, ProbeElement<Usual, Any>{view, memory.template in<std::uint8_t>(is_usual),
+                                                 force_arrays(memory, out, rest.size())});
+    memory.fetch();
+    return out;
+  }
+};
+
+/// Answers the stage `membrane`.
 template <class Backend>
 compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in) {
-  ProbeMemory<Backend> memory(backend);
-  compare::ForceOut out;
-  const int n = static_cast<int>(in.cases.size());
-  RestState rest;
-  const std::vector<int> colours(3 * in.cases.size(), 0);
-  std::vector<MembraneIncidence> incidences;
-  for (int i = 0; i < n; ++i) {
+  ElementBatch<TriangleKind> batch;
+  batch.positions = points_of(in.cases, &compare::MembraneCase::corner);
+  batch.start = points_of(in.cases, &compare::MembraneCase::start);
+  for (int i = 0; i < static_cast<int>(in.cases.size()); ++i) {
     const compare::MembraneCase& c = in.cases[static_cast<std::size_t>(i)];
     const auto &b = c.gradient[0], &d = c.gradient[1];
-    const int at = 3 * i;
+    const SurfaceModels models{c.model, compare::BendingModel::none, c.damping_form};
+    batch.materials.push_back({c.lame_lambda, c.lame_mu, c.damping, 0});
     // The sweep does not read ∇N₀.
-    rest.triangles.push_back({{at, at + 1, at + 2}, i, {{}, {b[0], b[1]}, {d[0], d[1]}}, c.area});
-    rest.materials.push_back({c.lame_lambda, c.lame_mu, c.damping, 0});
-    rest.models.push_back({c.model, compare::BendingModel::none, c.damping_form});
-    incidences.push_back(detail::membrane_incidence(rest, i, 0, colours));
+    batch.add({{3 * i, 3 * i + 1, 3 * i + 2}, i, {{}, {b[0], b[1]}, {d[0], d[1]}}, c.area}, 0, models,
+              has_default_membrane(models));
   }
-  const std::vector<Symmetric2> no_strain(in.cases.size());
-  typename Backend::template Buffer<Symmetric2> strain_start;
-  strain_start.upload(no_strain.data(), no_strain.size());
-  SweepView view;
-  view.membrane = memory.template in<MembraneIncidence>(incidences);
-  view.materials = memory.template in<SurfaceMaterial>(rest.materials);
-  view.strain_start = strain_start.data();
-  view.old = memory.padded(points_of(in.cases, &compare::MembraneCase::corner));
-  view.models = memory.template in<SurfaceModels>(rest.models);
-  view.start = {memory.padded(points_of(in.cases, &compare::MembraneCase::start))};
-  const Vec* start = memory.template in<Vec>(points_of(in.cases, &compare::MembraneCase::start));
-  backend.for_each(n, BeginTriangle{memory.template in<TriangleRest>(rest.triangles), start, strain_start.data()});
-  backend.for_each(n, ProbeMembrane{view, force_arrays(memory, out, in.cases.size())});
-  memory.fetch();
-  return out;
+  return batch.ask<UsualTriangles, Triangles>(backend);
 }
-
-/// Each hinge alone, likewise; `own`: the vertex that is solved.
-struct ProbeBending {
-  SweepView view;
-  const int* own;  ///< by case
-  ForceArrays out;
-
-  OGC_HD void operator()(int i) const {
-    ForceAndBlock sum;
-    const SurfaceMaterial material = view.materials[i];
-    const SurfaceModels models = view.models[i];
-    const HingeIncidence& incidence = view.hinges[i];
-    const Vec at = view.old[own[i]];
-    if (has_default_bending(models) && models.bending != compare::BendingModel::none)
-      DiscreteHinge::add(read_hinge(view, incidence, material, at), material.bending_damping, sum);
-    else
-      add_any_hinge(view, incidence, view.isometric[i], material, models, {at, at - view.start[own[i]]}, sum);
-    out.store(i, sum);
-  }
-};
 
 /// The stage `bending`.
 template <class Backend>
 compare::ForceOut probe_bending(Backend& backend, const compare::BendingIn& in) {
-  ProbeMemory<Backend> memory(backend);
-  compare::ForceOut out;
-  const int n = static_cast<int>(in.cases.size());
-  RestState rest;
-  const std::vector<int> colours(4 * in.cases.size(), 0);
-  std::vector<HingeIncidence> incidences;
-  std::vector<IsometricStencil> isometric;
-  std::vector<int> own;
-  for (int i = 0; i < n; ++i) {
+  ElementBatch<HingeKind> batch;
+  batch.positions = points_of(in.cases, &compare::BendingCase::vertex);
+  batch.start = points_of(in.cases, &compare::BendingCase::start);
+  for (int i = 0; i < static_cast<int>(in.cases.size()); ++i) {
     const compare::BendingCase& c = in.cases[static_cast<std::size_t>(i)];
-    rest.hinges.push_back({{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, i, c.rest_angle, c.stiffness});
-    rest.materials.push_back({{}, {}, {}, c.damping});
-    rest.models.push_back({compare::MembraneModel::none, c.model, c.damping_form});
-    isometric.push_back(detail::isometric_stencil({{c.weight[0], c.weight[1], c.weight[2]}}, c.own));
-    incidences.push_back(detail::hinge_incidence(rest, i, c.own, colours));
-    own.push_back(4 * i + c.own);
+    const SurfaceModels models{compare::MembraneModel::none, c.model, c.damping_form};
+    batch.materials.push_back({{}, {}, {}, c.damping});
+    batch.add({{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, i, c.rest_angle, c.stiffness}, c.own, models,
+              has_default_bending(models) && c.model != compare::BendingModel::none);
+    batch.beside.push_back(HingeKind::beside({}, {{c.weight[0], c.weight[1], c.weight[2]}}, c.own));
   }
-  const std::vector<float> no_angle(in.cases.size());
-  typename Backend::template Buffer<float> angle_start;
-  angle_start.upload(no_angle.data(), no_angle.size());
-  SweepView view;
-  view.hinges = memory.template in<HingeIncidence>(incidences);
-  view.materials = memory.template in<SurfaceMaterial>(rest.materials);
-  view.angle_start = angle_start.data();
-  view.old = memory.padded(points_of(in.cases, &compare::BendingCase::vertex));
-  view.models = memory.template in<SurfaceModels>(rest.models);
-  view.isometric = memory.template in<IsometricStencil>(isometric);
-  view.start = {memory.padded(points_of(in.cases, &compare::BendingCase::start))};
-  const Vec* start = memory.template in<Vec>(points_of(in.cases, &compare::BendingCase::start));
-  backend.for_each(n, BeginHinge{memory.template in<HingeRest>(rest.hinges), start, angle_start.data()});
-  backend.for_each(n, ProbeBending{view, memory.template in<int>(own), force_arrays(memory, out, in.cases.size())});
-  memory.fetch();
-  return out;
+  return batch.ask<UsualHinges, Hinges>(backend);
 }
-
-/// Each spring alone.
-struct ProbeSpring {
-  SweepView view;
-  ForceArrays out;
-
-  OGC_HD void operator()(int i) const {
-    ForceAndBlock sum;
-    const int v = 3 * i + view.springs[i].own;
-    const Vec own = view.old[v];
-    add_any_spring(view, view.springs[i], view.models[i], {own, own - view.start[v]}, sum);
-    out.store(i, sum);
-  }
-};
 
 /// The stage `spring`.
 template <class Backend>
 compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
-  ProbeMemory<Backend> memory(backend);
-  compare::ForceOut out;
-  const int n = static_cast<int>(in.cases.size());
-  const std::vector<int> colours(3 * in.cases.size(), 0);
-  std::vector<SpringIncidence> incidences;
-  std::vector<SurfaceModels> models;
-  for (int i = 0; i < n; ++i) {
+  ElementBatch<SpringKind> batch;
+  batch.positions = points_of(in.cases, &compare::SpringCase::vertex);
+  batch.start = points_of(in.cases, &compare::SpringCase::start);
+  for (int i = 0; i < static_cast<int>(in.cases.size()); ++i) {
     const compare::SpringCase& c = in.cases[static_cast<std::size_t>(i)];
-    incidences.push_back(detail::spring_incidence(
-        {{3 * i, 3 * i + 1, 3 * i + 2}, c.stiffness, c.rest_length, c.damping, c.ratio}, c.own, colours));
-    models.push_back({compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
+    batch.add({{3 * i, 3 * i + 1, 3 * i + 2}, c.stiffness, c.rest_length, c.damping, c.ratio}, c.own,
+              {compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
   }
-  SweepView view;
-  view.springs = memory.template in<SpringIncidence>(incidences);
-  view.models = memory.template in<SurfaceModels>(models);
-  view.old = memory.padded(points_of(in.cases, &compare::SpringCase::vertex));
-  view.start = {memory.padded(points_of(in.cases, &compare::SpringCase::start))};
-  backend.for_each(n, ProbeSpring{view, force_arrays(memory, out, in.cases.size())});
-  memory.fetch();
-  return out;
+  return batch.ask<Springs, Springs>(backend);
 }
-
-/// Each tetrahedron alone, added as Tetrahedra do.
-struct ProbeTetrahedron {
-  SweepView view;
-  ForceArrays out;
-
-  OGC_HD void operator()(int i) const {
-    ForceAndBlock sum;
-    const Vec own = view.old[4 * i];
-    add_any_tetrahedron(view, {view.tetrahedra[i], i}, view.solids[i], view.models[i], {own, own - view.start[4 * i]},
-                        sum);
-    out.store(i, sum);
-  }
-};
 
 /// A tetrahedron at rest with the numbers of a case. Weights that corner 0 does not read stay 0.
 inline TetrahedronRest tetrahedron_rest(const compare::TetrahedronCase& c, int number) {
@@ -218,41 +186,19 @@ inline TetrahedronRest tetrahedron_rest(const compare::TetrahedronCase& c, int n
   return rest;
 }
 
-/// The stage `tetrahedron`.
+/// Answers the stage `tetrahedron`.
 template <class Backend>
 compare::ForceOut probe_tetrahedron(Backend& backend, const compare::TetrahedronIn& in) {
-  ProbeMemory<Backend> memory(backend);
-  compare::ForceOut out;
-  const int n = static_cast<int>(in.cases.size());
-  RestState rest;
-  const std::vector<int> colours(4 * in.cases.size(), 0);
-  std::vector<TetrahedronIncidence> incidences;
-  std::vector<TetrahedronGradients> gradients;
-  for (int i = 0; i < n; ++i) {
+  ElementBatch<TetrahedronKind> batch;
+  batch.positions = points_of(in.cases, &compare::TetrahedronCase::corner);
+  batch.start = points_of(in.cases, &compare::TetrahedronCase::start);
+  for (int i = 0; i < static_cast<int>(in.cases.size()); ++i) {
     const compare::TetrahedronCase& c = in.cases[static_cast<std::size_t>(i)];
-    rest.tetrahedra.push_back(tetrahedron_rest(c, i));
-    rest.solids.push_back({c.lame_lambda, c.lame_mu, c.damping});
-    rest.models.push_back({compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
-    incidences.push_back(detail::tetrahedron_incidence(rest, i, 0, colours));
-    gradients.push_back(detail::tetrahedron_gradients(rest.tetrahedra.back(), 0));
+    batch.by_body.push_back({c.lame_lambda, c.lame_mu, c.damping});
+    batch.add(tetrahedron_rest(c, i), 0, {compare::MembraneModel::none, compare::BendingModel::none, c.damping_form});
+    batch.beside.push_back(TetrahedronKind::beside(batch.rest.back(), {}, 0));
   }
-  const std::vector<SolidStrain> no_strain(in.cases.size());
-  typename Backend::template Buffer<SolidStrain> strain_start;
-  strain_start.upload(no_strain.data(), no_strain.size());
-  SweepView view;
-  view.tetrahedra = memory.template in<TetrahedronIncidence>(incidences);
-  view.gradients = memory.template in<TetrahedronGradients>(gradients);
-  view.solids = memory.template in<SolidMaterial>(rest.solids);
-  view.models = memory.template in<SurfaceModels>(rest.models);
-  view.solid_start = strain_start.data();
-  view.old = memory.padded(points_of(in.cases, &compare::TetrahedronCase::corner));
-  view.start = {memory.padded(points_of(in.cases, &compare::TetrahedronCase::start))};
-  const Vec* start = memory.template in<Vec>(points_of(in.cases, &compare::TetrahedronCase::start));
-  backend.for_each(n,
-                   BeginTetrahedron{memory.template in<TetrahedronRest>(rest.tetrahedra), start, strain_start.data()});
-  backend.for_each(n, ProbeTetrahedron{view, force_arrays(memory, out, in.cases.size())});
-  memory.fetch();
-  return out;
+  return batch.ask<Tetrahedra, Tetrahedra>(backend);
 }
 
 }  // namespace ogc::fast

@@ -1,6 +1,6 @@
-// The judge's way in to the initial guess: the kernels of the guess loop, one vertex a case. Acceleration and step are
-// those of a scene, so each case gets kernels of its own, and a control of its own to count its cut. No contact holds
-// it: what contacts leave of a move the stage step asks.
+// Lets the judge test the initial guess: the kernels of the guess loop, one vertex a case. Acceleration and step belong
+// to a scene, so each case gets kernels of its own, and a control of its own to count its cut. No contact holds the
+// vertex: the stage `step` tests what contacts leave of a move.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/rods/turn.hpp"
 #include "fast/probes/probe_memory.hpp"
-#include "fast/stages/rods_at_rest.hpp"
+#include "fast/stages/kinds/segment.hpp"
 
 namespace ogc::fast {
 
-/// Both kernels of a round, one vertex a case.
+/// Runs both kernels of a round, one vertex a case.
 struct ProbeGuess {
   BeginVertex begin;        ///< with arrays by case
   GuessVertex guess;        ///< without contacts
   const Vec* acceleration;  ///< by case [m/s²]
   const float* step;        ///< by case: h [s]
   StepControl* control;     ///< by case
-  std::uint8_t* cut;        ///< by case: 1 where the guess was truncated, written
+  std::uint8_t* cut;        ///< by case: 1 if the guess was truncated, written
 
   OGC_HD void operator()(int i) const {
     BeginVertex own_begin = begin;
@@ -37,7 +37,7 @@ struct ProbeGuess {
   }
 };
 
-/// One member of all cases.
+/// Returns one member of all cases.
 template <class T>
 std::vector<T> column(const compare::InitialGuessIn& in, T compare::InitialGuessCase::*member) {
   std::vector<T> all;
@@ -45,7 +45,7 @@ std::vector<T> column(const compare::InitialGuessIn& in, T compare::InitialGuess
   return all;
 }
 
-/// Each segment alone.
+/// Turns each segment alone.
 struct ProbeTurn {
   const Vec *before, *now;  ///< by case [m]
   const Quat* orientation;  ///< by case
@@ -54,7 +54,7 @@ struct ProbeTurn {
   OGC_HD void operator()(int i) const { out[i] = turned_along(before[i], now[i], orientation[i]); }
 };
 
-/// Those of the question.
+/// Returns the turned quaternions of the cases.
 template <class Backend>
 std::vector<compare::Quaternion> probe_turns(Backend& backend, const std::vector<compare::TurnCase>& turns) {
   ProbeMemory<Backend> memory(backend);
@@ -71,7 +71,7 @@ std::vector<compare::Quaternion> probe_turns(Backend& backend, const std::vector
   return quaternions(found);
 }
 
-/// The stage `initial_guess`.
+/// Answers the stage `initial_guess`.
 template <class Backend>
 compare::InitialGuessOut probe_initial_guess(Backend& backend, const compare::InitialGuessIn& in) {
   using Case = compare::InitialGuessCase;

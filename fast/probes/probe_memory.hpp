@@ -1,4 +1,4 @@
-// How the judge's arrays get to the backend and back.
+// Copies the judge's arrays to the backend and back.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace ogc::fast {
 
-/// Arrays of one probe on the backend: cases go in, answers come out.
+/// Holds the arrays of one probe on the backend: cases go in, answers come out.
 template <class Backend>
 class ProbeMemory {
  public:
   explicit ProbeMemory(Backend& backend) : backend_(backend) {}
 
-  /// As many items of type To, of the same layout, on the backend; valid as long as the memory.
+  /// Uploads items as type To, of the same layout; the result is valid as long as the memory.
   template <class To, class From>
   const To* in(const std::vector<From>& items) {
     static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
@@ -27,7 +27,7 @@ class ProbeMemory {
     return buffer->data();
   }
 
-  /// Room for n answers on the backend, with `to` resized to take them in `fetch`.
+  /// Returns room for n answers on the backend; `to` is resized, and `fetch` fills it.
   template <class From, class To>
   From* out(std::vector<To>& to, std::size_t n) {
     static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
@@ -38,7 +38,7 @@ class ProbeMemory {
     return buffer->data();
   }
 
-  /// Positions as a sweep gathers them, `copies` times one after the other.
+  /// Uploads positions as a sweep gathers them, `copies` times one after the other.
   PaddedVec* padded(const std::vector<compare::Vec3f>& positions, int copies = 1) {
     std::vector<PaddedVec> all;
     for (int k = 0; k < copies; ++k) {

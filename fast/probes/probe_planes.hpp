@@ -1,4 +1,4 @@
-// The judge's way in to planes: a detection whose bounds are planes, and truncation by ball and half-spaces.
+// Lets the judge test planes: a detection whose bounds are planes, and truncation by ball and half-spaces.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,13 @@
 
 #include "compare/stages/plane.hpp"
 #include "compare/stages/truncate.hpp"
-#include "fast/kernels/plane.hpp"
+#include "fast/kernels/held.hpp"
 #include "fast/probes/download.hpp"
 #include "fast/probes/probe_memory.hpp"
 
 namespace ogc::fast {
 
-/// The stage `plane`. `list_capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
+/// Answers the stage `plane`. `list_capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
 template <class Backend>
 compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int list_capacity = 0) {
   const auto bounds = in.displacement.empty() ? compare::Bounds::planes : compare::Bounds::dat;
@@ -25,28 +25,28 @@ compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int 
   const float* query_radius = memory.template in<float>(std::vector<float>{in.query_radius});
   detection.rebuild(positions);
   do {
-    // Nobody asks which of the pairs are contacts.
-    detection.detect(positions, in.query_radius, query_radius, in.bound_relaxation);
+    // Which of the pairs are contacts does not matter here, so the query radius stands for r.
+    detection.detect(positions, in.query_radius, query_radius, in.bounds_relaxation);
     backend.synchronize();
   } while (detection.grow());
   return {detection.download_planes(), download_items(backend, detection.view().bound, in.positions.size())};
 }
 
-/// Truncation of a proposal by its region, case by case.
+/// Truncates a proposal by its region, case by case.
 struct ProbeRegion {
   FeasibleRegions balls;    ///< by case
   const HalfSpace* planes;  ///< of all cases
   const int* offsets;       ///< by case, and the end
   const Vec* current;       ///< by case [m], in its region
-  const Symmetric3* block;  ///< by case, of free vertices [N/m]
+  const Symmetric3* block;  ///< by case, for free vertices [N/m]
   const std::uint8_t* is_prescribed;
   const Vec* position;  ///< proposals by case [m]
   Vec* result;          ///< by case [m], written
-  std::uint8_t* cut;    ///< by case: 1 where the proposal was changed, written
+  std::uint8_t* cut;    ///< by case: 1 if the proposal was changed, written
 
   OGC_HD void operator()(int i) const {
     const FeasibleRegion region{balls.ball(i), planes + offsets[i], offsets[i + 1] - offsets[i]};
-    // H is positive definite; where its pivots are noise the shortest way out serves.
+    // H is positive definite; if its pivots are noise the shortest way out serves.
     const Truncated kept = is_prescribed[i] != 0 ? held_on_path(region, current[i], position[i])
                                                  : held(region, current[i], position[i], BlockMetric{block[i], 1.0F});
     result[i] = kept.position;
@@ -54,7 +54,7 @@ struct ProbeRegion {
   }
 };
 
-/// The stage `truncate` where cases have half-spaces.
+/// Answers the stage `truncate` for cases with half-spaces.
 template <class Backend>
 compare::TruncateOut probe_regions(Backend& backend, const compare::TruncateIn& in) {
   ProbeMemory<Backend> memory(backend);

@@ -1,4 +1,4 @@
-// The judge's way in to rods: force and block of an end of one segment, and the orientation of one, each case alone.
+// Lets the judge test rods: force and block of an end of one segment, and the orientation of one, each case alone.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 #include "fast/kernels/models/orientation.hpp"
 #include "fast/kernels/models/rod.hpp"
 #include "fast/probes/probe_forces.hpp"
-#include "fast/stages/rods_at_rest.hpp"
+#include "fast/stages/kinds/segment.hpp"
 
 namespace ogc::fast {
 
-/// Each segment alone, seen from one of its ends.
+/// Adds each segment alone, seen from one of its ends.
 struct ProbeRod {
   const SegmentRest* segment;                   ///< by case; its ends are 2 i and 2 i + 1
-  const int* own;                               ///< by case: the end asked about
+  const int* own;                               ///< by case: the end to be solved
   const compare::DampingForm* form;             ///< by case
   const Vec *vertex, *start;                    ///< by case: two ends [m]
   const Quat *orientation, *orientation_start;  ///< by case
@@ -38,7 +38,7 @@ struct ProbeRod {
   }
 };
 
-/// The stage `rod`.
+/// Answers the stage `rod`.
 template <class Backend>
 compare::ForceOut probe_rod(Backend& backend, const compare::RodIn& in) {
   ProbeMemory<Backend> memory(backend);
@@ -68,13 +68,13 @@ compare::ForceOut probe_rod(Backend& backend, const compare::RodIn& in) {
   return out;
 }
 
-/// What a segment reads of a neighbour.
+/// Holds what a segment reads of a neighbour.
 struct SeenNeighbour {
   NeighbourRest rest;
-  Quat now, start;  ///< its quaternion; that at the start of the step
+  Quat now, start;  ///< its quaternion now, and at the start of the step
 };
 
-/// Each segment alone, between its neighbours.
+/// Orients each segment alone, between its neighbours.
 struct ProbeOrientation {
   const SegmentRest* segment;                   ///< by case; its ends are 2 i and 2 i + 1
   const SeenNeighbour* neighbour;               ///< by case: behind, ahead
@@ -96,7 +96,7 @@ struct ProbeOrientation {
   }
 };
 
-/// The stage `orientation`.
+/// Answers the stage `orientation`.
 template <class Backend>
 compare::OrientationOut probe_orientation(Backend& backend, const compare::OrientationIn& in) {
   ProbeMemory<Backend> memory(backend);

@@ -1,13 +1,12 @@
-// The judge's way in to the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of
-// the question in place of its own. Incidences are filled and ordered by the functors of the detection (FillIncidences,
-// RankIncidences), so the sums have the order that they have in a step.
+// Lets the judge test the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of
+// the question in place of its own. The functors of the detection (FillIncidences, RankIncidences) fill and order the
+// incidences, so the sums have the order that they have in a step.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "compare/stages/sweep.hpp"
-#include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/rods/turn.hpp"
 #include "fast/probes/probe_memory.hpp"
@@ -18,7 +17,7 @@
 
 namespace ogc::fast {
 
-/// Records on the backend with their incidences.
+/// Holds records on the backend with their incidences.
 template <class Backend>
 class ProbeContacts {
  public:
@@ -39,12 +38,12 @@ class ProbeContacts {
     fill(facets, edges);
   }
 
-  /// Room that they need, in contacts: one has two incidences at least, four at most.
+  /// Returns the room that the contacts need: the number of incidences, as each contact has two at least, four at most.
   int capacity() const { return count_; }
-  /// How many contacts there are; on the backend.
+  /// Returns the number of contacts, on the backend.
   const int* count() const { return counts_.data() + 1; }
 
-  /// As a detection's.
+  /// Returns the contacts as a detection leaves them.
   ContactView view() const {
     ContactView view;
     view.vertex_facet = vertex_facet_.data();
@@ -59,7 +58,7 @@ class ProbeContacts {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// Of the lists of a detection, what its last two kernels read.
+  /// Sets only those lists of a detection that its last two kernels read, and runs them.
   void fill(int facets, int edges) {
     ListsView lists;
     lists.overflow = overflow_.data();
@@ -82,36 +81,6 @@ class ProbeContacts {
   Buffer<Incidence> incidences_;
 };
 
-/// Gᵗ and θᵗ as the start of a step leaves them.
-template <class Backend>
-class ProbeStart {
- public:
-  ProbeStart(Backend& backend, const RestState& rest, const Vec* start) {
-    triangles_.upload(rest.triangles.data(), rest.triangles.size());
-    hinges_.upload(rest.hinges.data(), rest.hinges.size());
-    strain_.resize(rest.triangles.size());
-    angle_.resize(rest.hinges.size());
-    backend.for_each(static_cast<int>(rest.triangles.size()), BeginTriangle{triangles_.data(), start, strain_.data()});
-    backend.for_each(static_cast<int>(rest.hinges.size()), BeginHinge{hinges_.data(), start, angle_.data()});
-    tetrahedra_.upload(rest.tetrahedra.data(), rest.tetrahedra.size());
-    solid_.resize(rest.tetrahedra.size());
-    backend.for_each(static_cast<int>(rest.tetrahedra.size()),
-                     BeginTetrahedron{tetrahedra_.data(), start, solid_.data()});
-  }
-  /// On the backend: Gᵗ by triangle, θᵗ by hinge [rad], Gᵗ by tetrahedron.
-  const Symmetric2* strain() const { return strain_.data(); }
-  const float* angle() const { return angle_.data(); }
-  const SolidStrain* solid() const { return solid_.data(); }
-
- private:
-  typename Backend::template Buffer<TriangleRest> triangles_;
-  typename Backend::template Buffer<HingeRest> hinges_;
-  typename Backend::template Buffer<Symmetric2> strain_;
-  typename Backend::template Buffer<float> angle_;
-  typename Backend::template Buffer<TetrahedronRest> tetrahedra_;
-  typename Backend::template Buffer<SolidStrain> solid_;
-};
-
 /// Quaternions of a question, and c as the start of a step leaves it.
 template <class Backend>
 class ProbeRods {
@@ -121,7 +90,7 @@ class ProbeRods {
     const std::vector<Quat> now = quats(in.orientation), before = quats(in.orientation_start);
     orientation_.upload(now.data(), now.size());
     start_.upload(before.data(), before.size());
-    if (rod_damping(rest).empty() || !damps_strain(in.scene->settings.damping)) return;
+    if (at_rest<SegmentKind>(rest).by_body(rest).empty() || !damps_strain(in.scene->settings.damping)) return;
     typename Backend::template Buffer<SegmentRest> segments;
     segments.upload(rest.rods.segments.data(), count_);
     typename Backend::template Buffer<Vec> positions;
@@ -132,13 +101,13 @@ class ProbeRods {
     backend.synchronize();
   }
 
-  /// What a sweep reads beside its streams.
+  /// Sets what a sweep reads beside its streams.
   void complete(RodStream& rods) {
     rods.orientation = orientation_.data();
     rods.orientation_start = start_.data();
     rods.direction = direction_.data();
   }
-  /// As they are now.
+  /// Returns the present orientations.
   std::vector<compare::Quaternion> orientations() const {
     std::vector<Quat> now(count_);
     if (count_ > 0) orientation_.download(now.data(), count_);
@@ -151,7 +120,7 @@ class ProbeRods {
   typename Backend::template Buffer<Vec> direction_;
 };
 
-/// One iteration of the resident sweep.
+/// Runs one iteration of the resident sweep.
 template <class Backend>
 compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   ProbeMemory<Backend> memory(backend);
@@ -182,10 +151,7 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   view.control = control_buffer.data();
   view.contact_radius = settings.contact_radius;
   view.friction_limit = settings.friction_limit;
-  const ProbeStart<Backend> start(backend, rest, vectors(in.start));
-  view.strain_start = start.strain();
-  view.angle_start = start.angle();
-  view.solid_start = start.solid();
+  sweep.begin(vectors(in.start));
   const ProbeContacts<Backend> contacts(backend, contact_records(in), static_cast<int>(in.old.size()));
   sweep.reserve_contacts(contacts.capacity());
   sweep.resolve_contacts(contacts.view(), previous);

@@ -1,5 +1,5 @@
-// The judge's way in to volumes: contacts of points with a volume, found in its tree, and the force of one contact,
-// each case alone.
+// Lets the judge test volumes: contacts of points with a volume, found in its tree, and the force of one contact, each
+// case alone.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@
 
 namespace ogc::fast {
 
-/// Each contact with a volume alone.
+/// Adds each contact with a volume alone.
 struct ProbeVolumeForce {
   const VolumeContact* contact;              ///< by case
   const Vec *vertex, *start;                 ///< by case: the point and three corners [m]
-  const int* own;                            ///< by case: the role asked about
+  const int* own;                            ///< by case: the role to be solved
   const float *contact_radius, *slip_limit;  ///< by case: r, ε_v h [m]
   ForceArrays out;                           ///< by case, written
 
@@ -31,7 +31,7 @@ struct ProbeVolumeForce {
   }
 };
 
-/// The stage `volume_force`.
+/// Answers the stage `volume_force`.
 template <class Backend>
 compare::ForceOut probe_volume_force(Backend& backend, const compare::VolumeForceIn& in) {
   ProbeMemory<Backend> memory(backend);
@@ -60,20 +60,20 @@ compare::ForceOut probe_volume_force(Backend& backend, const compare::VolumeForc
   return out;
 }
 
-/// Who asks a volume.
+/// A point that asks a volume whether it lies inside.
 struct VolumeAsker {
   Vec position;  ///< [m]
-  int own;       ///< the vertex that it is, or −1
+  int own;       ///< the vertex at the point, or −1
 };
 
-/// How many contacts each point has, and where its next search begins.
+/// Counts the contacts of each point, and finds where its next search begins.
 struct CountAtPoint {
   VolumeView volume;
   const VolumeAsker* askers;
   const int* first_facet;  ///< by part: any of its facets
-  int* nearest;            ///< by point, part by part, written: as AskVolumes has it
+  int* nearest;            ///< by point, part by part, as AskVolumes stores it, written
   int* count;              ///< by point, written
-  int* unresolved;         ///< by point, written: sheets without a way
+  int* unresolved;         ///< by point: sheets without a way, written
 
   OGC_HD void operator()(int i) const {
     const VolumeQuestion question(volume, askers[i].position);
@@ -97,11 +97,11 @@ struct CountAtPoint {
   }
 };
 
-/// The contacts of each point, part after part.
+/// Finds the contacts of each point, part after part.
 struct FindAtPoint {
   VolumeView volume;
   const VolumeAsker* askers;
-  const int* nearest;         ///< of CountAtPoint
+  const int* nearest;         ///< as CountAtPoint leaves it
   const int* first;           ///< by point: place of its first contact
   FoundVolumeContact* found;  ///< written
 
@@ -120,7 +120,7 @@ struct FindAtPoint {
   }
 };
 
-/// A contact of `point` in the words of the contract.
+/// Returns a contact of `point` in the types of the contract.
 inline compare::VolumeContact contact_of(compare::Index point, const FoundVolumeContact& c,
                                          const compare::Topology& topology) {
   return {.point = point,
@@ -132,13 +132,13 @@ inline compare::VolumeContact contact_of(compare::Index point, const FoundVolume
           .depth = c.depth};
 }
 
-/// In the order of the contract.
+/// Sorts contacts into the order of the contract.
 inline void sort_contacts(std::vector<compare::VolumeContact>& contacts) {
   std::ranges::sort(contacts, {},
                     [](const compare::VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
 }
 
-/// The stage `volume_depth`.
+/// Answers the stage `volume_depth`.
 template <class Backend>
 compare::VolumeDepthOut probe_volume_depth(Backend& backend, const compare::VolumeDepthIn& in) {
   const Surface<Backend> surface(*in.topology, {});
@@ -181,7 +181,7 @@ compare::VolumeDepthOut probe_volume_depth(Backend& backend, const compare::Volu
   return out;
 }
 
-/// The answers of a simulation's last search; waits for what is enqueued.
+/// Returns the contacts of a simulation's last search; waits for what is enqueued.
 template <class Backend>
 compare::VolumeDepthOut download_volume_contacts(Backend& backend, const Volumes<Backend>& volumes,
                                                  const compare::Topology& topology) {

@@ -1,4 +1,4 @@
-// The judge's way in: each stage as a function from its In to its Out that runs the very kernels and launches of the
+// Lets the judge test each stage: a function from its In to its Out runs the very kernels and launches of the
 // simulation.
 #pragma once
 
@@ -29,7 +29,7 @@
 
 namespace ogc::fast {
 
-/// Closest face, its weights, the distance and its lower bound, case by case.
+/// Computes the closest face, its weights, the distance and its lower bound, case by case.
 struct ProbeClosestFace {
   const Vec* points;                 ///< by case [m]
   const Corners* triangles;          ///< by case [m]
@@ -46,7 +46,7 @@ struct ProbeClosestFace {
   }
 };
 
-/// The stage `closest_face`.
+/// Answers the stage `closest_face`.
 template <class Backend>
 compare::ClosestFaceOut probe_closest_face(Backend& backend, const compare::ClosestFaceIn& in) {
   ProbeMemory<Backend> memory(backend);
@@ -63,16 +63,16 @@ compare::ClosestFaceOut probe_closest_face(Backend& backend, const compare::Clos
   return out;
 }
 
-/// As compare::ClosestPointsOut stores them.
+/// Parameters as compare::ClosestPointsOut stores them.
 struct StoredParameters {
   float first, second;
 };
 
-/// Closest features of two edges, their parameters, the distance there and its lower bound, case by case.
+/// Computes the closest features of two edges, their parameters, the distance there and its lower bound, case by case.
 struct ProbeClosestPoints {
   const Ends *first, *second;                   ///< by case [m]
   EdgeFeature *first_feature, *second_feature;  ///< by case, written
-  std::uint8_t* nearly_parallel;                ///< by case: overlap included, written
+  std::uint8_t* nearly_parallel;                ///< by case: 1 if they are nearly parallel and overlap, written
   StoredParameters* parameters;                 ///< by case, written
   float *contact_distance, *distance_below;     ///< by case [m], written; the second is never above the exact distance
 
@@ -90,7 +90,7 @@ struct ProbeClosestPoints {
   }
 };
 
-/// The stage `closest_points`.
+/// Answers the stage `closest_points`.
 template <class Backend>
 compare::ClosestPointsOut probe_closest_points(Backend& backend, const compare::ClosestPointsIn& in) {
   ProbeMemory<Backend> memory(backend);
@@ -109,14 +109,14 @@ compare::ClosestPointsOut probe_closest_points(Backend& backend, const compare::
   return out;
 }
 
-/// The stages `detect_vertex_facet` and `detect_edge_edge` at once.
+/// Answers the stages `detect_vertex_facet` and `detect_edge_edge` at once.
 template <class Backend>
 ContactSets probe_detection(Backend& backend, const compare::DetectIn& in) {
   BackendContactEngine<Backend> engine(backend, *in.topology, in.exclusions);
   return engine.find(in.positions, {.contact_radius = in.contact_radius, .query_radius = in.query_radius});
 }
 
-/// The stage `bound`.
+/// Answers the stage `bound`.
 template <class Backend>
 compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
   const Surface<Backend> surface(*in.topology, {});
@@ -132,14 +132,14 @@ compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
                                      .d_min_vertex = distances(in.d_min_vertex),
                                      .d_min_edge = distances(in.d_min_edge),
                                      .d_min_triangle = distances(in.d_min_triangle),
-                                     .bound_relaxation = in.bound_relaxation,
+                                     .bounds_relaxation = in.bounds_relaxation,
                                      .overflow = memory.template in<int>(no_overflow),
                                      .bound = memory.template out<float>(out.bound, in.d_min_vertex.size())});
   memory.fetch();
   return out;
 }
 
-/// Energy and derivatives of an activation, case by case.
+/// Computes energy and derivatives of an activation, case by case.
 struct ProbeActivation {
   const float *distance, *contact_radius, *stiffness;  ///< by case: d, r [m], k_c [N/m]
   const AnyActivation* activation;                     ///< by case
@@ -153,7 +153,7 @@ struct ProbeActivation {
   }
 };
 
-/// The stage `activation`.
+/// Answers the stage `activation`.
 template <class Backend>
 compare::ActivationOut probe_activation(Backend& backend, const compare::ActivationIn& in) {
   ProbeMemory<Backend> memory(backend);
@@ -170,12 +170,12 @@ compare::ActivationOut probe_activation(Backend& backend, const compare::Activat
   return out;
 }
 
-/// Truncation of a proposal, case by case.
+/// Truncates a proposal, case by case.
 struct ProbeTruncate {
   FeasibleRegions regions;  ///< balls alone, by case
   const Vec* position;      ///< proposals by case [m]
   Vec* result;              ///< by case [m], written
-  std::uint8_t* cut;        ///< by case: 1 where the proposal was changed, written
+  std::uint8_t* cut;        ///< by case: 1 if the proposal was changed, written
 
   OGC_HD void operator()(int i) const {
     const Truncated kept = truncate(regions.ball(i), position[i]);
@@ -184,7 +184,7 @@ struct ProbeTruncate {
   }
 };
 
-/// The stage `truncate`.
+/// Answers the stage `truncate`.
 template <class Backend>
 compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn& in) {
   if (!in.half_spaces.offsets.empty()) return probe_regions(backend, in);
@@ -199,8 +199,8 @@ compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn&
   return out;
 }
 
-/// A contestant with the stages of this header; `start` is left to the backend's own file. A step takes a backend of
-/// its own.
+/// Returns a contestant with the stages of this header; the backend's own file sets `start`. Each step gets a backend
+/// of its own, from `fresh`.
 template <class Backend, class Fresh = Backend (*)()>
 compare::Contestant probe_contestant(
     std::string name, std::shared_ptr<Backend> backend, Fresh fresh = [] { return Backend{}; }) {

@@ -1,4 +1,4 @@
-// What the question of a sweep says, as the resident sweep reads it: made on the host.
+// Converts the question of a sweep, on the host, to what the resident sweep reads.
 #pragma once
 
 #include <span>
@@ -13,21 +13,21 @@
 
 namespace ogc::fast {
 
-/// The contacts of a question as a detection would leave them.
+/// Holds the contacts of a question as a detection would leave them.
 struct ContactRecords {
   std::vector<VertexFacetRecord> vertex_facet;  ///< by record
   std::vector<EdgeEdgeRecord> edge_edge;        ///< by record
   std::vector<int> offsets;                     ///< of the incidences by vertex, vertex_count + 1
 };
 
-/// Those of a question.
+/// Returns the contacts of a question.
 ContactRecords contact_records(const compare::SweepIn& in);
 
-/// The contacts with volumes of a question by row, with the materials of `rest`.
+/// Returns the contacts with volumes of a question by row, with the materials of `rest`.
 std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,
                                                       const AskerRows& asked);
 
-/// The order of a sweep whose colours are given; −1: not free.
+/// Returns the order of a sweep whose colours are given; −1: not free.
 Colouring colouring_of(std::span<const compare::Index> colour);
 
 }  // namespace ogc::fast

@@ -1,5 +1,5 @@
-// What the judge sees of a step: the resident simulation's own, event by event. Only what took place becomes an event;
-// the control's counters tell.
+// Shows the judge a step of the resident simulation, event by event. Only what took place becomes an event, as the
+// control's counters tell.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace ogc::fast {
 
-/// The trace of one simulation.
+/// Records the steps of one simulation.
 template <class Backend>
 class StepTrace : public StepObserver {
  public:
@@ -55,9 +55,9 @@ class StepTrace : public StepObserver {
     turned_ = rods_.now();
   }
 
-  /// Frames after the guess loop.
+  /// Returns the frames after the guess loop.
   std::vector<compare::Quaternion> take_turned() { return std::move(turned_); }
-  /// The events of the last step.
+  /// Returns the events of the last step.
   std::vector<compare::StepEvent> take() { return std::move(events_); }
 
  private:
@@ -82,7 +82,7 @@ class StepTrace : public StepObserver {
     }
     const Vec* previous = state_.previous.data();
     event.position = download_positions(backend_, previous, n);
-    // No iteration yet: a round of the guess loop, which does not look for contacts with volumes.
+    // Without an iteration this is a round of the guess loop, which does not search for contacts with volumes.
     if (control.iterations == 0) step_.find_in_volumes(previous);
     set_contacts(event);
     return event;

@@ -39,11 +39,9 @@ compare::CompressedRows conflict_graph(const RestState& rest) {
       }
     }
   };
-  for (const TriangleRest& triangle : rest.triangles) connect(triangle.corner, 3);
-  for (const HingeRest& hinge : rest.hinges) connect(hinge.vertex, 4);
-  for (const SpringRest& spring : rest.springs) connect(spring.end, end_count(spring));
-  for (const TetrahedronRest& tetrahedron : rest.tetrahedra) connect(tetrahedron.corner, 4);
-  for (const SegmentRest& segment : rest.rods.segments) connect(segment.end, 2);
+  Kinds::for_each([&]<class Kind>(Kind) {
+    for (const auto& element : at_rest<Kind>(rest).elements()) connect(Kind::vertices(element), Kind::count(element));
+  });
   return sorted_rows(std::move(neighbours));
 }
 

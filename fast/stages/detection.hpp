@@ -67,13 +67,13 @@ class Detection {
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
   /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q =
-  /// *query_radius ≥ r [m] (on the backend), γ_p = bound_relaxation. A no-op while *overflow() is set. `launches`: the
+  /// *query_radius ≥ r [m] (on the backend), γ_p = bounds_relaxation. A no-op while *overflow() is set. `launches`: the
   /// first and the last launch, with whatever the caller adds to them.
   template <class Launches = PlainLaunches>
-  void detect(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
+  void detect(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
               const Launches& launches = {}) {
-    find(positions, contact_radius, query_radius, bound_relaxation, launches);
-    lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bound_relaxation),
+    find(positions, contact_radius, query_radius, bounds_relaxation, launches);
+    lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bounds_relaxation),
                     planes_.distances(), launches);
   }
 
@@ -142,7 +142,7 @@ class Detection {
  private:
   /// All before the lists.
   template <class Launches>
-  void find(const Vec* positions, float contact_radius, const float* query_radius, float bound_relaxation,
+  void find(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
             const Launches& launches) {
     const SurfaceView surface = surface_.view();
     const ListsView lists = lists_.view();
@@ -163,7 +163,7 @@ class Detection {
     if (planes_.is_used()) {
       backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.searched_edges, {edge_edge, query_radius}},
                       Searches<NearVertexFacet>{bvh_.facets(), facet_searches(), {vertex_facet, query_radius}});
-      planes_.make(backend_, surface, vertex_facet.positions, lists, bound_relaxation, query_radius, bound_.data());
+      planes_.make(backend_, surface, vertex_facet.positions, lists, bounds_relaxation, query_radius, bound_.data());
     } else {
       backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
     }
@@ -195,12 +195,12 @@ class Detection {
   /// Vertices whose bounds a detection makes beside its lists.
   int bounded() const { return planes_.is_used() ? 0 : surface_.view().vertex_count; }
 
-  ConservativeBound bounds(float bound_relaxation) {
+  ConservativeBound bounds(float bounds_relaxation) {
     return {.surface = surface_.view(),
             .d_min_vertex = d_min_vertex_.data(),
             .d_min_edge = d_min_edge_.data(),
             .d_min_triangle = d_min_triangle_.data(),
-            .bound_relaxation = bound_relaxation,
+            .bounds_relaxation = bounds_relaxation,
             .overflow = lists_.overflow(),
             .bound = bound_.data()};
   }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "compare/problem/scene.hpp"
-#include "fast/kernels/rods/sums.hpp"
 #include "fast/kernels/rods/turn.hpp"
+#include "fast/kernels/sums/rod_sums.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/rest_state.hpp"
 #include "fast/stages/rod_streams.hpp"
@@ -30,14 +30,15 @@ class Rods {
       : scene_(scene),
         count_(static_cast<int>(rest.rods.segments.size())),
         motions_(static_cast<int>(scene.motions.size())),
-        turns_(turns(scene.settings.start_frames)) {
+        turns_(turns(scene.settings.rod_start)) {
     if (!is_used()) return;
     segments_.upload(rest.rods.segments.data(), rest.rods.segments.size());
     neighbours_.upload(rest.rods.neighbours.data(), rest.rods.neighbours.size());
     motion_.upload(rest.rods.motion.data(), rest.rods.motion.size());
     orientation_.resize(segments_.size());
     motion_turns_.resize(static_cast<std::size_t>(std::max(1, longest_frame * motions_)));
-    if (!rod_damping(rest).empty() && damps_strain(scene.settings.damping)) direction_.resize(segments_.size());
+    if (!at_rest<SegmentKind>(rest).by_body(rest).empty() && damps_strain(scene.settings.damping))
+      direction_.resize(segments_.size());
     put(start_orientations(scene, rest.rods));
   }
 

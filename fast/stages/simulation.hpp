@@ -169,13 +169,6 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     StepState<Backend>& s = state_;
     const std::size_t n = rest_.mass.size();
     s.vertex_count = static_cast<int>(n);
-    s.triangle_count = static_cast<int>(rest_.triangles.size());
-    s.hinge_count = static_cast<int>(rest_.hinges.size());
-    s.spring_count = static_cast<int>(rest_.springs.size());
-    s.tetrahedron_count = static_cast<int>(rest_.tetrahedra.size());
-    s.solids_damped = std::any_of(rest_.solids.begin(), rest_.solids.end(), damps);
-    s.damped = std::any_of(rest_.materials.begin(), rest_.materials.end(),
-                           [](const SurfaceMaterial& m) { return m.membrane_damping > 0 || m.bending_damping > 0; });
     for (auto* buffer : {&s.target, &s.previous, &s.position}) buffer->resize(n);
     s.taken.resize(2 * n);
     if (traits_of(scene_.settings.bounds).divides) {
@@ -184,18 +177,10 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     }
     s.padded_start.resize(n);
     s.padded.resize(2 * n);
-    s.strain_start.resize(rest_.triangles.size());
-    s.angle_start.resize(rest_.hinges.size());
-    s.solid_start.resize(rest_.tetrahedra.size());
     s.sums.resize(guess_columns + sum_columns);
     s.control.resize(1);
     s.rows.resize(longest_frame);
     upload(s.mass, rest_.mass);
-    upload(s.triangles, rest_.triangles);
-    upload(s.hinges, rest_.hinges);
-    upload(s.weights, rest_.weights);
-    upload(s.springs, rest_.springs);
-    upload(s.tetrahedra, rest_.tetrahedra);
     std::vector<int> number(n);
     for (std::size_t v = 0; v < n; ++v) number[v] = rest_.mobility[v] == Mobility::fixed ? -2 : -1;
     for (const compare::PrescribedMotion& motion : scene_.motions) {
@@ -338,7 +323,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     result.depth_unresolved = row.depth_unresolved;
     result.smallest_distance = traits_of(scene_.settings.bounds).has_planes
                                    ? row.smallest_bound
-                                   : row.smallest_bound / scene_.settings.bound_relaxation;
+                                   : row.smallest_bound / scene_.settings.bounds_relaxation;
     if (rods_.is_used()) {
       const bool is_any = static_cast<double>(row.smallest_contact) < scene_.settings.contact_radius;
       result.smallest_contact_distance = is_any ? row.smallest_contact : not_asked;

@@ -26,8 +26,8 @@
 #include "compare/stages/step.hpp"
 #include "fast/kernels/initial_guess.hpp"
 #include "fast/kernels/metrics.hpp"
-#include "fast/kernels/step_sums.hpp"
-#include "fast/kernels/volumes/sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
+#include "fast/kernels/sums/volume_sums.hpp"
 #include "fast/stages/detection.hpp"
 #include "fast/stages/left_forces.hpp"
 #include "fast/stages/profile.hpp"
@@ -47,11 +47,8 @@ struct StepState {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// of the whole mesh
-  int vertex_count = 0, triangle_count = 0, hinge_count = 0, spring_count = 0, prescribed_count = 0;
-  int tetrahedron_count = 0;
-  /// whether the step begins with Gᵗ and θᵗ; whether with Gᵗ of the tetrahedra
-  bool damped = false, solids_damped = false;
+  /// of the whole mesh; of all motions
+  int vertex_count = 0, prescribed_count = 0;
   Buffer<Vec> start, velocity, target, previous, position;  ///< by vertex: xᵗ [m], vᵗ [m/s], y, X_prev, x [m]
   Buffer<Vec> displacement;                ///< by vertex: what divides gaps [m]; empty where they are halved
   Buffer<PaddedVec> padded_start, padded;  ///< by vertex: xᵗ; x, twice as many [m]
@@ -59,14 +56,6 @@ struct StepState {
   Buffer<std::uint8_t> is_driven_volume;   ///< by vertex; empty where there is none
   Buffer<int> prescribed_number;           ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
   Buffer<Vec> prescribed_targets;          ///< [step of the frame][number]
-  Buffer<TriangleRest> triangles;          ///< by triangle
-  Buffer<HingeRest> hinges;                ///< by hinge
-  Buffer<HingeWeights> weights;            ///< by hinge; empty where no body bends isometrically
-  Buffer<SpringRest> springs;              ///< by spring
-  Buffer<TetrahedronRest> tetrahedra;      ///< by tetrahedron
-  Buffer<Symmetric2> strain_start;         ///< Gᵗ by triangle [1]
-  Buffer<SolidStrain> solid_start;         ///< Gᵗ by tetrahedron [1]
-  Buffer<float> angle_start;               ///< θᵗ by hinge [rad]
   Buffer<StepControl> control;             ///< one item
   Buffer<StepRow> rows;                    ///< by step of the frame
   Buffer<Vec> taken;    ///< by vertex, twice as many: what contacts take from moves in the guess loop [m]
@@ -176,13 +165,7 @@ class Step {
                                                   .control = control(),
                                                   .is_driven_volume = s.is_driven_volume.data()});
     clock_.time(StepStage::volumes, [&] { volumes_.refit(backend_, s.position.data()); });
-    if (s.damped) {
-      backend_.for_each(s.triangle_count, BeginTriangle{s.triangles.data(), s.start.data(), s.strain_start.data()});
-      backend_.for_each(s.hinge_count, BeginHinge{s.hinges.data(), s.start.data(), s.angle_start.data()});
-    }
-    if (s.solids_damped)
-      backend_.for_each(s.tetrahedron_count,
-                        BeginTetrahedron{s.tetrahedra.data(), s.start.data(), s.solid_start.data()});
+    sweep_.begin(s.start.data());
     rods_.begin_strains(backend_, s.start.data());
   }
 
@@ -210,7 +193,7 @@ class Step {
     const int* overflow = detection_.overflow();
     clock_.time(StepStage::detection, [&] {
       detection_.detect(
-          state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bound_relaxation,
+          state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bounds_relaxation,
           StepLaunches{begin_regions(target),
                        {control(), overflow},
                        sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
@@ -306,9 +289,6 @@ class Step {
     StepState<Backend>& s = state_;
     SweepView view;
     sweep_.complete(view);
-    view.strain_start = s.strain_start.data();
-    view.angle_start = s.angle_start.data();
-    view.solid_start = s.solid_start.data();
     view.start = {s.padded_start.data()};
     view.target = s.target.data();
     view.regions = regions();
@@ -396,14 +376,10 @@ class Step {
             s.vertex_count};
   }
 
-  TetrahedronSums tetrahedron_sums() {
-    const StepState<Backend>& s = state_;
-    return {{s.tetrahedra.data(), sweep_.solids(), s.position.data()}, s.tetrahedron_count};
-  }
-
   StateSums state_sums() {
     const bool swapped = settings_.iterations % 2 == 0;  // the last iteration read the second buffer
-    return {vertex_sums(state_.padded.data() + (swapped ? state_.vertex_count : 0)), tetrahedron_sums()};
+    return {vertex_sums(state_.padded.data() + (swapped ? state_.vertex_count : 0)),
+            sweep_.elements(state_.position.data())};
   }
 
   EnergySums energy_sums() {
@@ -413,12 +389,6 @@ class Step {
     const ContactTables tables = sweep_.tables(s.previous.data());
     const AnyActivation activation{sweep_.activation()};
     return {.state = state_sums(),
-            .triangle = {s.triangles.data(), sweep_.materials(), sweep_.models(), position},
-            .triangles = s.triangle_count,
-            .hinge = {s.hinges.data(), s.weights.data(), sweep_.models(), position},
-            .hinges = s.hinge_count,
-            .spring = {s.springs.data(), position},
-            .springs = s.spring_count,
             .vertex_facet = {view, tables, position, activation, settings_.contact_radius},
             .edge_edge = {view, tables, position, activation, settings_.contact_radius}};
   }

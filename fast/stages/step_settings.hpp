@@ -13,10 +13,10 @@ namespace ogc::fast {
 
 /// Numbers of a scene that a step needs, in single precision: all are set by `step_settings`.
 struct StepSettings {
-  float step = 0, contact_radius = 0, friction_limit = 0, bound_relaxation = 0;  ///< h [s], r [m], ε_v h [m], γ_p
-  float detection_radius = 0;                                                    ///< r and the margin of contacts [m]
-  Vec acceleration;                                                              ///< [m/s²]
-  int iterations = 0;                                                            ///< of a step
+  float step = 0, contact_radius = 0, friction_limit = 0, bounds_relaxation = 0;  ///< h [s], r [m], ε_v h [m], γ_p
+  float detection_radius = 0;                                                     ///< r and the margin of contacts [m]
+  Vec acceleration;                                                               ///< [m/s²]
+  int iterations = 0;                                                             ///< of a step
   bool divides = false;     ///< whether displacements divide the gaps of pairs (bounds=dat)
   bool energies = false;    ///< whether a row has the energies of elements and contacts
   ControlSettings control;  ///< what the device decides by
@@ -49,17 +49,17 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   to.contact_radius = static_cast<float>(from.contact_radius);
   to.detection_radius = static_cast<float>((1 + from.contact_margin) * from.contact_radius);
   to.friction_limit = static_cast<float>(from.friction_velocity * from.time_step);
-  to.bound_relaxation = static_cast<float>(from.bound_relaxation);
+  to.bounds_relaxation = static_cast<float>(from.bounds_relaxation);
   to.acceleration = {static_cast<float>(scene.gravity.x), static_cast<float>(scene.gravity.y),
                      static_cast<float>(scene.gravity.z)};
   to.iterations = static_cast<int>(from.iterations);
   to.divides = traits_of(from.bounds).divides;
   to.energies = energies;
   to.control.contact_radius = to.detection_radius;
-  to.control.largest_query_radius = std::max(static_cast<float>(from.query_radius_cap * from.contact_radius),
+  to.control.largest_query_radius = std::max(static_cast<float>(from.detection_radius_cap * from.contact_radius),
                                              to.detection_radius);
-  to.control.redetect_vertices = from.redetect_fraction * static_cast<double>(moving);
-  to.control.redetect_every = static_cast<int>(from.redetect_every);
+  to.control.redetect_vertices = from.detection_fraction * static_cast<double>(moving);
+  to.control.detection_every = static_cast<int>(from.detection_every);
   to.control.guess_rounds = static_cast<int>(from.guess_rounds);
   to.control.sort_every = steps_between_sorts;
   to.control.iterations = to.iterations;

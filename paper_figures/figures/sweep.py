@@ -10,7 +10,7 @@ from paper_figures.workflow.runs import write_table
 from plots import style
 
 # Drawn over the first key, with a colour for each value of the second and a dash for each value of the third.
-KEYS = ("iterations", "bound_relaxation", "redetect_fraction")
+KEYS = ("iterations", "bounds_relaxation", "detection_fraction")
 PANELS = (("detections_a_step [1]", "detections a step"), ("median_step [ms]", "median time a step [ms]"),
           ("smallest_distance [m]", "smallest distance [m]"))
 

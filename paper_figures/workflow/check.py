@@ -43,7 +43,8 @@ def counterpart(run, accepted):
 def question(run):
     """Returns the question of a run: its settings by value, without their explanations."""
     asked = {key: run.manifest.get(key) for key in QUESTION}
-    bodies = [{**body, "contact": contact_of(body), "material": material_of(body)} for body in asked["scene"]["bodies"]]
+    bodies = [{**body, "body_contact": contact_of(body), "material": material_of(body)}
+              for body in asked["scene"]["bodies"]]
     return {**asked, "settings": {name: entry["value"] for name, entry in asked["settings"].items()},
             "scene": {**asked["scene"], "bodies": bodies}}
 

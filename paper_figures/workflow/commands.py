@@ -23,12 +23,12 @@ THREE_CLOTHS_OTHERS = {"paper": (25, 41)}  # for these the start stores the stat
 # The paper draws 500 and 50.
 THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd": 1000, "newton": 150},
                            "paper": {"vbd": 1000, "newton": 150}}
-ANY = ("--set", "redetect_fraction=0")
+ANY = ("--set", "detection_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
-PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "truncation=pair")  # how Newton's step is truncated
-NARROW = ("--set", "bound_relaxation=0.2")  # gaps close by two fifths at most until the next detection
+PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "newton_truncation=pair")  # how Newton's step is truncated
+NARROW = ("--set", "bounds_relaxation=0.2")  # gaps close by two fifths at most until the next detection
 NEWTON = ("--solver", "newton", "--residual",
-          *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "friction_solves=50")
+          *(word for value in ("newton_tolerance=0", "newton_step_tolerance=1e-9", "newton_friction_solves=50")
                                                for word in ("--set", value)))
 
 ACTIVATION_STEPS = {"smoke": 30, "small": 40, "paper": 40}
@@ -39,7 +39,7 @@ TOLERANCE = ("--set", "newton_tolerance=1e-6", "--set", "newton_iterations=2000"
 WEAK_TOLERANCE = ("--set", "newton_tolerance=1e-4", "--set", "newton_iterations=500")  # 308 at small
 FRAMES = ("--set", "frame_steps=1", "--audit", "end")
 ABLATION = ("--solver", "newton", *TOLERANCE, *FRAMES)
-BY_VBD = ("--set", "redetect_every=10")  # γ_e = 0 is the scene's
+BY_VBD = ("--set", "detection_every=10")  # γ_e = 0 is the scene's
 # κ: k_c of IPC's energy over k_c of OGC's. In the paper's drawing (Fig. 21d) both are 1.
 STIFFNESS_RATIOS = (1, 2, 7, 40)
 PRINTED_STIFFNESS = 10  # N/m
@@ -128,7 +128,7 @@ class Variant:
 
     def options(self, scale):
         return (*(("--set", f"contact_stiffness={self.stiffness(scale):g}") if self.ratio != 1 or self.weak else ()),
-                "--set", f"activation={self.energy}")
+                "--set", f"contact_activation={self.energy}")
 
 
 PRINTED = tuple(map(Variant, ENERGIES))
@@ -148,14 +148,15 @@ def ablation(scale, variant):
     for a step."""
     steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
     solver = (*BY_VBD, "--residual", *FRAMES) if variant.weak else ABLATION
-    return Job(f"runs/activation={variant.name}", (*steps, *solver, *variant.options(scale)), may_fail=not variant.weak)
+    return Job(f"runs/contact_activation={variant.name}", (*steps, *solver, *variant.options(scale)),
+               may_fail=not variant.weak)
 
 
 def last_step(scale, variant, name, options, may_fail=False):
     """Returns the job of Fig. 21 that repeats the last step from the variant's own state before it."""
     steps = (ACTIVATIONS, "--scale", scale, "--steps", ACTIVATION_STEPS[scale])
     arguments = (*steps, *variant.options(scale), "--iterations", "--audit", "end", *options)
-    return Job(f"{name}_{variant.name}", arguments, (f"runs/activation={variant.name}", -2), may_fail=may_fail)
+    return Job(f"{name}_{variant.name}", arguments, (f"runs/contact_activation={variant.name}", -2), may_fail=may_fail)
 
 
 def by_newton(scale, variant):
@@ -185,7 +186,7 @@ FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, 
                "robot_shirt": 10, MAT: 4, "yarn_stretch": 41, "yarn_twist": 41}
 WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # ends of a row's name
 # With balls, twisted cloth that can't collapse locks unless the query radius is r (ablations.md, membranes).
-NEAR_PAIRS = {"twist": ("--set", "query_radius_cap=1")}
+NEAR_PAIRS = {"twist": ("--set", "detection_radius_cap=1")}
 VOLUMES = ("dress", "robot_shirt")  # scenes whose body is a volume by default
 ROWS = tuple(scene + end for scene in FRAME_STEPS
              for end in ("", WITH_PLANES, *([WITH_VOLUMES] if scene in (*VOLUMES, MAT) else [])))
@@ -202,7 +203,7 @@ def of_row(row, data):
     """Returns the options of a row. The dress is a stand-in without the data of Codimensional IPC."""
     own = PLANES if row.endswith(WITH_PLANES) else NEAR_PAIRS.get(row, ())
     if scene_of(row) in VOLUMES or row.endswith(WITH_VOLUMES):
-        own += ("--set", "contact=" + ("volume" if row.endswith(WITH_VOLUMES) else "surface"))
+        own += ("--set", "body_contact=" + ("volume" if row.endswith(WITH_VOLUMES) else "surface"))
     return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *own)
 
 
@@ -341,7 +342,7 @@ def mat_one_step(scale, seconds=0):
 # Fig. 18's solvers. Newton stops by IPC's velocity tolerance. It detects as soon as one vertex is cut, because a vertex
 # held by its ball would never slow down. OGC's force jumps at block boundaries, so that a step may never converge: it
 # ends after 100 iterations, like a step of VBD.
-NEWTON_AS_IPC = ("newton_tolerance=0", "newton_step_tolerance=1e-3", "redetect_fraction=0", "newton_iterations=100")
+NEWTON_AS_IPC = ("newton_tolerance=0", "newton_step_tolerance=1e-3", "detection_fraction=0", "newton_iterations=100")
 SOLVERS = {"ipc": ("--solver", "ipc", "--profile"),  # the baseline
            "newton": ("--solver", "newton", "--profile",
                       *(word for value in NEWTON_AS_IPC for word in ("--set", value))),
@@ -424,7 +425,7 @@ def ledgers(scale, backend):
 # the paper's "Newton". The ratio of the yarn's tension to k_c r decides, so that Fig. 15 also has two weaker k_c,
 # pulled as far as a mean stretch of 1 needs.
 STRETCH, YARN_TWIST = "yarn_stretch", "yarn_twist"
-YARN_KINDS = {"ogc": (), "baseline": ("--set", "bounds=off", "--set", "activation=quadratic")}
+YARN_KINDS = {"ogc": (), "baseline": ("--set", "bounds=off", "--set", "contact_activation=quadratic")}
 YARN_STIFFNESS = (222, 22, 2)  # N/m, the scene's first
 YARN_STEPS = {STRETCH: {"smoke": 100, "small": 16250, "paper": 16250},
               YARN_TWIST: {"smoke": 100, "small": 7500, "paper": 27500}}

@@ -100,7 +100,7 @@ def membranes_of(manifest):
 
 def contact_of(body):
     """Returns a body's kind of contact; a manifest without it is from before there were volumes."""
-    return body.get("contact", SURFACE)
+    return body.get("body_contact", SURFACE)
 
 
 def manifest_at(path):
@@ -209,23 +209,24 @@ class RunEvidence:
 
     def matches(self, wanted):
         """Returns whether the run is the one that a claim wants. `wanted`: keys of the manifest, and profiled, audited,
-        audited_states (at least so many), membrane, activation, bounds, contact, redetect_fraction (rounded to single
-        precision in the manifest), and steps: so many from the scene's start, not a window. A start moved by --jitter,
-        bounds other than the paper's, and bodies that may be entered match only if the claim names them."""
+        audited_states (at least so many), membrane, contact_activation, bounds, body_contact, detection_fraction
+        (rounded to single precision in the manifest), and steps: so many from the scene's start, not a window. A start
+        moved by --jitter, bounds other than the paper's, and bodies that may be entered match only if the claim names
+        them."""
         m = self.manifest
         bounds = m["settings"].get("bounds", {}).get("value", PAPER_BOUNDS)
         if "jitter" in m and "jitter" not in wanted or bounds != wanted.get("bounds", PAPER_BOUNDS):
             return False
-        if self.contact != wanted.get("contact", SURFACE):
+        if self.contact != wanted.get("body_contact", SURFACE):
             return False
         special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
                    "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
-                   "activation": lambda name: m["settings"].get("activation", {}).get("value") == name,
+                   "contact_activation": lambda name: m["settings"].get("contact_activation", {}).get("value") == name,
                    "bounds": lambda name: bounds == name,
-                   "contact": lambda name: self.contact == name,
-                   "redetect_fraction":
-                       lambda share: math.isclose(m["settings"]["redetect_fraction"]["value"], share, rel_tol=2**-23),
+                   "body_contact": lambda name: self.contact == name,
+                   "detection_fraction":
+                       lambda share: math.isclose(m["settings"]["detection_fraction"]["value"], share, rel_tol=2**-23),
                    "audited_states": lambda n: self.audited_states >= n,
                    "audited": lambda yes: (self.guarantee_kept is not None) == yes,
                    "scene": lambda name: m["scene"]["name"] == name}

@@ -21,7 +21,7 @@ bool is_above(float b, const Margin& distance, float relaxation) {
 
 }  // namespace
 
-std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, float bound_relaxation,
+std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, float bounds_relaxation,
                                                std::span<const float> bounds) {
   if (bounds.size() != in.positions.size()) {
     throw compare::InputError("bounds_above_exact: " + std::to_string(bounds.size()) + " bounds for " +
@@ -33,7 +33,7 @@ std::vector<compare::Index> bounds_above_exact(const compare::DetectIn& in, floa
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t v = range.begin(); v < range.end(); ++v)
                         above[v] = in.topology->on_surface(static_cast<compare::Index>(v)) &&
-                                   is_above(bounds[v], limits[v], bound_relaxation);
+                                   is_above(bounds[v], limits[v], bounds_relaxation);
                     });
   std::vector<compare::Index> result;
   for (std::size_t v = 0; v < above.size(); ++v) {

@@ -146,11 +146,11 @@ std::vector<Margin> limiting_distances(const compare::Topology& topology, const 
   return limits;
 }
 
-ExactSquares exact_squares(const compare::DetectIn& in, float bound_relaxation) {
+ExactSquares exact_squares(const compare::DetectIn& in, float bounds_relaxation) {
   const NearestPrimitives nearest = nearest_primitives(in);
   ExactSquares result{squares(nearest.vertex), squares(nearest.edge), squares(nearest.triangle), {}};
   for (const Margin& limit : limiting_distances(*in.topology, nearest))
-    result.bound.push_back(squared_distance(limit, bound_relaxation));
+    result.bound.push_back(squared_distance(limit, bounds_relaxation));
   return result;
 }
 

@@ -37,6 +37,6 @@ struct ExactSquares {
   std::vector<std::string> bound;                   ///< b_v² of Eq. 21, γ_p² times the smallest of the above
 };
 /// Returns d_min² and b_v² of all primitives as fractions, b_v with this γ_p (Eq. 21 to 26).
-ExactSquares exact_squares(const compare::DetectIn& in, float bound_relaxation);
+ExactSquares exact_squares(const compare::DetectIn& in, float bounds_relaxation);
 
 }  // namespace ogc::reference

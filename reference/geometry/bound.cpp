@@ -24,7 +24,7 @@ compare::BoundTruth bound(const compare::BoundIn& in) {
     float smallest = in.d_min_vertex[v];
     for (const compare::Index e : in.topology->vertex_edges[v]) smallest = std::min(smallest, in.d_min_edge[e]);
     for (const compare::Index t : in.topology->vertex_triangles[v]) smallest = std::min(smallest, in.d_min_triangle[t]);
-    truth.exact.bound.push_back(product_below(in.bound_relaxation, smallest));
+    truth.exact.bound.push_back(product_below(in.bounds_relaxation, smallest));
   }
   return truth;
 }

@@ -144,7 +144,7 @@ class PlaneMaker {
   }
 
   void place(NearPair& pair, const Direction& direction) const {
-    const Long length = std::sqrt(inner(direction, direction)), share = Long{in_.bound_relaxation};
+    const Long length = std::sqrt(inner(direction, direction)), share = Long{in_.bounds_relaxation};
     if (!(length > 0)) return;
     pair.normal = {static_cast<float>(direction[0] / length), static_cast<float>(direction[1] / length),
                    static_cast<float>(direction[2] / length)};
@@ -191,7 +191,7 @@ class PlaneMaker {
       for (const Index v : pair.vertices)
         if (!pair.has_plane) nearest[at(v)] = std::min(nearest[at(v)], pair.below);
     for (Index v = 0; v < in_.topology->vertex_count; ++v)
-      bounds.push_back(in_.topology->on_surface(v) ? product_below(in_.bound_relaxation, nearest[at(v)])
+      bounds.push_back(in_.topology->on_surface(v) ? product_below(in_.bounds_relaxation, nearest[at(v)])
                                                    : std::numeric_limits<float>::max());
     return bounds;
   }

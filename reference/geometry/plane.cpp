@@ -134,7 +134,7 @@ class PlaneCheck {
   /// The product of single-precision numbers is exact in double. A bound that is not finite is too large.
   bool is_too_large(Index v) const {
     return answered_.moves(v) && in_.topology->on_surface(v) &&
-           !(double{out_.bound[at(v)]} <= double{in_.bound_relaxation} * double{in_.query_radius});
+           !(double{out_.bound[at(v)]} <= double{in_.bounds_relaxation} * double{in_.query_radius});
   }
 
   /// Returns the largest ball of the vertices, which must fit into γ_p d.
@@ -158,9 +158,9 @@ class PlaneCheck {
       return;
     }
     const float b = largest_bound(pair);
-    const double needed = double{b} / double{in_.bound_relaxation} * (1 + 0x1p-50);
+    const double needed = double{b} / double{in_.bounds_relaxation} * (1 + 0x1p-50);
     if (b == 0 || pair.surely_beyond(needed)) return;
-    if (!std::isfinite(b) || scaled_distance_less(pair.gap(), in_.bound_relaxation, b)) found.add({0, 1, pair.name});
+    if (!std::isfinite(b) || scaled_distance_less(pair.gap(), in_.bounds_relaxation, b)) found.add({0, 1, pair.name});
   }
 
   const PlaneIn& in_;
@@ -247,7 +247,7 @@ class FreedomCheck {
       largest = std::max({largest, std::abs(double{x.x}), std::abs(double{x.y}), std::abs(double{x.z})});
     }
     measured.scale = std::max(measured.scale, measured.distance);
-    measured.has_room = has_room_for_plane(measured.distance, measured.scale, largest, double{in_.bound_relaxation});
+    measured.has_room = has_room_for_plane(measured.distance, measured.scale, largest, double{in_.bounds_relaxation});
     if (const auto normal = answered_.separating_normal(pair)) {
       measured.is_separated = true;
       measured.together = (room(pair.name, pair.first, *normal, 1) + room(pair.name, pair.second, *normal, -1)) /
@@ -298,7 +298,7 @@ class FreedomCheck {
     if (a + b <= doubt && largest > 0 && std::max(first, second) > -doubt) return 0;
     Long share = 0.5;
     if (a + b > 0) share = std::clamp(a / (a + b), Long{compare::least_division}, 1 - Long{compare::least_division});
-    const Long length = std::sqrt(inner(n, n)), whole = 2 * Long{in_.bound_relaxation} * measured.distance;
+    const Long length = std::sqrt(inner(n, n)), whole = 2 * Long{in_.bounds_relaxation} * measured.distance;
     const Long error = std::max(std::abs(way_to_offset(pair.name, pair.first, n, 1) / length - share * whole),
                                 std::abs(way_to_offset(pair.name, pair.second, n, -1) / length - (1 - share) * whole));
     const Long doubtful = a + b > 0 ? measured.distance * largest / (a + b) : Long{0};
@@ -349,7 +349,7 @@ class FreedomCheck {
         freedom_.division = pair.division;
         freedom_.worst_divided = pair.name;
       }
-      const double narrowing = (2 * double{in_.bound_relaxation} * pair.distance - pair.together) / (u * pair.scale);
+      const double narrowing = (2 * double{in_.bounds_relaxation} * pair.distance - pair.together) / (u * pair.scale);
       if (!(narrowing > freedom_.narrowing)) continue;
       freedom_.narrowing = narrowing;
       freedom_.narrowest = pair.name;
@@ -358,7 +358,7 @@ class FreedomCheck {
 
   void judge_balls() {
     std::vector<double>& shortfall = freedom_.ball_shortfall;
-    const double share = double{in_.bound_relaxation}, reach = double{in_.query_radius};
+    const double share = double{in_.bounds_relaxation}, reach = double{in_.query_radius};
     const auto units = [share](double d, double scale, float bound) {
       const double missing = share * d - double{bound};
       return missing > 0 ? missing / (u * (share * scale + 0x1p-126)) : 0;

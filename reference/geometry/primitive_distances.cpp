@@ -138,9 +138,9 @@ PrimitiveDistances primitive_distances(const compare::DetectIn& in) {
   return result;
 }
 
-std::vector<float> exact_bounds(const compare::DetectIn& in, float bound_relaxation) {
+std::vector<float> exact_bounds(const compare::DetectIn& in, float bounds_relaxation) {
   const PrimitiveDistances distances = primitive_distances(in);
-  return bound({in.topology, distances.vertex, distances.edge, distances.triangle, bound_relaxation}).exact.bound;
+  return bound({in.topology, distances.vertex, distances.edge, distances.triangle, bounds_relaxation}).exact.bound;
 }
 
 }  // namespace ogc::reference

@@ -19,6 +19,6 @@ struct PrimitiveDistances {
 PrimitiveDistances primitive_distances(const compare::DetectIn& in);
 
 /// Returns b_v of Eq. 21 [m], by vertex, rounded down. Throws only when memory runs out.
-std::vector<float> exact_bounds(const compare::DetectIn& in, float bound_relaxation);
+std::vector<float> exact_bounds(const compare::DetectIn& in, float bounds_relaxation);
 
 }  // namespace ogc::reference

@@ -25,8 +25,9 @@ std::vector<float> bounds_of(const compare::Topology& topology, const std::vecto
   const compare::DetectIn in{&topology, no_groups, positions, contact_radius, query_radius};
   const auto facets = detect_vertex_facet(in).exact;
   const auto edges = detect_edge_edge(in).exact;
-  const auto bound_relaxation = static_cast<float>(compare::Settings{}.bound_relaxation);
-  return bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, bound_relaxation}).exact.bound;
+  const auto bounds_relaxation = static_cast<float>(compare::Settings{}.bounds_relaxation);
+  return bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, bounds_relaxation})
+      .exact.bound;
 }
 
 /// x ← y within the ball about X_prev, as it is stored (Eq. 27, 28).
@@ -147,7 +148,7 @@ std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vec
   const std::vector<Index> no_groups;
   const std::vector<std::uint8_t> all_free(x.size(), 0);
   compare::PlaneOut held = pair_planes(
-      {&topology, no_groups, x, all_free, query_radius, static_cast<float>(compare::Settings{}.bound_relaxation)});
+      {&topology, no_groups, x, all_free, query_radius, static_cast<float>(compare::Settings{}.bounds_relaxation)});
   Detected here;
   here.previous = x, here.bound = std::move(held.bound), here.planes = std::move(held.planes);
   const FeasibleRegions regions(here, compare::Bounds::planes);
@@ -170,7 +171,7 @@ Fall fall(double speed, compare::Bounds kind = compare::Bounds::ball) {
   const double way = time_step * speed + time_step * time_step * gravity;
   for (const Vec3f& x : f.start) f.target.push_back({x.x, static_cast<float>(x.y - way), x.z});
   const float query_radius = std::min(contact_radius + static_cast<float>(way),
-                                      static_cast<float>(compare::Settings{}.query_radius_cap) * contact_radius);
+                                      static_cast<float>(compare::Settings{}.detection_radius_cap) * contact_radius);
   std::vector<Vec3f> x = f.start;
   const bool has_planes = traits_of(kind).has_planes;
   for (bool cut = true; cut && static_cast<int>(f.rounds.size()) < most_rounds;) {

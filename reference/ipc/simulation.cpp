@@ -112,7 +112,7 @@ class IpcSimulation : public compare::Simulation {
 std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, const compare::SimulationOptions& options) {
   refuse_unread(scene.settings, "ipc");
   refuse_volumes(scene, "ipc",
-                 "whose barrier lets nothing enter a body: leave the body a surface (--set contact=surface)");
+                 "whose barrier lets nothing enter a body: leave the body a surface (--set body_contact=surface)");
   return std::make_unique<IpcSimulation>(scene, options);
 }
 

@@ -79,7 +79,7 @@ void ContactStep::begin(const std::vector<Vec3f>& start, const std::vector<Vec3f
   }
   const double listed = detection_radius(settings_);
   query_radius_ = static_cast<float>(
-      std::min(listed + largest, std::max(listed, settings_.query_radius_cap * settings_.contact_radius)));
+      std::min(listed + largest, std::max(listed, settings_.detection_radius_cap * settings_.contact_radius)));
   lagging_ = 0;
   advanced_ = lag_asked_ = false;
   potential_.begin_step(start_, target_);
@@ -130,7 +130,7 @@ std::vector<Vec3f> ContactStep::displacements_at(const std::vector<Vec3f>& here)
 }
 
 bool ContactStep::many(std::size_t cut, std::int64_t times) const {
-  const double of_iteration = settings_.redetect_fraction * static_cast<double>(bounded_);
+  const double of_iteration = settings_.detection_fraction * static_cast<double>(bounded_);
   return cut > 0 && static_cast<double>(cut) >= static_cast<double>(times) * of_iteration;
 }
 
@@ -143,7 +143,7 @@ bool ContactStep::asks(std::size_t cut, std::int64_t times) {
 }
 
 bool ContactStep::detection_due(std::size_t cut) {
-  return asks(cut) || (settings_.redetect_every > 0 && iterations_since_ >= settings_.redetect_every);
+  return asks(cut) || (settings_.detection_every > 0 && iterations_since_ >= settings_.detection_every);
 }
 
 bool ContactStep::in_contact() const {

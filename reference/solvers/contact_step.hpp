@@ -73,7 +73,7 @@ class ContactStep {
   bool asks(std::size_t cut, std::int64_t times = 1);
   bool nothing_near() const;  ///< whether it is certain without a detection that x has no contacts
   std::size_t move_prescribed();
-  /// Returns whether a detection is due after an iteration that cut `cut` vertices: by `asks`, or by `redetect_every`.
+  /// Returns whether a detection is due after an iteration that cut `cut` vertices: by `asks`, or by `detection_every`.
   bool detection_due(std::size_t cut);
   void set_residual(double mean_force);  ///< Eq. 29; the first force of a step is f*
   compare::IterationMetrics new_row(bool detects) const;
@@ -119,7 +119,7 @@ class ContactStep {
 
   /// Returns the displacements by which bounds=dat divides gaps at `here`; empty with other bounds.
   std::vector<compare::Vec3f> displacements_at(const std::vector<compare::Vec3f>& here) const;
-  /// Replaces the method's contacts by those that `contact_set` names.
+  /// Replaces the method's contacts by those that `reference_contact_set` names.
   void replace_contacts();
   bool many(std::size_t cut, std::int64_t times) const;
   void move_towards(const Triple<double>& proposal, std::size_t vertex, std::size_t& cut);

@@ -28,7 +28,7 @@ compare::FrictionForceCase question_of(const compare::SweepIn& in, const std::ve
   const compare::Settings& settings = in.scene->settings;
   contact.contact_radius = static_cast<float>(settings.contact_radius);
   contact.stiffness = material.stiffness;
-  contact.activation = settings.activation;
+  contact.activation = settings.contact_activation;
   question.friction = material.friction;
   question.slip_limit = static_cast<float>(settings.friction_velocity * settings.time_step);
   return question;

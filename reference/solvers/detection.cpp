@@ -74,7 +74,7 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
   const compare::DetectIn in{&topology, exclusions, positions, contact_radius, query_radius};
   compare::DetectVertexFacetOut facets = exact_vertex_facet(in);
   compare::DetectEdgeEdgeOut edges = exact_edge_edge(in);
-  const auto relaxation = static_cast<float>(scene.settings.bound_relaxation);
+  const auto relaxation = static_cast<float>(scene.settings.bounds_relaxation);
   Detected result;
   result.bound =
       bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, relaxation}).exact.bound;
@@ -98,9 +98,9 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
 
 std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                                    const std::vector<compare::Vec3f>& positions, float query_radius,
-                                   double bound_relaxation) {
+                                   double bounds_relaxation) {
   const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions.groups);
-  const auto relaxation = static_cast<float>(bound_relaxation);
+  const auto relaxation = static_cast<float>(bounds_relaxation);
   return near_pairs_with_planes({&topology, exclusions, positions, is_fixed, query_radius, relaxation});
 }
 

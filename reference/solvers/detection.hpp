@@ -42,6 +42,6 @@ Detected detect(const compare::Scene& scene, const compare::Topology& topology,
 /// Returns all pairs within r_q at `positions`, ascending, each with the plane between its sides.
 std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                                    const std::vector<compare::Vec3f>& positions, float query_radius,
-                                   double bound_relaxation);
+                                   double bounds_relaxation);
 
 }  // namespace ogc::reference

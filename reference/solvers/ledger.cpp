@@ -210,7 +210,7 @@ class LedgerWriter::Writer : private RoundedScene {
                               .positions = previous_,
                               .is_fixed = is_fixed_,
                               .query_radius = query_radius_,
-                              .bound_relaxation = static_cast<float>(scene.settings.bound_relaxation)};
+                              .bounds_relaxation = static_cast<float>(scene.settings.bounds_relaxation)};
     for (const NearPair& pair : near_pairs_with_planes(in, sought))
       for (std::size_t k = 0; k < pair.vertices.size(); ++k) {
         Nearest& nearest = nearest_[at(pair.vertices[k])];

@@ -125,7 +125,7 @@ void Potential::add_contact(const ContactStencil& stencil, const State& previous
   const compare::MeetingMaterial& material = material_of(rest_, scene_.bodies.size(), body_, stencil);
   if (material.stiffness == 0) return;
   contacts_.push_back({stencil.sides, stencil.vertex, scene_.settings.contact_radius, double{material.stiffness}, 1,
-                       double{material.friction}, scene_.settings.activation});
+                       double{material.friction}, scene_.settings.contact_activation});
   if (stencil.sides != ContactSides::edge_edge) return;
   const std::array<float, 2> rest_squared = mollified_rest_squared(topology_, rest_, stencil);
   contacts_.back().mollifier = energy_share(rest_squared, gathered<4>(stencil.vertex, previous));

@@ -115,12 +115,12 @@ class ReferenceStep {
     event.vertex_facet = detect_vertex_facet(question).exact;
     event.edge_edge = detect_edge_edge(question).exact;
     event.bound = bound({in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
-                         event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bound_relaxation)})
+                         event.vertex_facet.d_min_triangle, static_cast<float>(settings_.bounds_relaxation)})
                       .exact.bound;
     if (traits_of(settings_.bounds).has_planes) {
       const std::vector<std::uint8_t> is_fixed = compare::fixed_flags(exclusions_.groups);
       compare::PlaneOut held = pair_planes({in_.topology, exclusions_, x_, is_fixed, out_.query_radius,
-                                            static_cast<float>(settings_.bound_relaxation), displacement});
+                                            static_cast<float>(settings_.bounds_relaxation), displacement});
       event.bound = std::move(held.bound);
       event.planes = std::move(held.planes);
     }

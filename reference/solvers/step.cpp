@@ -104,7 +104,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     truth.velocity_scale.push_back(norm(moved) / settings.time_step);
   }
   truth.query_radius = truth.query_radius_scale = std::min(settings.contact_radius + largest,
-                                                           settings.query_radius_cap * settings.contact_radius);
+                                                           settings.detection_radius_cap * settings.contact_radius);
   truth.moves = held_moves(in, answer);
   StepOrder order(settings, compare::bounded_count(*in.topology, groups));
   const std::vector<Vec3f>* previous = &start;

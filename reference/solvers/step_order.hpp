@@ -9,8 +9,8 @@
 
 namespace ogc::reference {
 
-/// With planes: how many of the cut vertices are prescribed ones behind their targets, and whether one of these has
-/// moved since the last detection (method.md §5.6, Asking).
+/// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since the
+/// last detection (method.md §5.6, Detections).
 struct StepLag {
   compare::Index lagging = 0;  ///< how many
   bool has_advanced = false;   ///< whether one of them has moved
@@ -23,7 +23,7 @@ inline constexpr double deep_share = 0.5;
 class StepOrder {
  public:
   StepOrder(const compare::Settings& settings, compare::Index moving)
-      : settings_(settings), redetect_vertices_(settings.redetect_fraction * moving) {}
+      : settings_(settings), redetect_vertices_(settings.detection_fraction * moving) {}
 
   /// Returns the next event; empty after the last iteration.
   std::optional<compare::StepEventKind> next() const {
@@ -49,7 +49,7 @@ class StepOrder {
         ++iterations_;
         ++since_detection_;
         found_ = !asks(cut, lag, 1) && !(is_deep && cut > lag.lagging) &&
-                 (settings_.redetect_every == 0 || since_detection_ < settings_.redetect_every);
+                 (settings_.detection_every == 0 || since_detection_ < settings_.detection_every);
         break;
     }
   }

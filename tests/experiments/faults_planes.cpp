@@ -106,7 +106,7 @@ Fault divided_otherwise(const std::string& name, const std::function<double(cons
       bottom = std::min(bottom, height(n, in.positions[static_cast<std::size_t>(i)]));
       speeds.second.push_back(-height(n, in.displacement[static_cast<std::size_t>(i)]));
     }
-    const double whole = 2 * double{in.bound_relaxation} * (bottom - top), s = share_of_first(speeds);
+    const double whole = 2 * double{in.bounds_relaxation} * (bottom - top), s = share_of_first(speeds);
     plane.offset = second ? (1 - s) * whole - bottom : top + s * whole;
   });
 }
@@ -202,7 +202,7 @@ std::vector<Fault> plane_by_plane() {
                     const auto& x = in.positions[static_cast<std::size_t>(v)];
                     const Vec3f& n = plane.normal;
                     const double room = plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);
-                    plane.offset += room * (0.5 / double{in.bound_relaxation} - 1) * (1 + 0x1p-20);
+                    plane.offset += room * (0.5 / double{in.bounds_relaxation} - 1) * (1 + 0x1p-20);
                   }),
       plane_fault("two γ_p whether or not the other side is fixed",
                   [](const PlaneIn& in, Index v, VertexPlane& plane) {
@@ -255,7 +255,7 @@ std::vector<Fault> row_by_row() {
 }
 
 std::vector<Fault> ball_by_ball() {
-  const auto share_of_reach = [](const PlaneIn& in) { return in.bound_relaxation * in.query_radius; };
+  const auto share_of_reach = [](const PlaneIn& in) { return in.bounds_relaxation * in.query_radius; };
   return {
       ball_fault("a pair without a separator left free",
                  [share_of_reach](const PlaneIn& in, PlaneOut& out) {
@@ -280,7 +280,8 @@ std::vector<float> balls_of_all_pairs(const PlaneIn& in, const Authority& author
   const DetectIn asked{in.topology, in.exclusions, in.positions, in.query_radius, in.query_radius};
   const DetectVertexFacetOut near = authority.detect_vertex_facet(asked).exact;
   const std::vector<float> edges = authority.detect_edge_edge(asked).exact.d_min_edge;
-  return authority.bound({in.topology, near.d_min_vertex, edges, near.d_min_triangle, in.bound_relaxation}).exact.bound;
+  return authority.bound({in.topology, near.d_min_vertex, edges, near.d_min_triangle, in.bounds_relaxation})
+      .exact.bound;
 }
 
 /// Returns a fault without planes.

@@ -50,8 +50,8 @@ void round_threshold_down(Scene& scene) {
   const std::vector<Index> groups = rigid_groups(scene);
   const auto moving = static_cast<double>(
       std::count_if(groups.begin(), groups.end(), [](Index group) { return group != 0; }));
-  const double floor = std::floor(scene.settings.redetect_fraction * moving);
-  if (floor >= 1) scene.settings.redetect_fraction = (floor - 0.5) / moving;
+  const double floor = std::floor(scene.settings.detection_fraction * moving);
+  if (floor >= 1) scene.settings.detection_fraction = (floor - 0.5) / moving;
 }
 
 bool is_detection(const StepEvent& event) { return event.kind == StepEventKind::detection; }
@@ -212,7 +212,7 @@ void divide_by_prediction(const StepIn& in, StepOut& out) {
     if (!is_detection(event) || out.events[i - 1].kind != StepEventKind::sweep) continue;
     const std::vector<Vec3f> displacement = displacements(event.position, out.target);
     event.planes = reference::pair_planes({in.topology, excluded, event.position, is_fixed, out.query_radius,
-                                           static_cast<float>(settings.bound_relaxation), displacement})
+                                           static_cast<float>(settings.bounds_relaxation), displacement})
                        .planes;
   }
 }
@@ -227,7 +227,7 @@ void share_a_colour(const StepIn&, StepOut& out) {
 }
 
 void bound_what_is_inside(const StepIn& in, StepOut& out) {
-  const auto ball = static_cast<float>(in.scene->settings.bound_relaxation * out.query_radius);
+  const auto ball = static_cast<float>(in.scene->settings.bounds_relaxation * out.query_radius);
   for (StepEvent& event : out.events)
     for (std::size_t v = 0; v < event.bound.size(); ++v)
       if (!in.topology->on_surface(static_cast<Index>(v))) event.bound[v] = ball;
@@ -326,7 +326,7 @@ void velocity_from_last_detection(const StepIn& in, StepOut& out) {
 std::vector<Fault> step_faults() {
   std::vector<Fault> faults{
       asked_wrongly("threshold rounded down", round_threshold_down),
-      asked_wrongly("r_q without its cap", [](Scene& scene) { scene.settings.query_radius_cap = 1000; }),
+      asked_wrongly("r_q without its cap", [](Scene& scene) { scene.settings.detection_radius_cap = 1000; }),
       asked_wrongly("one iteration too few", [](Scene& scene) { --scene.settings.iterations; }),
       asked_wrongly("prescribed targets of the next step",
                     [](Scene& scene) {

@@ -49,12 +49,12 @@ compare::Scene pressed_sheets(int number) {
   }
   scene.settings.time_step = 1.0 / 400;
   scene.settings.contact_radius = 5e-3;
-  scene.settings.redetect_fraction = 0;
-  scene.settings.redetect_every = 4;
+  scene.settings.detection_fraction = 0;
+  scene.settings.detection_every = 4;
   scene.settings.iterations = 400;
   set_setting(scene.settings, "newton_tolerance", 1e-9);
   set_setting(scene.settings, "newton_iterations", 1000);
-  set_setting(scene.settings, "friction_solves", 200);
+  set_setting(scene.settings, "newton_friction_solves", 200);
   round_to_single(scene);
   return scene;
 }

@@ -19,7 +19,7 @@ tests::TestMesh two_sheets() {
   return mesh;
 }
 
-/// What the input error of an action says; empty where there is none.
+/// Returns the message of an action's input error; empty if there is none.
 template <class Action>
 std::string error_of(Action action) {
   try {
@@ -53,9 +53,9 @@ TEST_CASE(
   CHECK(sets.vertex_facet == cpu.detect_vertex_facet(in).contacts);
   CHECK(sets.d_min_triangle == cpu.detect_vertex_facet(in).d_min_triangle);
   CHECK(sets.edge_edge == cpu.detect_edge_edge(in).contacts);
-  CHECK(sets.bound ==
-        cpu.bound({&finder.topology(), sets.d_min_vertex, sets.d_min_edge, sets.d_min_triangle, query.bound_relaxation})
-            .bound);
+  CHECK(sets.bound == cpu.bound({&finder.topology(), sets.d_min_vertex, sets.d_min_edge, sets.d_min_triangle,
+                                 query.bounds_relaxation})
+                          .bound);
   const fast::ContactView view = finder.find_resident(mesh.positions.data(), query);
   CHECK(*view.vertex_facet_count == static_cast<int>(sets.vertex_facet.size()));
   CHECK(*view.edge_edge_count == static_cast<int>(sets.edge_edge.size()));
@@ -85,8 +85,9 @@ TEST_CASE("contact_sets: wrong input is refused with the element's name", "[unit
   CHECK(names(error_of([&] { finder.find(broken, good); }), "vertex 9 is not finite"));
   CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0.2F, .query_radius = 0.1F}), compare::InputError);
   CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0, .query_radius = 0.1F}), compare::InputError);
-  CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0.1F, .query_radius = 0.1F, .bound_relaxation = 0.5F}),
-                  compare::InputError);
+  CHECK_THROWS_AS(
+      finder.find(mesh.positions, {.contact_radius = 0.1F, .query_radius = 0.1F, .bounds_relaxation = 0.5F}),
+      compare::InputError);
   const std::vector<compare::Index> groups(3, 0);
   CHECK_THROWS_AS(fast::ContactFinder(72, mesh.triangles, {}, fast::Backend::cpu, groups), compare::InputError);
 }

@@ -1,4 +1,4 @@
-// Small meshes for the tests of the fast path.
+// Holds small meshes for the tests of the fast path.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct TestMesh {
   }
 };
 
-/// n × n vertices in the xz plane at height y, spacing `step`, diagonals alternating.
+/// Returns n × n vertices in the xz plane at height y, spacing `step`, diagonals alternating.
 inline TestMesh sheet(int n, float step, float y) {
   TestMesh surface;
   for (int j = 0; j < n; ++j) {
@@ -46,7 +46,7 @@ inline TestMesh sheet(int n, float step, float y) {
   return surface;
 }
 
-/// Every coordinate moved by up to `by`, from a fixed seed.
+/// Moves every coordinate by up to `by`, from a fixed seed.
 inline TestMesh jittered(TestMesh surface, float by, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> amount(-by, by);
@@ -54,7 +54,7 @@ inline TestMesh jittered(TestMesh surface, float by, std::uint32_t seed) {
   return surface;
 }
 
-/// Every coordinate multiplied by a factor.
+/// Multiplies every coordinate by a factor.
 inline std::vector<compare::Vec3f> scaled(std::vector<compare::Vec3f> positions, float factor) {
   for (auto& x : positions) x = {x.x * factor, x.y * factor, x.z * factor};
   return positions;

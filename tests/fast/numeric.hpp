@@ -1,5 +1,5 @@
-// Double-precision vectors, differences and random placements for the tests of the energies. Energies are written here
-// once more, from their definitions.
+// Holds double-precision vectors, differences and random placements for the tests of the energies. Energies are written
+// here once more, from their definitions.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ inline double length(const Vec& a) { return length(wide(a)); }
 inline double& axis(D3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 inline double axis(const D3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
-/// −∂E/∂x_v by central differences with the given step [m].
+/// Returns −∂E/∂x_v by central differences with the given step [m].
 inline D3 force_by_differences(const std::function<double(const std::vector<D3>&)>& energy, std::vector<D3> x,
                                std::size_t v, double step) {
   D3 force;
@@ -48,7 +48,8 @@ inline double largest_difference(const std::array<double, 9>& a, const std::arra
   return worst;
 }
 
-/// Smallest value of uᵀHu/‖u‖² over many directions: below zero only for a block that is not positive semidefinite.
+/// Returns the smallest value of uᵀHu/‖u‖² over many directions: below zero only for a block that is not positive
+/// semidefinite.
 inline double least_curvature(const Symmetric3& h, std::mt19937& random) {
   std::normal_distribution<double> normal;
   double least = INFINITY;

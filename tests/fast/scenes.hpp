@@ -1,4 +1,4 @@
-// Small scenes for the tests of the solver: square sheets with alternating diagonals, one body each.
+// Holds small scenes for the tests of the solver: square sheets with alternating diagonals, one body each.
 #pragma once
 
 #include <string>
@@ -40,7 +40,7 @@ inline compare::Body& add_sheet(compare::Scene& scene, compare::Index n, double 
   return scene.bodies.back();
 }
 
-/// Step 1/100 s, 10 iterations, r = 5 mm.
+/// Returns a scene without bodies: step 1/100 s, 10 iterations, r = 5 mm.
 inline compare::Scene empty_scene() {
   compare::Scene scene;
   scene.name = "test";

@@ -1,4 +1,4 @@
-// Work counted by hand beside work counted by carrying it out.
+// Compares work counted by hand with work counted by carrying it out.
 #include "fast/contestant.hpp"
 
 #include <string>
@@ -10,7 +10,7 @@ using namespace ogc;
 
 namespace {
 
-/// A triangle at height 0 and one at `height`, as two free bodies; r [m].
+/// Returns a triangle at height 0 and one at `height`, as two free bodies; r [m].
 compare::Scene two_triangles(double height, double contact_radius) {
   compare::Scene scene;
   for (const double y : {0.0, height}) {
@@ -34,10 +34,11 @@ fast::SearchWork work_of(const compare::Scene& scene) {
 
 TEST_CASE("searches of two triangles within each other's radius open, are offered and measure what one counts by hand",
           "[unit]") {
-  // Trees of four primitives a node. Edges: six in two leaves under a root; each of the six searches opens the root and
-  // the second leaf, and the three at places 0 to 2, which look at places up to 3, the first leaf, too: 6 + 6 + 3.
+  // Trees have four primitives a node. Edges: six in two leaves under a root; each of the six searches opens the root
+  // and the second leaf, and the three at places 0 to 2, which search places up to 3, the first leaf, too: 6 + 6 + 3.
   // Vertices: six searches through root and leaf of two facets: 12. Edges are offered those behind them: 15 pairs.
-  // Vertices are offered both facets: 12. What shares a vertex has no distance: 3 · 3 edges and 3 + 3 vertices do.
+  // Vertices are offered both facets: 12. Pairs that share a vertex have no distance: 3 · 3 pairs of edges and 3 + 3 of
+  // vertices have one.
   const fast::SearchWork work = work_of(two_triangles(0.1, 10));
   CHECK(work.nodes == 15 + 12);
   CHECK(work.candidates == 15 + 12);
@@ -79,10 +80,10 @@ TEST_CASE("the work of a sweep counts a segment once, and for each of its free e
   const fast::SweepWork one = work_of_rods(100, 1, false), two = work_of_rods(100, 2, false),
                         longer = work_of_rods(200, 1, false), held = work_of_rods(100, 1, true);
   CHECK(one.vertices == 101);
-  CHECK(one.colours == 4);  // two of segments, two of vertices
+  CHECK(one.colours == 4);  // two for segments, two for vertices
   CHECK(two.flop == 2 * one.flop);
   CHECK(two.bytes == 2 * one.bytes);
-  // A vertex more is a segment more with two ends: about what the paper's yarn has a vertex.
+  // One vertex more is one segment more with two ends: about the work of the paper's yarn for each vertex.
   CHECK((longer.flop - one.flop) / 100 == Approx(54 + 2 * 51 + 336));
   CHECK((longer.bytes - one.bytes) / 100 == Approx(280).epsilon(0.1));
   CHECK(one.flop - held.flop == Approx(2 * 54 + 3 * 51 + 336));

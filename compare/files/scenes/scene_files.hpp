@@ -16,9 +16,9 @@
 namespace ogc::compare {
 
 /// Version of the format; a newer file is refused by name. From format 2 on bodies may have tetrahedra, materials may
-/// have `solid_…`, a body may be a volume by its `contact`, and its loose edges a rod by its material's `rod`, with
-/// `orientations` in a file of their own. The scene's `body_pairs` (empty) is reserved: a reader refuses by name what
-/// it does not simulate.
+/// have `solid_…`, a body may be a volume by its `body_contact`, and its loose edges a rod by its material's `rod`,
+/// with `orientations` in a file of their own. The scene's `body_pairs` (empty) is reserved: a reader refuses by name
+/// what it does not simulate.
 inline constexpr int scene_format_version = 2;
 
 /// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that

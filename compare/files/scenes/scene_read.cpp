@@ -275,8 +275,8 @@ class SceneReader {
     std::vector<Vec3> rest, velocities;
     object.optional_value("name", body.name);
     object.optional_value("fixed", body.fixed);
-    object.optional("contact", [&](const JsonNode& value) {
-      read_model(value, choice_names<BodyContact>, body.contact, "contact");
+    object.optional("body_contact", [&](const JsonNode& value) {
+      read_model(value, choice_names<BodyContact>, body.contact, "body contact");
     });
     object.optional("orientations", [&](const JsonNode& value) { read_orientations_file(value); });
     object.optional("material", [&](const JsonNode& value) { read_material(value, body.material); });

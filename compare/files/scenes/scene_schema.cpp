@@ -112,7 +112,7 @@ Json body_schema() {
       {"velocities",
        value("string", "the same faces with velocities [m/s] in the place of positions; instead of 'velocity'")},
       {"material", material_schema()},
-      {"contact", contact},
+      {"body_contact", contact},
       {"orientations", value("string",
                              "of a rod: HDF5 file, relative to this file, with the start orientations [segments][4] of "
                              "its edges as unit quaternions x, y, z, w; default: those of its rest shape, turned")},

@@ -93,7 +93,7 @@ Json body_json(const std::filesystem::path& folder, const Scene& scene, const Bo
   };
   Json json = {{"name", body.name},
                {"fixed", body.fixed},
-               {"contact", name_of(body.contact)},
+               {"body_contact", name_of(body.contact)},
                {"mesh", write(stem + extension, scene.mesh.positions)}};
   const auto start = scene.mesh.positions.begin() + body.first_vertex,
              rest = scene.rest_positions.begin() + body.first_vertex;

@@ -30,7 +30,7 @@ void add_spring(Random& random, const std::vector<Index>& groups, Scene& scene) 
 }  // namespace
 
 void choose_models(Random& random, Scene& scene) {
-  scene.settings.activation = random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
+  scene.settings.contact_activation = random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
   if (random.one_in(3)) scene.settings.damping = another(random, DampingForm::strain);
   for (Body& body : scene.bodies) {
     if (body.material.membrane != MembraneModel::none) body.material.membrane = any_model<MembraneModel>(random);

@@ -81,7 +81,7 @@ struct MeshCase {
 struct BoundCase {
   std::shared_ptr<const Topology> topology;                     ///< of the mesh
   std::vector<float> d_min_vertex, d_min_edge, d_min_triangle;  ///< by face [m]
-  float bound_relaxation = 0.45f;                               ///< γ_p, Eq. 21
+  float bounds_relaxation = 0.45f;                              ///< γ_p, Eq. 21
 };
 
 /// A state for stage plane.
@@ -91,7 +91,7 @@ struct PlaneCase {
   std::vector<Index> rigid_groups;
   std::vector<Vec3f> positions;        ///< by vertex [m]
   float query_radius = 0;              ///< r_q [m]
-  float bound_relaxation = 0.45f;      ///< γ_p
+  float bounds_relaxation = 0.45f;     ///< γ_p
   CompressedRows partners{};           ///< as in Exclusions
   std::vector<std::uint8_t> is_fixed;  ///< by vertex: whether its group is 0
   std::vector<Vec3f> displacement{};   ///< by vertex [m], as in PlaneIn; or empty

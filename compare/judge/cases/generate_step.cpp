@@ -32,10 +32,10 @@ struct StepBuilder {
     s.time_step = random.pick(std::span<const double>(steps));
     s.iterations = 1 + random.below(6);
     s.contact_radius = spacing * random.between(0.1, 0.6);
-    s.query_radius_cap = random.pick(std::span<const double>(caps));
-    s.bound_relaxation = random.one_in(2) ? 0.45 : random.between(0.1, 0.49);
-    s.redetect_fraction = random.pick(std::span<const double>(fractions));
-    s.redetect_every = random.pick(std::span<const std::int64_t>(every));
+    s.detection_radius_cap = random.pick(std::span<const double>(caps));
+    s.bounds_relaxation = random.one_in(2) ? 0.45 : random.between(0.1, 0.49);
+    s.detection_fraction = random.pick(std::span<const double>(fractions));
+    s.detection_every = random.pick(std::span<const std::int64_t>(every));
     s.guess_rounds = random.pick(std::span<const std::int64_t>(rounds));
     s.lanes = random.pick(std::span<const std::int64_t>(lanes));
     s.friction_velocity = speed(random.magnitude(-2, -0.5));
@@ -280,9 +280,9 @@ CaseData count_at_threshold(Random& random) {
   builder.sheet(nx, ny, {}, {});
   builder.scene.gravity = {};
   Settings& s = builder.scene.settings;
-  s.redetect_fraction = std::min(1.0, (1 + random.below(count / 2 + 1)) * (1 + 0.4 * random.rung()) / count);
+  s.detection_fraction = std::min(1.0, (1 + random.below(count / 2 + 1)) * (1 + 0.4 * random.rung()) / count);
   const int threshold = std::max(
-      1, static_cast<int>(std::ceil(static_cast<float>(s.redetect_fraction) * static_cast<double>(count))));
+      1, static_cast<int>(std::ceil(static_cast<float>(s.detection_fraction) * static_cast<double>(count))));
   s.guess_rounds = random.one_in(4) ? 1 : 2 + random.below(4);
   const int flung = std::clamp(threshold + (random.one_in(3) ? random.below(2) : -1), 0, count);
   for (int k = 0, first = random.below(count); k < flung; ++k)
@@ -299,7 +299,7 @@ CaseData radius_at_cap(Random& random) {
   builder.jitter(random.one_in(2) ? 0 : 0.05);
   builder.scene.gravity = {};
   const Settings& s = builder.scene.settings;
-  const double move = (s.query_radius_cap - 1) * s.contact_radius * std::abs(1 + 0.5 * random.rung());
+  const double move = (s.detection_radius_cap - 1) * s.contact_radius * std::abs(1 + 0.5 * random.rung());
   const Vec3 to = random.one_in(2) ? Vec3{0, 0, -1} : direction(random);
   builder.scene.velocities.front() = scaled(to, move / s.time_step / std::hypot(to.x, to.y, to.z));
   return builder.finish();
@@ -421,7 +421,7 @@ CaseData free_volume(Random& random) {
     builder.scene.motions.push_back(motion);
   }
   builder.jitter(random.between(0.01, 0.09));
-  if (random.one_in(2)) builder.scene.settings.redetect_every = 1 + random.below(2);
+  if (random.one_in(2)) builder.scene.settings.detection_every = 1 + random.below(2);
   return builder.finish();
 }
 
@@ -437,7 +437,7 @@ CaseData sheets_before_volumes(Random& random) {
   builder.volume({});
   if (random.one_in(3)) builder.volume({random.between(0.3, 1.5), random.between(-0.5, 0.5), 0.1});
   Settings& settings = builder.scene.settings;
-  if (random.one_in(2)) settings.redetect_every = 1 + random.below(2);
+  if (random.one_in(2)) settings.detection_every = 1 + random.below(2);
   return builder.finish();
 }
 
@@ -449,7 +449,7 @@ CaseData in_cavity(Random& random) {
   const Vec3 middle = scaled(sum(x[x.size() - 1], x[x.size() - 8]), 0.5 / builder.spacing);
   const double speed = builder.speed(random.magnitude(-2, 0.3));
   builder.sheet(2, 2, sum(sum(middle, {-2.5, -2.5, -2}), in_box(random, -0.6, 0.6)), scaled(direction(random), speed));
-  if (random.one_in(2)) builder.scene.settings.redetect_every = 1 + random.below(2);
+  if (random.one_in(2)) builder.scene.settings.detection_every = 1 + random.below(2);
   return builder.finish();
 }
 
@@ -506,7 +506,7 @@ CaseData dat(Random& random) {
   const bool detects_often = random.one_in(2);
   return changed(data, [detects_often](Scene& scene) {
     scene.settings.bounds = Bounds::dat;
-    if (detects_often) scene.settings.redetect_every = 1;
+    if (detects_often) scene.settings.detection_every = 1;
   });
 }
 

@@ -90,7 +90,7 @@ void settings(Random& random, Settings& s) {
   s.time_step = random.magnitude(-3, -1.5);
   s.lanes = random.pick(std::span<const std::int64_t>(lanes));
   s.friction_velocity = random.magnitude(-3, -1);
-  s.bound_relaxation = random.one_in(4) ? random.between(0.1, 0.49) : 0.45;
+  s.bounds_relaxation = random.one_in(4) ? random.between(0.1, 0.49) : 0.45;
 }
 
 /// Moves the case by the plan: fixed vertices rest, all others wander; the plan also gives the bounds.

@@ -46,8 +46,8 @@ States::States(const std::filesystem::path& folder, const Authority& authority)
   body_ = body_of_vertex(scene);
   rest_ = authority_.rest_state({scene_.get(), topology_.get()}).exact;
   contact_radius_ = static_cast<float>(scene.settings.contact_radius);
-  query_radius_cap_ = static_cast<float>(scene.settings.query_radius_cap);
-  bound_relaxation_ = static_cast<float>(scene.settings.bound_relaxation);
+  detection_radius_cap_ = static_cast<float>(scene.settings.detection_radius_cap);
+  bounds_relaxation_ = static_cast<float>(scene.settings.bounds_relaxation);
   const std::size_t affordable = vertices_kept / std::max<std::size_t>(1, scene.mesh.positions.size());
   const std::size_t count = std::min(run.frame_count(), std::clamp(affordable, least_frames, most_frames));
   for (std::size_t i = 0; i < count; ++i) {
@@ -124,10 +124,10 @@ BoundCase States::bound(std::size_t frame) const {
                       {groups_, partners_.rows() > 0 ? &partners_ : nullptr},
                       states_[frame].positions,
                       contact_radius_,
-                      contact_radius_ * std::max(1.0f, query_radius_cap_)};
+                      contact_radius_ * std::max(1.0f, detection_radius_cap_)};
     DetectVertexFacetOut near = authority_.detect_vertex_facet(in).exact;
     c = BoundCase{topology_, std::move(near.d_min_vertex), authority_.detect_edge_edge(in).exact.d_min_edge,
-                  std::move(near.d_min_triangle), bound_relaxation_};
+                  std::move(near.d_min_triangle), bounds_relaxation_};
   }
   return *c;
 }
@@ -158,7 +158,7 @@ SweepCase States::sweep(std::size_t frame, Random& random) const {
   }
   c.old = c.target;
   c.largest_bound.assign(c.previous.size(), std::numeric_limits<float>::max());
-  c.query_radius = static_cast<float>(contact_radius_ * random.between(1, std::max(1.0f, query_radius_cap_)));
+  c.query_radius = static_cast<float>(contact_radius_ * random.between(1, std::max(1.0f, detection_radius_cap_)));
   if (!has_rods(*scene_)) return c;
   c.segment_colour = random_segment_colours(random, *scene_);
   c.orientation = c.orientation_start = orientations_of(state);
@@ -184,7 +184,8 @@ StepCase States::step(std::size_t frame) const {
 }
 
 MeshCase States::whole(std::size_t frame, Random& random) const {
-  const float factor = random.one_in(4) ? 1 : static_cast<float>(random.between(1, std::max(1.0f, query_radius_cap_)));
+  const float factor = random.one_in(4) ? 1
+                                        : static_cast<float>(random.between(1, std::max(1.0f, detection_radius_cap_)));
   return {topology_,
           groups_,
           states_[frame].positions,
@@ -195,7 +196,7 @@ MeshCase States::whole(std::size_t frame, Random& random) const {
 
 PlaneCase States::plane(std::size_t frame, Random& random) const {
   const MeshCase mesh = whole(frame, random);
-  return {topology_, groups_, mesh.positions, mesh.query_radius, bound_relaxation_, partners_, fixed_flags(groups_)};
+  return {topology_, groups_, mesh.positions, mesh.query_radius, bounds_relaxation_, partners_, fixed_flags(groups_)};
 }
 
 BlockCase States::block(std::size_t frame, Random& random) const {

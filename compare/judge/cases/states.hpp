@@ -111,7 +111,7 @@ class States {
   std::vector<Index> groups_, body_;
   CompressedRows partners_;
   RestStateOut rest_;
-  float contact_radius_ = 0, query_radius_cap_ = 1, bound_relaxation_ = 0.45f;
+  float contact_radius_ = 0, detection_radius_cap_ = 1, bounds_relaxation_ = 0.45f;
   double cell_size_ = 1;
   std::vector<State> states_;
   /// By frame; any thread fills them at the first request.

@@ -141,7 +141,7 @@ FrictionForceCase States::contact(std::size_t frame, Random& random) const {
   const MeetingMaterial material = meeting(met.vertex[0], met.vertex[met.sides == ContactSides::edge_edge ? 2 : 1]);
   c.contact.contact_radius = contact_radius_;
   c.contact.stiffness = material.stiffness;
-  c.contact.activation = scene_->settings.activation;
+  c.contact.activation = scene_->settings.contact_activation;
   c.friction = material.friction;
   c.slip_limit = static_cast<float>(scene_->settings.friction_velocity * scene_->settings.time_step);
   return c;
@@ -163,7 +163,7 @@ ActivationCase States::contact_distance(std::size_t frame, Random& random) const
     distance = authority_.closest_points({{{x[e[0]], x[e[1]]}}, {{x[f[0]], x[f[1]]}}}).contact_distance[0];
   }
   ActivationCase c{std::max(static_cast<float>(distance), 0x1p-23f * contact_radius_), contact_radius_, 1,
-                   scene_->settings.activation};
+                   scene_->settings.contact_activation};
   const float stiffness = rest_.meetings[random.bits() % rest_.meetings.size()].stiffness;
   if (stiffness > 0) c.stiffness = stiffness;
   return c;

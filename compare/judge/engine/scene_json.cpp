@@ -50,7 +50,7 @@ Json body_to_json(const Body& body) {
           {"triangles", {body.first_triangle, body.triangle_count}},
           {"tetrahedra", {body.first_tetrahedron, body.tetrahedron_count}},
           {"fixed", body.fixed},
-          {"contact", name_of(body.contact)},
+          {"body_contact", name_of(body.contact)},
           {"material", material}};
 }
 
@@ -62,7 +62,8 @@ Body to_body(const Json& json) {
   body.first_triangle = json.at("triangles").at(0).get<Index>();
   body.triangle_count = json.at("triangles").at(1).get<Index>();
   body.fixed = json.at("fixed").get<bool>();
-  if (json.contains("contact")) body.contact = to_model<BodyContact>(json.at("contact"), choice_names<BodyContact>);
+  if (json.contains("body_contact"))
+    body.contact = to_model<BodyContact>(json.at("body_contact"), choice_names<BodyContact>);
   const Json& material = json.at("material");
   body.material.membrane = to_model<MembraneModel>(material.at("membrane"), choice_names<MembraneModel>);
   body.material.bending = to_model<BendingModel>(material.at("bending"), choice_names<BendingModel>);

@@ -20,7 +20,7 @@ SweepQuestion::SweepQuestion(const SweepCase& test, const Authority& authority)
   rest_ = authority.rest_state({test.scene.get(), &topology_}).exact;
   bound_ = authority
                .bound({&topology_, vertex_facet_.d_min_vertex, edge_edge_.d_min_edge, vertex_facet_.d_min_triangle,
-                       static_cast<float>(settings.bound_relaxation)})
+                       static_cast<float>(settings.bounds_relaxation)})
                .exact.bound;
   for (std::size_t v = 0; v < bound_.size(); ++v) {
     bound_[v] = std::min(bound_[v], test.largest_bound[v]);

@@ -46,7 +46,7 @@ std::vector<WrongForm> bound_forms() {
       unread("edge_minima_missing", "distances of the vertex's edges are not read", &BoundIn::d_min_edge),
       unread("triangle_minima_missing", "distances of the vertex's triangles are not read", &BoundIn::d_min_triangle),
       asked("relaxation_missing", "γ_p left out: the smallest distance itself", &Authority::bound,
-            [](BoundIn& in) { in.bound_relaxation = 1; }),
+            [](BoundIn& in) { in.bounds_relaxation = 1; }),
       bound_told("half", "half of the bound", [](float b) { return b / 2; }),
       bound_told("twice", "twice the bound", [](float b) { return 2 * b; }),
       bound_told("rounded_to_nearest",
@@ -67,8 +67,8 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
                                                  "ours is the exact product, rounded down: its error is 0. Other "
                                                  "errors are whole units in the last place, 1 or 2 u "
                                                  "b each, of which 4 u b accepts the first ones only"}};
-  static constexpr std::array parameters{ranges::bound_relaxation};
-  static float* parameter(Case& c, std::string_view) { return &c.bound_relaxation; }
+  static constexpr std::array parameters{ranges::bounds_relaxation};
+  static float* parameter(Case& c, std::string_view) { return &c.bounds_relaxation; }
 
   static std::span<const Generator> generators() { return bound_generators(); }
 
@@ -79,7 +79,7 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
                     "an array does not have one entry for each face");
     for (const auto* distances : {&c.d_min_vertex, &c.d_min_edge, &c.d_min_triangle})
       for (const float d : *distances) problem.number("a distance", d, 0, vast);
-    problem.number("a bound relaxation", c.bound_relaxation, 0x1p-10f, 0.5f);
+    problem.number("a bound relaxation", c.bounds_relaxation, 0x1p-10f, 0.5f);
   }
   static void mutate(Random& random, Case& c) {
     for (std::vector<float>* distances : {&c.d_min_vertex, &c.d_min_edge, &c.d_min_triangle}) {
@@ -95,7 +95,7 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
     const MeshCase start = case_at_start(scene);
     DetectVertexFacetOut near = c.detect_vertex_facet(detect_question(start));
     return {start.topology, std::move(near.d_min_vertex), c.detect_edge_edge(detect_question(start)).d_min_edge,
-            std::move(near.d_min_triangle), static_cast<float>(scene.settings.bound_relaxation)};
+            std::move(near.d_min_triangle), static_cast<float>(scene.settings.bounds_relaxation)};
   }
 
   static Json write(const Case& c) {
@@ -103,12 +103,12 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
             {"d_min_vertex", numbers_to_json(c.d_min_vertex)},
             {"d_min_edge", numbers_to_json(c.d_min_edge)},
             {"d_min_triangle", numbers_to_json(c.d_min_triangle)},
-            {"bound_relaxation", hexadecimal(c.bound_relaxation)}};
+            {"bounds_relaxation", hexadecimal(c.bounds_relaxation)}};
   }
   static Case read(const Json& data) {
     Case c{to_topology(data.at("mesh"), data.at("d_min_vertex").size()), to_numbers(data.at("d_min_vertex")),
            to_numbers(data.at("d_min_edge")), to_numbers(data.at("d_min_triangle")),
-           number(data.at("bound_relaxation"))};
+           number(data.at("bounds_relaxation"))};
     if (c.d_min_vertex.size() != static_cast<std::size_t>(c.topology->vertex_count) ||
         c.d_min_edge.size() != c.topology->edges.size() || c.d_min_triangle.size() != c.topology->triangles.size())
       throw InputError("d_min_vertex, d_min_edge and d_min_triangle need one entry a vertex, edge and triangle");
@@ -117,7 +117,7 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
 
   static Shape shape(const Case&) { return {}; }
   static std::vector<Quantity> inputs(const Case& c) {
-    return joined({scalar("bound_relaxation", "1", c.bound_relaxation)}, mesh_quantities(*c.topology),
+    return joined({scalar("bounds_relaxation", "1", c.bounds_relaxation)}, mesh_quantities(*c.topology),
                   std::vector{compare::numbers("d_min_vertex", "m", c.d_min_vertex),
                               compare::numbers("d_min_edge", "m", c.d_min_edge),
                               compare::numbers("d_min_triangle", "m", c.d_min_triangle)});
@@ -126,7 +126,7 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
   static const Topology* mesh(const Case& c) { return c.topology.get(); }
   static Case part(const Case& c, const MeshPart& part) {
     return {part.topology, MeshPart::picked(c.d_min_vertex, part.vertices), MeshPart::picked(c.d_min_edge, part.edges),
-            MeshPart::picked(c.d_min_triangle, part.triangles), c.bound_relaxation};
+            MeshPart::picked(c.d_min_triangle, part.triangles), c.bounds_relaxation};
   }
   static ShortenedNumbers numbers(Case& c) {
     ShortenedNumbers all;
@@ -136,7 +136,7 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
   }
 
   static In question(const Case& c) {
-    return {c.topology.get(), c.d_min_vertex, c.d_min_edge, c.d_min_triangle, c.bound_relaxation};
+    return {c.topology.get(), c.d_min_vertex, c.d_min_edge, c.d_min_triangle, c.bounds_relaxation};
   }
   static constexpr auto judge = judge_bound;
   static void add(Bits& bits, const Out& out) { bits.add(out.bound); }
@@ -151,7 +151,7 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
     const auto& c = case_of<Case>(test.data);
     const Renumbering to(random, *c.topology);
     const Case other{to.topology(), to.by_vertex(c.d_min_vertex), to.by_edge(c.d_min_edge),
-                     to.by_triangle(c.d_min_triangle), c.bound_relaxation};
+                     to.by_triangle(c.d_min_triangle), c.bounds_relaxation};
     return to.by_vertex(contestant.bound(question(c)).bound) == contestant.bound(question(other)).bound;
   }
 };

@@ -42,7 +42,7 @@ MeshCase case_at_start(const Scene& scene) {
           rigid_groups(scene),
           to_single(scene.mesh.positions),
           radius,
-          static_cast<float>(scene.settings.query_radius_cap) * radius,
+          static_cast<float>(scene.settings.detection_radius_cap) * radius,
           exclusions(scene).partners};
 }
 

@@ -8,7 +8,7 @@ void set_in_scene(Scene& scene, const Override& parameter) {
   const double value = parameter.value;
   if (parameter.name == contact_radius.name) scene.settings.contact_radius = value;
   if (parameter.name == time_step.name) scene.settings.time_step = value;
-  if (parameter.name == bound_relaxation.name) scene.settings.bound_relaxation = value;
+  if (parameter.name == bounds_relaxation.name) scene.settings.bounds_relaxation = value;
   for (Body& body : scene.bodies) {
     if (parameter.name == contact_stiffness.name) body.material.contact_stiffness = value;
     if (parameter.name == friction.name) body.material.friction = value;

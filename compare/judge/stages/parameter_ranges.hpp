@@ -13,7 +13,7 @@ inline constexpr ParameterInfo contact_radius{"r", "contact radius [m]", least, 
     query_radius{"r_q", "query radius [m], at least r", least, most},
     contact_stiffness{"k_c", "contact stiffness [N/m]", 0x1p-30f, vast}, time_step{"h", "time step [s]", least, 1},
     bound{"b", "bound [m]", 0, vast},
-    bound_relaxation{"gamma_p", "bound relaxation, Eq. 21", 0x1p-10f, 0.5f - 0x1p-10f},
+    bounds_relaxation{"gamma_p", "bound relaxation, Eq. 21", 0x1p-10f, 0.5f - 0x1p-10f},
     friction{"mu", "friction coefficient", 0, 0x1p10f}, damping{"k", "damping k_d/h", 0, most};
 
 /// Says why these radii are not legal together; empty where they are.

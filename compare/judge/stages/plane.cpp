@@ -103,7 +103,7 @@ void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& trut
   for (std::size_t v = 0; v < free.ball_shortfall.size(); ++v)
     tally.error(1, free.ball_shortfall[v], [&] {
       return vertex(v) + ": " +
-             text("the ball of %.9g is smaller than need be, γ_p %.9g", out.bound[v], in.bound_relaxation);
+             text("the ball of %.9g is smaller than need be, γ_p %.9g", out.bound[v], in.bounds_relaxation);
     });
 }
 
@@ -143,7 +143,7 @@ std::vector<WrongForm> plane_forms() {
       plane_asked("excluded_pairs_ignored", "pairs beside a stitch are kept",
                   [](PlaneIn& in) { in.exclusions.partners = nullptr; }),
       plane_asked("relaxation_missing", "γ_p left out: a half of the gap, all but 2⁻¹⁰",
-                  [](PlaneIn& in) { in.bound_relaxation = 0.5f - 0x1p-10f; }),
+                  [](PlaneIn& in) { in.bounds_relaxation = 0.5f - 0x1p-10f; }),
       plane_asked("half_the_query_radius", "pairs up to r_q/2, not up to r_q",
                   [](PlaneIn& in) { in.query_radius /= 2; }),
       plane_asked("halved", "the gap is halved where displacements divide it",
@@ -183,10 +183,10 @@ struct Plane : Numbered, InEveryRun {
       MetricInfo{"narrowing", "u max(d, Σ|δ|)", plane_narrowing_tolerance},
       MetricInfo{"ball", "u γ_p max(d, Σ|δ|)", plane_ball_tolerance},
       MetricInfo{"division", "u (max(d, Σ|δ|) + d W/(a + b))", plane_division_tolerance}};
-  static constexpr std::array parameters{ranges::query_radius, ranges::bound_relaxation};
+  static constexpr std::array parameters{ranges::query_radius, ranges::bounds_relaxation};
   static std::string set(Case& c, std::span<const Override> values) {
     for (const Override& value : values)
-      (value.name == ranges::query_radius.name ? c.query_radius : c.bound_relaxation) = value.value;
+      (value.name == ranges::query_radius.name ? c.query_radius : c.bounds_relaxation) = value.value;
     return "";
   }
 
@@ -204,7 +204,7 @@ struct Plane : Numbered, InEveryRun {
     problem.vectors("a displacement", c.displacement);
     problem.vectors("a coordinate", c.positions);
     problem.number("a query radius", c.query_radius, 0x1p-60f, vast);
-    problem.number("a bound relaxation", c.bound_relaxation, 0x1p-10f, 0.5f - 0x1p-10f);
+    problem.number("a bound relaxation", c.bounds_relaxation, 0x1p-10f, 0.5f - 0x1p-10f);
   }
   static void mutate(Random& random, Case& c) { mutate_points(random, c.positions); }
   static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.positions}); }
@@ -218,7 +218,7 @@ struct Plane : Numbered, InEveryRun {
             std::move(c.rigid_groups),
             std::move(c.positions),
             c.query_radius,
-            static_cast<float>(scene.settings.bound_relaxation),
+            static_cast<float>(scene.settings.bounds_relaxation),
             std::move(c.partners),
             std::move(is_fixed)};
   }
@@ -229,7 +229,7 @@ struct Plane : Numbered, InEveryRun {
   }
   static Json write(const Case& c) {
     Json json = mesh_case_to_json(as_state(c));
-    json["bound_relaxation"] = hexadecimal(c.bound_relaxation);
+    json["bounds_relaxation"] = hexadecimal(c.bounds_relaxation);
     if (c.displacement.empty()) return json;
     json["displacement"] = Json::array();
     for (const Vec3f& w : c.displacement) json["displacement"].push_back(to_json(w));
@@ -238,8 +238,8 @@ struct Plane : Numbered, InEveryRun {
   static Case read(const Json& data) {
     MeshCase state = to_mesh_case(data);
     std::vector<std::uint8_t> is_fixed = fixed_flags(state.rigid_groups);
-    Case c{std::move(state.topology), std::move(state.rigid_groups),       std::move(state.positions),
-           state.query_radius,        number(data.at("bound_relaxation")), std::move(state.partners),
+    Case c{std::move(state.topology), std::move(state.rigid_groups),        std::move(state.positions),
+           state.query_radius,        number(data.at("bounds_relaxation")), std::move(state.partners),
            std::move(is_fixed)};
     if (data.contains("displacement"))
       for (const Json& w : data.at("displacement")) c.displacement.push_back(to_point(w));
@@ -253,7 +253,7 @@ struct Plane : Numbered, InEveryRun {
   }
   static std::vector<Quantity> inputs(const Case& c) {
     std::vector<Quantity> all = joined(
-        {scalar("query_radius", "m", c.query_radius), scalar("bound_relaxation", "1", c.bound_relaxation)},
+        {scalar("query_radius", "m", c.query_radius), scalar("bounds_relaxation", "1", c.bounds_relaxation)},
         state_quantities(*c.topology, c.positions, c.rigid_groups, c.partners));
     if (!c.displacement.empty()) all.push_back(points("displacement", "m", c.displacement));
     return all;
@@ -265,7 +265,7 @@ struct Plane : Numbered, InEveryRun {
             MeshPart::picked(c.rigid_groups, part.vertices),
             MeshPart::picked(c.positions, part.vertices),
             c.query_radius,
-            c.bound_relaxation,
+            c.bounds_relaxation,
             part.partners(c.partners),
             MeshPart::picked(c.is_fixed, part.vertices),
             c.displacement.empty() ? std::vector<Vec3f>{} : MeshPart::picked(c.displacement, part.vertices)};
@@ -275,7 +275,7 @@ struct Plane : Numbered, InEveryRun {
   static In question(const Case& c) {
     return {c.topology.get(), {c.rigid_groups, c.partners.rows() > 0 ? &c.partners : nullptr},
             c.positions,      c.is_fixed,
-            c.query_radius,   c.bound_relaxation,
+            c.query_radius,   c.bounds_relaxation,
             c.displacement};
   }
   static In question_of(const TestCase& test) { return question(case_of<Case>(test.data)); }

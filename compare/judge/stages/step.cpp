@@ -67,7 +67,7 @@ struct Step : TakenWhole, Numbered {
                                       MetricInfo{"target", "u scale", initial_guess_target_tolerance},
                                       MetricInfo{"velocity", "u |x − xᵗ|/h", step_velocity_tolerance},
                                       MetricInfo{"guess", "accepted error", 1}};
-  static constexpr std::array parameters{ranges::contact_radius, ranges::time_step, ranges::bound_relaxation,
+  static constexpr std::array parameters{ranges::contact_radius, ranges::time_step, ranges::bounds_relaxation,
                                          ranges::contact_stiffness, ranges::friction};
   static std::string set(Case& c, std::span<const Override> values) {
     c.scene = ranges::with_parameters(*c.scene, values);

@@ -214,7 +214,7 @@ class StepVerdict {
     if (!right()) return;
     if (policy().has_planes) return judge_planes(i, question);
     const BoundIn bounds{in_.topology, event.vertex_facet.d_min_vertex, event.edge_edge.d_min_edge,
-                         event.vertex_facet.d_min_triangle, static_cast<float>(in_.scene->settings.bound_relaxation)};
+                         event.vertex_facet.d_min_triangle, static_cast<float>(in_.scene->settings.bounds_relaxation)};
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
   }
 
@@ -251,8 +251,9 @@ class StepVerdict {
   void judge_planes(std::size_t i, const DetectIn& detection) {
     const StepEvent& event = out_.events[i];
     const std::vector<std::uint8_t> is_fixed = fixed_flags(groups_);
-    const PlaneIn question{in_.topology, detection.exclusions, event.position,
-                           is_fixed,     out_.query_radius,    static_cast<float>(in_.scene->settings.bound_relaxation),
+    const PlaneIn question{in_.topology,      detection.exclusions,
+                           event.position,    is_fixed,
+                           out_.query_radius, static_cast<float>(in_.scene->settings.bounds_relaxation),
                            displacement_};
     const PlaneOut answer{event.planes, event.bound};
     part(where(i), Stage::plane, [&](Tally& own) {

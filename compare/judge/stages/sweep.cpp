@@ -239,7 +239,7 @@ std::vector<WrongForm> sweep_forms() {
   });
   for (const auto& [kind, name, meaning] : other_activations)
     forms.push_back(sweep_asked(name, std::string(meaning) + ", where `ogc` is asked for", [to = kind](Read& read) {
-      if (read.scene.settings.activation == ContactActivation::ogc) read.scene.settings.activation = to;
+      if (read.scene.settings.contact_activation == ContactActivation::ogc) read.scene.settings.contact_activation = to;
     }));
   return forms;
 }
@@ -272,8 +272,8 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
                                   .determinism = Determinism::cpu_to_gpu};
   static constexpr std::array metrics{MetricInfo{"position", "accepted error", 1},
                                       MetricInfo{"orientation", "accepted error", 1}};
-  static constexpr std::array parameters{ranges::contact_radius,   ranges::query_radius,      ranges::time_step,
-                                         ranges::bound_relaxation, ranges::contact_stiffness, ranges::friction};
+  static constexpr std::array parameters{ranges::contact_radius,    ranges::query_radius,      ranges::time_step,
+                                         ranges::bounds_relaxation, ranges::contact_stiffness, ranges::friction};
   static std::string set(Case& c, std::span<const Override> values) {
     c.scene = ranges::with_parameters(*c.scene, values);
     for (const Override& value : values)

@@ -13,12 +13,12 @@ OGC_PLUGIN("activation example", OGC_HOST_MEMORY)
 
 namespace {
 
-// g, g' and g'' of one case; d < r.
+// Holds g, g' and g'' of one case; d < r.
 struct Activation {
   float energy, slope, curvature;
 };
 
-// `inner` is k'_c. The quadratic part holds at d = tau, too; d squared could underflow.
+// Returns both stages; `inner` is k'_c. The quadratic part holds at d = tau, too; d squared could underflow.
 Activation two_stages(float d, float r, float k, float tau, float inner) {
   if (d >= tau) return {0.5f * k * (r - d) * (r - d), -k * (r - d), k};
   return {0.5f * k * (r - tau) * (r - tau) + inner * std::log(tau / d), -inner / d, inner / d / d};

@@ -4,19 +4,19 @@
 //   nvcc -O2 -std=c++17 -shared -Xcompiler -fPIC -I INCLUDE activation.cu -o activation_cuda.so
 //   ogc compare activation --plugin ./activation_cuda.so --backend cuda
 //
-// --backend says whose time is printed beside yours.
+// --backend selects the backend whose time is printed beside yours.
 #include "compare/plugin.h"
 
 OGC_PLUGIN("activation example, CUDA", OGC_DEVICE_MEMORY)
 
 namespace {
 
-// g, g' and g'' of one case; d < r.
+// Holds g, g' and g'' of one case; d < r.
 struct Activation {
   float energy, slope, curvature;
 };
 
-// `inner` is k'_c. The quadratic part holds at d = tau, too; d squared could underflow.
+// Returns both stages; `inner` is k'_c. The quadratic part holds at d = tau, too; d squared could underflow.
 __device__ Activation two_stages(float d, float r, float k, float tau, float inner) {
   if (d >= tau) return {0.5f * k * (r - d) * (r - d), -k * (r - d), k};
   return {0.5f * k * (r - tau) * (r - tau) + inner * logf(tau / d), -inner / d, inner / d / d};

@@ -1,5 +1,5 @@
-// Stage barrier in double: IPC's barrier over the squared distance with a thickness, its slope and its curvature.
-// Right.
+// Stage barrier in double: IPC's barrier over the squared distance with a thickness, its slope and its curvature. It is
+// correct.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE barrier.cpp -o barrier.so
 //     ogc compare barrier --plugin ./barrier.so

@@ -1,5 +1,5 @@
-// Stage ccd in double: conservative advancement (as Li et al. 2021, Algorithm 1), nine tenths of a step each time: of
-// what no motion can close, or of how long the slab between the closest points stays empty. Right.
+// Stage ccd in double: conservative advancement (as Li et al. 2021, Algorithm 1). A step is nine tenths of the time in
+// which no motion can close the gap, or in which the slab between the closest points stays empty. It is correct.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE ccd.cpp -o ccd.so
 //     ogc compare ccd --plugin ./ccd.so
@@ -21,12 +21,12 @@ double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vector from_edge(const Vector& p, const Vector& a, const Vector& b) {  // to p
+Vector from_edge(const Vector& p, const Vector& a, const Vector& b) {  // vector from the edge to p
   const Vector e = minus(b, a);
   const double s = dot(e, e) > 0 ? std::clamp(dot(minus(p, a), e) / dot(e, e), 0.0, 1.0) : 0;
   return minus(p, mix(a, s, e));
 }
-Vector shortest(bool edges, const Points& x) {  // way between the faces
+Vector shortest(bool edges, const Points& x) {  // shortest vector between the faces
   const Vector p = edges ? minus(x[1], x[0]) : minus(x[2], x[1]), q = minus(x[3], edges ? x[2] : x[1]),
                w = minus(x[edges ? 2 : 0], x[edges ? 0 : 1]), n = cross(p, q);
   const double square = dot(n, n), s = dot(cross(w, q), n), t = (edges ? 1 : -1) * dot(cross(w, p), n);
@@ -40,7 +40,7 @@ Vector shortest(bool edges, const Points& x) {  // way between the faces
 
 double time_of(const ogc_ccd_case& c) {
   const bool edges = c.kind == OGC_CCD_EDGE_EDGE;
-  const int split = edges ? 2 : 1;  // of the vertices, between the sides
+  const int split = edges ? 2 : 1;  // number of vertices of the first side
   const auto apart = [](const ogc_vec3& a, const ogc_vec3& b) { return minus({a.x, a.y, a.z}, {b.x, b.y, b.z}); };
   Points from, way, x;
   Vector mean{};
@@ -53,9 +53,9 @@ double time_of(const ogc_ccd_case& c) {
   for (int step = 0; step < 1000; ++step) {
     for (int k = 0; k < 4; ++k) x[k] = mix(from[k], t, way[k]);
     const Vector d = shortest(edges, x);
-    const double gap = length(d) - 1e-13 * size;  // less what rounding may add
+    const double gap = length(d) - 1e-13 * size;  // minus what rounding may add
     if (gap <= 0 || gap < 0.1 * (first = step == 0 ? gap : first)) break;
-    double slab[2] = {2, 2};  // how long it stays empty, seen along d and against it
+    double slab[2] = {2, 2};  // how long the slab stays empty, seen along d and against it
     for (int i = 0; i < split; ++i)
       for (int j = split; j < 4; ++j)
         for (int k = 0; k < 2; ++k) {

@@ -1,5 +1,5 @@
-// Stage tetrahedron in double: stable Neo-Hookean of one corner, damping of strain or by vertex. Right; a library that
-// has it is asked about scenes with solids in its other stages, too.
+// Stage tetrahedron in double: stable Neo-Hookean of one corner, damping of strain or by vertex. It is correct. A
+// library that has this stage is asked about scenes with solids in its other stages, too.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE tetrahedron.cpp -o tetrahedron.so
 //     ogc compare tetrahedron --plugin ./tetrahedron.so
@@ -19,7 +19,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// F = Σ (x_k − x₀) ∇N_kᵀ
+/// Returns F = Σ (x_k − x₀) ∇N_kᵀ.
 Matrix deformation(const ogc_tetrahedron_case& c, const ogc_vec3 (&x)[4]) {
   Matrix f{};
   for (int k = 0; k < 3; ++k)
@@ -28,7 +28,7 @@ Matrix deformation(const ogc_tetrahedron_case& c, const ogc_vec3 (&x)[4]) {
   return f;
 }
 
-/// Of the change of strain since the start of the step: V k ϕ(G − Gᵗ).
+/// Adds damping of the change of strain since the start of the step: V k ϕ(G − Gᵗ).
 void add_damping(const ogc_tetrahedron_case& c, Vector& force, Matrix& block) {
   const Matrix f = deformation(c, c.corner), before = deformation(c, c.start);
   const double weight = double(c.volume) * c.damping, lambda = c.lame_lambda, mu = c.lame_mu;

@@ -1,6 +1,6 @@
-// A plug-in that is subtly wrong. Truncation scales a displacement down to its bound: five lines, found in many codes,
-// and by the last bit of the stored position the vertex may leave its ball, so that "penetration-free" no longer
-// follows. The judge finds it within a second; experiments/plugins/README.md mends it.
+// A plug-in that is subtly wrong. Truncation scales a displacement down to its bound: five lines, found in many codes.
+// By the last bit of the stored position the vertex may leave its ball, so that "penetration-free" no longer follows.
+// The judge finds it within a second; experiments/plugins/README.md mends it.
 //
 //   g++ -O2 -shared -fPIC -I INCLUDE truncate.cpp -o truncate.so
 //   ogc compare truncate --plugin ./truncate.so

@@ -1,7 +1,4 @@
-// Stage volume_force in double: contact of a point with the triangle of a volume, with friction. Right.
-//
-//     g++ -O2 -shared -fPIC -I INCLUDE volume_force.cpp -o volume_force.so
-//     ogc compare volume_force --plugin ./volume_force.so
+// Stage volume_force in double: contact of a point with the triangle of a volume, with friction. It is correct.
 #include <cmath>
 
 #include "compare/plugin.h"

@@ -1,6 +1,6 @@
-// Contacts dropped beyond a cap: each vertex has a fixed number of slots, what does not fit is dropped, and nothing
-// says so. (The public code has 32 slots; here there are 4, so that small meshes overflow.) Where cloth folds, layers
-// that nobody holds apart pass through.
+// Contacts dropped beyond a cap: each vertex has a fixed number of slots, and contacts that do not fit are dropped
+// without a message. (The public code has 32 slots; here there are 4, so that small meshes overflow.) Where cloth
+// folds, layers that nothing holds apart pass through each other.
 #include <vector>
 
 #include "experiments/plugins/museum/geometry.h"
@@ -20,25 +20,26 @@ struct Nearest {
   double distance = INFINITY;
 };
 
-// Every side of a plane is asked in one way, whichever face asks, so that no point falls between two blocks by a
-// rounding.
+// Decides faces and blocks. Every side of a plane is decided in one way, whichever face needs it, so that no point
+// falls between two blocks by a rounding.
 struct Question {
   const ogc_detect_in& in;
   const ogc_topology& mesh;
 
   Vec at(int v) const { return vec(in.positions[v]); }
-  // Whether p lies beyond w, seen from its neighbour.
+  // Returns whether p lies beyond w, seen from its neighbour.
   bool is_beyond(Vec p, int w, int neighbour) const { return dot(p - at(w), at(neighbour) - at(w)) <= 0; }
-  // Whether p lies on the side of the edge on which the vertex o lies.
+  // Returns whether p lies on the side of the edge on which the vertex o lies.
   bool is_beside(Vec p, int edge, int o) const {
     const Vec a = at(mesh.edges[edge][0]), e = at(mesh.edges[edge][1]) - a, to = at(o) - a;
-    return dot(cross(to, e), cross(p - a, e)) > 0;  // what lies along the edge cancels before it is multiplied
+    return dot(cross(to, e), cross(p - a, e)) > 0;  // parts along the edge cancel before they are multiplied
   }
   static bool has(const ogc_rows& rows, int row, int item) {
     return std::find(rows.items + rows.offsets[row], rows.items + rows.offsets[row + 1], item) !=
            rows.items + rows.offsets[row + 1];
   }
-  // No pair: the vertex is one of the triangle's, all of one rigid group, or beside a stitch.
+  // Returns whether the pair is none: the vertex belongs to the triangle, all are of one rigid group, or a stitch joins
+  // them.
   bool is_left_out(int v, const int32_t* t) const {
     const int group = in.rigid_groups[v];
     bool rigid = group >= 0, excluded = false;
@@ -68,7 +69,7 @@ struct Question {
   static void keep_nearer(Nearest& best, const Nearest& other) {
     if (other.distance < best.distance) best = other;
   }
-  // Whether p lies in the block of the vertex (Eq. 8), or in front of the edge (Eq. 9).
+  // Return whether p lies in the block of the vertex (Eq. 8), or in front of the edge (Eq. 9).
   bool is_before_vertex(Vec p, int w) const {
     for (int k = mesh.vertex_neighbours.offsets[w]; k < mesh.vertex_neighbours.offsets[w + 1]; ++k)
       if (!is_beyond(p, w, mesh.vertex_neighbours.items[k])) return false;
@@ -79,7 +80,7 @@ struct Question {
       if (is_beside(p, e, mesh.edge_opposite.items[k])) return false;
     return true;
   }
-  // The contact of the vertex with what of triangle t is nearest; face -1 where there is none.
+  // Returns the contact of the vertex with the nearest face of triangle t; face -1 if there is none.
   ogc_vertex_facet_contact contact(int v, int t, const Nearest& near) const {
     const Vec p = at(v);
     if (near.corner >= 0) {

@@ -11,7 +11,7 @@ struct Edges {
   Vec a, e, b, f;
 };
 
-// Places on both, from 0 to 1, and the distance of these points.
+// Places on both edges, from 0 to 1, and the distance of these points.
 struct Places {
   double s = 0, t = 0, distance = INFINITY;
 };
@@ -21,7 +21,7 @@ inline void keep_nearer(Places& best, const Edges& x, double s, double t) {
   if (distance < best.distance) best = {s, t, distance};
 }
 
-// Inside both, or at an end of one of them.
+// Returns the closest points: inside both edges, or at an end of one of them.
 inline Places closest(const Edges& x) {
   Places best;
   const double ee = dot(x.e, x.e), ef = dot(x.e, x.f), ff = dot(x.f, x.f),
@@ -37,7 +37,7 @@ inline Places closest(const Edges& x) {
   return best;
 }
 
-// What the second covers of the first, seen along the first.
+// The part of the first edge that the second covers, seen along the first.
 struct Overlap {
   double low = 0, high = 0;
 };
@@ -51,7 +51,7 @@ inline bool nearly_parallel(const Edges& x) {
   return dot(cross(x.e, x.f), cross(x.e, x.f)) < 1e-6 * dot(x.e, x.e) * dot(x.f, x.f) && shared.low < shared.high;
 }
 
-// Where nearly parallel edges meet: the middle of the overlap, and its projection.
+// Returns where nearly parallel edges meet: the middle of the overlap, and its projection.
 inline Places middle(const Edges& x) {
   const Overlap shared = overlap(x);
   const double s = (shared.low + shared.high) / 2, t = place_on(x.a + s * x.e, x.b, x.b + x.f);

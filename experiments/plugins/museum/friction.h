@@ -11,7 +11,7 @@ inline Edges edges_of(const ogc_vec3* x) {
   return {vec(x[0]), vec(x[1]) - vec(x[0]), vec(x[2]), vec(x[3]) - vec(x[2])};
 }
 
-// By vertex, first side less second side.
+// Weights by vertex, positive on the first side and negative on the second.
 struct Sides {
   double of[4] = {1, 0, 0, 0};
 };
@@ -31,7 +31,7 @@ inline Sides sides(const ogc_contact_force_case& c) {
   return {{1 - at.s, at.s, at.t - 1, -at.t}};
 }
 
-// e_k, from the edges at the last detection.
+// Returns e_k, from the edges at the last detection.
 inline double energy_share(const ogc_contact_force_case& c) {
   if (c.sides != OGC_EDGE_EDGE) return 1;
   const Edges edges = edges_of(c.previous);
@@ -46,7 +46,7 @@ inline double energy_share(const ogc_contact_force_case& c) {
   return (shared.high - shared.low) * e / std::min(e, length(edges.f));
 }
 
-// -g'(d), of every activation.
+// Returns -g'(d) of any activation.
 inline double push(const ogc_contact_force_case& c, double d) {
   const double r = c.contact_radius, k = c.stiffness, tau = r / 2, depth = r - d;
   if (!(d < r)) return 0;
@@ -59,7 +59,7 @@ inline double push(const ogc_contact_force_case& c, double d) {
   }
 }
 
-// The answer; `off_diagonal` stands beside the diagonal of the matrix that n nT is taken from.
+// Writes the answer; `off_diagonal` replaces the zeros beside the diagonal of the identity, from which n nT is taken.
 inline void answer(const ogc_friction_force_case& c, double off_diagonal, ogc_vec3& force, float* block) {
   const ogc_contact_force_case& contact = c.contact;
   const int count = contact.sides == OGC_POINT_POINT ? 2 : contact.sides == OGC_POINT_EDGE ? 3 : 4;

@@ -21,13 +21,13 @@ inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec cross(Vec a, Vec b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline double length(Vec a) { return std::sqrt(dot(a, a)); }
 
-// Where on the segment from a to b the point nearest to p lies, from 0 to 1; 0 where the segment has no length.
+// Returns the place on the segment from a to b of the point nearest to p, from 0 to 1; 0 if the segment has no length.
 inline double place_on(Vec p, Vec a, Vec b) {
   const double squared = dot(b - a, b - a);
   return squared > 0 ? std::clamp(dot(p - a, b - a) / squared, 0.0, 1.0) : 0;
 }
 
-// A number of single precision that is surely not above d, which is known to 1e-7 of `size`; never negative.
+// Returns a number of single precision that is surely not above d, which is known to 1e-7 of `size`; never negative.
 inline float below(double d, double size) {
   const double low = d - 4e-7 * std::max(d, size);
   return low > 0 ? std::nextafter(float(low), 0.0f) : 0;

@@ -1,6 +1,6 @@
 // Half of the coefficient of the logarithm: k'_c = tau^2 k_c / 2, where slope and curvature must meet those of the
-// quadratic stage at tau = r/2. Force and stiffness halve as a contact comes closer than tau, which is where they are
-// needed.
+// quadratic stage at tau = r/2. Force and stiffness halve as a contact comes closer than tau, where they are needed
+// most.
 #include "experiments/plugins/museum/activation.h"
 
 OGC_PLUGIN("half the coefficient of the logarithm", OGC_HOST_MEMORY)

@@ -1,5 +1,5 @@
-// Weights over an area that may be 0: they are no numbers then, and the test that looks for weights below 0 lets no
-// number pass. Corners on one line, or so near to one that their area vanishes, spoil whatever they touch.
+// Weights over an area that may be 0: they are not-a-number then, and the test for weights below 0 lets NaN pass.
+// Triangles whose corners lie on one line, or nearly so, spoil all that touches them.
 #include "experiments/plugins/museum/triangle.h"
 
 OGC_PLUGIN("weights over an area of 0", OGC_HOST_MEMORY)

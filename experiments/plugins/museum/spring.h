@@ -9,7 +9,7 @@
 
 namespace museum {
 
-// What is apart, l, and the weight of the vertex asked about.
+// Holds the vector that the spring spans, and its length l.
 struct Apart {
   double x, y, z, length;
 
@@ -25,7 +25,7 @@ inline double weight_of(const ogc_spring_case& c) {
   return c.own == 0 ? 1 : c.own == 1 ? double(c.ratio) - 1 : -double(c.ratio);
 }
 
-// The answer, with this damping of strain; `times` multiplies the block.
+// Writes the answer with this damping of strain; `times` multiplies the block.
 inline void answer(const ogc_spring_case& c, double damping, double times, ogc_vec3& force, float* block) {
   const Apart now(c.vertex, c.ratio), start(c.start, c.ratio);
   const double k = c.stiffness, l = now.length, w = weight_of(c);

@@ -11,7 +11,7 @@ struct Weights {
   double of[3] = {0, 0, 0};
 };
 
-// Of the foot on the triangle's plane; no numbers where the triangle has no area.
+// Returns the weights of the foot on the triangle's plane; not-a-number if the triangle has no area.
 inline Weights foot(Vec p, const Vec* t) {
   const Vec n = cross(t[1] - t[0], t[2] - t[0]);
   Weights w;
@@ -19,8 +19,8 @@ inline Weights foot(Vec p, const Vec* t) {
   return w;
 }
 
-// Of the closest point of the edge from corner k to the next one. Each weight by itself: 1 less the other one is 0 too
-// soon.
+// Returns the weights of the closest point of the edge from corner k to the next one. Each weight is computed by
+// itself, because 1 minus the other one rounds to 0 too soon.
 inline Weights on_edge(Vec p, const Vec* t, int k) {
   const int next = (k + 1) % 3;
   const Vec e = t[next] - t[k];
@@ -35,8 +35,8 @@ inline Weights on_edge(Vec p, const Vec* t, int k) {
 
 inline Vec point(const Vec* t, const Weights& w) { return w.of[0] * t[0] + w.of[1] * t[1] + w.of[2] * t[2]; }
 
-// Where the foot, of weights `w`, is not inside. An edge that it lies beyond is taken before its ends, whose distances
-// may be equal but for a rounding.
+// Returns the weights on the nearest edge if the foot, of weights `w`, is not inside. An edge that the foot lies beyond
+// comes before its ends, whose distances may be equal but for a rounding.
 inline Weights on_nearest_edge(Vec p, const Vec* t, const Weights& w) {
   Weights best;
   double nearest = INFINITY;
@@ -53,13 +53,13 @@ inline Weights on_nearest_edge(Vec p, const Vec* t, const Weights& w) {
 
 inline int positive(const Weights& w) { return (w.of[0] > 0) + (w.of[1] > 0) + (w.of[2] > 0); }
 
-// The right weights.
+// Returns the right weights.
 inline Weights closest(Vec p, const Vec* t) {
   const Weights w = foot(p, t);
   return positive(w) == 3 ? w : on_nearest_edge(p, t, w);
 }
 
-// By which weights are not 0.
+// Returns the feature, by the weights that are not 0.
 inline uint8_t feature(const Weights& w) {
   switch ((w.of[0] > 0) + 2 * (w.of[1] > 0) + 4 * (w.of[2] > 0)) {
     case 1: return OGC_CORNER_0;

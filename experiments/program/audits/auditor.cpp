@@ -46,7 +46,7 @@ StateJudge::StateJudge(const compare::Scene& scene, const compare::MeshSources& 
       names_(scene, sources),
       volumes_(scene),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)),
-      bound_relaxation_(static_cast<float>(scene.settings.bound_relaxation)),
+      bounds_relaxation_(static_cast<float>(scene.settings.bounds_relaxation)),
       bounds_(scene.settings.bounds),
       is_fixed_(compare::fixed_flags(exclusions_.groups)) {}
 
@@ -83,14 +83,14 @@ Verdict StateJudge::judge(const compare::Snapshot& snapshot) const {
 
 void StateJudge::judge_planes(const compare::Snapshot& snapshot, Verdict& verdict) const {
   const compare::PlaneIn in{&topology_, exclusions_,           snapshot.previous,
-                            is_fixed_,  snapshot.query_radius, bound_relaxation_};
+                            is_fixed_,  snapshot.query_radius, bounds_relaxation_};
   verdict.planes = reference::plane_guarantee(in, {snapshot.planes, snapshot.bounds});
   verdict.broken_planes = reference::broken_planes(snapshot.planes, snapshot.positions);
 }
 
 void StateJudge::judge_balls(const compare::Snapshot& snapshot, Verdict& verdict) const {
   const compare::DetectIn in{&topology_, exclusions_, snapshot.previous, contact_radius_, snapshot.query_radius};
-  const std::vector<float> exact = reference::exact_bounds(in, bound_relaxation_);
+  const std::vector<float> exact = reference::exact_bounds(in, bounds_relaxation_);
   double worst = 1;
   for (std::size_t v = 0; v < exact.size(); ++v) {
     const double bound = snapshot.bounds[v], limit = exact[v];

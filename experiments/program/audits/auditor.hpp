@@ -84,7 +84,7 @@ class StateJudge {
   compare::Exclusions exclusions_;
   compare::ElementNames names_;
   compare::VolumeAuditor volumes_;
-  float contact_radius_, bound_relaxation_;
+  float contact_radius_, bounds_relaxation_;
   compare::Bounds bounds_;
   std::vector<std::uint8_t> is_fixed_;  ///< by vertex
 };

@@ -485,13 +485,13 @@ void add_ablate_command(CLI::App& app, CommandContext& context) {
   command->footer(
       settings_help() +
       "\nExamples:\n"
-      "  ogc ablate cloth_on_sphere --scale smoke --solver newton --vary activation=ogc,ipc_log,cubic\n"
-      "  ogc ablate twist --vary iterations=5,10,20 --vary redetect_fraction=0,0.01,0.1 --out grid\n"
+      "  ogc ablate cloth_on_sphere --scale smoke --solver newton --vary contact_activation=ogc,ipc_log,cubic\n"
+      "  ogc ablate twist --vary iterations=5,10,20 --vary detection_fraction=0,0.01,0.1 --out grid\n"
       "  ogc ablate twist --scale smoke --point default --point iterations=20,time_step=0.00167,steps=1440 --repeat 10 "
       "--jitter 1e-6\n"
-      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine\n"
-      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --jobs 8\n"
-      "  ogc ablate my_scene.json --vary activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --slurm\n\n"
+      "  ogc ablate my_scene.json --vary contact_activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine\n"
+      "  ogc ablate my_scene.json --vary contact_activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --jobs 8\n"
+      "  ogc ablate my_scene.json --vary contact_activation=ogc,cubic --repeat 10 --jitter 1e-6 --out mine --slurm\n\n"
       "A run is one draw: where contact is chaotic, the last bit of the start decides how it goes on. --repeat 10 "
       "runs\n"
       "each point from ten starts, each coordinate moved by at most --jitter, and compares ranges. The first point\n"

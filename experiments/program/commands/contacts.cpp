@@ -78,10 +78,10 @@ void run(const Options& options, const CommandContext& context) {
     throw compare::InputError("--query-radius " + number(query_radius) + " is below the contact radius " +
                               number(contact_radius) + "; give at least that");
   const std::map<std::string, Engine> engines{{"exact", Engine::exact}, {"cpu", Engine::cpu}, {"cuda", Engine::cuda}};
-  const auto bound_relaxation = static_cast<float>(compare::Settings{}.bound_relaxation);
+  const auto bounds_relaxation = static_cast<float>(compare::Settings{}.bounds_relaxation);
   const auto start = std::chrono::steady_clock::now();
   const ContactReport report = find_contacts(mesh, engines.at(options.engine), static_cast<float>(contact_radius),
-                                             static_cast<float>(query_radius), bound_relaxation, options.further);
+                                             static_cast<float>(query_radius), bounds_relaxation, options.further);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::size_t intersections = compare::audit(report.topology, mesh.positions).count;
   if (intersections > 0)
@@ -91,12 +91,12 @@ void run(const Options& options, const CommandContext& context) {
   Json head{{"format", "ogc contacts 2"},
             {"mesh", options.mesh},
             {"engine", options.engine},
-            {"bound_relaxation", bound_relaxation},
+            {"bounds_relaxation", bounds_relaxation},
             {"intersections", intersections},
             {"threads", options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()},
             {"seconds", seconds}};
   head.update(numbers_in_file(input));
-  if (options.squares) head.update(exact_squares(report, bound_relaxation));
+  if (options.squares) head.update(exact_squares(report, bounds_relaxation));
   print_json(head, report, options.margins);
 }
 

@@ -37,7 +37,7 @@ std::vector<Row> rows_of(const Suggestion& found) {
   const SuggestedNumber cap{found.query_radius.value / found.contact_radius.value,
                             "r_q up to " + number(found.query_radius.value) + " m, " + found.query_radius.reason};
   return {{"contact_radius", "m", found.contact_radius},
-          {"query_radius_cap", "r", cap},
+          {"detection_radius_cap", "r", cap},
           {"contact_stiffness", "N/m", found.contact_stiffness},
           {"time_step", "s", found.time_step},
           {"iterations", "1", found.iterations}};

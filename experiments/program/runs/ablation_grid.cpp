@@ -19,7 +19,7 @@ Axis parse_axis(const std::string& text) {
     begin = comma + 1;
   }
   if (axis.key.empty() || axis.values.empty() || std::ranges::find(axis.values, "") != axis.values.end())
-    throw compare::InputError("--vary " + text + ": give key=a,b,c, for example --vary activation=ogc,ipc_log");
+    throw compare::InputError("--vary " + text + ": give key=a,b,c, for example --vary contact_activation=ogc,ipc_log");
   return axis;
 }
 

@@ -32,7 +32,7 @@ RunRow read_run_row(const std::filesystem::path& folder);
 
 /// Holds the runs of one setting with different seeds.
 struct SettingRows {
-  std::string name;  ///< "activation=ogc,membrane=…"
+  std::string name;  ///< "contact_activation=ogc,membrane=…"
   std::vector<RunRow> rows;
 };
 

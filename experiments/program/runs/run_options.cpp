@@ -31,7 +31,7 @@ std::string value_text(const compare::Settings& settings, const compare::Setting
 
 bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); }
 
-constexpr std::string_view data_key = "data=", contact_key = "contact=";
+constexpr std::string_view data_key = "data=", contact_key = "body_contact=";
 /// one day
 constexpr double most_checkpoint_seconds = 86400;
 
@@ -78,11 +78,11 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
 
 /// Throws if --set has no such key.
 void expect_setting(const std::string& key) {
-  std::vector<std::string_view> names{"membrane", "bending", "contact"};
+  std::vector<std::string_view> names{"membrane", "bending", "body_contact"};
   for (const MaterialSetting& constant : material_settings()) names.push_back(constant.name);
   for (const compare::SettingInfo& info : compare::setting_table()) names.push_back(info.name);
   if (std::ranges::find(names, key) != names.end()) return;
-  throw compare::InputError(compare::unknown_name("setting", key, names));
+  throw compare::InputError(compare::unknown_setting(key, names));
 }
 
 void set(compare::Scene& scene, const std::string& key, const std::string& value) {
@@ -98,7 +98,8 @@ void set(compare::Scene& scene, const std::string& key, const std::string& value
 void apply_contact(compare::Scene& scene, const std::string& value) {
   const auto names = compare::choice_names<compare::BodyContact>;
   const auto found = std::ranges::find(names, value);
-  if (found == names.end()) throw compare::InputError("contact: " + compare::unknown_name("contact", value, names));
+  if (found == names.end())
+    throw compare::InputError("body_contact: " + compare::unknown_name("contact", value, names));
   set_body_contact(scene, static_cast<compare::BodyContact>(found - names.begin()));
 }
 
@@ -232,8 +233,8 @@ std::string settings_help() {
       "how cloth resists bending: the model of every body that does");
   for (const MaterialSetting& constant : material_settings())
     add(constant.name, constant.unit, "the scene's", constant.range, constant.meaning);
-  add("contact", "1", "the scene's", compare::joined(compare::choice_names<compare::BodyContact>),
-      "bodies that a motion drives: inside the guarantee, or volumes that push out, with redetect_fraction 0 or 0.01");
+  add("body_contact", "1", "the scene's", compare::joined(compare::choice_names<compare::BodyContact>),
+      "bodies that a motion drives: inside the guarantee, or volumes that push out, with detection_fraction 0 or 0.01");
   add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
   std::istringstream lines(table(rows, 4));
   const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file ";

@@ -24,7 +24,7 @@ struct SolverOptions {
   bool has_condition = false;          ///< --condition
   bool has_measured_residual = false;  ///< --residual: the column holds Eq. 29
   bool has_traced_rows = false;        ///< --iterations writes rows of a trace that runs beside the simulation
-  bool is_penalty = false;             ///< bounds=off and activation=quadratic, whatever the scene says
+  bool is_penalty = false;             ///< bounds=off and contact_activation=quadratic, whatever the scene says
 };
 /// Returns the options of one solver.
 SolverOptions options_of(Solver solver);

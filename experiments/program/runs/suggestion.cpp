@@ -211,7 +211,7 @@ SuggestedNumber radius_of(const Measures& mesh) {
 }
 
 SuggestedNumber query_radius_of(const Measures& mesh, double contact_radius) {
-  const double least = compare::Settings{}.query_radius_cap * contact_radius;
+  const double least = compare::Settings{}.detection_radius_cap * contact_radius;
   const double value = std::clamp(two_digits(mesh.edge), least, most_radii * contact_radius);
   return {value,
           "about one edge, from 4 r to 16 r: a vertex may move γ_p r_q before contacts are detected again, and the "
@@ -237,7 +237,7 @@ double layer_sweeps(const Measures& mesh, double contact_radius, double step) {
 }
 
 SuggestedNumber time_step_of(const Measures& mesh, double contact_radius, double query_radius) {
-  const double way = detections_a_step * compare::Settings{}.bound_relaxation * query_radius;
+  const double way = detections_a_step * compare::Settings{}.bounds_relaxation * query_radius;
   const double settled = std::sqrt(most_iterations * contact_radius /
                                    (sweeps_a_layer_and_radius * gravity * mesh.layers));
   if (layer_sweeps(mesh, contact_radius, longest_step) > most_iterations && mesh.speed * settled <= way)
@@ -317,7 +317,7 @@ Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material,
 
 void apply(const Suggestion& suggestion, compare::Scene& scene) {
   scene.settings.contact_radius = suggestion.contact_radius.value;
-  scene.settings.query_radius_cap = suggestion.query_radius.value / suggestion.contact_radius.value;
+  scene.settings.detection_radius_cap = suggestion.query_radius.value / suggestion.contact_radius.value;
   scene.settings.time_step = suggestion.time_step.value;
   scene.settings.iterations = static_cast<std::int64_t>(suggestion.iterations.value);
   for (compare::Body& body : scene.bodies) body.material.contact_stiffness = suggestion.contact_stiffness.value;

@@ -176,7 +176,7 @@ std::string Warnings::momentum_text() const {
          " % of what was to move, by mass and way, to truncation, above " + number(100 * most_momentum_lost) +
          " %, after all " + std::to_string(guess_rounds_) +
          " rounds of the guess: what moves is faster than bounds let it; take a smaller time_step, or a larger "
-         "query_radius_cap, contact_radius or guess_rounds";
+         "detection_radius_cap, contact_radius or guess_rounds";
 }
 
 std::string Warnings::force_text() const {
@@ -190,14 +190,14 @@ std::string Warnings::held_text() const {
   return counted(static_cast<std::size_t>(longest_held_), "step") + " in a row ended with every one of the " +
          std::to_string(free_) + " free vertices" +
          " cut by its bound: nothing moves as forces ask, and what hangs still is no equilibrium; look at the smallest "
-         "distances of the start (ogc audit), or take a smaller time_step or a larger query_radius_cap or "
+         "distances of the start (ogc audit), or take a smaller time_step or a larger detection_radius_cap or "
          "contact_radius";
 }
 
 std::string Warnings::lag_text() const {
   return "prescribed vertices lag " + number(lag_->value) + " m behind their motion in step " +
          std::to_string(lag_->step) + ", above contact_radius (" + number(radius_) +
-         " m): bounds hold them; move them slower, or take a smaller time_step or a larger query_radius_cap";
+         " m): bounds hold them; move them slower, or take a smaller time_step or a larger detection_radius_cap";
 }
 
 }  // namespace ogc::experiments

@@ -1,5 +1,5 @@
-// Force and symmetric 3×3 block of one vertex (Alg. 4), to which every energy adds; a team sums up one for each team
-// lane.
+// Holds the force and the symmetric 3×3 block of one vertex (Alg. 4), to which every energy adds; a team sums up one
+// for each team lane.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
@@ -8,14 +8,14 @@
 
 namespace ogc::fast {
 
-/// Symmetric 3×3 [N/m].
+/// A symmetric 3×3 matrix [N/m].
 template <class T>
 struct Symmetric3Of {
   T xx{}, xy{}, xz{}, yy{}, yz{}, zz{};  ///< the upper triangle, row by row
 };
 using Symmetric3 = Symmetric3Of<float>;
 
-/// Force and block of one vertex.
+/// Holds force and block of one vertex.
 template <class T>
 struct ForceAndBlockOf {
   Vector<T> force{};        ///< −∂E/∂x_v [N]
@@ -42,8 +42,8 @@ struct ForceAndBlockOf {
     block.zz = block.zz + scale;
   }
 
-  /// Rounded by itself: with a product of the other's computation contracted into it, the bits would depend on where
-  /// that is computed.
+  /// Adds another sum. Each addition is rounded by itself: contracted with a product of the other's computation, the
+  /// bits would depend on where that is computed.
   OGC_HD ForceAndBlockOf& operator+=(const ForceAndBlockOf& other) {
     force = {add(force.x, other.force.x), add(force.y, other.force.y), add(force.z, other.force.z)};
     block.xx = add(block.xx, other.block.xx);
@@ -56,5 +56,11 @@ struct ForceAndBlockOf {
   }
 };
 using ForceAndBlock = ForceAndBlockOf<float>;
+
+/// Calls add(sum) where the condition holds.
+template <class Add>
+OGC_HD void add_where(bool condition, ForceAndBlock& sum, Add add) {
+  if (condition) add(sum);
+}
 
 }  // namespace ogc::fast

@@ -1,6 +1,6 @@
-// Atomics whose result no order of execution can change: integer sums and maxima, and minima of non-negative floats,
-// whose order is that of their bits. Which thread wins a compare-and-exchange does depend on the order: it may decide
-// which thread does a piece of work, not the result.
+// Defines atomics whose result no order of execution can change: integer sums and maxima, and minima of non-negative
+// floats, whose order is that of their bits. Which thread wins a compare-and-exchange does depend on the order: it may
+// decide which thread does a piece of work, not the result.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Adds and returns the value before.
+/// Adds, and returns the value before.
 OGC_HD inline int atomic_add(int* target, int value) {
 #if defined(__CUDA_ARCH__)
   return atomicAdd(target, value);
@@ -33,7 +33,8 @@ OGC_HD inline void atomic_max(int* target, int value) {
 #endif
 }
 
-/// As atomic_max, for a launch whose threads all raise one target: those of a warp that are here together ask once.
+/// Raises the target as atomic_max does, for a launch whose threads all raise one target: the threads of a warp that
+/// are here together make one access.
 OGC_HD inline void raise_together(int* target, int value) {
 #if defined(__CUDA_ARCH__)
   const unsigned here = __activemask();
@@ -44,7 +45,7 @@ OGC_HD inline void raise_together(int* target, int value) {
 #endif
 }
 
-/// Likewise.
+/// Raises the target to the value.
 OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
   atomicMax(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
@@ -55,7 +56,7 @@ OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #endif
 }
 
-/// Writes `value` where `expected` stands, and returns the value before.
+/// Writes `value` if the target is `expected`, and returns the value before.
 OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected,
                                                     std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
@@ -67,8 +68,8 @@ OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::
 #endif
 }
 
-/// Whether this thread is the last of `count` to arrive at a counter, which is 0 before the first and after the last.
-/// It then sees what the others wrote before they came. Only the last acquires: an acquire, as in __threadfence,
+/// Returns whether this thread is the last of `count` to arrive at a counter, which is 0 before the first and after the
+/// last. It then sees what the others wrote before they came. Only the last acquires: an acquire, as in __threadfence,
 /// empties the first-level cache.
 OGC_HD inline bool arrives_last(int* counter, int count) {
 #if defined(__CUDA_ARCH__)
@@ -85,7 +86,7 @@ OGC_HD inline bool arrives_last(int* counter, int count) {
   return true;
 }
 
-/// A value that other threads may be writing.
+/// Reads a value that other threads may be writing.
 OGC_HD inline std::uint64_t atomic_load(const std::uint64_t* source) {
 #if defined(__CUDA_ARCH__)
   return *const_cast<const volatile std::uint64_t*>(source);
@@ -94,7 +95,7 @@ OGC_HD inline std::uint64_t atomic_load(const std::uint64_t* source) {
 #endif
 }
 
-/// Likewise.
+/// Reads a value that other threads may be writing.
 OGC_HD inline int atomic_load(const int* source) {
 #if defined(__CUDA_ARCH__)
   return *const_cast<const volatile int*>(source);
@@ -103,7 +104,7 @@ OGC_HD inline int atomic_load(const int* source) {
 #endif
 }
 
-/// A value that other threads may be lowering.
+/// Reads a value that other threads may be lowering.
 OGC_HD inline float atomic_load(const float* source) {
 #if defined(__CUDA_ARCH__)
   return *const_cast<const volatile float*>(source);
@@ -112,8 +113,8 @@ OGC_HD inline float atomic_load(const float* source) {
 #endif
 }
 
-/// Minimum of non-negative floats: as integers their bits have the same order. Negative values and NaN must not come
-/// here.
+/// Lowers the target to the value. Floats must not be negative or NaN: the bits of the others, as integers, have their
+/// order.
 OGC_HD inline void atomic_min(float* target, float value) {
 #if defined(__CUDA_ARCH__)
   atomicMin(reinterpret_cast<int*>(target), __float_as_int(value));
@@ -124,7 +125,7 @@ OGC_HD inline void atomic_min(float* target, float value) {
 #endif
 }
 
-/// As raise_together, of a minimum of non-negative floats.
+/// Lowers the target as raise_together raises it; floats must not be negative.
 OGC_HD inline void lower_together(float* target, float value) {
 #if defined(__CUDA_ARCH__)
   const unsigned here = __activemask();
@@ -136,7 +137,7 @@ OGC_HD inline void lower_together(float* target, float value) {
 #endif
 }
 
-/// As atomic_min, for values that seldom lower the target: looks first.
+/// Lowers the target as atomic_min does, for values that seldom do: compares first.
 OGC_HD inline void lower(float* target, float value) {
   if (value < atomic_load(target)) atomic_min(target, value);
 }

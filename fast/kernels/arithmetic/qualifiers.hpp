@@ -1,4 +1,4 @@
-// Kernels are mathematics in plain headers: g++ and nvcc compile the same lines.
+// Defines the qualifiers of kernels, which are mathematics in plain headers: g++ and nvcc compile the same lines.
 #pragma once
 
 #if defined(__CUDACC__)
@@ -7,13 +7,13 @@
 #define OGC_HD
 #endif
 
-/// A function that is called and not inlined.
+/// Marks a function that is called and not inlined.
 #define OGC_OUT_OF_LINE __attribute__((noinline))
 
 namespace ogc::fast {
 
-/// f(), called and not inlined: what is seldom run takes neither registers nor room in the instruction cache from what
-/// always is. By value: a reference would force what `f` reads into memory.
+/// Returns f(), called and not inlined: code that seldom runs takes neither registers nor room in the instruction cache
+/// from code that always does. `f` is passed by value: a reference would force what it reads into memory.
 template <class F>
 OGC_HD OGC_OUT_OF_LINE auto called(F f) {
   return f();

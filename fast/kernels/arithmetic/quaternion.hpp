@@ -1,5 +1,5 @@
-// Quaternions, in single precision with the layout of compare::Quaternion. Products are added from the left, as in
-// vector.hpp.
+// Defines quaternions, in single precision with the layout of compare::Quaternion. Products are added from the left, as
+// in vector.hpp.
 #pragma once
 
 #include "fast/kernels/arithmetic/scalar.hpp"
@@ -7,10 +7,10 @@
 
 namespace ogc::fast {
 
-/// u + w: of floats sixteen bytes, one read on a device.
+/// The quaternion u + w. Four floats are sixteen bytes, which a device reads at once.
 template <class T>
 struct alignas(4 * sizeof(T)) QuatOf {
-  T x = 0, y = 0, z = 0, w = 1;  ///< of i, j, k, and the real part
+  T x = 0, y = 0, z = 0, w = 1;  ///< factors of i, j, k, and the real part
 };
 using Quat = QuatOf<float>;
 
@@ -25,6 +25,12 @@ OGC_HD QuatOf<T> operator-(const QuatOf<T>& a, const QuatOf<T>& b) {
 template <class T>
 OGC_HD QuatOf<T> operator*(T s, const QuatOf<T>& a) {
   return {s * a.x, s * a.y, s * a.z, s * a.w};
+}
+/// a where the condition holds, else b, component by component.
+template <class T, class M>
+OGC_HD QuatOf<T> select(const M& condition, const QuatOf<T>& a, const QuatOf<T>& b) {
+  return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z),
+          select(condition, a.w, b.w)};
 }
 /// a b, the product of quaternions.
 template <class T>
@@ -45,19 +51,19 @@ OGC_HD QuatOf<T> pure(const Vector<T>& v) {
   return {v.x, v.y, v.z, T(0.0f)};
 }
 
-/// R(q) v = v + 2 w (u × v) + 2 u × (u × v).
+/// Returns R(q) v = v + 2 w (u × v) + 2 u × (u × v).
 OGC_HD inline Vec turned(const Quat& q, const Vec& v) {
   const Vec u{q.x, q.y, q.z}, twice = 2.0f * cross(u, v);
   return v + q.w * twice + cross(u, twice);
 }
-/// R(q)ᵀ v.
+/// Returns R(q)ᵀ v.
 OGC_HD inline Vec turned_back(const Quat& q, const Vec& v) { return turned(conjugate(q), v); }
 
-/// R(q) e₃: where a segment of this orientation points.
+/// Returns R(q) e₃, the direction of a segment of this orientation.
 OGC_HD inline Vec director(const Quat& q) { return turned(q, {0.0f, 0.0f, 1.0f}); }
 
-/// q/‖q‖ of a q that is not 0. The second factor takes the rounding of root and quotient away, which a device need not
-/// round correctly: ‖q‖ is 1 within 4 u.
+/// Returns q/‖q‖ of a q that is not 0. The second factor removes the rounding of root and quotient, which a device need
+/// not round correctly: the result's norm is 1 within 4 u.
 template <class T>
 OGC_HD QuatOf<T> unit(const QuatOf<T>& q) {
   const QuatOf<T> near = T(1.0f / root(dot(q, q))) * q;

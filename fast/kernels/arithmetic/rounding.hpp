@@ -1,6 +1,6 @@
-// Arithmetic whose every operation is rounded by itself. The host never contracts (-ffp-contract=off); nvcc does unless
-// told otherwise, operation by operation, and these intrinsics tell it, so that detection gives the same bits on both
-// sides in every build, not in `strict` alone.
+// Defines arithmetic whose every operation is rounded by itself. The host never contracts (-ffp-contract=off); nvcc
+// does unless told otherwise, operation by operation. These intrinsics tell it, so that detection gives the same bits
+// on both sides in every build, not in `strict` alone.
 #pragma once
 
 #include <bit>
@@ -18,16 +18,16 @@ namespace ogc::fast {
 #define OGC_ROUNDED(on_device, on_host) return on_host
 #endif
 
-/// One IEEE operation each, rounded to nearest and never contracted with another one.
+/// Each computes one IEEE operation, rounded to nearest and never contracted with another one.
 OGC_HD inline double add(double a, double b) { OGC_ROUNDED(__dadd_rn(a, b), a + b); }
 OGC_HD inline double sub(double a, double b) { OGC_ROUNDED(__dsub_rn(a, b), a - b); }
 OGC_HD inline double mul(double a, double b) { OGC_ROUNDED(__dmul_rn(a, b), a * b); }
 OGC_HD inline double divide(double a, double b) { OGC_ROUNDED(__ddiv_rn(a, b), a / b); }
 OGC_HD inline double square_root(double a) { OGC_ROUNDED(__dsqrt_rn(a), std::sqrt(a)); }
-/// a·b + c with one rounding.
+/// Returns a·b + c with one rounding.
 OGC_HD inline double fused(double a, double b, double c) { OGC_ROUNDED(__fma_rn(a, b, c), std::fma(a, b, c)); }
 
-/// The same in single precision.
+/// The same operations in single precision.
 OGC_HD inline float add(float a, float b) { OGC_ROUNDED(__fadd_rn(a, b), a + b); }
 OGC_HD inline float sub(float a, float b) { OGC_ROUNDED(__fsub_rn(a, b), a - b); }
 OGC_HD inline float mul(float a, float b) { OGC_ROUNDED(__fmul_rn(a, b), a * b); }
@@ -35,14 +35,14 @@ OGC_HD inline float square_root(float a) { OGC_ROUNDED(__fsqrt_rn(a), std::sqrt(
 
 #undef OGC_ROUNDED
 
-/// Minimum, maximum and |a|. Where one of two arguments is NaN the answer is the first.
+/// Return minimum, maximum and |a|. If one of two arguments is NaN the result is the first.
 OGC_HD inline double smaller(double a, double b) { return b < a ? b : a; }
 OGC_HD inline double larger(double a, double b) { return a < b ? b : a; }
 OGC_HD inline double modulus(double a) { return a < 0 ? -a : a; }
 OGC_HD inline float smaller(float a, float b) { return b < a ? b : a; }
 OGC_HD inline float larger(float a, float b) { return a < b ? b : a; }
 
-/// The largest float that is not above a.
+/// Returns the largest float that is not above a.
 OGC_HD inline float round_down(double a) {
 #if defined(__CUDA_ARCH__)
   return __double2float_rd(a);
@@ -54,7 +54,7 @@ OGC_HD inline float round_down(double a) {
 #endif
 }
 
-/// The smallest float that is not below a.
+/// Returns the smallest float that is not below a.
 OGC_HD inline float round_up(double a) { return -round_down(-a); }
 
 }  // namespace ogc::fast

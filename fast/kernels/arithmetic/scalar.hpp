@@ -1,5 +1,5 @@
-// What a formula asks of its number type beyond + − × ÷, so that it can be written once for a float and for several at
-// a time (fast/cpu/pack.hpp).
+// Defines what a formula needs of its number type beyond + − × ÷, so that it can be written once for a float and for
+// several at a time (fast/cpu/pack.hpp).
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace ogc::fast {
 
-/// What a comparison of two numbers gives.
+/// Names the result type of a comparison of two numbers.
 template <class T>
 struct MaskOf {
   using type = bool;
@@ -17,16 +17,16 @@ struct MaskOf {
 template <class T>
 using Mask = typename MaskOf<T>::type;
 
-/// a where the condition holds, else b.
+/// Returns a if the condition holds, else b.
 OGC_HD inline float select(bool condition, float a, float b) { return condition ? a : b; }
-/// a where the condition holds, else b, component by component.
+/// Returns a if the condition holds, else b, component by component.
 template <class T, class M>
 OGC_HD Vector<T> select(const M& condition, const Vector<T>& a, const Vector<T>& b) {
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
 OGC_HD inline float absolute(float a) { return fabsf(a); }
 OGC_HD inline float root(float a) { return sqrtf(a); }
-/// Whether it is true for none, so that a formula may end early.
+/// Returns whether the condition is true for no number, so that a formula may end early.
 OGC_HD inline bool is_false(bool condition) { return !condition; }
 
 }  // namespace ogc::fast

@@ -1,5 +1,5 @@
-// Vectors over any number type: float for the sweep, the types of exact_sign.hpp for detection. `Vec` has the layout of
-// compare::Vec3f, so positions are copied, never converted.
+// Defines vectors over any number type: float for the sweep, the types of exact_sign.hpp for detection. `Vec` has the
+// layout of compare::Vec3f, so positions are copied, never converted.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
@@ -24,7 +24,7 @@ struct Vector {
 /// A point or vector in single precision [unit given where it is used].
 using Vec = Vector<float>;
 
-/// A position where it is gathered again and again: sixteen bytes are one read on a device, and one register on a CPU.
+/// A position that is gathered again and again: sixteen bytes are one read on a device, and one register on a CPU.
 struct alignas(16) PaddedVec {
   float x = 0, y = 0, z = 0, unused = 0;  ///< `unused` fills it up to 16 B
 
@@ -33,7 +33,7 @@ struct alignas(16) PaddedVec {
   OGC_HD operator Vec() const { return {x, y, z}; }
 };
 
-/// Such positions, read whole.
+/// Padded positions, each read whole.
 struct PaddedVecs {
   const PaddedVec* at = nullptr;  ///< by vertex [m]
 
@@ -63,7 +63,7 @@ template <class T>
 OGC_HD Vector<T> operator*(const Vector<T>& a, const T& s) {
   return {a.x * s, a.y * s, a.z * s};
 }
-/// Products are added from the left: where operations are rounded by themselves the order decides the bits.
+/// Returns a·b. Products are added from the left: if operations are rounded by themselves the order decides the bits.
 template <class T>
 OGC_HD T dot(const Vector<T>& a, const Vector<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

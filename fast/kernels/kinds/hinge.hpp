@@ -1,10 +1,10 @@
-// Hinges in the sum of a vertex.
+// Hinges of bending surfaces.
 #pragma once
 
+#include "fast/kernels/items.hpp"
+#include "fast/kernels/kinds/kind.hpp"
 #include "fast/kernels/models/bending_models.hpp"
-#include "fast/kernels/models/damping.hpp"
-#include "fast/kernels/sweep_view.hpp"
-#include "fast/kernels/team.hpp"
+#include "fast/kernels/sum_columns.hpp"
 
 namespace ogc::fast {
 
@@ -16,17 +16,91 @@ struct alignas(8) HingeIncidence {
   HingeStencil stencil{};    ///< c and θ₀
 };
 
-/// A hinge as the vertex at `own` sees it, with θᵗ where it is damped.
-OGC_HD inline HingeSeen read_hinge(const SweepView& view, const HingeIncidence& incidence,
-                                   const SurfaceMaterial& material, const Vec& own) {
-  HingeSeen hinge{.stencil = incidence.stencil,
-                  .isometric = {},
-                  .opposite = incidence.hinge < 0,
-                  .own = own,
-                  .p = {view.read(incidence.index[0]), view.read(incidence.index[1]), view.read(incidence.index[2])},
-                  .angle_start = 0};
-  if (material.bending_damping > 0) hinge.angle_start = view.angle_start[decoded(incidence.hinge)];
-  return hinge;
+/// Energy of hinge i, given the functor of its model.
+struct HingeEnergy {
+  const HingeRest& rest;
+  const HingeWeights* weights;  ///< by hinge; read where the model reads them
+  int i;
+  const Vec* to;  ///< from x0 to x1, o0 and o1 [m]
+
+  template <class Model>
+  OGC_HD double operator()(Model) const {
+    HingeWeights own;
+    if constexpr (Model::reads_weights) own = weights[i];
+    return Model::energy(rest, own, to);
+  }
+};
+
+/// The kind. Roles 0 and 1 are the ends of the edge, 2 and 3 the opposite vertices.
+struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
+  using Beside = IsometricStencil;
+  using RestBeside = HingeWeights;
+  using Start = float;  ///< θᵗ [rad]; 0 where the hinge has collapsed
+  /// Its part of SweepView.
+  struct View {
+    StreamView<HingeIncidence, IsometricStencil, float> hinges;
+  };
+  static constexpr unsigned asked = asks_hinges;
+  static constexpr int row_in_vertex = 1;
+  /// The other vertices as a vertex of each role lists them. Exchanging both pairs at once keeps the angle
+  /// (fast/kernels/models/discrete_hinge.hpp).
+  static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
+  /// fast/kernels/models/discrete_hinge.hpp: differences 9, normals 18, squares 25, their limits 4, length 1,
+  /// projections 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block
+  /// 17.
+  static constexpr double flop = 141;
+
+  template <class AnyView>
+  OGC_HD static auto& stream(AnyView& view) {
+    return view.hinges;
+  }
+  static int count(const HingeRest&) { return 4; }
+  static const int* vertices(const HingeRest& rest) { return rest.vertex; }
+  static HingeIncidence seen(const HingeRest& rest, int hinge, int role, const ColourOrder& encoded) {
+    HingeIncidence incidence;
+    for (int k = 0; k < 3; ++k) incidence.index[k] = encoded(rest.vertex[others[role][k]]);
+    incidence.hinge = role < 2 ? hinge : ~hinge;
+    incidence.stencil = {rest.stiffness, rest.angle};
+    return incidence;
+  }
+  /// Weights in the order of the incidence. That of x0 is made of the stored ones and rounded once.
+  static IsometricStencil beside(const HingeRest&, const HingeWeights& rest, int role) {
+    const float* w = rest.weight;
+    const float all[4] = {
+        static_cast<float>(-static_cast<double>(w[0]) - static_cast<double>(w[1]) - static_cast<double>(w[2])), w[0],
+        w[1], w[2]};
+    IsometricStencil stencil;
+    stencil.own = all[role];
+    for (int k = 0; k < 3; ++k) stencil.other[k] = all[others[role][k]];
+    return stencil;
+  }
+  OGC_HD static float begin(const HingeRest& rest, const Vec* start) {
+    const int* v = rest.vertex;
+    const Vec base = start[v[0]];
+    return hinge_shape(start[v[1]] - base, start[v[2]] - base, start[v[3]] - base).angle;
+  }
+  OGC_HD static void add_energy(const ElementsView<HingeKind>& all, int i, double* sum) {
+    const HingeRest& rest = all.rest[i];
+    const Vec *x = all.position, base = x[rest.vertex[0]];
+    const Vec to[3] = {x[rest.vertex[1]] - base, x[rest.vertex[2]] - base, x[rest.vertex[3]] - base};
+    sum[sum_bending] += with_bending(all.models[rest.body].bending, HingeEnergy{rest, all.beside, i, to});
+  }
+};
+
+/// Reads hinges. `angle_start`: θᵗ by hinge.
+template <class Items>
+OGC_HD HingeReadsOf<typename Items::Number> read_hinges(const SweepShared& view, const float* angle_start,
+                                                        const Items& items, const SurfaceMaterial& material) {
+  using Seen = HingeIncidence;
+  HingeReadsOf<typename Items::Number> reads{{items.each([](const Seen& i) { return i.stencil.stiffness; }),
+                                              items.each([](const Seen& i) { return i.stencil.rest_angle; })},
+                                             items.which([](const Seen& i) { return i.hinge < 0; }),
+                                             {items.position(view, [](const Seen& i) { return i.index[0]; }),
+                                              items.position(view, [](const Seen& i) { return i.index[1]; }),
+                                              items.position(view, [](const Seen& i) { return i.index[2]; })}};
+  if (material.bending_damping > 0)
+    reads.angle_start = items.each([=](const Seen& i) { return angle_start[decoded(i.hinge)]; });
+  return reads;
 }
 
 // Branches as in triangle.hpp.
@@ -44,7 +118,7 @@ struct AddHinge {
     Model::add(hinge, damping, sum);
   }
 };
-/// Adds what `add` of the model leaves out of the damping, likewise.
+/// Adds what `add` of the model leaves out of the damping, with the same arguments.
 struct AddHingeDamper {
   const HingeSeen& hinge;
   float damping;
@@ -56,32 +130,16 @@ struct AddHingeDamper {
   }
 };
 
-/// A hinge of whatever model. `isometric` is read where the body bends so.
-OGC_HD inline void add_any_hinge(const SweepView& view, const HingeIncidence& incidence,
-                                 const IsometricStencil& isometric, const SurfaceMaterial& material,
-                                 const SurfaceModels& models, const OwnVertex& own, ForceAndBlock& sum) {
-  HingeSeen hinge = read_hinge(view, incidence, material, own.position);
-  hinge.isometric = isometric;
-  const float damping = material.bending_damping;
-  const bool of_strain = damps_strain(models.damping);
-  ForceAndBlock whole;
-  with_bending(models.bending, AddHinge{hinge, of_strain ? damping : 0.0f, whole});
-  switch (models.damping) {
-    case compare::DampingForm::per_vertex: return add_damped_by_vertex(whole, damping, own.moved, sum);
-    case compare::DampingForm::strain:
-      sum += whole;
-      return with_bending(models.bending, AddHingeDamper{hinge, damping, sum});
-  }
-}
-
 /// Adds a discrete hinge with damping of strains.
 struct AddDiscreteHinge {
-  const SweepView& view;
+  const SweepShared& view;
+  const float* angle_start;  ///< θᵗ by hinge [rad]
   SurfaceMaterial material;
   Vec own;  ///< x of the vertex [m]
 
   OGC_HD void operator()(const HingeIncidence& hinge, ForceAndBlock& sum) const {
-    DiscreteHinge::add(read_hinge(view, hinge, material, own), material.bending_damping, sum);
+    DiscreteHinge::add(read_hinges(view, angle_start, OneItem<HingeIncidence>{hinge}, material),
+                       material.bending_damping, own, sum);
   }
 };
 /// A hinge with its weights, where it has any.
@@ -89,10 +147,10 @@ struct AnyHinge {
   HingeIncidence hinge;
   IsometricStencil isometric;  ///< 0 where no body bends isometrically
 };
-/// Hinge k of a vertex with its weights.
+/// Loads hinge k of a vertex with its weights.
 struct LoadAnyHinge {
   const HingeIncidence* first;        ///< of the vertex's row
-  const IsometricStencil* isometric;  ///< likewise; null where no body bends isometrically
+  const IsometricStencil* isometric;  ///< of the same row; null where no body bends isometrically
 
   OGC_HD AnyHinge operator()(int k) const {
     AnyHinge any{first[k], {}};
@@ -102,13 +160,25 @@ struct LoadAnyHinge {
 };
 /// Adds a hinge of any model with whatever damping.
 struct AddAnyHinge {
-  const SweepView& view;
+  const SweepShared& view;
+  const float* angle_start;  ///< θᵗ by hinge [rad]
   SurfaceMaterial material;
   SurfaceModels models;
   OwnVertex own;
 
   OGC_HD void operator()(const AnyHinge& any, ForceAndBlock& sum) const {
-    add_any_hinge(view, any.hinge, any.isometric, material, models, own, sum);
+    const auto reads = read_hinges(view, angle_start, OneItem<HingeIncidence>{any.hinge}, material);
+    const HingeSeen hinge{reads, own.position, any.isometric};
+    const float damping = material.bending_damping;
+    const bool of_strain = damps_strain(models.damping);
+    ForceAndBlock whole;
+    with_bending(models.bending, AddHinge{hinge, of_strain ? damping : 0.0f, whole});
+    switch (models.damping) {
+      case compare::DampingForm::per_vertex: return add_damped_by_vertex(whole, damping, own.moved, sum);
+      case compare::DampingForm::strain:
+        sum += whole;
+        return with_bending(models.bending, AddHingeDamper{hinge, damping, sum});
+    }
   }
 };
 
@@ -116,22 +186,44 @@ struct AddAnyHinge {
 struct UsualHinges {
   static constexpr unsigned gives = asks_hinges;
 
-  OGC_HD static Part<LoadFrom<HingeIncidence>, AddDiscreteHinge> part_of(const SweepView& view, int,
+  template <class View>
+  OGC_HD static Part<LoadFrom<HingeIncidence>, AddDiscreteHinge> part_of(const View& view, int slot,
                                                                          const SweepVertex& vertex,
                                                                          const OwnVertex& own) {
-    return {vertex.hinge_count, {view.hinges + vertex.hinge_begin}, {view, view.materials[vertex.body], own.position}};
+    const Row row = row_of<HingeKind, true>(view, slot, vertex);
+    return {row.count,
+            {view.hinges.incidences + row.begin},
+            {view, view.hinges.start, view.materials[vertex.body], own.position}};
   }
 };
 /// Hinges of any model with whatever damping.
-struct Hinges : UsualHinges {
+struct Hinges {
   static constexpr unsigned gives = asks_hinges | asks_any_model;
 
-  OGC_HD static Part<LoadAnyHinge, AddAnyHinge> part_of(const SweepView& view, int, const SweepVertex& vertex,
+  template <class View>
+  OGC_HD static Part<LoadAnyHinge, AddAnyHinge> part_of(const View& view, int slot, const SweepVertex& vertex,
                                                         const OwnVertex& own) {
-    const int begin = vertex.hinge_begin;
-    return {vertex.hinge_count,
-            {view.hinges + begin, view.isometric != nullptr ? view.isometric + begin : nullptr},
-            {view, view.materials[vertex.body], view.models[vertex.body], own}};
+    const Row row = row_of<HingeKind, true>(view, slot, vertex);
+    const IsometricStencil* beside = view.hinges.beside;
+    return {row.count,
+            {view.hinges.incidences + row.begin, beside != nullptr ? beside + row.begin : nullptr},
+            {view, view.hinges.start, view.materials[vertex.body], view.models[vertex.body], own}};
+  }
+
+  /// Whether packs can add the hinges of a vertex.
+  template <class View>
+  static bool is_packed(const View& view, const SweepVertex& vertex) {
+    return has_default_bending(view.models[vertex.body]);
+  }
+  /// Adds them in packs.
+  template <class View, class Lanes>
+  static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
+                        Lanes& lanes) {
+    const Row row = row_of<HingeKind, true>(view, slot, vertex);
+    const SurfaceMaterial material = view.materials[vertex.body];
+    lanes.add_part(view.hinges.incidences + row.begin, row.count, [&](const auto& items, auto& sum) {
+      DiscreteHinge::add(read_hinges(view, view.hinges.start, items, material), material.bending_damping, own, sum);
+    });
   }
 };
 

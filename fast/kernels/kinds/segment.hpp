@@ -1,12 +1,45 @@
-// Segments of rods in the sum of a vertex.
+// Segments of rods.
 #pragma once
 
-#include "fast/kernels/models/damping.hpp"
+#include "fast/kernels/kinds/kind.hpp"
 #include "fast/kernels/rods/segments.hpp"
-#include "fast/kernels/sweep_view.hpp"
-#include "fast/kernels/team.hpp"
 
 namespace ogc::fast {
+
+/// What the sweep reads and writes of rods: the stream of segments by vertex, and the quaternions that segments have
+/// beside the vertices.
+struct RodStream : StreamView<RodIncidence, NoData, NoData, float> {  // by body: k_d/h [1]
+  const SegmentSlot* slots = nullptr;                                 ///< by slot of the segments
+  const Vec* direction = nullptr;           ///< by segment: c, as rod_rest_direction; null where none damps strains
+  const Quat* orientation_start = nullptr;  ///< by segment: qᵗ
+  Quat* orientation = nullptr;              ///< by segment: q
+  bool is_damped_by_vertex = false;         ///< DampingForm::per_vertex
+  bool as_published = false;                ///< μ = σ + ‖b‖ in place of the root
+};
+
+/// The kind. A segment's energy is summed up beside the extremes of rods (fast/kernels/sums/rod_sums.hpp).
+struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
+  using ByBody = float;
+  /// Its part of SweepView.
+  struct View {
+    RodStream rods;
+  };
+  static constexpr unsigned asked = asks_segments;
+  static constexpr bool is_curve = true;
+  /// fast/kernels/models/rod.hpp, at one end: difference 3, over its length 5, turned director 30, strain 3, force 6,
+  /// block 4.
+  static constexpr double flop = 51;
+
+  template <class AnyView>
+  OGC_HD static auto& stream(AnyView& view) {
+    return view.rods;
+  }
+  static int count(const SegmentRest&) { return 2; }
+  static const int* vertices(const SegmentRest& rest) { return rest.end; }
+  static RodIncidence seen(const SegmentRest& rest, int segment, int end, const ColourOrder& encoded) {
+    return {encoded(rest.end[1 - end]), end == 0 ? segment : ~segment, rest.length, rest.stretch};
+  }
+};
 
 /// c of a segment: e₃ where no strain is damped.
 OGC_HD inline Vec segment_direction(const RodStream& rods, int segment) {
@@ -15,7 +48,8 @@ OGC_HD inline Vec segment_direction(const RodStream& rods, int segment) {
 
 /// Adds a segment of a vertex.
 struct AddRod {
-  const SweepView& view;
+  const SweepShared& view;
+  const RodStream& rods;
   OwnVertex own;
   float damping;  ///< k_d/h of the vertex's body [1]
 
@@ -23,33 +57,29 @@ struct AddRod {
     const int segment = decoded(seen.segment), end = seen.segment < 0 ? 1 : 0;
     const Vec away = view.read(seen.other) - own.position, apart = end == 0 ? away : -1.0f * away;
     const SegmentRest rest{{}, seen.length, seen.stretch, 0.0f};
-    const Quat q = view.rods.orientation[segment];
-    const Vec direction = segment_direction(view.rods, segment);
-    if (!view.rods.is_damped_by_vertex) return add_rod(rest, damping, end, apart, q, direction, sum);
+    const Quat q = rods.orientation[segment];
+    const Vec direction = segment_direction(rods, segment);
+    if (!rods.is_damped_by_vertex) return add_rod(rest, damping, end, apart, q, direction, sum);
     ForceAndBlock elastic;
     add_rod(rest, 0.0f, end, apart, q, direction, elastic);
     add_damped_by_vertex(elastic, damping, own.moved, sum);
   }
 };
 
-/// Segments with whatever damping, of a scene that has some.
-struct UsualSegments {
+/// Segments with whatever damping. `is_there`: the scene surely has some.
+template <bool is_there>
+struct AnySegments {
   static constexpr unsigned gives = asks_segments | asks_any_model;
 
-  OGC_HD static Part<LoadFrom<RodIncidence>, AddRod> part_of(const SweepView& view, int slot, const SweepVertex& vertex,
+  template <class View>
+  OGC_HD static Part<LoadFrom<RodIncidence>, AddRod> part_of(const View& view, int slot, const SweepVertex& vertex,
                                                              const OwnVertex& own) {
-    const RodRow row = view.rods.rows[slot];
-    const float damping = view.rods.damping != nullptr ? view.rods.damping[vertex.body] : 0.0f;
-    return {row.count, {view.rods.incidences + row.begin}, {view, own, damping}};
+    const Row row = row_of<SegmentKind, is_there>(view, slot, vertex);
+    const float damping = view.rods.by_body != nullptr ? view.rods.by_body[vertex.body] : 0.0f;
+    return {row.count, {view.rods.incidences + row.begin}, {view, view.rods, own, damping}};
   }
 };
-/// The same of a scene that may have none.
-struct Segments : UsualSegments {
-  OGC_HD static Part<LoadFrom<RodIncidence>, AddRod> part_of(const SweepView& view, int slot, const SweepVertex& vertex,
-                                                             const OwnVertex& own) {
-    if (view.rods.rows != nullptr) return UsualSegments::part_of(view, slot, vertex, own);
-    return {0, {view.rods.incidences}, {view, own, 0.0f}};
-  }
-};
+using UsualSegments = AnySegments<true>;
+using Segments = AnySegments<false>;
 
 }  // namespace ogc::fast

@@ -1,10 +1,10 @@
-// Tetrahedra in the sum of a vertex.
+// Tetrahedra of solids.
 #pragma once
 
-#include "fast/kernels/models/damping.hpp"
+#include "fast/kernels/items.hpp"
+#include "fast/kernels/kinds/kind.hpp"
 #include "fast/kernels/models/tetrahedron.hpp"
-#include "fast/kernels/sweep_view.hpp"
-#include "fast/kernels/team.hpp"
+#include "fast/kernels/sum_columns.hpp"
 
 namespace ogc::fast {
 
@@ -16,68 +16,151 @@ struct alignas(16) TetrahedronIncidence {
   TetrahedronStencil stencil{};  ///< w and i
 };
 
-/// The tetrahedra of a vertex in their stream.
-struct TetrahedronRow {
-  int begin = 0, count = 0;  ///< first place in SweepView::tetrahedra, and how many
+/// The kind.
+struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
+  using Beside = TetrahedronGradients;
+  using Start = SolidStrain;  ///< Gᵗ
+  using ByBody = SolidMaterial;
+  /// Its part of SweepView.
+  struct View {
+    StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial> tetrahedra;
+  };
+  static constexpr unsigned asked = asks_tetrahedra;
+  static constexpr bool reports_state = true;  ///< how many are inverted
+  /// The other corners as each corner lists them: those of the opposite face, in the order of a positive volume.
+  static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  /// The number of a pair of corners among the weights.
+  static constexpr int pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
+  /// fast/kernels/models/tetrahedron.hpp: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces
+  /// 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
+  static constexpr double flop = 85;
+  /// F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks 2 + 15 +
+  /// 45.
+  static constexpr double damping_flop = 238;
+
+  template <class AnyView>
+  OGC_HD static auto& stream(AnyView& view) {
+    return view.tetrahedra;
+  }
+  static int count(const TetrahedronRest&) { return 4; }
+  static const int* vertices(const TetrahedronRest& rest) { return rest.corner; }
+  static TetrahedronIncidence seen(const TetrahedronRest& rest, int tetrahedron, int corner,
+                                   const ColourOrder& encoded) {
+    TetrahedronIncidence incidence;
+    for (int k = 0; k < 3; ++k) {
+      const int other = others[corner][k];
+      incidence.index[k] = encoded(rest.corner[other]);
+      incidence.stencil.weight[k] = rest.weight[pair[corner][other]];
+    }
+    incidence.stencil.inverse = rest.inverse;
+    incidence.tetrahedron = tetrahedron;
+    return incidence;
+  }
+  /// ∇N₀ is made of the stored gradients and rounded once.
+  static TetrahedronGradients beside(const TetrahedronRest& rest, const NoData&, int corner) {
+    float gradient[4][3];
+    for (int axis = 0; axis < 3; ++axis) {
+      gradient[0][axis] = static_cast<float>(-static_cast<double>(rest.gradient[0][axis]) - rest.gradient[1][axis] -
+                                             rest.gradient[2][axis]);
+      for (int k = 1; k < 4; ++k) gradient[k][axis] = rest.gradient[k - 1][axis];
+    }
+    TetrahedronGradients seen;
+    for (int k = 0; k < 3; ++k) {
+      const float* of_other = gradient[others[corner][k]];
+      seen.other[k] = {of_other[0], of_other[1], of_other[2]};
+    }
+    seen.volume = rest.volume;
+    return seen;
+  }
+  OGC_HD static SolidStrain begin(const TetrahedronRest& rest, const Vec* start) {
+    TetrahedronGradients gradients;
+    for (int k = 0; k < 3; ++k) gradients.other[k] = {rest.gradient[k][0], rest.gradient[k][1], rest.gradient[k][2]};
+    const Vec own = start[rest.corner[0]];
+    return solid_strain(solid_deformation(gradients, start[rest.corner[1]] - own, start[rest.corner[2]] - own,
+                                          start[rest.corner[3]] - own));
+  }
+  /// Also counts whether it is inverted.
+  OGC_HD static void add_energy(const ElementsView<TetrahedronKind>& all, int t, double* sum) {
+    const TetrahedronRest& rest = all.rest[t];
+    const Vec *x = all.position, own = x[rest.corner[0]], a = x[rest.corner[1]] - own, b = x[rest.corner[2]] - own,
+              c = x[rest.corner[3]] - own;
+    sum[sum_solid] += solid_energy(rest, all.by_body[rest.body], a, b, c);
+    if (!(volume_ratio(rest, a, b, c) > 0)) sum[sum_inverted] += 1;
+  }
 };
+
+/// Tetrahedra as one of their corners sees them.
+template <class N>
+struct TetrahedronReadsOf {
+  TetrahedronStencilOf<N> stencil;
+  Vector<N> a, b, c;  ///< from the own corner to the others [m]
+};
+
+/// Reads them.
+template <class Items>
+OGC_HD TetrahedronReadsOf<typename Items::Number> read_tetrahedra(const SweepShared& view, const Items& items,
+                                                                  const Vector<typename Items::Number>& own) {
+  using Seen = TetrahedronIncidence;
+  return {{{items.each([](const Seen& i) { return i.stencil.weight[0]; }),
+            items.each([](const Seen& i) { return i.stencil.weight[1]; }),
+            items.each([](const Seen& i) { return i.stencil.weight[2]; })},
+           items.each([](const Seen& i) { return i.stencil.inverse; })},
+          items.position(view, [](const Seen& i) { return i.index[0]; }) - own,
+          items.position(view, [](const Seen& i) { return i.index[1]; }) - own,
+          items.position(view, [](const Seen& i) { return i.index[2]; }) - own};
+}
+/// Adds them without damping.
+template <class N>
+OGC_HD void add_tetrahedra(const TetrahedronReadsOf<N>& reads, const SolidMaterial& material, ForceAndBlockOf<N>& sum) {
+  add_tetrahedron(reads.stencil, material, reads.a, reads.b, reads.c, sum);
+}
 
 /// What a tetrahedron of a vertex reads beside its incidence: place in the stream, for the damping.
 struct LoadedTetrahedron {
   TetrahedronIncidence incidence;
-  int place;  ///< where view.gradients has what the damping needs
+  int place;  ///< where view.tetrahedra.beside has what the damping needs
 };
-
-/// The elastic part alone, or with damping of strain.
-OGC_HD inline void add_tetrahedron_incidence(const SweepView& view, const LoadedTetrahedron& loaded,
-                                             const SolidMaterial& material, const Vec& own, ForceAndBlock& sum) {
-  const TetrahedronIncidence& seen = loaded.incidence;
-  const Vec a = view.read(seen.index[0]) - own, b = view.read(seen.index[1]) - own, c = view.read(seen.index[2]) - own;
-  add_tetrahedron(seen.stencil, material, a, b, c, sum);
-  if (material.damping > 0)
-    add_solid_damping(view.gradients[loaded.place], material, a, b, c, view.solid_start[seen.tetrahedron], sum);
-}
-
-/// A tetrahedron with whatever damping.
-OGC_HD inline void add_any_tetrahedron(const SweepView& view, const LoadedTetrahedron& loaded, SolidMaterial material,
-                                       const SurfaceModels& models, const OwnVertex& own, ForceAndBlock& sum) {
-  switch (models.damping) {
-    case compare::DampingForm::strain: return add_tetrahedron_incidence(view, loaded, material, own.position, sum);
-    case compare::DampingForm::per_vertex: {
-      const float damping = material.damping;
-      material.damping = 0;
-      ForceAndBlock elastic;
-      add_tetrahedron_incidence(view, loaded, material, own.position, elastic);
-      return add_damped_by_vertex(elastic, damping, own.moved, sum);
-    }
-  }
-}
-
-/// Tetrahedron k of a vertex.
+/// Loads tetrahedron k of a vertex.
 struct LoadTetrahedron {
   const TetrahedronIncidence* first;  ///< of the vertex's row
   int begin;                          ///< its place in the stream
 
   OGC_HD LoadedTetrahedron operator()(int k) const { return {first[k], begin + k}; }
 };
+
 /// Adds a tetrahedron with damping of strains.
 struct AddTetrahedron {
-  const SweepView& view;
+  const SweepShared& view;
+  const TetrahedronGradients* gradients;  ///< by incidence; read where the body damps
+  const SolidStrain* strain_start;        ///< Gᵗ by tetrahedron
   SolidMaterial material;
   Vec own;  ///< x of the vertex [m]
 
-  OGC_HD void operator()(const LoadedTetrahedron& tetrahedron, ForceAndBlock& sum) const {
-    add_tetrahedron_incidence(view, tetrahedron, material, own, sum);
+  OGC_HD void operator()(const LoadedTetrahedron& loaded, ForceAndBlock& sum) const {
+    const auto reads = read_tetrahedra(view, OneItem<TetrahedronIncidence>{loaded.incidence}, own);
+    add_tetrahedra(reads, material, sum);
+    if (material.damping > 0)
+      add_solid_damping(gradients[loaded.place], material, reads.a, reads.b, reads.c,
+                        strain_start[loaded.incidence.tetrahedron], sum);
   }
 };
 /// Adds a tetrahedron with whatever damping.
 struct AddAnyTetrahedron {
-  const SweepView& view;
-  SolidMaterial material;
-  SurfaceModels models;
-  OwnVertex own;
+  AddTetrahedron add;
+  compare::DampingForm form;
+  Vec moved;  ///< since the start of the step [m]
 
-  OGC_HD void operator()(const LoadedTetrahedron& tetrahedron, ForceAndBlock& sum) const {
-    add_any_tetrahedron(view, tetrahedron, material, models, own, sum);
+  OGC_HD void operator()(const LoadedTetrahedron& loaded, ForceAndBlock& sum) const {
+    switch (form) {
+      case compare::DampingForm::strain: return add(loaded, sum);
+      case compare::DampingForm::per_vertex: {
+        AddTetrahedron undamped = add;
+        undamped.material.damping = 0;
+        ForceAndBlock elastic;
+        undamped(loaded, elastic);
+        return add_damped_by_vertex(elastic, add.material.damping, moved, sum);
+      }
+    }
   }
 };
 
@@ -85,23 +168,48 @@ struct AddAnyTetrahedron {
 struct UsualTetrahedra {
   static constexpr unsigned gives = asks_tetrahedra;
 
-  OGC_HD static Part<LoadTetrahedron, AddTetrahedron> part_of(const SweepView& view, int slot,
-                                                              const SweepVertex& vertex, const OwnVertex& own) {
-    const TetrahedronRow row = view.tetrahedron_rows[slot];
-    return {row.count, {view.tetrahedra + row.begin, row.begin}, {view, view.solids[vertex.body], own.position}};
+  template <class View>
+  OGC_HD static Part<LoadTetrahedron, AddTetrahedron> part_of(const View& view, int slot, const SweepVertex& vertex,
+                                                              const OwnVertex& own) {
+    const auto& stream = view.tetrahedra;
+    const Row row = row_of<TetrahedronKind, true>(view, slot, vertex);
+    return {row.count,
+            {stream.incidences + row.begin, row.begin},
+            {view, stream.beside, stream.start, stream.by_body[vertex.body], own.position}};
   }
 };
 /// Tetrahedra with whatever damping, of a scene that may have none.
-struct Tetrahedra : UsualTetrahedra {
+struct Tetrahedra {
   static constexpr unsigned gives = asks_tetrahedra | asks_any_model;
 
-  OGC_HD static Part<LoadTetrahedron, AddAnyTetrahedron> part_of(const SweepView& view, int slot,
-                                                                 const SweepVertex& vertex, const OwnVertex& own) {
-    TetrahedronRow row;
-    if (view.tetrahedron_rows != nullptr) row = view.tetrahedron_rows[slot];
+  template <class View>
+  OGC_HD static Part<LoadTetrahedron, AddAnyTetrahedron> part_of(const View& view, int slot, const SweepVertex& vertex,
+                                                                 const OwnVertex& own) {
+    const auto& stream = view.tetrahedra;
+    const Row row = row_of<TetrahedronKind, false>(view, slot, vertex);
     return {row.count,
-            {view.tetrahedra + row.begin, row.begin},
-            {view, view.solids[vertex.body], view.models[vertex.body], own}};
+            {stream.incidences + row.begin, row.begin},
+            {{view, stream.beside, stream.start, stream.by_body[vertex.body], own.position},
+             view.models[vertex.body].damping,
+             own.moved}};
+  }
+
+  /// Whether packs can add the tetrahedra of a vertex.
+  template <class View>
+  static bool is_packed(const View& view, const SweepVertex& vertex) {
+    return view.tetrahedra.rows == nullptr ||
+           (!(view.tetrahedra.by_body[vertex.body].damping > 0) && damps_strain(view.models[vertex.body].damping));
+  }
+  /// Adds them in packs.
+  template <class View, class Lanes>
+  static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
+                        Lanes& lanes) {
+    const Row row = row_of<TetrahedronKind, false>(view, slot, vertex);
+    if (row.count == 0) return;
+    const SolidMaterial material = view.tetrahedra.by_body[vertex.body];
+    lanes.add_part(view.tetrahedra.incidences + row.begin, row.count, [&](const auto& items, auto& sum) {
+      add_tetrahedra(read_tetrahedra(view, items, own), material, sum);
+    });
   }
 };
 

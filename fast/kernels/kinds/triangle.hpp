@@ -1,10 +1,10 @@
-// Triangles of membranes in the sum of a vertex.
+// Triangles of membranes.
 #pragma once
 
-#include "fast/kernels/models/damping.hpp"
+#include "fast/kernels/items.hpp"
+#include "fast/kernels/kinds/kind.hpp"
 #include "fast/kernels/models/membrane_models.hpp"
-#include "fast/kernels/sweep_view.hpp"
-#include "fast/kernels/team.hpp"
+#include "fast/kernels/sum_columns.hpp"
 
 namespace ogc::fast {
 
@@ -16,27 +16,90 @@ struct alignas(16) MembraneIncidence {
   MembraneStencil stencil{};  ///< gradients and area
 };
 
-/// What a triangle reads beside its incidence: the other corners, and Gᵗ where it is damped. It reads all at once: on a
-/// device a vertex waits for reads, not for arithmetic.
-struct MembraneReads {
-  Vec b, c;                   ///< positions [m]
-  Symmetric2 strain_start{};  ///< Gᵗ; 0 without damping
+/// Energy of a triangle, given the functor of its model.
+struct MembraneEnergy {
+  const TriangleRest& rest;
+  const SurfaceMaterial& material;
+  Vec to_b, to_c;  ///< edges from corner 0 to corners 1 and 2 [m]
+
+  template <class Model>
+  OGC_HD double operator()(Model) const {
+    return Model::energy(rest, material, to_b, to_c);
+  }
 };
 
-/// Reads it.
-OGC_HD inline MembraneReads read_membrane(const SweepView& view, const MembraneIncidence& incidence,
-                                          const SurfaceMaterial& material) {
-  MembraneReads reads{view.read(incidence.index[0]), view.read(incidence.index[1])};
-  if (material.membrane_damping > 0) reads.strain_start = view.strain_start[incidence.triangle];
+/// The kind.
+struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
+  using Start = Symmetric2;  ///< Gᵗ
+  /// Its part of SweepView.
+  struct View {
+    StreamView<MembraneIncidence, NoData, Symmetric2> triangles;
+  };
+  static constexpr unsigned asked = asks_triangles;
+  static constexpr int row_in_vertex = 0;
+  /// fast/kernels/models/st_venant_kirchhoff.hpp: differences 6, F 18, ∇N_a 2, G 20, S 10, its rate 3 + 10, pulls 14,
+  /// force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
+  static constexpr double flop = 174;
+
+  template <class AnyView>
+  OGC_HD static auto& stream(AnyView& view) {
+    return view.triangles;
+  }
+  static int count(const TriangleRest&) { return 3; }
+  static const int* vertices(const TriangleRest& rest) { return rest.corner; }
+  static MembraneIncidence seen(const TriangleRest& rest, int triangle, int corner, const ColourOrder& encoded) {
+    const int b = (corner + 1) % 3, c = (corner + 2) % 3;
+    return {{encoded(rest.corner[b]), encoded(rest.corner[c])},
+            triangle,
+            {{rest.gradient[b][0], rest.gradient[b][1]}, {rest.gradient[c][0], rest.gradient[c][1]}, rest.area}};
+  }
+  OGC_HD static Symmetric2 begin(const TriangleRest& rest, const Vec* start) {
+    const Vec a = start[rest.corner[0]];
+    return green_strain(
+        deformation_gradient(start[rest.corner[1]] - a, start[rest.corner[2]] - a, rest.gradient[1], rest.gradient[2]));
+  }
+  OGC_HD static void add_energy(const ElementsView<TriangleKind>& all, int t, double* sum) {
+    const TriangleRest& rest = all.rest[t];
+    const Vec *x = all.position, a = x[rest.corner[0]], to_b = x[rest.corner[1]] - a, to_c = x[rest.corner[2]] - a;
+    sum[sum_membrane] += with_membrane(all.models[rest.body].membrane,
+                                       MembraneEnergy{rest, all.materials[rest.body], to_b, to_c});
+  }
+};
+
+/// What triangles read: the other corners, and Gᵗ where they are damped. They read all at once: on a device a vertex
+/// waits for reads, not for arithmetic.
+template <class N>
+struct MembraneReadsOf {
+  MembraneStencilOf<N> stencil;
+  Vector<N> b, c;                  ///< positions [m]
+  Symmetric2Of<N> strain_start{};  ///< Gᵗ; 0 without damping
+};
+
+/// Reads it. `strain_start`: Gᵗ by triangle.
+template <class Items>
+OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared& view, const Symmetric2* strain_start,
+                                                              const Items& items, const SurfaceMaterial& material) {
+  using Seen = MembraneIncidence;
+  MembraneReadsOf<typename Items::Number> reads{{{items.each([](const Seen& i) { return i.stencil.gradient_b[0]; }),
+                                                  items.each([](const Seen& i) { return i.stencil.gradient_b[1]; })},
+                                                 {items.each([](const Seen& i) { return i.stencil.gradient_c[0]; }),
+                                                  items.each([](const Seen& i) { return i.stencil.gradient_c[1]; })},
+                                                 items.each([](const Seen& i) { return i.stencil.area; })},
+                                                items.position(view, [](const Seen& i) { return i.index[0]; }),
+                                                items.position(view, [](const Seen& i) { return i.index[1]; })};
+  if (material.membrane_damping > 0)
+    reads.strain_start = {items.each([=](const Seen& i) { return strain_start[i.triangle].xx; }),
+                          items.each([=](const Seen& i) { return strain_start[i.triangle].xy; }),
+                          items.each([=](const Seen& i) { return strain_start[i.triangle].yy; })};
   return reads;
 }
 
-/// Adds a triangle whose strain is damped.
-OGC_HD inline void add_membrane_incidence(const MembraneIncidence& incidence, const MembraneReads& reads,
-                                          const SurfaceMaterial& material, compare::MembraneModel model, const Vec& own,
-                                          ForceAndBlock& sum) {
-  const Vec to_b = reads.b - own, to_c = reads.c - own;
-  with_membrane(model, AddDampedMembrane<float>{incidence.stencil, material, to_b, to_c, reads.strain_start, sum});
+/// Adds triangles of any model whose strain is damped.
+template <class N>
+OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial& material,
+                          compare::MembraneModel model, const Vector<N>& own, ForceAndBlockOf<N>& sum) {
+  const Vector<N> to_b = reads.b - own, to_c = reads.c - own;
+  with_membrane(model, AddDampedMembrane<N>{reads.stencil, material, to_b, to_c, reads.strain_start, sum});
 }
 
 // Models are chosen inside of the form of damping, and what a model shares with others stands outside of its choice:
@@ -56,44 +119,38 @@ struct AddElasticMembrane {
   }
 };
 
-/// Adds a triangle of any model with any damping.
-OGC_HD inline void add_any_membrane(const SweepView& view, const MembraneIncidence& incidence,
-                                    const SurfaceMaterial& material, const SurfaceModels& models, const OwnVertex& own,
-                                    ForceAndBlock& sum) {
-  const MembraneReads reads = read_membrane(view, incidence, material);
-  const Vec to_b = reads.b - own.position, to_c = reads.c - own.position;
-  switch (models.damping) {
-    case compare::DampingForm::per_vertex: {
-      ForceAndBlock elastic;
-      with_membrane(models.membrane, AddElasticMembrane{incidence.stencil, material, to_b, to_c, elastic});
-      return add_damped_by_vertex(elastic, material.membrane_damping, own.moved, sum);
-    }
-    case compare::DampingForm::strain:
-      return with_membrane(models.membrane,
-                           AddDampedMembrane<float>{incidence.stencil, material, to_b, to_c, reads.strain_start, sum});
-  }
-}
-
 /// Adds a triangle with damping of strains.
 struct AddTriangle {
-  const SweepView& view;
+  const SweepShared& view;
+  const Symmetric2* strain_start;  ///< Gᵗ by triangle
   SurfaceMaterial material;
   compare::MembraneModel model;
   Vec own;  ///< x of the vertex [m]
 
   OGC_HD void operator()(const MembraneIncidence& triangle, ForceAndBlock& sum) const {
-    add_membrane_incidence(triangle, read_membrane(view, triangle, material), material, model, own, sum);
+    add_triangles(read_triangles(view, strain_start, OneItem<MembraneIncidence>{triangle}, material), material, model,
+                  own, sum);
   }
 };
-/// Adds a triangle with whatever damping.
+/// Adds a triangle of any model with any damping.
 struct AddAnyTriangle {
-  const SweepView& view;
+  const SweepShared& view;
+  const Symmetric2* strain_start;  ///< Gᵗ by triangle
   SurfaceMaterial material;
   SurfaceModels models;
   OwnVertex own;
 
   OGC_HD void operator()(const MembraneIncidence& triangle, ForceAndBlock& sum) const {
-    add_any_membrane(view, triangle, material, models, own, sum);
+    const auto reads = read_triangles(view, strain_start, OneItem<MembraneIncidence>{triangle}, material);
+    switch (models.damping) {
+      case compare::DampingForm::per_vertex: {
+        ForceAndBlock elastic;
+        const Vec to_b = reads.b - own.position, to_c = reads.c - own.position;
+        with_membrane(models.membrane, AddElasticMembrane{reads.stencil, material, to_b, to_c, elastic});
+        return add_damped_by_vertex(elastic, material.membrane_damping, own.moved, sum);
+      }
+      case compare::DampingForm::strain: return add_triangles(reads, material, models.membrane, own.position, sum);
+    }
   }
 };
 
@@ -101,24 +158,45 @@ struct AddAnyTriangle {
 struct UsualTriangles {
   static constexpr unsigned gives = asks_triangles;
 
-  OGC_HD static Part<LoadFrom<MembraneIncidence>, AddTriangle> part_of(const SweepView& view, int,
+  template <class View>
+  OGC_HD static Part<LoadFrom<MembraneIncidence>, AddTriangle> part_of(const View& view, int slot,
                                                                        const SweepVertex& vertex,
                                                                        const OwnVertex& own) {
-    return {vertex.membrane_count,
-            {view.membrane + vertex.membrane_begin},
-            {view, view.materials[vertex.body], view.models[vertex.body].membrane, own.position}};
+    const Row row = row_of<TriangleKind, true>(view, slot, vertex);
+    return {row.count,
+            {view.triangles.incidences + row.begin},
+            {view, view.triangles.start, view.materials[vertex.body], view.models[vertex.body].membrane, own.position}};
   }
 };
 /// Triangles of any membrane with whatever damping.
-struct Triangles : UsualTriangles {
+struct Triangles {
   static constexpr unsigned gives = asks_triangles | asks_any_model;
 
-  OGC_HD static Part<LoadFrom<MembraneIncidence>, AddAnyTriangle> part_of(const SweepView& view, int,
+  template <class View>
+  OGC_HD static Part<LoadFrom<MembraneIncidence>, AddAnyTriangle> part_of(const View& view, int slot,
                                                                           const SweepVertex& vertex,
                                                                           const OwnVertex& own) {
-    return {vertex.membrane_count,
-            {view.membrane + vertex.membrane_begin},
-            {view, view.materials[vertex.body], view.models[vertex.body], own}};
+    const Row row = row_of<TriangleKind, true>(view, slot, vertex);
+    return {row.count,
+            {view.triangles.incidences + row.begin},
+            {view, view.triangles.start, view.materials[vertex.body], view.models[vertex.body], own}};
+  }
+
+  /// Whether packs can add the triangles of a vertex.
+  template <class View>
+  static bool is_packed(const View& view, const SweepVertex& vertex) {
+    return has_default_membrane(view.models[vertex.body]);
+  }
+  /// Adds them in packs.
+  template <class View, class Lanes>
+  static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
+                        Lanes& lanes) {
+    const Row row = row_of<TriangleKind, true>(view, slot, vertex);
+    const SurfaceMaterial material = view.materials[vertex.body];
+    const compare::MembraneModel model = view.models[vertex.body].membrane;
+    lanes.add_part(view.triangles.incidences + row.begin, row.count, [&](const auto& items, auto& sum) {
+      add_triangles(read_triangles(view, view.triangles.start, items, material), material, model, own, sum);
+    });
   }
 };
 

@@ -1,5 +1,5 @@
-// The activations (method.md §4.2), one functor each: two stages (Eq. 18, 20; Eq. 19 corrected to k'_c = τ k_c (r − τ),
-// method.md §1.1, with τ = r/2: k'_c = k_c r²/4) and the variants of the ablation.
+// Defines the activations (method.md §4.2), one functor each: two stages (Eq. 18, 20; Eq. 19 corrected to k'_c = τ k_c
+// (r − τ), method.md §1.1, with τ = r/2: k'_c = k_c r²/4) and the variants of the ablation.
 #pragma once
 
 #include <cmath>
@@ -7,41 +7,44 @@
 #include "compare/problem/settings.hpp"
 #include "fast/kernels/arithmetic/logarithm.hpp"
 #include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/scalar.hpp"
 
 namespace ogc::fast {
 
 using compare::ContactActivation;
 
-/// g' [N] and g'' [N/m] at a distance: what a position needs, and no library function in it.
+/// Holds g' [N] and g'' [N/m] at a distance, which a position needs; no library function is in them.
 template <class T>
 struct ActivationSlopeOf {
   T slope{}, curvature{};
 };
 using ActivationSlope = ActivationSlopeOf<float>;
 
-/// An activation by its formulas within the radius: nothing acts for d ≥ r. Distances d > 0 and radii r [m], stiffness
-/// k_c [N/m].
+/// Extends the formulas within the radius: nothing acts for d ≥ r. Distances d > 0 and radii r [m], stiffness k_c
+/// [N/m].
 template <class Formulas>
 struct ActivationOf {
-  /// g' and g''.
+  /// Returns g' and g''.
   OGC_HD static ActivationSlope slope(float d, float r, float k) {
     return d < r ? Formulas::slope_within(d, r, k) : ActivationSlope{};
   }
-  /// g [J].
+  /// Returns g [J].
   OGC_HD static float energy(float d, float r, float k) { return d < r ? Formulas::energy_within(d, r, k) : 0.0F; }
 };
 
-/// Quadratic from τ = r/2 on (at d = τ, too), logarithmic below with the stiffness k'_c of `Stage`. b of Eq. 20 is
+/// Is quadratic from τ = r/2 on (at d = τ, too), logarithmic below with the stiffness k'_c of `Stage`. b of Eq. 20 is
 /// folded in: g = k'_c (log τ − log d) + k_c/2 (r − τ)².
 template <class Stage>
 struct TwoStages : ActivationOf<TwoStages<Stage>> {
   /// g' and g'' for 0 < d ≤ r.
-  OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
-    if (d >= 0.5F * r) return {-k * (r - d), k};
-    const float slope = Stage::logarithmic_stiffness(r, k) / d;
-    return {-slope, slope / d};
+  template <class T>
+  OGC_HD static ActivationSlopeOf<T> slope_within(const T& d, float r, const T& k) {
+    const Mask<T> is_logarithmic = d < T(0.5F * r);
+    if (is_false(is_logarithmic)) return {-k * (r - d), k};
+    const T slope = Stage::logarithmic_stiffness(r, k) / d;
+    return {select(is_logarithmic, -slope, -k * (r - d)), select(is_logarithmic, slope / d, k)};
   }
-  /// g for 0 < d < r.
+  /// Returns g for 0 < d < r.
   OGC_HD static float energy_within(float d, float r, float k) {
     if (d >= 0.5F * r) {
       const float depth = r - d;
@@ -51,27 +54,27 @@ struct TwoStages : ActivationOf<TwoStages<Stage>> {
   }
 };
 
-/// ContactActivation::ogc, the default.
+/// Is ContactActivation::ogc, the default.
 struct OgcActivation : TwoStages<OgcActivation> {
-  /// k'_c [J].
+  /// Returns k'_c [J].
   template <class T>
   OGC_HD static T logarithmic_stiffness(float r, const T& k) {
     return 0.25F * k * r * r;
   }
 };
 
-/// ContactActivation::ogc_as_printed: k'_c of Eq. 19 as it is printed, k_c r³/8.
+/// Is ContactActivation::ogc_as_printed: k'_c of Eq. 19 as it is printed, k_c r³/8.
 struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
-  /// k'_c as Eq. 19 prints it: its unit is J m, not J (method.md §1.1).
+  /// Returns k'_c as Eq. 19 prints it: its unit is J m, not J (method.md §1.1).
   OGC_HD static float logarithmic_stiffness(float r, float k) {
     const float stiffness = 0.25F * k * r * r;
     return 0.5F * r * stiffness;
   }
 };
 
-/// ContactActivation::quadratic: k_c/2 (r − d)².
+/// Is ContactActivation::quadratic: k_c/2 (r − d)².
 struct QuadraticActivation : ActivationOf<QuadraticActivation> {
-  /// g' = −k_c (r − d), g'' = k_c, and g.
+  /// Returns g' = −k_c (r − d), g'' = k_c; energy_within returns g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) { return {-k * (r - d), k}; }
   OGC_HD static float energy_within(float d, float r, float k) {
     const float depth = r - d;
@@ -79,9 +82,10 @@ struct QuadraticActivation : ActivationOf<QuadraticActivation> {
   }
 };
 
-/// ContactActivation::ipc_log: k_c (r − d)² log(r/d).
+/// Is ContactActivation::ipc_log: k_c (r − d)² log(r/d).
 struct IpcLogActivation : ActivationOf<IpcLogActivation> {
-  /// With s = (r − d)/d: g' = −k_c (r − d) (2 ln(r/d) + s), g'' = k_c (2 ln(r/d) + s (4 + s)), and g.
+  /// Returns, with s = (r − d)/d, g' = −k_c (r − d) (2 ln(r/d) + s) and g'' = k_c (2 ln(r/d) + s (4 + s));
+  /// energy_within returns g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
     const float depth = r - d, share = depth / d, log = 2.0F * log_ratio(r, d);
     return {-k * (depth * (log + share)), k * (log + share * (4.0F + share))};
@@ -92,9 +96,9 @@ struct IpcLogActivation : ActivationOf<IpcLogActivation> {
   }
 };
 
-/// ContactActivation::cubic: 2 k_c/(3 r) (r − d)³.
+/// Is ContactActivation::cubic: 2 k_c/(3 r) (r − d)³.
 struct CubicActivation : ActivationOf<CubicActivation> {
-  /// g' = −2 k_c/r (r − d)², g'' = 4 k_c/r (r − d), and g.
+  /// Returns g' = −2 k_c/r (r − d)², g'' = 4 k_c/r (r − d); energy_within returns g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
     const float depth = r - d, slope = 2.0F * k / r * depth;
     return {-slope * depth, 2.0F * slope};
@@ -105,7 +109,8 @@ struct CubicActivation : ActivationOf<CubicActivation> {
   }
 };
 
-/// use(functor of the activation). A `switch` without `default`: a new one does not compile until it stands here.
+/// Returns use(functor of the activation). The `switch` has no `default`: a new activation does not compile until it
+/// stands here.
 template <class Use>
 OGC_HD auto with_activation(ContactActivation activation, const Use& use) {
   switch (activation) {
@@ -120,17 +125,18 @@ OGC_HD auto with_activation(ContactActivation activation, const Use& use) {
 
 /// An activation that is known at run time only.
 struct AnyActivation {
-  ContactActivation activation = ContactActivation::ogc;  ///< whose functor `slope` and `energy` call
+  ContactActivation activation = ContactActivation::ogc;  ///< its functor computes `slope` and `energy`
 
-  /// g' and g'', as ActivationOf::slope.
+  /// Returns g' and g'', as ActivationOf::slope does.
   OGC_HD ActivationSlope slope(float d, float r, float k) const {
     return d < r ? slope_within(d, r, k) : ActivationSlope{};
   }
-  /// g' and g'' for 0 < d ≤ r: at r those that wait there, with which a contact beyond r majorises itself.
+  /// Returns g' and g'' for 0 < d ≤ r. At r they are the limits from below, with which a contact beyond r majorises
+  /// itself.
   OGC_HD ActivationSlope slope_within(float d, float r, float k) const {
     return with_activation(activation, SlopeWithin{d, r, k});
   }
-  /// g [J].
+  /// Returns g [J].
   OGC_HD float energy(float d, float r, float k) const { return with_activation(activation, EnergyAt{d, r, k}); }
 
  private:

@@ -1,4 +1,5 @@
-// Every bending model by its name. A `switch` without `default`: a new model does not compile until it stands here.
+// Selects a bending model by its name. The `switch` has no `default`: a new model does not compile until it stands
+// here.
 #pragma once
 
 #include "fast/kernels/models/discrete_hinge.hpp"
@@ -6,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// BendingModel::none: hinges without energy, which no rest state holds.
+/// Is BendingModel::none: hinges without energy; no rest state holds such hinges.
 struct NoBending {
   /// There is no stencil to add, so UsualHinges serve, and nothing is read.
   static constexpr bool is_default = true, reads_weights = false;
@@ -15,7 +16,7 @@ struct NoBending {
   OGC_HD static double energy(const HingeRest&, const HingeWeights&, const Vec*) { return 0; }
 };
 
-/// use(functor of the model).
+/// Returns use(functor of the model).
 template <class Use>
 OGC_HD auto with_bending(compare::BendingModel model, const Use& use) {
   switch (model) {
@@ -26,13 +27,13 @@ OGC_HD auto with_bending(compare::BendingModel model, const Use& use) {
   __builtin_unreachable();
 }
 
-/// Whether UsualHinges have this bending and its damping.
+/// Returns whether UsualHinges have this bending and its damping.
 OGC_HD inline bool has_default_bending(const SurfaceModels& models) {
   const auto is_default = [](auto model) { return decltype(model)::is_default; };
   return damps_strain(models.damping) && with_bending(models.bending, is_default);
 }
 
-/// Whether the model needs HingeWeights.
+/// Returns whether the model needs HingeWeights.
 OGC_HD inline bool reads_weights(compare::BendingModel model) {
   return with_bending(model, [](auto functor) { return decltype(functor)::reads_weights; });
 }

@@ -1,5 +1,5 @@
-// Damping by vertex (method.md §4.9): k_d/h times a stencil's own block, on the motion of the vertex since the start of
-// the step. The other form, of strains, is each model's own.
+// Adds damping by vertex (method.md §4.9): k_d/h times a stencil's own block, on the motion of the vertex since the
+// start of the step. The other form, of strains, is in each model.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// Adds an elastic stencil with damping k = k_d/h by vertex: its force less k B moved, and its block B (1 + k) times.
+/// Adds an elastic stencil with damping k = k_d/h by vertex: its force minus k B moved, and its block B times (1 + k).
 OGC_HD inline void add_damped_by_vertex(const ForceAndBlock& elastic, float damping, const Vec& moved,
                                         ForceAndBlock& sum) {
   const Symmetric3& b = elastic.block;

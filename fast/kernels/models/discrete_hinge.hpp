@@ -1,15 +1,15 @@
-// Discrete hinge: c/2 (θ − θ₀)², c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md §4.7), damping c k_d/(2h) (θ − θᵗ)², seen from one
-// vertex. The block is Gauss–Newton's.
+// Adds a discrete hinge, c/2 (θ − θ₀)² with c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md §4.7) and damping c k_d/(2h) (θ − θᵗ)²,
+// seen from one vertex. The block is Gauss–Newton's.
 #pragma once
 
 #include "fast/kernels/models/hinge.hpp"
 
 namespace ogc::fast {
 
-/// BendingModel::discrete_hinge.
+/// Is BendingModel::discrete_hinge.
 struct DiscreteHinge {
   static constexpr bool is_default = true;      ///< UsualHinges and the packs of the CPU have it
-  static constexpr bool reads_weights = false;  ///< of HingeWeights
+  static constexpr bool reads_weights = false;  ///< whether it needs HingeWeights
 
   /// Adds −∂/∂x of energy and damping and c (1 + k_d/h) ∇θ ∇θᵀ, for a vertex whose ∂θ/∂x is `gradient`. `angle_start`
   /// is θᵗ; `damping` k_d/h.
@@ -21,17 +21,22 @@ struct DiscreteHinge {
     sum.add_outer(stencil.stiffness * (1.0f + damping), gradient);
   }
 
-  /// The same of a hinge whose shape is not known yet; nothing where it is not defined.
+  /// Adds hinges whose shape is not known yet, seen from a vertex at `own`; nothing where it is not defined.
+  template <class T>
+  OGC_HD static void add(const HingeReadsOf<T>& hinge, float damping, const Vector<T>& own, ForceAndBlockOf<T>& sum) {
+    const HingeShapeOf<T> shape = hinge_shape_seen<T>(hinge.opposite, hinge.p, own);
+    add_where(shape.defined, sum, [&](ForceAndBlockOf<T>& to) {
+      add(hinge.stencil, damping, shape.angle, hinge.angle_start, hinge_gradient(shape, hinge.opposite), to);
+    });
+  }
   OGC_HD static void add(const HingeSeen& hinge, float damping, ForceAndBlock& sum) {
-    const HingeShape shape = hinge_shape_seen<float>(hinge.opposite, hinge.p, hinge.own);
-    if (!shape.defined) return;
-    add(hinge.stencil, damping, shape.angle, hinge.angle_start, hinge_gradient(shape, hinge.opposite), sum);
+    add(hinge, damping, hinge.own, sum);
   }
 
-  /// `add` leaves nothing out.
+  /// Adds nothing: `add` has all of it.
   OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
 
-  /// [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
+  /// Returns the energy [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
   OGC_HD static double energy(const HingeRest& rest, const HingeWeights&, const Vec* to) {
     const HingeShape shape = hinge_shape(to[0], to[1], to[2]);
     if (!shape.defined) return 0;

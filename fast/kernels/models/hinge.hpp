@@ -1,4 +1,4 @@
-// What all bending models share: a hinge's rest data, its angle θ and the angle's gradients. With e = x1 − x0,
+// Defines what all bending models share: a hinge's rest data, its angle θ and the angle's gradients. With e = x1 − x0,
 // a = o0 − x0, b = o1 − x0, n_a = e × a, n_b = b × e:
 //
 //          o0         θ = atan2(−‖e‖ n_a·b⊥, n_a·n_b): the sine as a volume, because the cross product of two nearly
@@ -30,12 +30,12 @@ struct HingeRest {
   float stiffness = 0;  ///< c [J]
 };
 
-/// w of x1, o0, o1 [1/m], of the isometric model; that of x0 is minus their sum.
+/// Weights w of the isometric model [1/m]; that of x0 is minus their sum.
 struct HingeWeights {
   float weight[3] = {};  ///< of x1, o0, o1
 };
 
-/// Angle of a hinge and what its gradients need of the present shape.
+/// Holds the angle of a hinge and what its gradients need of the present shape.
 template <class T>
 struct HingeShapeOf {
   Vector<T> normal_a, normal_b;  ///< n_a, n_b
@@ -43,22 +43,22 @@ struct HingeShapeOf {
   T beyond_a{}, beyond_b{};      ///< (1 − s) ‖e‖²: how far the feet lie from x1, times ‖e‖
   T divisor_a{}, divisor_b{};    ///< ‖e‖ ‖n‖²
   T angle{};                     ///< θ
-  /// false where a triangle or the edge collapsed: then nothing below ‖e‖² means anything
+  /// false if a triangle or the edge collapsed: then nothing below ‖e‖² has a meaning
   Mask<T> defined{};
 };
 using HingeShape = HingeShapeOf<float>;
 
-/// The cross product of two rounded differences has an error of up to 4 u ‖e‖‖a‖ (two differences, two products). A
-/// triangle has collapsed where its doubled area is below eight times that: its normal is known to no better than an
-/// eighth, and its square, by which gradients are divided, to no better than a quarter. The hinge then exerts no force,
-/// and the membrane alone opens it again.
+/// Returns whether a triangle has collapsed. The cross product of two rounded differences has an error of up to 4 u
+/// ‖e‖‖a‖ (two differences, two products). A triangle has collapsed if its doubled area is below eight times that: its
+/// normal is known to no better than an eighth, and its square, by which gradients are divided, to no better than a
+/// quarter. The hinge then exerts no force, and the membrane alone opens it again.
 template <class T>
 OGC_HD Mask<T> hinge_side_collapsed(const T& normal_squared, const T& length_squared, const T& side_squared) {
   constexpr float relative = 1024 * 0x1p-48f;  // (8 · 4 u)²
   return !(normal_squared > relative * length_squared * side_squared);
 }
 
-/// The shape of a hinge with these e, a and b.
+/// Returns the shape of a hinge with these e, a and b.
 template <class T>
 OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, const Vector<T>& b) {
   HingeShapeOf<T> shape;
@@ -79,16 +79,16 @@ OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, co
   return shape;
 }
 
-/// ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators: the threads of a warp hold both roles
-/// at once.
+/// Returns ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators serves both, because the
+/// threads of a warp hold both roles at once.
 template <class T>
 OGC_HD Vector<T> hinge_gradient(const HingeShapeOf<T>& shape, const Mask<T>& opposite) {
   const T a = select(opposite, -shape.length_squared, shape.beyond_a), b = select(opposite, T{}, shape.beyond_b);
   return (a / shape.divisor_a) * shape.normal_a + (b / shape.divisor_b) * shape.normal_b;
 }
 
-/// A hinge as one of its vertices sees it. `p`: for an end of the edge, as x0: x1, o0, o1; for an opposite vertex, as
-/// o0: x0, x1, o1.
+/// Returns the shape of a hinge as one of its vertices sees it. `p`: for an end of the edge, taken as x0: x1, o0, o1;
+/// for an opposite vertex, taken as o0: x0, x1, o1.
 template <class T>
 OGC_HD HingeShapeOf<T> hinge_shape_seen(const Mask<T>& opposite, const Vector<T>* p, const Vector<T>& own) {
   const Vector<T> base = select(opposite, p[0], own), end = select(opposite, p[1], p[0]),
@@ -96,25 +96,32 @@ OGC_HD HingeShapeOf<T> hinge_shape_seen(const Mask<T>& opposite, const Vector<T>
   return hinge_shape(end - base, side - base, p[2] - base);
 }
 
-/// A hinge's constants in the discrete model.
+/// Holds a hinge's constants in the discrete model.
 template <class T>
 struct HingeStencilOf {
   T stiffness, rest_angle;  ///< c [J], θ₀ [rad]
 };
 using HingeStencil = HingeStencilOf<float>;
 
-/// Weights in the isometric model: of the vertex itself and of the others in the order of its hinge incidence [1/m].
+/// Holds the weights in the isometric model: of the vertex itself and of the others in the order of its hinge incidence
+/// [1/m].
 struct IsometricStencil {
   float own = 0, other[3] = {};
 };
 
-/// All that a bending model reads of a hinge, seen from the vertex that is solved.
-struct HingeSeen {
-  HingeStencil stencil;        ///< c and θ₀
+/// What the discrete model reads of hinges, seen from the vertex that is solved.
+template <class N>
+struct HingeReadsOf {
+  HingeStencilOf<N> stencil;  ///< c and θ₀
+  Mask<N> opposite;           ///< the vertex is none of the edge
+  Vector<N> p[3];             ///< positions of the others, as in hinge_shape_seen [m]
+  N angle_start{};            ///< θᵗ [rad]; 0 without damping
+};
+
+/// All that a bending model reads of a hinge.
+struct HingeSeen : HingeReadsOf<float> {
+  Vec own;                     ///< position of the vertex that is solved [m]
   IsometricStencil isometric;  ///< where the body bends so
-  bool opposite;               ///< the vertex is none of the edge
-  Vec own, p[3];               ///< positions; p as in hinge_shape_seen
-  float angle_start;           ///< θᵗ
 };
 
 }  // namespace ogc::fast

@@ -1,13 +1,13 @@
-// Isometric quadratic bending of a flat rest shape: c/2 ‖ℓ‖², ℓ = Σ w_i x_i (compare/stages/bending.hpp), seen from one
-// vertex. The weights add up to 0, so ℓ is formed from differences to that vertex. Damping is the hinge's, with θᵗ for
-// a rest angle.
+// Adds isometric quadratic bending of a flat rest shape, c/2 ‖ℓ‖² with ℓ = Σ w_i x_i (compare/stages/bending.hpp), seen
+// from one vertex. The weights add up to 0, so ℓ is formed from differences to that vertex. Damping is the discrete
+// hinge's, with θᵗ for a rest angle.
 #pragma once
 
 #include "fast/kernels/models/discrete_hinge.hpp"
 
 namespace ogc::fast {
 
-/// BendingModel::isometric_quadratic.
+/// Is BendingModel::isometric_quadratic.
 struct IsometricQuadratic {
   /// UsualHinges and the packs of the CPU lack it, and it reads HingeWeights.
   static constexpr bool is_default = false;
@@ -31,7 +31,7 @@ struct IsometricQuadratic {
     DiscreteHinge::add(damper, 0.0f, sum);
   }
 
-  /// [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
+  /// Returns the energy [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
   OGC_HD static double energy(const HingeRest& rest, const HingeWeights& weights, const Vec* to) {
     const Vec curvature = weights.weight[0] * to[0] + weights.weight[1] * to[1] + weights.weight[2] * to[2];
     return 0.5 * rest.stiffness * static_cast<double>(dot(curvature, curvature));

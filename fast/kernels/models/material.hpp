@@ -1,21 +1,21 @@
-// What a surface is made of: constants and models by body.
+// Holds what a surface is made of: constants and models by body.
 #pragma once
 
 #include "compare/problem/scene.hpp"
 
 namespace ogc::fast {
 
-/// Constants of one body. Damping is divided by the step already: k_d/h [1].
+/// Constants of one body. Damping is already divided by the step: k_d/h [1].
 struct alignas(16) SurfaceMaterial {
   float lame_lambda = 0, lame_mu = 0;               ///< λ, μ [N/m]
   float membrane_damping = 0, bending_damping = 0;  ///< k_d/h [1] of membranes and of hinges
 };
 
-/// Which models a body has. Only scenes that have others than the default ones read it.
+/// Models of a body; read only if a scene has other models than the default ones.
 struct SurfaceModels {
   compare::MembraneModel membrane = compare::MembraneModel::st_venant_kirchhoff;  ///< method.md §4.6
   compare::BendingModel bending = compare::BendingModel::discrete_hinge;          ///< method.md §4.7
-  /// of the body's springs and tetrahedra, too: method.md §4.9
+  /// also of the body's springs and tetrahedra: method.md §4.9
   compare::DampingForm damping = compare::DampingForm::strain;
 };
 

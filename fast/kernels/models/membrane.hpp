@@ -1,6 +1,6 @@
-// What all membrane models share: a triangle's rest data, F = Σ x_k ∇N_kᵀ (3×2), Green's strain G = (FᵀF − I)/2, and
-// the damping (k_d/h) ψ(G − Gᵗ) with the quadratic ψ (method.md §4.6, §4.9). Everything is written in differences to
-// the corner that is solved, so that only relative coordinates are rounded.
+// Defines what all membrane models share: a triangle's rest data, F = Σ x_k ∇N_kᵀ (3×2), Green's strain G = (FᵀF −
+// I)/2, and the damping (k_d/h) ψ(G − Gᵗ) with the quadratic ψ (method.md §4.6, §4.9). Everything is written in
+// differences to the corner that is solved, so that only relative coordinates are rounded.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -19,7 +19,7 @@ struct TriangleRest {
   float area = 0;             ///< A [m²]
 };
 
-/// Symmetric 2×2: a strain [1] or stress [N/m].
+/// A symmetric 2×2 matrix: a strain [1] or stress [N/m].
 template <class T>
 struct Symmetric2Of {
   T xx{}, xy{}, yy{};
@@ -33,22 +33,22 @@ struct DeformationGradientOf {
 };
 using DeformationGradient = DeformationGradientOf<float>;
 
-/// F from the edges x_b − x_a, x_c − x_a and the gradients of N_b and N_c.
+/// Returns F from the edges x_b − x_a, x_c − x_a and the gradients of N_b and N_c.
 template <class T>
 OGC_HD DeformationGradientOf<T> deformation_gradient(const Vector<T>& to_b, const Vector<T>& to_c, const T* gradient_b,
                                                      const T* gradient_c) {
   return {gradient_b[0] * to_b + gradient_c[0] * to_c, gradient_b[1] * to_b + gradient_c[1] * to_c};
 }
 
-/// G = (FᵀF − I)/2; the diagonal as (‖f‖ − 1)(‖f‖ + 1)/2 would need a root, the plain form loses u, which is u of a
-/// stress of stiffness λ.
+/// Returns G = (FᵀF − I)/2. The diagonal as (‖f‖ − 1)(‖f‖ + 1)/2 would need a root; the plain form loses u, in the
+/// stress u times the stiffness λ.
 template <class T>
 OGC_HD Symmetric2Of<T> green_strain(const DeformationGradientOf<T>& f) {
   return {0.5f * (dot(f.first, f.first) - 1.0f), 0.5f * dot(f.first, f.second),
           0.5f * (dot(f.second, f.second) - 1.0f)};
 }
 
-/// S = λ tr(G) I + 2μ G [N/m].
+/// Returns S = λ tr(G) I + 2μ G [N/m].
 template <class T>
 OGC_HD Symmetric2Of<T> membrane_stress(const SurfaceMaterial& material, const Symmetric2Of<T>& strain) {
   const T trace = material.lame_lambda * (strain.xx + strain.yy);

@@ -1,4 +1,5 @@
-// Every membrane model by its name. A `switch` without `default`: a new model does not compile until it stands here.
+// Selects a membrane model by its name. The `switch` has no `default`: a new model does not compile until it stands
+// here.
 #pragma once
 
 #include "fast/kernels/models/st_venant_kirchhoff.hpp"
@@ -6,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// MembraneModel::none: triangles without energy, which no rest state holds.
+/// Is MembraneModel::none: triangles without energy; no rest state holds such triangles.
 struct NoMembrane {
   template <class T>
   OGC_HD static void add(const MembraneStencilOf<T>&, const SurfaceMaterial&, const Vector<T>&, const Vector<T>&,
@@ -16,7 +17,7 @@ struct NoMembrane {
   OGC_HD static double energy(const TriangleRest&, const SurfaceMaterial&, const Vec&, const Vec&) { return 0; }
 };
 
-/// use(functor of the model).
+/// Returns use(functor of the model).
 template <class Use>
 OGC_HD auto with_membrane(compare::MembraneModel model, const Use& use) {
   switch (model) {
@@ -30,7 +31,7 @@ OGC_HD auto with_membrane(compare::MembraneModel model, const Use& use) {
 /// Adds a triangle with damping of strains, given the functor of its model.
 template <class T>
 struct AddDampedMembrane {
-  /// As a model's `add` takes them.
+  /// Arguments of a model's `add`.
   const MembraneStencilOf<T>& stencil;
   const SurfaceMaterial& material;
   const Vector<T>&to_b, &to_c;
@@ -43,7 +44,7 @@ struct AddDampedMembrane {
   }
 };
 
-/// Whether UsualTriangles have the body's damping, and with it its membrane, whichever that is.
+/// Returns whether UsualTriangles have the body's damping, and with it its membrane, whatever model it is.
 OGC_HD inline bool has_default_membrane(const SurfaceModels& models) { return damps_strain(models.damping); }
 
 }  // namespace ogc::fast

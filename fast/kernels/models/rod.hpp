@@ -1,4 +1,4 @@
-// A segment of a rod: k_s l/2 ‖D/l − R(q) e₃‖² of stretch and shear, seen from one of its ends (compare/rods.md).
+// Adds a segment of a rod, k_s l/2 ‖D/l − R(q) e₃‖² of stretch and shear, seen from one of its ends (compare/rods.md).
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -13,13 +13,14 @@ struct SegmentRest {
   float stretch = 0, damping = 0;  ///< k_s [N], k_d/h [1]
 };
 
-/// c = e₃ + k R(qᵗ)ᵀ Dᵗ/l: where the segment's frame would have D/(1 + k). `apart`: Dᵗ [m].
+/// Returns c = e₃ + k R(qᵗ)ᵀ Dᵗ/l: the value of (1 + k) D/l, in the segment's frame, at which the segment is free of
+/// force. `apart`: Dᵗ [m].
 OGC_HD inline Vec rod_rest_direction(const SegmentRest& segment, float damping, const Quat& start, const Vec& apart) {
   const Vec axis{0.0f, 0.0f, 1.0f};
   return damping > 0 ? axis + (damping / segment.length) * turned_back(start, apart) : axis;
 }
 
-/// Adds force and block of an end (0 or 1). `apart`: D [m]; `direction`: as rod_rest_direction with the same damping.
+/// Adds force and block of an end (0 or 1). `apart`: D [m]; `direction`: c of rod_rest_direction with the same damping.
 OGC_HD inline void add_rod(const SegmentRest& segment, float damping, int end, const Vec& apart, const Quat& q,
                            const Vec& direction, ForceAndBlock& sum) {
   const float over_length = (1.0f + damping) / segment.length;

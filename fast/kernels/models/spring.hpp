@@ -1,5 +1,5 @@
-// A spring seen from one of its ends: k_s/2 (l − l₀)², damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ − s x₂‖
-// (compare/stages/spring.hpp).
+// Adds a spring seen from one of its ends: k_s/2 (l − l₀)², damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ − s
+// x₂‖ (compare/stages/spring.hpp).
 #pragma once
 
 #include <cmath>
@@ -12,38 +12,38 @@ namespace ogc::fast {
 
 /// A spring or stitch at rest.
 struct SpringRest {
-  int end[3] = {-1, -1, -1};             ///< the third is the second once more where s = 0
+  int end[3] = {-1, -1, -1};             ///< vertices; the third equals the second if s = 0
   float stiffness = 0, rest_length = 0;  ///< k_s [N/m], l₀ [m]
   float damping = 0;                     ///< k_d/h [1]
   float ratio = 0;                       ///< s [1]
 };
 
-/// Ends that feel the spring.
+/// Returns the number of ends that feel the spring.
 inline int end_count(const SpringRest& spring) { return spring.ratio > 0 ? 3 : 2; }
 
-/// x₀ − (1 − s) x₁ − s x₂.
+/// Returns x₀ − (1 − s) x₁ − s x₂.
 OGC_HD inline Vec spring_apart(const SpringRest& spring, const Vec* end) {
   const Vec apart = end[0] - end[1];
   return spring.ratio > 0 ? apart - spring.ratio * (end[2] - end[1]) : apart;
 }
 
-/// w of an end: 1, s − 1, −s.
+/// Returns w of an end: 1, s − 1, −s.
 OGC_HD inline float spring_weight(const SpringRest& spring, int end) {
   return end == 0 ? 1.0f : end == 1 ? spring.ratio - 1.0f : -spring.ratio;
 }
 
-/// l [m]; 0 where the squared length is no normal number.
+/// Returns l [m]; 0 if the squared length is no normal number.
 OGC_HD inline float spring_length(const Vec& apart) {
   const float squared = dot(apart, apart);
   return squared >= 0x1p-126f ? sqrtf(squared) : 0.0f;
 }
 
-/// Adds force and block of the end of weight w; `apart` as spring_apart, `length_start` lᵗ.
+/// Adds force and block of the end of weight w; `apart` is that of spring_apart, `length_start` lᵗ.
 OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart,
                               float length_start, ForceAndBlock& sum) {
   const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;
-  // no direction: w² k_s I majorises the energy whatever l₀ is, and of a stitch a length that was lost to rounding may
-  // exceed it
+  // no direction: w² k_s I majorises the energy for every l₀; for a stitch, a length that was lost to rounding may
+  // exceed l₀ = 0
   if (!(length > 0)) {
     sum.add_identity(stiffness);
     return;
@@ -56,7 +56,7 @@ OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damp
   sum.add_outer(stiffness * (1.0f - across) + resistance, (1.0f / length) * apart);
 }
 
-/// [J], in double: energies are only reported.
+/// Returns the energy [J], in double: energies are only reported.
 OGC_HD inline double spring_energy(const SpringRest& spring, float length) {
   const double change = static_cast<double>(length) - spring.rest_length;
   return 0.5 * spring.stiffness * change * change;

@@ -1,14 +1,15 @@
-// St. Venant–Kirchhoff membrane, plane stress: ψ = A (λ/2 tr(G)² + μ ‖G‖²) (method.md §4.6), seen from one corner.
+// Adds a St. Venant–Kirchhoff membrane, plane stress, ψ = A (λ/2 tr(G)² + μ ‖G‖²) (method.md §4.6), seen from one
+// corner.
 #pragma once
 
 #include "fast/kernels/models/membrane.hpp"
 
 namespace ogc::fast {
 
-/// MembraneModel::st_venant_kirchhoff.
+/// Is MembraneModel::st_venant_kirchhoff.
 struct StVenantKirchhoff {
-  /// Adds −∂ψ/∂x_a and the 3×3 block: A (1 + k_d/h) ((λ+μ) (F∇N_a)(F∇N_a)ᵀ + μ ‖∇N_a‖² F Fᵀ) + A max(0, ∇N_aᵀ S ∇N_a)
-  /// I, both with damping. `strain_start` is Gᵗ.
+  /// Adds −∂ψ/∂x_a with damping and the 3×3 block: A (1 + k_d/h) ((λ+μ) (F∇N_a)(F∇N_a)ᵀ + μ ‖∇N_a‖² F Fᵀ) + A max(0,
+  /// ∇N_aᵀ S ∇N_a) I. `strain_start` is Gᵗ.
   template <class T>
   OGC_HD static void add(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material, const Vector<T>& to_b,
                          const Vector<T>& to_c, const Symmetric2Of<T>& strain_start, ForceAndBlockOf<T>& sum) {
@@ -34,14 +35,14 @@ struct StVenantKirchhoff {
     sum.add_identity(stencil.area * select(geometric > T{}, geometric, T{}));
   }
 
-  /// The same without damping.
+  /// Adds the same without damping.
   OGC_HD static void add_elastic(const MembraneStencil& stencil, SurfaceMaterial material, const Vec& to_b,
                                  const Vec& to_c, ForceAndBlock& sum) {
     material.membrane_damping = 0;
     add(stencil, material, to_b, to_c, {}, sum);
   }
 
-  /// ψ [J], in double: energies are only reported. To corners 1 and 2 from corner 0.
+  /// Returns ψ [J], in double: energies are only reported. The edges lead from corner 0 to corners 1 and 2.
   OGC_HD static double energy(const TriangleRest& rest, const SurfaceMaterial& material, const Vec& to_b,
                               const Vec& to_c) {
     const Symmetric2 strain = green_strain(deformation_gradient(to_b, to_c, rest.gradient[1], rest.gradient[2]));

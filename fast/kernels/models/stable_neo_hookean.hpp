@@ -1,10 +1,10 @@
-// Stable Neo-Hookean membrane on F (3×2): ψ = A (μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)²), J = ‖f₁ × f₂‖
+// Adds a stable Neo-Hookean membrane on F (3×2): ψ = A (μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)²), J = ‖f₁ × f₂‖
 // (compare/stages/membrane.hpp), seen from one corner. With the edges b, c to the other corners, q = |∇N_b × ∇N_c| and
 // the normal n of b × c:
 //
 //   J = q ‖b × c‖,   ∂J/∂x = g = q (b − c) × n,   ∂²J/∂x² = ‖g‖²/J n nᵀ
 //
-// F itself would cancel where a triangle is thin. The block μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) ‖g‖²/J n nᵀ
+// F itself would cancel if a triangle is thin. The block μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) ‖g‖²/J n nᵀ
 // has n for an eigenvector, and only along n can it be negative.
 #pragma once
 
@@ -14,21 +14,21 @@
 
 namespace ogc::fast {
 
-/// J, n and q; `ratio` 0 where the triangle has collapsed as far as single precision can tell.
+/// Holds J, n and q; `ratio` is 0 if the triangle has collapsed as far as single precision can tell.
 template <class T>
 struct AreaRatioOf {
-  Vector<T> normal;      ///< n, a unit vector; 0 where the triangle has collapsed
+  Vector<T> normal;      ///< n, a unit vector; 0 if the triangle has collapsed
   T ratio{}, density{};  ///< J [1], q [1/m²]
 };
 
-/// J, n and q of a triangle with the edges b, c and the gradients ∇N_b, ∇N_c.
+/// Returns J, n and q of a triangle with the edges b, c and the gradients ∇N_b, ∇N_c.
 template <class T>
 OGC_HD AreaRatioOf<T> area_ratio(const Vector<T>& to_b, const Vector<T>& to_c, const T* gradient_b,
                                  const T* gradient_c) {
   Vector<T> normal = cross(to_b, to_c);
   T scale = absolute(gradient_b[0] * gradient_c[1] - gradient_b[1] * gradient_c[0]);
   const T density = scale;
-  // Of a triangle a millionth as large the square of the area underflows.
+  // If edges are a millionth as long the square of the area underflows.
   const Mask<T> is_tiny = dot(normal, normal) < 0x1p-90f;
   if (!is_false(is_tiny)) {
     const T large = T{} + 0x1p40f;
@@ -41,10 +41,10 @@ OGC_HD AreaRatioOf<T> area_ratio(const Vector<T>& to_b, const Vector<T>& to_c, c
   return {select(is_flat, Vector<T>{}, (1.0f / length) * normal), select(is_flat, zero, scale * length), density};
 }
 
-/// MembraneModel::stable_neo_hookean.
+/// Is MembraneModel::stable_neo_hookean.
 struct StableNeoHookean {
-  /// Adds −∂ψ/∂x_a and the block, its eigenvalue along the normal as max(0, ·). A collapsed triangle has no J: its
-  /// normal is 0, and with it all that J adds.
+  /// Adds −∂ψ/∂x_a and the block, with max(0, ·) of its eigenvalue along the normal. A collapsed triangle has no J: its
+  /// normal is 0, and so is all that J adds.
   template <class T>
   OGC_HD static void add_elastic(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material,
                                  const Vector<T>& to_b, const Vector<T>& to_c, ForceAndBlockOf<T>& sum) {
@@ -64,7 +64,7 @@ struct StableNeoHookean {
     sum.add_outer(area * select(lift > -around, lift, -around), at.normal);
   }
 
-  /// The same and the damping of strains. `strain_start` is Gᵗ.
+  /// Adds the same and the damping of strains. `strain_start` is Gᵗ.
   template <class T>
   OGC_HD static void add(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material, const Vector<T>& to_b,
                          const Vector<T>& to_c, const Symmetric2Of<T>& strain_start, ForceAndBlockOf<T>& sum) {
@@ -72,7 +72,7 @@ struct StableNeoHookean {
     if (material.membrane_damping > 0) add_strain_damping(stencil, material, to_b, to_c, strain_start, sum);
   }
 
-  /// ψ [J], in double: energies are only reported. To corners 1 and 2 from corner 0.
+  /// Returns ψ [J], in double: energies are only reported. The edges lead from corner 0 to corners 1 and 2.
   OGC_HD static double energy(const TriangleRest& rest, const SurfaceMaterial& material, const Vec& to_b,
                               const Vec& to_c) {
     const DeformationGradient f = deformation_gradient(to_b, to_c, rest.gradient[1], rest.gradient[2]);

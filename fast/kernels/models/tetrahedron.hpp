@@ -1,11 +1,11 @@
-// Stable Neo-Hookean tetrahedron seen from one corner (compare/stages/tetrahedron.hpp). With a, b, c the vectors to the
-// other corners, in the order in which det(a, b, c) is positive at rest, n = (b − a) × (c − a), w_k = V ∇N_k·∇N and
-// i = 1/(6V):
+// Adds a stable Neo-Hookean tetrahedron seen from one corner (compare/stages/tetrahedron.hpp). With a, b, c the vectors
+// to the other corners, in the order in which det(a, b, c) is positive at rest, n = (b − a) × (c − a), w_k = V ∇N_k·∇N
+// and i = 1/(6V):
 //
 //   J = i n·a,   V ∂J/∂x = −n/6,   force −μ (w₁ a + w₂ b + w₃ c) + ((λ + μ)(J − 1) − μ) n/6,
 //   block −μ (w₁ + w₂ + w₃) I + (λ + μ) i/6 n nᵀ
 //
-// F itself is needed by the damping alone, and V by nothing but that: four numbers of rest data an incidence.
+// Only damping needs F and V, so an incidence has four numbers of rest data.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -15,7 +15,7 @@
 
 namespace ogc::fast {
 
-/// Of one body. Damping already divided by the step: k_d/h [1].
+/// Constants of one body. Damping is already divided by the step: k_d/h [1].
 struct alignas(16) SolidMaterial {
   float lame_lambda = 0, lame_mu = 0;  ///< [Pa]
   float damping = 0;                   ///< k_d/h [1]
@@ -34,18 +34,18 @@ struct TetrahedronRest {
 /// One tetrahedron seen from one corner.
 template <class T>
 struct TetrahedronStencilOf {
-  T weight[3];  ///< of the other corners [m]
-  T inverse;    ///< [1/m³]
+  T weight[3];  ///< w_k of the other corners [m]
+  T inverse;    ///< i [1/m³]
 };
 using TetrahedronStencil = TetrahedronStencilOf<float>;
 
-/// Symmetric 3×3 strain [1] or stress [Pa].
+/// A symmetric 3×3 strain [1] or stress [Pa].
 using SolidStrain = Symmetric3;
 
-/// What damping of strain reads besides: ∇N of the other corners; that of the own one is minus their sum.
+/// Holds what damping of strain reads besides: ∇N of the other corners (that of the own one is minus their sum), and V.
 struct TetrahedronGradients {
-  Vec other[3];      ///< [1/m]
-  float volume = 0;  ///< [m³]
+  Vec other[3];      ///< ∇N [1/m]
+  float volume = 0;  ///< V [m³]
 };
 
 /// Adds the elastic force and block of the corner from which a, b and c are seen.
@@ -62,12 +62,12 @@ OGC_HD void add_tetrahedron(const TetrahedronStencilOf<T>& stencil, const SolidM
   sum.add_outer((bulk / 6.0f) * stencil.inverse, normal);
 }
 
-/// The columns of F.
+/// Holds the columns of F.
 struct SolidDeformation {
   Vec column[3];  ///< ∂x along the axes of the rest shape [1]
 };
 
-/// F = Σ x_k ∇N_kᵀ, with a, b and c the vectors to the other corners.
+/// Returns F = Σ x_k ∇N_kᵀ, with a, b and c the vectors to the other corners.
 OGC_HD inline SolidDeformation solid_deformation(const TetrahedronGradients& gradients, const Vec& a, const Vec& b,
                                                  const Vec& c) {
   const Vec* g = gradients.other;
@@ -75,14 +75,14 @@ OGC_HD inline SolidDeformation solid_deformation(const TetrahedronGradients& gra
            g[0].z * a + g[1].z * b + g[2].z * c}};
 }
 
-/// G = (FᵀF − I)/2.
+/// Returns G = (FᵀF − I)/2.
 OGC_HD inline SolidStrain solid_strain(const SolidDeformation& f) {
   const Vec *x = &f.column[0], *y = &f.column[1], *z = &f.column[2];
   return {0.5f * (dot(*x, *x) - 1.0f), 0.5f * dot(*x, *y), 0.5f * dot(*x, *z),
           0.5f * (dot(*y, *y) - 1.0f), 0.5f * dot(*y, *z), 0.5f * (dot(*z, *z) - 1.0f)};
 }
 
-/// F times a vector of the rest shape.
+/// Returns F times a vector of the rest shape.
 OGC_HD inline Vec along_columns(const SolidDeformation& f, const Vec& by) {
   return by.x * f.column[0] + by.y * f.column[1] + by.z * f.column[2];
 }
@@ -107,14 +107,14 @@ OGC_HD inline void add_solid_damping(const TetrahedronGradients& gradients, cons
   for (const Vec& column : f.column) sum.add_outer(around, column);
 }
 
-/// J = i det(a, b, c), in double: it and the energy are only reported.
+/// Returns J = i det(a, b, c), in double: it and the energy are only reported.
 OGC_HD inline double volume_ratio(const TetrahedronRest& rest, const Vec& a, const Vec& b, const Vec& c) {
   const Vector<double> p{a.x, a.y, a.z}, q{b.x, b.y, b.z}, r{c.x, c.y, c.z};
   return rest.inverse * dot(p, cross(q, r));
 }
 
-/// V ψ [J]. With D = F − I, from displacements against rest, nothing would cancel; from positions V (‖F‖² − 3) is known
-/// to about 2⁻²² V.
+/// Returns V ψ [J]. With D = F − I, from displacements against rest, nothing would cancel; from positions V (‖F‖² − 3)
+/// is known to about 2⁻²² V.
 OGC_HD inline double solid_energy(const TetrahedronRest& rest, const SolidMaterial& material, const Vec& a,
                                   const Vec& b, const Vec& c) {
   const auto squared = [](const Vec& p) {

@@ -1,4 +1,4 @@
-// What a row reports of rods. Terms are in double and only reported.
+// Adds what a row reports of rods. Terms are in double and only reported.
 #pragma once
 
 #include "fast/kernels/metrics.hpp"
@@ -6,16 +6,16 @@
 
 namespace ogc::fast {
 
-/// In double: energies of small angles are differences of numbers near 1.
+/// Returns q in double: energies of small angles are differences of numbers near 1.
 OGC_HD inline QuatOf<double> wide(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
-/// ‖a − s b‖² for the sign s that makes it smaller.
+/// Returns ‖a − s b‖² for the sign s that makes it smaller.
 OGC_HD inline double squared_apart(const QuatOf<double>& a, const QuatOf<double>& b) {
   const QuatOf<double> apart = dot(a, b) < 0 ? a + b : a - b;
   return dot(apart, apart);
 }
 
-/// Term of a segment; of bend and twist at a vertex each of the two segments there adds half. Returns ‖D‖/l; 0 where it
-/// is not finite.
+/// Adds the term of a segment; each of the two segments at a vertex adds half of the bend and twist there. Returns
+/// ‖D‖/l; 0 if it is not finite.
 struct SegmentTerm {
   const SegmentRest* segments;          ///< by segment
   const SegmentNeighbours* neighbours;  ///< by segment

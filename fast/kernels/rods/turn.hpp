@@ -1,4 +1,4 @@
-// The frames of segments at the start of a step and at its end (compare/rods.md).
+// Turns the frames of segments at the start of a step, and commits them at its end (compare/rods.md).
 #pragma once
 
 #include "fast/kernels/control.hpp"
@@ -6,15 +6,15 @@
 
 namespace ogc::fast {
 
-/// q after half a turn about its own first axis: its director is reversed.
+/// Returns q after half a turn about its own first axis: its director is reversed.
 OGC_HD inline Quat turned_round(const Quat& q) { return {q.w, q.z, -q.y, -q.x}; }
 
-/// q after the smallest rotation from one direction to another; of opposite ones half a turn about its first axis, and
-/// where one of them is 0 the same q. From half-way vectors: (a × b, 1 + a·b) is twice cos θ/2 of that rotation.
+/// Returns q after the smallest rotation from one direction to another; for opposite ones half a turn about its first
+/// axis, and q itself if one of them is 0. From half-way vectors: (a × b, 1 + a·b) is that rotation times 2 cos θ/2.
 OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
   const float first = sqrtf(dot(from, from)), second = sqrtf(dot(to, to));
   if (!(first > 0 && second > 0)) return q;
-  // What a rounding of unit vectors leaves of a rotation by π: u of 1 + a·b, squared, with room.
+  // What rounding of unit vectors leaves of a rotation by π: u of 1 + a·b, squared, with room.
   constexpr float lost = 0x1p-40f;
   const Vec a = (1.0f / first) * from, b = (1.0f / second) * to, axis = cross(a, b);
   const Quat twice{axis.x, axis.y, axis.z, 1.0f + dot(a, b)};
@@ -22,7 +22,7 @@ OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
   return unit(unit(twice) * q);
 }
 
-/// for_each over segments, where strains are damped: c.
+/// Computes c; launched if strains are damped. Index over segments.
 struct SetDirection {
   const SegmentRest* segments;    ///< by segment
   const Vec* start;               ///< xᵗ by vertex [m]
@@ -36,18 +36,19 @@ struct SetDirection {
   }
 };
 
-/// for_each over segments, after the guess loop: q for the step.
+/// Turns each frame after the guess loop, which gives q for the step. Index over segments.
 struct TurnSegment {
-  const SegmentRest* segments;    ///< by segment
-  const int* motion;              ///< by segment: what holds it
-  const Quat* motion_turns;       ///< [step of the frame][motion]: how it turns in the step; w = 2: it does not say
-  int motions;                    ///< of a row of turns
+  const SegmentRest* segments;  ///< by segment
+  const int* motion;            ///< by segment: what holds it, as in segments.hpp
+  /// [step of the frame][motion]: rotation of the motion in the step; w = 2: the motion has none
+  const Quat* motion_turns;
+  int motions;                    ///< motions in a row of turns
   const Vec* start;               ///< xᵗ by vertex [m]
   const Vec* position;            ///< x by vertex [m], after the guess
   const Quat* orientation_start;  ///< qᵗ by segment
   Quat* orientation;              ///< q by segment, written
-  bool turns;                     ///< false: free frames stay (start_frames=kept)
-  const StepControl* control;     ///< on the backend: number of the step
+  bool turns;                     ///< false: free frames keep qᵗ (rod_start=kept)
+  const StepControl* control;     ///< on the backend; `steps_done` is read
 
   OGC_HD void operator()(int e) const {
     const SegmentRest rest = segments[e];
@@ -65,10 +66,10 @@ struct TurnSegment {
   }
 };
 
-/// for_each over segments of a step that is clean: qᵗ = q.
+/// Sets qᵗ = q for a step that did not fail. Index over segments.
 struct CommitSegment {
   const Quat* orientation;     ///< q by segment
-  const StepControl* control;  ///< on the backend; not active: the step failed, and nothing is written
+  const StepControl* control;  ///< on the backend; if not active the step failed, and nothing is written
   Quat* orientation_start;     ///< qᵗ by segment, written
 
   OGC_HD void operator()(int e) const {

@@ -2,7 +2,7 @@
 // colour, so one array is read and written.
 #pragma once
 
-#include "fast/kernels/kinds/segment.hpp"
+#include "fast/kernels/kinds/kinds.hpp"
 
 namespace ogc::fast {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "fast/kernels/arithmetic/solve3.hpp"
+#include "fast/kernels/held.hpp"
 #include "fast/kernels/inertia.hpp"
 #include "fast/kernels/sweep/gather.hpp"
-#include "fast/kernels/truncate.hpp"
 
 namespace ogc::fast {
 

@@ -1,13 +1,13 @@
-// Contacts with volumes, found with each detection and frozen until the next (§3.9, method.md §9). Who asks has a row:
-// first the slots of the sweep, −1 for such as do not ask, then prescribed vertices.
+// Finds contacts with volumes at each detection; they are frozen until the next (§3.9, method.md §9). Each asker has a
+// row: first the slots of the sweep, −1 if they do not ask, then prescribed vertices.
 //
 //   AskVolumes     each row and each part of triangles: is its vertex inside, nearer than r, or neither? The answer is
-//                  kept beside the facet that is nearest, where the next search begins, and of the last one beside a
-//                  ball within which nobody has to ask again before the volumes move
-//   ListContacts   each row: its contacts, part by part, in a row of fixed length; where that is too short the step
-//                  is repeated with longer ones (fast/stages/lists.hpp)
-//   FillCorners    where volumes are free, each row: its contacts into the rows of their corners, likewise; then
-//   SortCorners    each slot: its row in ascending order, whatever the order in which it was filled
+//                  kept with the nearest facet, where the next search begins, and an answer `far` also with a ball
+//                  within which no vertex has to ask again before the volumes move
+//   ListContacts   each row: its contacts, part by part, in a row of fixed length; if that is too short the step is
+//                  repeated with longer rows (fast/stages/lists.hpp)
+//   FillCorners    if volumes are free, each row: its contacts into the rows of their corners, of fixed length, too
+//   SortCorners    each slot: its row of corners in ascending order, whatever the order in which it was filled
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -17,12 +17,12 @@
 
 namespace ogc::fast {
 
-/// The nearest facet of a part to a vertex and the answer, in one number: facet · 4 + VolumeSide.
+/// Returns the nearest facet of a part to a vertex and its side, in one number: facet · 4 + VolumeSide.
 OGC_HD inline int answer_of(const NearestFacet& nearest) { return nearest.facet << 2 | static_cast<int>(nearest.side); }
-/// The reverse.
+/// Returns the facet and the side that the number holds.
 OGC_HD inline NearestFacet nearest_in(int answer) { return {answer >> 2, static_cast<VolumeSide>(answer & 3)}; }
 
-/// for_each over vertices: where free volumes are asked.
+/// Copies positions to where kernels query free volumes. Index over vertices.
 struct PlaceVolumes {
   const Vec* position;  ///< of the detection, by vertex [m]
   PaddedVec* padded;    ///< written
@@ -30,28 +30,29 @@ struct PlaceVolumes {
   OGC_HD void operator()(int v) const { padded[v] = PaddedVec(position[v]); }
 };
 
-/// for_each over the items of AskVolumes: where driven volumes have moved.
+/// Forgets all clear balls after driven volumes have moved. Index over the items of AskVolumes.
 struct ForgetClearBalls {
   ClearBall* clear;  ///< by item
 
   OGC_HD void operator()(int i) const { clear[i].radius = ClearBall::unasked; }
 };
 
-/// for_each over rows, part after part: neighbours search the same tree.
+/// Finds on which side of each part of triangles each asker lies. Index over rows, part after part: neighbours search
+/// the same tree.
 struct AskVolumes {
-  VolumeView volume;  ///< its trees refitted
+  VolumeView volume;  ///< with refitted trees
   const int* askers;  ///< by row: the vertex, or −1
   int rows;
   const Vec* position;         ///< of the detection, by vertex [m]
-  const StepControl* control;  ///< where it is not active nothing is asked
-  int* answers;                ///< by item: of the detection before, or any facet of the part; replaced
-  ClearBall* clear;            ///< by item: of an answer that stands; null where volumes are free and move
+  const StepControl* control;  ///< if it is not active nothing is searched
+  int* answers;                ///< by item: answer of the detection before, or any facet of the part; replaced
+  ClearBall* clear;            ///< by item: ball within which the answer `far` holds; null if volumes are free and move
 
   OGC_HD void operator()(int i) const {
     if (control->active == 0) return;
     const int part = i / rows, v = askers[i - part * rows];
     if (v < 0 || volume.parts[part].is_solid()) return;
-    // many steps ask once: a ball is sought with the second question, and not again where there is none
+    // many steps ask once: a ball is sought at the second search, and not again if there is none
     const ClearBall old = clear != nullptr ? clear[i] : ClearBall{};
     if (old.holds(position[v])) return;
     const bool seeks = old.radius != ClearBall::unasked && old.radius != ClearBall::refused;
@@ -62,24 +63,25 @@ struct AskVolumes {
   }
 };
 
-/// for_each over rows. A facet without area has no direction and gives no contact. `has_solids`: whether there are
-/// parts of tetrahedra, whose ways are searched here, each from nothing, so that a run that goes on has the same bits.
+/// Lists each asker's contacts. A facet without area has no direction and gives no contact. `has_solids`: whether there
+/// are parts of tetrahedra. Their ways are searched here, each without an earlier answer, so that a run that is
+/// continued has the same bits. Index over rows.
 template <bool has_solids>
 struct ListVolumeContacts {
   VolumeView volume;
   const int* askers;  ///< as in AskVolumes
   int rows;
-  const Vec* position;         ///< likewise
-  const StepControl* control;  ///< likewise: the old rows stay
-  const int* answers;          ///< of AskVolumes
+  const Vec* position;         ///< of the detection, by vertex [m]
+  const StepControl* control;  ///< if it is not active the old rows stay
+  const int* answers;          ///< by item, as AskVolumes leaves them
   ContactTables tables;        ///< k and μ of the bodies that meet
   int capacity;                ///< contacts that fit in a row
-  int* counts;                 ///< by row, written: at most `capacity`
+  int* counts;                 ///< by row, at most `capacity`, written
   VolumeIncidence* stream;     ///< row by row, written
-  FoundVolumeContact* found;   ///< beside `stream`, written
-  int* unresolved;             ///< by row, written where there are solids: sheets without a way
+  FoundVolumeContact* found;   ///< the same contacts as found, written
+  int* unresolved;             ///< by row: sheets without any way, written if there are solids
   int* longest;                ///< raised to the length that a row needs
-  int* overflow;               ///< set where that is too much
+  int* overflow;               ///< set if that is too much
 
   OGC_HD void operator()(int row) const {
     if (control->active == 0) return;
@@ -127,17 +129,17 @@ struct ListVolumeContacts {
   }
 };
 
-/// The rows of contacts as corners.
+/// Holds the rows of contacts by their corners.
 struct CornerRows {
   const int* slot_of;  ///< by vertex; −1: not free
-  int capacity;        ///< that fit in a row
+  int capacity;        ///< contacts that fit in a row
   int* counts;         ///< by slot
   int* codes;          ///< row by row, as VolumeStream::corner_codes
 };
 
-/// for_each over slots, before FillCorners.
+/// Empties the rows of corners before FillCorners. Index over slots.
 struct ForgetCorners {
-  const StepControl* control;  ///< where it is not active the old rows stay
+  const StepControl* control;  ///< if it is not active the old rows stay
   CornerRows corners;
 
   OGC_HD void operator()(int slot) const {
@@ -145,12 +147,12 @@ struct ForgetCorners {
   }
 };
 
-/// for_each over rows. Corners that have no part in c feel nothing.
+/// Enters each contact in the rows of its free corners; a corner with weight 0 feels nothing. Index over rows.
 struct FillCorners {
   const StepControl* control;       ///< as in ForgetCorners
-  const int* counts;                ///< of ListVolumeContacts
-  const VolumeIncidence* contacts;  ///< likewise
-  int capacity;                     ///< of their rows
+  const int* counts;                ///< by row, as ListVolumeContacts leaves them
+  const VolumeIncidence* contacts;  ///< row by row, as ListVolumeContacts leaves them
+  int capacity;                     ///< contacts that fit in a row of `contacts`
   CornerRows corners;
 
   OGC_HD void operator()(int row) const {
@@ -167,12 +169,12 @@ struct FillCorners {
   }
 };
 
-/// for_each over slots.
+/// Sorts the rows of corners. Index over slots.
 struct SortCorners {
   const StepControl* control;  ///< as in ForgetCorners
   CornerRows corners;
   int* longest;   ///< raised to the length that a row needs
-  int* overflow;  ///< set where that is too much
+  int* overflow;  ///< set if that is too much
 
   OGC_HD void operator()(int slot) const {
     if (control->active == 0) return;
@@ -192,14 +194,14 @@ struct SortCorners {
   }
 };
 
-/// for_each over rows, at the end of a step: what its row of metrics says of volumes.
+/// Adds what the step's row of metrics reports of volumes, at the end of a step. Index over rows.
 struct CountVolumeContacts {
   const int* counts;                ///< by row
   const FoundVolumeContact* found;  ///< row by row
-  const int* unresolved;            ///< by row; null where there are no solids
+  const int* unresolved;            ///< by row; null if there are no solids
   int capacity;                     ///< of a row
   float contact_radius;             ///< r [m]
-  StepControl* control;             ///< counted there
+  StepControl* control;             ///< counts are added there
 
   OGC_HD void operator()(int row) const {
     if (unresolved != nullptr && unresolved[row] > 0) atomic_add(&control->depth_unresolved, unresolved[row]);

@@ -1,26 +1,27 @@
-// Volumes of tetrahedra (§3.9, method.md §9, after Chen, Diaz and Yuksel 2023, "Shortest Path to Boundary for
-// Self-Intersecting Meshes"): a point may lie in several sheets of one body. Each has its contact at the end of the
-// shortest segment to the closest point c of a boundary triangle along which the tetrahedra can be traversed.
+// Finds contacts with volumes of tetrahedra (§3.9, method.md §9, after Chen, Diaz and Yuksel 2023, "Shortest Path to
+// Boundary for Self-Intersecting Meshes"): a point may lie in several sheets of one body. The contact of each sheet is
+// at the end of the shortest segment to the closest point c of a boundary triangle along which the tetrahedra can be
+// traversed.
 //
-//   sheets   the tree of tetrahedra offers those whose boxes hold x; signs of exact determinants tell which of them do,
-//            and which simplex of theirs holds it in its interior. Of the tetrahedra of one sheet the lowest-numbered
-//            one speaks
-//   ways     the nearest triangle of all is mostly the right one. Where it has no way, the tree of facets offers all
-//            that are nearer than the shortest way so far, and each that is nearer is traversed
+//   sheets   the tree of tetrahedra offers those whose boxes hold x; signs of exact determinants decide which of them
+//            do, and which of their simplices holds it in its interior. The lowest-numbered tetrahedron of a sheet
+//            stands for it
+//   ways     the nearest triangle of all is mostly the right one. If it has no way, the tree of facets offers all that
+//            are nearer than the shortest way so far, and each that is nearer is traversed
 //   passing  from c to x, from tetrahedron to tetrahedron, in rounded double: heights over the sides of a tetrahedron
-//            are affine along the segment, and one that is below 2⁻³⁶ of the moduli of its terms counts as zero. That
-//            is far above its rounding and far below what single precision knows of the coordinates. Where the segment
-//            leaves by one side, who is behind it goes on; where by several at once, that is by an edge or a vertex,
-//            all go on that have this edge or vertex and lie ahead: no ray is lost there
+//            are affine along the segment, and a height below 2⁻³⁶ of the moduli of its terms counts as zero. That is
+//            far above its rounding and far below what single precision knows of the coordinates. If the segment leaves
+//            by one side, the tetrahedron behind it goes on; if by several at once, that is by an edge or a vertex, all
+//            tetrahedra go on that have this edge or vertex and lie ahead: no ray is lost there
 //
-// Tetrahedra without positive volume hold no point, let nobody pass, and their sides are no end.
+// Tetrahedra without positive volume hold no point, are never traversed, and their sides end no way.
 #pragma once
 
 #include "fast/kernels/volume_depth.hpp"
 
 namespace ogc::fast {
 
-/// Positive where d lies on the side of the normal of abc (right hand).
+/// Is positive if d lies on the side of the normal of abc (right hand).
 struct Orientation {
   /// ((b − a) × (c − a))·(d − a) [m³].
   static constexpr int degree = 3;
@@ -31,29 +32,29 @@ struct Orientation {
   }
 };
 
-/// The corner at place i of the side opposite to corner k, outward where the volume is positive.
+/// Returns the corner at place i of the side opposite to corner k, outward if the volume is positive.
 OGC_HD inline int side_corner(int k, int i) {
   constexpr int sides[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   return sides[k][i];
 }
 
-/// What a solid part is to a point, in sum.
+/// Sums up what a solid part is to a point.
 struct SolidAnswer {
-  int facet = -1;                     ///< at the end of the first sheet's way, where the next search begins; or −1
+  int facet = -1;  ///< facet at the end of the first sheet's way, where the next search begins; or −1
   VolumeSide side = VolumeSide::far;  ///< inside: some sheet holds it
   int unresolved = 0;                 ///< sheets without any way
 };
 
-/// A point before the parts of tetrahedra of a volume.
+/// Answers where a point lies relative to the parts of tetrahedra of a volume.
 class SolidQuestion {
  public:
-  /// `own`: the vertex that the point is, if it is one of the volume; else −1.
+  /// Takes the volume and the point. `own`: the vertex at the point, if it belongs to the volume; else −1.
   OGC_HD SolidQuestion(const VolumeView& volume, const Vec& point, int own)
       : volume_(volume), solids_(volume.solids), faces_(volume, point), x_(point), own_(own) {}
 
-  /// Calls visit(contact) for each contact with a part: one for each sheet that has a way; where there is no sheet, one
-  /// for each face in whose outward block the point lies nearer than r. `first`: where the search begins, or −1; it
-  /// decides the time alone.
+  /// Calls visit(contact) for each contact with a part: one for each sheet that has a way; if there is no sheet, one
+  /// for each face in whose outward block the point lies nearer than r. `first`: facet where the search begins, or −1;
+  /// it changes the time alone.
   template <class Visit>
   OGC_HD SolidAnswer visit_contacts(int part, int first, Visit visit) const {
     SolidAnswer answer;
@@ -83,7 +84,7 @@ class SolidQuestion {
   }
 
  private:
-  /// Sheets with ways to one face are told apart among so many.
+  /// Number of faces, at most, whose contact is reported once if several sheets have ways to them.
   static constexpr int most_known = 8;
 
   /// The shortest way of a sheet so far.
@@ -92,13 +93,13 @@ class SolidQuestion {
     int face = -1, facet = -1;
   };
 
-  /// A segment through a tetrahedron: heights over its sides, inward, times twice their areas, at both ends, and below
-  /// which they count as zero.
+  /// A segment through a tetrahedron: heights over its sides, inward, times twice their areas, at both ends, and the
+  /// size below which they count as zero.
   struct Passage {
     double at_foot[4], at_x[4], zero[4];
 
     OGC_HD double at(int k, double s) const { return add(at_foot[k], mul(s, sub(at_x[k], at_foot[k]))); }
-    /// Whether the height does not fall on the way to x.
+    /// Returns whether the height does not fall on the way to x.
     OGC_HD bool rises(int k) const { return sub(at_x[k], at_foot[k]) >= -zero[k]; }
   };
 
@@ -109,7 +110,7 @@ class SolidQuestion {
     return corner[0] == v || corner[1] == v || corner[2] == v || corner[3] == v;
   }
 
-  /// Corners of a tetrahedron whose bits are set are corners of another one.
+  /// Returns whether all corners of `of` whose bits are set are corners of `element`.
   OGC_HD bool has_all(int element, int of, unsigned corners) const {
     for (int k = 0; k < 4; ++k)
       if ((corners >> k & 1U) != 0 && !has(element, solids_.elements[of].corner[k])) return false;
@@ -128,7 +129,7 @@ class SolidQuestion {
     return corner[0] == own_ || corner[1] == own_ || corner[2] == own_;
   }
 
-  /// The corners with positive weight at x, one bit each: the simplex that holds x in its interior; 0 where the
+  /// Returns the corners with positive weight at x, one bit each: the simplex that holds x in its interior; 0 if the
   /// tetrahedron does not hold x.
   OGC_HD unsigned carrier(int element) const {
     const int* corner = solids_.elements[element].corner;
@@ -175,7 +176,7 @@ class SolidQuestion {
     return search(part, element, way, first, true, failed);
   }
 
-  /// The shortest of all ways, or of all segments where nobody has to pass.
+  /// Returns the shortest of all ways, or of all segments if `must_pass` is false.
   OGC_HD Way search(int part, int element, Way way, int first, bool must_pass, int failed) const {
     float limit = 0x1p126F;  // everything; empty children, at infinity, lie beyond it
     const auto meet = [&](int t) {
@@ -196,7 +197,7 @@ class SolidQuestion {
     return way;
   }
 
-  /// x − c for the closest point c of a facet.
+  /// Returns x − c for the closest point c of a facet.
   OGC_HD Real from_facet(int t) const {
     const Corners at = faces_.corners(t);
     const TriangleFeature feature = closest_feature(x_, at, volume_.surface.facets[t].descending);
@@ -225,9 +226,9 @@ class SolidQuestion {
     return passage;
   }
 
-  /// Tetrahedra that a segment has reached and not left yet, and the last ones that it has met.
+  /// Holds the tetrahedra that a segment has reached and not left yet, and the last ones that it has met.
   struct Front {
-    static constexpr int most = 32;  ///< that lie ahead of one point, and that it could come back to
+    static constexpr int most = 32;  ///< tetrahedra ahead of one point, and of those that it could come back to
     int waiting[most], met[most], waiting_count = 0, met_count = 0;
 
     OGC_HD void reach(int element) {
@@ -239,7 +240,7 @@ class SolidQuestion {
     }
   };
 
-  /// All tetrahedra of a simplex, named by vertices of which there are `count`, that lie ahead.
+  /// Reaches all tetrahedra that lie ahead and have a simplex, given by `count` vertices.
   OGC_HD void go_on(const int* vertex, int count, const Real& apart, Front& front) const {
     const Rows& rows = solids_.vertex_elements;
     for (int i = rows.offsets[vertex[0]]; i < rows.offsets[vertex[0] + 1]; ++i) {
@@ -258,14 +259,14 @@ class SolidQuestion {
     }
   }
 
-  /// Whether the tetrahedra can be traversed from the closest point of a facet, which lies on `face`, to x in the sheet
-  /// of a tetrahedron.
+  /// Returns whether the tetrahedra can be traversed from the closest point of a facet, which lies on `face`, to x in
+  /// the sheet of a tetrahedron.
   OGC_HD bool passes(int part, int sheet, int t, int face) const {
     const Real apart = from_facet(t);
     Front front;
     int vertex[4];
     go_on(vertex, vertices_of(face, vertex), apart, front);
-    // each is reached once where the body has any thickness, so that this is no limit
+    // no limit where the body has any thickness: each is reached once there
     const int most = 4 * volume_.parts[part].tetrahedra.tree.count + Front::most;
     while (front.waiting_count > 0 && front.met_count < most) {
       const int element = front.waiting[--front.waiting_count];
@@ -284,7 +285,7 @@ class SolidQuestion {
           high = smaller(high, root);
       }
       if (!(low <= high)) continue;
-      unsigned left_by = 0;  // sides on which it leaves, or x lies, by their corners
+      unsigned left_by = 0;  // sides on which the segment leaves, or x lies, by their opposite corners
       for (int k = 0; k < 4; ++k)
         if (own.at(k, high) <= own.zero[k]) left_by |= 1U << k;
       const unsigned stays = ~left_by & 15U;
@@ -308,7 +309,7 @@ class SolidQuestion {
     return false;
   }
 
-  /// Returns how many a face has.
+  /// Writes the vertices of a face, and returns their number.
   OGC_HD int vertices_of(int face, int* vertex) const {
     const SurfaceView& surface = volume_.surface;
     if (faces_.is_vertex(face)) {

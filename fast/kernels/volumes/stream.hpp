@@ -1,5 +1,5 @@
-// Contacts with volumes in the sum over the stencils of a vertex: as the point, and, where volumes are free, as corner
-// of a triangle that others press. A driven volume stands still while a step is solved.
+// Adds contacts with volumes to the sum over the stencils of a vertex: as the point, and, if volumes are free, as a
+// corner of a triangle that others press. A driven volume stands still while a step is solved.
 #pragma once
 
 #include "compare/stages/volume_depth.hpp"
@@ -16,7 +16,7 @@ struct alignas(16) VolumeIncidence {
   VolumeContact contact;
   int point = 0;  ///< number in the mesh
 
-  /// The vertex of a role: the point (0), a corner (1, 2, 3).
+  /// Returns the vertex of a role: the point (0), a corner (1, 2, 3).
   OGC_HD int vertex(int role) const { return role == 0 ? point : corner[role - 1]; }
 };
 
@@ -25,10 +25,11 @@ struct SeenVolumeContact {
   VolumeContact contact;
   int index[4];  ///< by role, encoded as in sweep_view.hpp
   int own = 0;   ///< the vertex' own role
-  int together;  ///< of add_volume_contact
+  int together;  ///< as in add_volume_contact
 };
 
-/// Where driven volumes are all there are, corners have no colour.
+/// Returns a contact as the vertex of role `own` sees it. If all volumes are driven `colour` is null: corners have no
+/// colour then.
 OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int own, const int* colour) {
   SeenVolumeContact seen;
   seen.contact = incidence.contact;
@@ -43,10 +44,10 @@ OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int 
   return seen;
 }
 
-/// Contact k of a vertex: first those of which it is the point, then those of which it is a corner.
+/// Loads contact k of a vertex: first those in which it is the point, then those in which it is a corner.
 struct LoadVolumeContact {
   VolumeStream volumes;
-  int slot, points;  ///< `points`: how many of the first kind
+  int slot, points;  ///< `points`: number of the former
 
   OGC_HD SeenVolumeContact operator()(int k) const {
     if (k < points) return seen_from(volumes.contacts[slot * volumes.capacity + k], 0, volumes.colour);
@@ -56,7 +57,7 @@ struct LoadVolumeContact {
 };
 /// Adds a contact.
 struct AddVolumeContact {
-  const SweepView& view;
+  const SweepShared& view;
   Vec own, own_start;  ///< x and xᵗ of the vertex [m]
 
   OGC_HD void operator()(const SeenVolumeContact& seen, ForceAndBlock& sum) const {
@@ -69,11 +70,11 @@ struct AddVolumeContact {
   }
 };
 
-/// Contacts with volumes, of a scene that may have none.
+/// The contacts with volumes of a scene, which may have none.
 struct VolumeContacts {
   static constexpr unsigned gives = asks_volumes | asks_any_model;
 
-  OGC_HD static Part<LoadVolumeContact, AddVolumeContact> part_of(const SweepView& view, int slot,
+  OGC_HD static Part<LoadVolumeContact, AddVolumeContact> part_of(const SweepShared& view, int slot,
                                                                   const SweepVertex& vertex, const OwnVertex& own) {
     const VolumeStream& volumes = view.volumes;
     const int points = volumes.counts != nullptr ? volumes.counts[slot] : 0,
@@ -85,14 +86,14 @@ struct VolumeContacts {
 /// From this share of r on a vertex is deep inside a volume (compare/volumes.md, The step).
 inline constexpr float deep_share = 0.5F;
 
-/// Whether a contact's point lies deep inside a volume by what the contact froze: φ < −r/2. `x`: by role [m].
+/// Returns whether a contact's point lies deep inside a volume by what the contact froze: φ < −r/2. `x`: by role [m].
 OGC_HD inline bool is_deep(const VolumeContact& contact, const Vec* x, float contact_radius) {
   return dot(contact.normal, volume_separation(contact, x)) < -deep_share * contact_radius;
 }
 
 /// Whether x, of the vertex of a slot, lies deep inside a driven volume, whose corners stand still while others are
 /// solved. Where volumes are free, CountDeepInside asks after the iteration.
-OGC_HD inline bool lies_deep_in_volume(const SweepView& view, int slot, const Vec& x) {
+OGC_HD inline bool lies_deep_in_volume(const SweepShared& view, int slot, const Vec& x) {
   const VolumeStream& volumes = view.volumes;
   if (volumes.counts == nullptr || volumes.colour != nullptr) return false;
   for (int k = 0; k < volumes.counts[slot]; ++k) {
@@ -104,7 +105,7 @@ OGC_HD inline bool lies_deep_in_volume(const SweepView& view, int slot, const Ve
   return false;
 }
 
-/// The positions of a contact's vertices by role.
+/// Holds the positions of a contact's vertices by role.
 struct VolumePositions {
   Vec x[4];  ///< [m]
 
@@ -113,14 +114,14 @@ struct VolumePositions {
   }
 };
 
-/// for_each over rows after an iteration, where volumes are free: counts who lies deep inside one.
+/// Counts vertices deep inside free volumes after an iteration. Index over rows.
 struct CountDeepInside {
   VolumeStream volumes;
   const Vec* position;   ///< by vertex [m]
   float contact_radius;  ///< r [m]
   const int* turn;       ///< as in SweepView
   int iteration;
-  StepControl* control;  ///< counted there
+  StepControl* control;  ///< counts are added there
 
   OGC_HD void operator()(int row) const {
     if (turn != nullptr && *turn != iteration) return;

@@ -1,18 +1,18 @@
-// The trees of the parts of volumes, brought up to date. Their order stands: neighbours on a body stay neighbours,
-// however it moves.
+// Refits the trees of the parts of volumes. Their order stays: neighbours on a body remain neighbours, however it
+// moves.
 #pragma once
 
 #include "fast/kernels/volumes/solids.hpp"
 
 namespace ogc::fast {
 
-/// Boxes of all facets and tetrahedra and of the nodes above them; of tetrahedra whether they have positive volume. For
-/// for_each over count() items, which a warp of 32 must call together (RefitTrees).
+/// Computes the boxes of all facets and tetrahedra and of the nodes above them, and which tetrahedra have positive
+/// volume. Index over count() items, which a warp of 32 must call together (RefitTrees).
 struct RefitVolumes {
   SurfaceView surface;
   SolidView solids;                        ///< signs are written
   const Vec* positions;                    ///< by vertex [m]
-  const PartTree* trees;                   ///< those of facets, then those of tetrahedra; their boxes are written
+  const PartTree* trees;                   ///< trees of facets, then trees of tetrahedra; their boxes are written
   int facet_trees, count_of_trees, items;  ///< `items`: places of all trees, each filled up to whole warps
 
   OGC_HD int count() const { return items; }

@@ -47,8 +47,9 @@ class Point:
         return f"{self.energy}_{self.stiffness:g}_kappa_{self.ratio:g}_seed_{self.seed}"
 
     def words(self, scale):
-        return (commands.ACTIVATIONS, "--scale", scale, "--steps", commands.ACTIVATION_STEPS[scale], *commands.BY_VBD,
-                "--set", f"contact_stiffness={self.ratio * self.stiffness:g}", "--set", f"activation={self.energy}")
+        return (commands.ACTIVATIONS, "--scale", scale, "--steps", commands.ACTIVATION_STEPS[scale],
+                *commands.BY_VBD, "--set", f"contact_stiffness={self.ratio * self.stiffness:g}",
+                "--set", f"contact_activation={self.energy}")
 
     def fall(self, scale):
         return Job(self.name, (*self.words(scale), *commands.FRAMES, "--jitter", f"{JITTER:g}", "--seed", self.seed))

@@ -90,7 +90,7 @@ class Case:
         return NEWTON_STEPS if self.solver == "newton" else STEPS[scale]
 
     def words(self, backend):
-        solver = ("--solver", "newton", "--set", "friction_solves=20") if self.solver == "newton" else \
+        solver = ("--solver", "newton", "--set", "newton_friction_solves=20") if self.solver == "newton" else \
             ("--backend", backend, "--set", f"iterations={self.iterations}")
         return (*solver, "--set", f"contact_stiffness={self.stiffness:g}", "--set",
                 f"friction={self.over * math.tan(slide.ANGLE):.7g}", "--set", f"friction_velocity={self.velocity:g}")

@@ -96,7 +96,8 @@ class Case:
 
     @property
     def job(self):
-        words = ("--solver", "reference_vbd", "--set", f"contact_set={self.contacts}", "--jitter", f"{JITTER:g}",
+        words = ("--solver", "reference_vbd", "--set", f"reference_contact_set={self.contacts}",
+                 "--jitter", f"{JITTER:g}",
                  "--seed", self.seed, "--audit", "end")
         return Job(self.name, words, scene=Pressed(self.ratio))
 

@@ -278,7 +278,8 @@ def draw(scene, runs, how_far, out):
         draw_reached(panels[2], runs)
     ours = runs[main_runs(scene)["ogc"]]
     figure.suptitle(f"{scene} ({ours.manifest['scale']}), {ours.manifest['backend']} ({ours.manifest['device']}), "
-                    f"{commits_in_words(list(runs.values()))}; baseline: bounds=off, activation=quadratic", fontsize=8)
+                    f"{commits_in_words(list(runs.values()))}; baseline: bounds=off, "
+                    "contact_activation=quadratic", fontsize=8)
     style.save(figure, out)
 
 

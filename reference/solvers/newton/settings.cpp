@@ -22,12 +22,12 @@ constexpr std::array<compare::SettingInfo, 6> rows{{
     {"newton_step_tolerance", "m/s",
      "a Newton step has also converged where no vertex wants to move faster than this; 0: this does not end it", 0,
      0x1p10, compare::DeclaredSetting{real, 0}},
-    {"friction_solves", "1", "Newton's solves in a step, each with the friction that the one before led to", 1, 1 << 20,
-     compare::DeclaredSetting{whole, 1}},
-    {"projection", "1",
+    {"newton_friction_solves", "1", "Newton's solves in a step, each with the friction that the one before led to", 1,
+     1 << 20, compare::DeclaredSetting{whole, 1}},
+    {"newton_projection", "1",
      "what Newton does with negative curvature of an energy: keep it, cut it off at zero, or take its absolute value",
      0, 2, compare::DeclaredSetting{choice, static_cast<double>(HessianProjection::clamp)}, projection_names},
-    {"truncation", "1",
+    {"newton_truncation", "1",
      "what Newton's step is cut to: each vertex to its own bound, or each near pair to a plane that travels with it", 0,
      1, compare::DeclaredSetting{choice, static_cast<double>(Truncation::vertex)}, truncation_names},
 }};
@@ -40,9 +40,9 @@ NewtonSettings newton_settings(const compare::Settings& settings) {
   return {.iterations = static_cast<std::int64_t>(get_setting(settings, "newton_iterations")),
           .tolerance = get_setting(settings, "newton_tolerance"),
           .step_tolerance = get_setting(settings, "newton_step_tolerance"),
-          .friction_solves = static_cast<std::int64_t>(get_setting(settings, "friction_solves")),
-          .projection = static_cast<HessianProjection>(get_setting(settings, "projection")),
-          .truncation = static_cast<Truncation>(get_setting(settings, "truncation"))};
+          .friction_solves = static_cast<std::int64_t>(get_setting(settings, "newton_friction_solves")),
+          .projection = static_cast<HessianProjection>(get_setting(settings, "newton_projection")),
+          .truncation = static_cast<Truncation>(get_setting(settings, "newton_truncation"))};
 }
 
 }  // namespace ogc::reference

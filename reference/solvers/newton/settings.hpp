@@ -1,4 +1,4 @@
-// Settings of Newton's method beside the problem's own; IPC shares friction_solves and projection.
+// Settings of Newton's method beside the problem's own; IPC shares newton_friction_solves and newton_projection.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ struct NewtonSettings {
   Truncation truncation;
 };
 
-/// Reads newton_iterations, newton_tolerance, newton_step_tolerance, friction_solves, projection and truncation from
-/// the problem's settings.
+/// Reads newton_iterations, newton_tolerance, newton_step_tolerance, newton_friction_solves, newton_projection and
+/// newton_truncation from the problem's settings.
 NewtonSettings newton_settings(const compare::Settings& settings);
 
 }  // namespace ogc::reference

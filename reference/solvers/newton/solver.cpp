@@ -73,7 +73,7 @@ std::uint32_t NewtonSolver::end_between_planes(std::uint32_t status) {
 void NewtonSolver::detect_with_planes() {
   detect_here();
   planes_ = timed(detection, [&] {
-    const double relaxation = settings_.bound_relaxation;
+    const double relaxation = settings_.bounds_relaxation;
     return MovingPlanes(detect_pairs(topology_, exclusions_, detected_.previous, query_radius_, relaxation),
                         detected_.previous, potential_.mobility(), double{query_radius_}, relaxation);
   });

@@ -34,9 +34,9 @@
 // A line search that takes less than 10⁻³ of a step triggers a detection, for new balls.
 //
 // Balls and half-spaces stand still, so that vertices which travel together, or along each other, need as many
-// detections as their gap goes into their way. With `truncation=pair` near pairs are held apart by planes that travel
-// with them (moving_planes.hpp), and δ' is δ with such pairs moved apart. The guess loop keeps its balls; a step ends
-// with a detection at what it stores.
+// detections as their gap goes into their way. With `newton_truncation=pair` near pairs are held apart by planes that
+// travel with them (moving_planes.hpp), and δ' is δ with such pairs moved apart. The guess loop keeps its balls; a step
+// ends with a detection at what it stores.
 //
 // Stencils are projected where the matrix is not positive definite without projection, and where the last step was cut:
 // far from the solution the matrix rarely is definite. With projection in every iteration a step of a crumpled cloth
@@ -142,7 +142,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
 
   NewtonSettings newton_;
   NewtonSteps steps_;
-  MovingPlanes planes_;  ///< of the last detection, with truncation=pair
+  MovingPlanes planes_;  ///< of the last detection, with newton_truncation=pair
   BlockMatrix matrix_;
   Factor factor_;
   PotentialDerivatives derivatives_;  ///< of the last iteration

@@ -148,7 +148,7 @@ void RodSystem::turn(const Positions& x) {
     const Index held = terms_[e].held;
     if (held > 0 && says_turn(scene_.motions[place(held) - 1]))
       q_[e] = unit(product(wide(prescribed_turn(scene_.motions[place(held) - 1], before, before + h)), start_[e]));
-    else if (held > 0 || (held < 0 && turns(scene_.settings.start_frames)))
+    else if (held > 0 || (held < 0 && turns(scene_.settings.rod_start)))
       q_[e] = turned_along(apart(e, start_positions_), apart(e, x), start_[e]);
     else
       q_[e] = start_[e];
@@ -220,8 +220,8 @@ void RodSystem::sweep(const Positions& x) {
       if (!(pull > 0))
         q_[e] = without_neighbours(own, q_[e], sigma);
       else
-        q_[e] = minimises(scene_.settings.orientation) ? least(own, q_[e], sigma, pull)
-                                                       : as_published(own, sigma, pull);
+        q_[e] = minimises(scene_.settings.rod_orientation) ? least(own, q_[e], sigma, pull)
+                                                           : as_published(own, sigma, pull);
     });
 }
 

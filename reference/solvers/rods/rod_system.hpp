@@ -58,7 +58,7 @@ class RodSystem {
   /// Begins a step at xᵗ, from which damping counts, with q = qᵗ.
   void begin_step(const std::vector<Triple<double>>& start, std::int64_t number);
   /// Sets q after the guess loop: turns qᵗ as the segment has turned from xᵗ to x, or as its prescribed motion turns.
-  /// Fixed segments keep qᵗ, and so do free ones with start_frames=kept.
+  /// Fixed segments keep qᵗ, and so do free ones with rod_start=kept.
   void turn(const std::vector<Triple<double>>& x);
   /// Moves each free segment to its minimiser, colour by colour.
   void sweep(const std::vector<Triple<double>>& x);

@@ -47,7 +47,8 @@ constexpr bool cuts_updates(CutAfter cut) {
   return true;
 }
 
-/// Values of the settings contact_set, colours, contact_blocks and cut_after.
+/// Values of the settings reference_contact_set, reference_vbd_colours, reference_vbd_contact_blocks and
+/// reference_vbd_cut_after.
 struct Variants {
   ContactSet contact_set = ContactSet::ogc;                 ///< for all solvers of the reference
   Colouring colours = Colouring::turned;                    ///< for sweeps

@@ -34,7 +34,7 @@ std::size_t index_of(std::string_view name) {
 TEST_CASE("declared settings follow the problem's, by the names of their contestants", "[unit]") {
   // Linked contestants declare theirs between "another" and "tests", in the order of their names.
   const std::size_t own = index_of("tests_share");
-  CHECK(index_of("another_share") == index_of("start_frames") + 1);
+  CHECK(index_of("another_share") == index_of("rod_start") + 1);
   CHECK(index_of("another_share") < own);
   CHECK(setting_table().size() == own + 3);
   CHECK(index_of("tests_count") == own + 1);

@@ -11,9 +11,11 @@
 #include "compare/problem/names.hpp"
 #include "compare/problem/ranges.hpp"
 #include "tests/catch.hpp"
+#include "tests/compare/problem/renamed.hpp"
 
 using namespace ogc::compare;
 using Catch::Matchers::Contains;
+using Catch::Matchers::Equals;
 
 TEST_CASE("every setting has a name of its own and a default within its range", "[unit]") {
   const Settings defaults;
@@ -109,6 +111,14 @@ TEST_CASE("messages name the setting, its unit, its range and the nearest name",
                     Contains("'contactradius'") && Contains("'contact_radius'"));
   CHECK_THROWS_WITH(set_setting(settings, "iteration", "1"), Contains("did you mean 'iterations'?"));
   CHECK_THROWS_WITH(get_setting(settings, "gamma"), Contains("unknown setting 'gamma'"));
+}
+
+TEST_CASE("a name that a setting had before is refused with the one that it has now", "[unit]") {
+  for (const ogc::tests::Renamed& setting : ogc::tests::renamed_settings) {
+    Settings settings;
+    CHECK_THROWS_WITH(set_setting(settings, setting.before, "1"), Equals(setting.refusal()));
+    if (setting.now != "body_contact") CHECK_NOTHROW(get_setting(settings, setting.now));  // that one is a body's
+  }
 }
 
 TEST_CASE("what help says of a range is what is taken: its ends are, and what lies just outside is not", "[property]") {

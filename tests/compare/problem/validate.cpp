@@ -136,8 +136,8 @@ TEST_CASE("validate names each kind of problem of a scene", "[unit]") {
                Contains("triangle 0 of body 'sheet' (vertices 99, 1, 2): names a vertex that does not exist: 99"));
   }
   SECTION("setting") {
-    scene.settings.bound_relaxation = 0.5;
-    check_only(validate(scene), "setting 'bound_relaxation'", "is 0.5; give a number from");
+    scene.settings.bounds_relaxation = 0.5;
+    check_only(validate(scene), "setting 'bounds_relaxation'", "is 0.5; give a number from");
   }
   SECTION("lanes") {
     scene.settings.lanes = 3;

@@ -47,12 +47,12 @@ Body body_of(const ogc_body& b) {
 Settings settings_of(const ogc_settings& s) {
   Settings settings;
   settings.time_step = s.time_step, settings.contact_radius = s.contact_radius,
-  settings.query_radius_cap = s.query_radius_cap;
-  settings.bound_relaxation = s.bound_relaxation, settings.redetect_fraction = s.redetect_fraction,
+  settings.detection_radius_cap = s.detection_radius_cap;
+  settings.bounds_relaxation = s.bounds_relaxation, settings.detection_fraction = s.detection_fraction,
   settings.friction_velocity = s.friction_velocity;
-  settings.iterations = s.iterations, settings.redetect_every = s.redetect_every,
+  settings.iterations = s.iterations, settings.detection_every = s.detection_every,
   settings.guess_rounds = s.guess_rounds, settings.lanes = s.lanes;
-  settings.activation = static_cast<ContactActivation>(s.activation),
+  settings.contact_activation = static_cast<ContactActivation>(s.contact_activation),
   settings.damping = static_cast<DampingForm>(s.damping_form);
   return settings;
 }
@@ -240,14 +240,14 @@ class Step {
                                                double{target[v].z} - start_[v].z));
     }
     const double r = scene_.settings.contact_radius;
-    query_radius = static_cast<float>(std::min(r + farthest, scene_.settings.query_radius_cap * r));
+    query_radius = static_cast<float>(std::min(r + farthest, scene_.settings.detection_radius_cap * r));
   }
 
   void run() {
     const Settings& s = scene_.settings;
     const auto moving = static_cast<double>(bounded_count(topology_, groups_));
     const auto threshold = [&](std::int64_t times) {
-      const double share = static_cast<double>(times) * (s.redetect_fraction * moving);
+      const double share = static_cast<double>(times) * (s.detection_fraction * moving);
       return std::max(1.0, breaks("threshold") ? std::floor(share) : std::ceil(share));
     };
     for (std::int64_t round = 0;;) {
@@ -260,7 +260,7 @@ class Step {
     std::int64_t since = 0;
     for (std::int64_t i = breaks("one iteration less") ? 1 : 0; i < s.iterations; ++i) {
       if (!found) detect(), since = 0;
-      found = sweep() < threshold(1) && (s.redetect_every == 0 || ++since < s.redetect_every);
+      found = sweep() < threshold(1) && (s.detection_every == 0 || ++since < s.detection_every);
     }
   }
 
@@ -270,7 +270,7 @@ class Step {
     detected_.bound = ours()
                           .bound({&topology_, detected_.vertex_facet.d_min_vertex, detected_.edge_edge.d_min_edge,
                                   detected_.vertex_facet.d_min_triangle,
-                                  static_cast<float>(scene_.settings.bound_relaxation)})
+                                  static_cast<float>(scene_.settings.bounds_relaxation)})
                           .bound;
     events.push_back(detected_);
   }
@@ -446,7 +446,7 @@ int ogc_plane(const ogc_plane_in* in, ogc_plane_out* out) {
                                         positions,
                                         {in->is_fixed, n},
                                         in->query_radius,
-                                        in->bound_relaxation});
+                                        in->bounds_relaxation});
   std::copy(answer.bound.begin(), answer.bound.end(), out->bound);
   out->count = static_cast<std::int64_t>(answer.planes.items.size());
   if (out->count > out->capacity) return 0;

@@ -67,7 +67,7 @@ TEST_CASE("dress has the paper's numbers, and the stand-in about the data set's 
   CHECK(scene.settings.contact_radius == static_cast<double>(2e-3f));
   CHECK(scene.settings.time_step == static_cast<double>(1.0f / 200));
   CHECK(scene.settings.iterations == 20);
-  CHECK(scene.settings.redetect_fraction == static_cast<double>(0.01f));
+  CHECK(scene.settings.detection_fraction == static_cast<double>(0.01f));
   CHECK(scene.bodies.back().is_volume());
   CHECK(std::ranges::count_if(scene.bodies, &Body::is_volume) == 1);
   CHECK(scene.settings.steps == 968);

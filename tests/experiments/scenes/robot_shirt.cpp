@@ -71,7 +71,7 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
   for (const Scale scale : {Scale::small, Scale::paper}) {
     const Scene scene = make_scene("robot_shirt", scale);
     const Settings& s = scene.settings;
-    CHECK(largest_step(scene) < s.bound_relaxation * s.query_radius_cap * s.contact_radius);
+    CHECK(largest_step(scene) < s.bounds_relaxation * s.detection_radius_cap * s.contact_radius);
     // The jaws withdraw, open, at 0.47 m/s; at 0.85 r lower jaws stayed behind (experiments/scenes/robot_shirt.hpp).
     CHECK(largest_step(scene) < 0.4 * s.contact_radius);
     for (const PrescribedMotion& motion : scene.motions) {
@@ -81,7 +81,7 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
       CHECK(opening(scene, motion, 6) > 0.03);
     }
     CHECK(height(scene, 2) - height(scene, 0) == Approx(0.32));
-    CHECK(s.redetect_fraction == static_cast<double>(0.01f));
+    CHECK(s.detection_fraction == static_cast<double>(0.01f));
     for (const Body& body : scene.bodies) CHECK(body.is_volume() == body.name.ends_with("gripper"));
     CHECK(prescribed_targets(scene, scene.motions[0], 0)[0] ==
           to_single(scene.mesh.positions)[static_cast<std::size_t>(scene.motions[0].vertices[0])]);

@@ -20,7 +20,7 @@ void run_range(const Counted& counted, int begin, int end) {
   *counted.items += end - begin;
 }
 
-/// What for_each_row says of each row.
+/// Receives what for_each_row computes for each row.
 struct TwoOfRow {
   static constexpr int rank = 16;
   float *least, *after;

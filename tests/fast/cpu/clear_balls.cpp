@@ -1,5 +1,5 @@
-// Balls within which nobody asks a driven volume again (fast/kernels/volume_depth.hpp): whoever is in one is far,
-// whatever the part is like.
+// Tests the balls within which no vertex queries a driven volume again (fast/kernels/volume_depth.hpp): every point in
+// one is far, whatever the part is like.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -21,7 +21,8 @@ struct Shape {
   std::vector<compare::Triangle> triangles;
 };
 
-/// A closed surface about the origin, of rings and the two poles, about 2 m wide; vertices are off by up to `rough`.
+/// Returns a closed surface about the origin, of rings and the two poles, about 2 m wide; vertices are off by up to
+/// `rough`.
 Shape ball(std::mt19937& random, int rings, int columns, float rough) {
   Shape shape;
   std::uniform_real_distribution<float> off(-rough, rough);
@@ -49,7 +50,7 @@ Shape ball(std::mt19937& random, int rings, int columns, float rough) {
   return shape;
 }
 
-/// One part on the processor.
+/// One part on the CPU, queried by points.
 class Asked {
  public:
   Asked(const Shape& shape, float radius)
@@ -85,7 +86,7 @@ struct Counts {
   int far = 0, balls = 0, inside = 0;
 };
 
-/// Points anywhere in the box of `shape`; those in the ball of each are far.
+/// Checks points anywhere in the box of `shape`, and that the points in the ball of each are far.
 Counts check(std::mt19937& random, const Shape& shape, float radius) {
   const Asked part(shape, radius);
   std::uniform_real_distribution<float> anywhere(-1.2f, 1.2f), share(0.5f, 1);
@@ -124,7 +125,7 @@ TEST_CASE("whoever is in the clear ball of a point that is far is far, too", "[p
     for (const int rings : {3, 6, 12}) {
       Shape shape = ball(random, rings, 2 * rings, rough);
       const Counts closed = check(random, shape, 0.02f);
-      // with rims, and a point inside that nothing but the nearest face calls so
+      // with rims, and a point inside that only the nearest face classifies so
       shape.triangles.erase(shape.triangles.begin() + 1, shape.triangles.begin() + 4);
       const Counts open = check(random, shape, 0.02f);
       if (rough == 0.0f) {

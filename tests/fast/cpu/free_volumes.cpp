@@ -1,4 +1,5 @@
-// Free volumes in the resident simulation (§3.9): bodies of tetrahedra push each other, themselves and surfaces out.
+// Tests free volumes in the resident simulation (§3.9): bodies of tetrahedra push each other, themselves and surfaces
+// out.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -35,7 +36,7 @@ compare::Material rubber(double friction = 0.5) {
   return material;
 }
 
-/// So soft and light that 60 iterations carry a block's weight through it.
+/// Returns a material so soft and light that 60 iterations carry a block's weight through it.
 compare::Material foam(double friction = 0.5) {
   compare::Material material = rubber(friction);
   material.solid_density = 100;
@@ -44,7 +45,7 @@ compare::Material foam(double friction = 0.5) {
   return material;
 }
 
-/// A free block of 4³ vertices as a volume.
+/// Adds a free block of 4³ vertices as a volume.
 void add_block(Scene& scene, const Vec3& corner, const compare::Material& material) {
   append_body(scene,
               {.name = "block" + std::to_string(scene.bodies.size()),
@@ -53,7 +54,7 @@ void add_block(Scene& scene, const Vec3& corner, const compare::Material& materi
               tests::block_mesh(side, spacing, corner));
 }
 
-/// The vertices of a body for which `is` holds go along with a velocity [m/s].
+/// Moves the vertices of a body for which `is` holds with a velocity [m/s].
 template <class Is>
 void drive(Scene& scene, std::size_t body, const Vec3& velocity, Is is) {
   compare::PrescribedMotion motion;
@@ -66,10 +67,10 @@ void drive(Scene& scene, std::size_t body, const Vec3& velocity, Is is) {
   scene.motions.push_back(motion);
 }
 
-/// Who stands at the height of the lowest vertices.
+/// Returns whether x is at the height of the lowest vertices.
 bool is_at_ground(const Vec3& x) { return x.y < 1e-6; }
 
-/// A block whose lowest vertices are held, and another one, aside, 4 mm inside of it.
+/// Returns a block whose lowest vertices are held, and another one, aside, 4 mm inside of it.
 Scene block_in_block() {
   Scene scene = empty_scene();
   add_block(scene, {0, 0, 0}, foam());
@@ -86,7 +87,7 @@ compare::VolumePenetration penetration(const Scene& scene, const compare::Snapsh
   return compare::VolumeAuditor(scene).audit(compare::to_double(state.positions));
 }
 
-/// The mean over the vertices of a block.
+/// Returns the mean over the vertices of a block.
 Vec3 mean(const std::vector<compare::Vec3f>& of, std::size_t block) {
   Vec3 sum;
   for (std::size_t v = block * in_block; v < (block + 1) * in_block; ++v)
@@ -117,7 +118,7 @@ TEST_CASE("a block that begins inside another comes out on the nearest side, and
   }
   const compare::Snapshot end = simulation->snapshot();
   CHECK(penetration(scene, end).vertices_inside == 0);
-  CHECK(mean(end.positions, 1).y > 3 * spacing + 1.5 * spacing);  // it lies on the other, not beside it
+  CHECK(mean(end.positions, 1).y > 3 * spacing + 1.5 * spacing);  // it lies on the other one, not beside it
   // volumes have no bound
   for (const float bound : end.bounds) CHECK(bound == std::numeric_limits<float>::max());
 }
@@ -133,7 +134,7 @@ TEST_CASE("what a free block is pressed by presses back: without other forces bo
   const std::vector<compare::Vec3f> velocity = simulation->snapshot().velocities;
   const Vec3 low = mean(velocity, 0), high = mean(velocity, 1);
   CHECK(high.y > 0.05);
-  // equal masses; a sweep ends with some force left, of which 300 leave less than 10⁻³ of the whole
+  // equal masses; a sweep leaves some force, 300 sweeps less than 10⁻³ of the whole
   CHECK(low.y == Approx(-high.y).epsilon(1e-3));
   CHECK(low.x == Approx(-high.x).margin(1e-3 * high.y));
   CHECK(low.z == Approx(-high.z).margin(1e-3 * high.y));
@@ -159,7 +160,7 @@ TEST_CASE("a free block goes along with a driven one that friction holds it on, 
     }
     return mean(simulation->snapshot().positions, 1).x - 0.03 - 1.5 * spacing;
   };
-  // 0.4 s at 0.05 m/s, of which it slides until it is as fast: v/(μ g) = 6 ms for μ = 0.8, half of them lost
+  // 0.4 s at 0.05 m/s; it slides until it is as fast, v/(μ g) = 6 ms for μ = 0.8, and loses half of that way
   CHECK(travelled(0.8) == Approx(0.05 * 0.4).epsilon(0.05));
   CHECK(std::abs(travelled(0)) < 1e-4);
 }
@@ -179,7 +180,7 @@ TEST_CASE("a prescribed surface pushes a free volume along", "[property]") {
     CHECK(row.status == compare::step_clean);
     CHECK(row.largest_lag == 0);
   }
-  // the sheet has gone 6 cm, of which r short of 1 cm stood between them
+  // the sheet has moved 6 cm; a distance of 1 cm less r was between them
   const compare::Snapshot end = simulation->snapshot();
   float highest = -1;
   for (std::size_t v = 81; v < end.positions.size(); ++v) highest = std::max(highest, end.positions[v].y);
@@ -234,7 +235,7 @@ TEST_CASE("free volumes: the same bits again, on any number of threads and acros
 }
 
 TEST_CASE("a body whose rest shape lies in itself is pushed out of itself", "[property]") {
-  // a U: a block of 27 cells without the upper two of the middle ones, whose one arm leans into the other
+  // a U: a block of 27 cells without the upper two of the middle ones; one of its arms leans into the other
   compare::Mesh mesh = tests::block_mesh(side, spacing);
   std::vector<compare::Tetrahedron> kept;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {

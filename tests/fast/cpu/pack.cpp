@@ -17,7 +17,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Where this file is compiled for AVX2 both widths.
+/// Both widths if this file is compiled for AVX2.
 using Packs = std::conditional_t<Pack::width == WidePack::width, std::tuple<Pack>, std::tuple<Pack, WidePack>>;
 
 /// As many floats as a pack has.
@@ -36,11 +36,12 @@ P pack(const Floats<P>& a) {
   return P::of_each([&a](int k) { return a[static_cast<std::size_t>(k)]; });
 }
 
-/// The same bits, or both not a number: of two NaN operands a processor keeps the first, and which that is a compiler
-/// may choose.
+/// Returns whether the bits are the same, or both are NaN: of two NaN operands a processor keeps the first, and the
+/// compiler may choose which that is.
 bool alike(float a, float b) { return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// f of packs against f of each place, for numbers of every size, zeros of both signs, infinities and NaN.
+/// Returns how often f of packs differs from f of each place, for numbers of every size, zeros of both signs,
+/// infinities and NaN.
 template <class P, class F>
 int differences(F f) {
   std::mt19937 random(7);

@@ -1,4 +1,4 @@
-// Which contacts a pack computes together: were it fewer, answers would stay and time be lost.
+// Tests which contacts a pack computes together: if they were fewer, results would stay and time would be lost.
 #include "fast/cpu/packed_contact.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace ogc::fast::test;
 
 namespace {
 
-/// Four contacts, of vertices [slot][place].
+/// Holds four contacts, of vertices [slot][place].
 struct Four {
   Vec x[4][Pack::width];
 
@@ -26,7 +26,7 @@ struct Four {
     }
     return packed;
   }
-  /// Lanes whose weights are those of one contact by itself, bit for bit.
+  /// Returns the lanes whose weights are those of one contact by itself, bit for bit.
   unsigned alike(ContactKind kind, const ContactWeightsOf<Pack>& weights) const {
     unsigned all = 0;
     for (int k = 0; k < Pack::width; ++k) {
@@ -50,7 +50,8 @@ TEST_CASE("edges are computed together unless they have no length or count as pa
     unsigned expected = 0;
     const double scale = std::ldexp(1.0, trial % 21 - 10);
     for (int k = 0; k < Pack::width; ++k) {
-      // The sine of the angle over the limit, squared; none of them within rounding of 1, nor their squares of 0.
+      // Squared ratio of the angle's sine to the limit; none is within rounding of 1, nor are their squares within
+      // rounding of 0.
       const double share = std::array{0.3, 0.7, 1.4, 1.8, 3.0, 1e4}[random() % 6];
       const D3 start = vector(), first = vector(), aside = cross(first, vector());
       const D3 across = std::sqrt(share * 1e-6 / (1 - share * 1e-6)) * length(first) / length(aside) * aside;
@@ -60,7 +61,7 @@ TEST_CASE("edges are computed together unless they have no length or count as pa
                             without_length == 2 || without_length == 5 ? other : other + second};
       for (int s = 0; s < 4; ++s) four.x[s][k] = narrow(scale * points[s]);
       const bool proper = without_length % 4 != 1 && without_length != 2;
-      // Coordinates near 1 are rounded by 2^-24 of their size, which sines near 1e-3 feel by some 1e-3 of theirs.
+      // Coordinates near 1 are rounded by 2^-24 of their size, which changes sines near 1e-3 by some 1e-3 of theirs.
       if (proper && share > 1) expected |= 1U << k;
     }
     Pack::Mask usual;

@@ -1,5 +1,4 @@
-// A search of one thread with candidates that wait for each other: what it looks for grows narrower as in one that
-// waits for none.
+// Tests the search of one thread whose candidates wait for each other: its limit falls as in a search without waiting.
 #include "fast/cpu/packed_search.hpp"
 
 #include <vector>
@@ -23,7 +22,7 @@ Pack separations(const Scripted& query, const Search&, const int* primitive) {
   return Pack::of_each([&](int k) { return query.apart[static_cast<std::size_t>(primitive[k])]; });
 }
 
-/// The limit after these were offered; those from 100 on as primitives of 100 less that are idle.
+/// Returns the limit after these primitives were offered; numbers from 100 on are idle primitives of 100 less.
 float limit_after(const Scripted& query, const std::vector<int>& offered) {
   NotedPair room[1];
   int count = 0;

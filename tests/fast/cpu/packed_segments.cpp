@@ -1,4 +1,5 @@
-// A colour of segments at once has the bits of its segments one by one, whatever case each of them is.
+// Tests that a colour of segments computed at once has the bits of its segments one by one, in whatever case each of
+// them is.
 #include <bit>
 #include <cstring>
 #include <random>
@@ -11,7 +12,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Segments that read other segments, a third of them in a case that is not the usual one.
+/// Holds segments that read other segments, a third of them in an unusual case.
 struct Colour {
   static constexpr int count = 43;
   std::mt19937 random;
@@ -50,7 +51,8 @@ struct Colour {
   float normal() { return std::normal_distribution<float>()(random); }
   float stretch() { return std::array{1e-3F, 1.0F, 1e4F}[random() % 3]; }
 
-  /// No neighbour; no length; neighbours that ask for a reversed director; no number.
+  /// Makes a segment unusual: no neighbour; no length; neighbours that pull towards a reversed director; a number that
+  /// is NaN.
   void spoil(int k) {
     SegmentSlot& slot = slots[static_cast<std::size_t>(k)];
     const auto first = static_cast<std::size_t>(2 * k);
@@ -72,7 +74,7 @@ struct Colour {
     }
   }
 
-  /// The quaternions after an update, the counter of what is no number, and the quaternions before.
+  /// Returns the quaternions after an update, the counter of numbers that are not finite, and the quaternions before.
   template <class Update>
   std::vector<std::uint32_t> after(Update update) {
     const std::vector<Quat> before = q;

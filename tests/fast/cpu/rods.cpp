@@ -1,4 +1,5 @@
-// Whole runs of rods against what is known on paper: spin, rest, rigid motions, twist, energies; bits of resumed runs.
+// Tests whole runs of rods against closed forms: spin, rest, rigid motions, twist, energies; and the bits of resumed
+// runs.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -22,7 +23,7 @@ using std::numbers::pi;
 
 compare::RodMaterial yarn() { return {.density = 1e-3, .stretch = 0.1, .bend = 2e-7, .damping = 0, .diameter = 1e-3}; }
 
-/// A scene of one rod along these points, in free space; h and iterations of the yarn scenes.
+/// Returns a scene of one rod along these points, in free space; h and iterations are those of the yarn scenes.
 compare::Scene rod_scene(const std::vector<Vec3>& points, bool closed = false,
                          const compare::RodMaterial& rod = yarn()) {
   compare::Scene scene;
@@ -61,7 +62,7 @@ std::vector<Vec3> helix(int segments) {
 
 RestState rest_of(const compare::Scene& scene) { return build_rest_state(scene, build_topology(scene)); }
 
-/// Σ m x × v about the z axis.
+/// Returns Σ m x × v about the z axis.
 double spin(const compare::Scene& scene, const compare::Snapshot& state) {
   const RestState rest = rest_of(scene);
   double sum = 0;
@@ -71,8 +72,9 @@ double spin(const compare::Scene& scene, const compare::Snapshot& state) {
   return sum;
 }
 
-/// How much of its angular momentum a straight rod of 100 segments of 1 mm keeps that turns at 10 rad/s for 0.2 s.
-double kept_spin(compare::StartFrames frames) {
+/// Returns the share of its angular momentum that a straight rod keeps: 100 segments of 1 mm that turn at 10 rad/s for
+/// 0.2 s.
+double kept_spin(compare::RodStart frames) {
   compare::Scene scene = rod_scene(straight(100, 1e-3));
   for (std::size_t v = 0; v < scene.velocities.size(); ++v) {
     Vec3& x = scene.mesh.positions[v];
@@ -80,7 +82,7 @@ double kept_spin(compare::StartFrames frames) {
     scene.rest_positions[v] = x;
     scene.velocities[v] = {0, 10 * x.x, 0};
   }
-  scene.settings.start_frames = frames;
+  scene.settings.rod_start = frames;
   compare::round_to_single(scene);
   const auto simulation = start_cpu(scene, {});
   const double before = spin(scene, simulation->snapshot());
@@ -97,7 +99,7 @@ bool same_bits(const compare::Snapshot& a, const compare::Snapshot& b) {
 
 double distance(const compare::Vec3f& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// The angle of the twist from one frame to the next about their director.
+/// Returns the angle of the twist from one frame to the next about their director.
 double twist_between(const compare::Quaternion& a, const compare::Quaternion& b) {
   const double z = double{a[3]} * b[2] - double{a[2]} * b[3] - double{a[0]} * b[1] + double{a[1]} * b[0],
                w = double{a[3]} * b[3] + double{a[2]} * b[2] + double{a[0]} * b[0] + double{a[1]} * b[1];
@@ -109,8 +111,8 @@ double twist_between(const compare::Quaternion& a, const compare::Quaternion& b)
 TEST_CASE("a free rod keeps its angular momentum but for what backward Euler loses; without turned frames it does not",
           "[property]") {
   // Backward Euler takes (ω h)² of it a step: 500 · (10 · 4·10⁻⁴)² = 0.8 %.
-  CHECK(kept_spin(compare::StartFrames::turned) == Approx(0.992).margin(0.002));
-  CHECK(kept_spin(compare::StartFrames::kept) < 0.6);
+  CHECK(kept_spin(compare::RodStart::turned) == Approx(0.992).margin(0.002));
+  CHECK(kept_spin(compare::RodStart::kept) < 0.6);
 }
 
 TEST_CASE("a bent and twisted rod at rest stays, wherever it is turned to, and drifts without a force", "[property]") {
@@ -134,7 +136,7 @@ TEST_CASE("a bent and twisted rod at rest stays, wherever it is turned to, and d
     const Vec3& x = scene.mesh.positions[v];
     worst = std::max(worst, distance(state.positions[v], {x.x + 0.01 * time, x.y - 0.02 * time, x.z + 0.005 * time}));
   }
-  // Roundings of 100 steps, at 1 cm from the origin, against segments of 1 mm.
+  // Roundings of 100 steps, at 1 cm from the origin, of segments of 1 mm.
   CHECK(worst < 1e-6);
   CHECK(rows.back().mean_stretch == Approx(0).margin(1e-4));
 }
@@ -143,7 +145,7 @@ TEST_CASE("a rod that is straight at rest and wound to a circle has the energy o
   for (const int n : {50, 200}) {
     const double radius = 0.02, length = 2 * pi * radius / n;
     compare::Scene scene = rod_scene(straight(n, length));
-    // Chords of `length`: of a circle that is a little larger.
+    // Chords of `length`, of a circle that is a little larger.
     const double chord = 2 * std::asin(length / (2 * radius));
     for (int k = 0; k <= n; ++k) {
       const double t = chord * k - pi;
@@ -152,14 +154,14 @@ TEST_CASE("a rod that is straight at rest and wound to a circle has the energy o
     scene.settings.iterations = 1;
     scene.settings.contact_radius = 1e-5;
     for (Vec3& v : scene.velocities) v = {};
-    scene.bodies[0].material.rod->density = 1e6;  // it has not moved after a step
-    // Its ends are held, or their frames would give way.
+    scene.bodies[0].material.rod->density = 1e6;  // so heavy that it has not moved after a step
+    // The ends are held, because their frames would give way otherwise.
     scene.motions = {{.name = "first", .vertices = {0, 1}, .keyframes = {}},
                      {.name = "last", .vertices = {n - 1, n}, .keyframes = {}}};
     compare::round_to_single(scene);
     const auto simulation = start_cpu(scene, {});
     const double energy = simulation->advance(1).back().elastic_energy;
-    // n − 1 joints of the angle `chord`: k_b/(2 l̄) θ² but for the model's fourth order, (1 − θ²/48).
+    // n − 1 joints of the angle `chord`: k_b/(2 l̄) θ², up to the model's fourth order, (1 − θ²/48).
     CHECK(energy == Approx(yarn().bend * (n - 1) * chord * chord / (2 * length)).epsilon(1e-3));
   }
 }
@@ -208,14 +210,14 @@ TEST_CASE("renumbered vertices and segments that run the other way give the same
     if (e % 3 == 0) std::swap(ends[0], ends[1]);
   }
   for (Index& v : other.motions[0].vertices) v = place[static_cast<std::size_t>(v)];
-  // Colours follow numbers, and sweeps that are not converged follow colours: so converged.
+  // Colours follow numbers, and sweeps that have not converged depend on colours, so the sweeps converge here.
   for (compare::Scene* scene : {&one, &other}) scene->settings.iterations = 100;
   const auto first = start_cpu(one, {}), second = start_cpu(other, {});
   first->advance(50), second->advance(50);
   const compare::Snapshot a = first->snapshot(), b = second->snapshot();
   for (std::size_t v = 0; v < points.size(); ++v) {
     const compare::Vec3f& x = b.positions[static_cast<std::size_t>(place[v])];
-    CHECK(distance(a.positions[v], {x.x, x.y, x.z}) < 1e-5);  // of a fall of 2 mm
+    CHECK(distance(a.positions[v], {x.x, x.y, x.z}) < 1e-5);  // after a fall of 2 mm
   }
 }
 
@@ -241,7 +243,7 @@ TEST_CASE("yarn tied by springs has the bits that it has beside a triangle that 
     scene.gravity = {0, -9.81, 0};
     scene.bodies[0].material.rod->damping = 1e-4;
     scene.bodies[0].material.friction = 0.2;
-    scene.settings.contact_radius = 5e-3;  // turns lie 4.2 mm apart
+    scene.settings.contact_radius = 5e-3;  // windings are 4.2 mm apart
     scene.settings.damping = damping;
     scene.settings.lanes = 2;
     if (tied)
@@ -266,7 +268,7 @@ TEST_CASE("yarn tied by springs has the bits that it has beside a triangle that 
     CHECK(asked(untied) == asks_segments);
     CHECK(asked(alone) == (asks_segments | asks_springs));
     CHECK(asked(beside) == (asks_segments | asks_springs | asks_triangles));
-    REQUIRE(colours(alone) == colours(beside));  // else the order of a sweep is another
+    REQUIRE(colours(alone) == colours(beside));  // otherwise the order of the sweep differs
     const auto one = start_cpu(alone, {}), other = start_cpu(beside, {}), without = start_cpu(untied, {});
     const std::vector<compare::StepMetrics> rows = one->advance(80);
     other->advance(80);
@@ -276,7 +278,7 @@ TEST_CASE("yarn tied by springs has the bits that it has beside a triangle that 
     seen.positions.resize(alone.mesh.positions.size());
     seen.velocities.resize(alone.mesh.positions.size());
     CHECK(same_bits(one->snapshot(), seen));
-    CHECK(!same_bits(one->snapshot(), without->snapshot()));  // a spring is felt
+    CHECK(!same_bits(one->snapshot(), without->snapshot()));  // a spring acts
   }
 }
 

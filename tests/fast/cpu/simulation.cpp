@@ -21,7 +21,7 @@ bool same_bits(const std::vector<compare::Vec3f>& a, const std::vector<compare::
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(compare::Vec3f)) == 0;
 }
 
-// A sheet that falls askew on a fixed one: contacts of all kinds, friction, damping, several detections a step.
+// Returns a sheet that falls askew on a fixed one: contacts of all kinds, friction, damping, several detections a step.
 compare::Scene drop_scene() {
   compare::Scene scene = empty_scene();
   compare::Material material;
@@ -78,14 +78,15 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
     const auto x = simulation->snapshot().positions;
     double worst = 0;
     for (const compare::Vec3f& p : x) worst = std::max(worst, std::abs(p.y - (1.0f - fall)));
-    // Each step rounds a position below 4 m to 2^-23 m once, and the velocity made of it carries that on: n(n+1)/2
-    // times at most; the sweep's residual internal forces act on strains of rounding size and are as small.
+    // Each step rounds a position below 4 m to 2^-23 m once, and the velocity made of it carries that error on,
+    // n(n+1)/2 times at most; the internal forces that the sweep leaves act on strains of rounding size and are as
+    // small.
     REQUIRE(worst <= n * (n + 1) * 0x1p-23);
     REQUIRE(row.momentum_lost_end <= 1e-4);
     followed = g * h * n;
   }
   CHECK(capped);
-  // gamma_p times about a spacing of 11 mm, 16 times a step of 1/100 s.
+  // gamma_p times a spacing of about 11 mm, 16 times a step of 1/100 s.
   CHECK(followed > 3.0);
   CHECK(followed < 16 * 0.45 * 0.012 / h);
 }
@@ -108,7 +109,7 @@ TEST_CASE("a cloth laid on a fixed plane rests just below a radius where sets ar
   material.contact_stiffness = 10;
   add_sheet(scene, 8, 0.06, 0.00499, false, material);
   add_sheet(scene, 6, 0.10, 0, true, material);
-  scene.settings.redetect_every = 1;
+  scene.settings.detection_every = 1;
   const Outcome outcome = run(scene, 60);
   REQUIRE(outcome.rows.size() == 60);
   for (std::size_t v = 0; v < 64; ++v) {
@@ -134,7 +135,7 @@ TEST_CASE(
   for (std::size_t v = 0; v < 64; ++v) CHECK(std::abs(outcome.end.positions[v].y - 0.005) < 9.81 * h * h);
 }
 
-// Membrane and contact are soft against the inertia m/h² of 0.2 N/m, so that few sweeps suffice: a stiff membrane
+// Membrane and contact are soft against the inertia m/h² of 0.2 N/m, so that few sweeps suffice. A stiff membrane
 // recovers a translation slowly after the first sweep braked it with the normal force of a start that fell into the
 // plane, and stiff contacts do not converge (see the chattering above).
 TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g (sin a - mu cos a) without",
@@ -151,11 +152,11 @@ TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g 
     add_sheet(scene, 8, 0.2, 0, true, material);
     scene.gravity = {9.81 * std::sin(tilt), -9.81 * std::cos(tilt), 0};
     scene.settings.iterations = 40;
-    scene.settings.redetect_every = 1;
+    scene.settings.detection_every = 1;
     const Outcome outcome = run(scene, 6);
     return mean(outcome.end.velocities, 0, 36, &compare::Vec3f::x);
   };
-  CHECK(slide(0.6) < 0.01);  // below eps_v: it holds
+  CHECK(slide(0.6) < 0.01);  // below eps_v: it sticks
   CHECK(slide(0.1) == Approx(9.81 * (std::sin(tilt) - 0.1 * std::cos(tilt)) * 6 * h).epsilon(0.03));
   CHECK(slide(0) == Approx(9.81 * std::sin(tilt) * 6 * h).epsilon(0.03));
 }
@@ -165,15 +166,16 @@ TEST_CASE("the smallest distance of a row is that of the last detection, whateve
   for (const double share : {0.45, 0.3, 0.1}) {
     compare::Scene scene = empty_scene();
     scene.gravity = {};
-    scene.settings.bound_relaxation = share;
+    scene.settings.bounds_relaxation = share;
     compare::Material soft;
     soft.contact_stiffness = 1e-3;
     const double gap = 0.003;  // below r, and far below the sheets' spacing of 20 mm
     add_sheet(scene, 6, 0.1, gap, false, soft);
     add_sheet(scene, 6, 0.1, 0, true, soft);
     const compare::StepMetrics near = run(scene, 1).rows.at(0);
-    REQUIRE(near.discrete_detections == 1);  // at the start, which nothing leaves by a bound
-    // The gap is rounded to single precision, the distance with its error bound and the bound down: some ten u.
+    REQUIRE(near.discrete_detections == 1);  // at the start, whose bounds no vertex leaves
+    // The gap is rounded to single precision, the distance is lowered by its error bound and the bound rounded down:
+    // some ten u.
     CHECK(near.smallest_distance == Approx(gap).epsilon(32 * 0x1p-24));
     for (std::size_t v = 0; v < 36; ++v) scene.mesh.positions[v].y = 0.5;
     const compare::StepMetrics far = run(scene, 1).rows.at(0);
@@ -211,18 +213,18 @@ TEST_CASE(
 TEST_CASE("whether iterations are asked one by one or in groups whether a detection is due changes no bit",
           "[property]") {
   for (const std::int64_t every : {0, 1, 2, 3}) {
-    INFO("redetect_every " << every);
+    INFO("detection_every " << every);
     compare::Scene scene = drop_scene();
     scene.settings.iterations = 13;  // two groups and a shorter one
-    scene.settings.redetect_fraction = every == 0 ? 1e-3 : 1;
-    scene.settings.redetect_every = every;
+    scene.settings.detection_fraction = every == 0 ? 1e-3 : 1;
+    scene.settings.detection_every = every;
     const Outcome grouped = run(scene, 12);  // the first frame has groups, whatever it will find
     compare::SimulationOptions options;
     options.profile = true;  // one by one
     const Outcome profiled = run(scene, 12, options);
     const auto simulation = start_cpu(scene, {});
     std::int64_t redetections = 0;
-    for (std::size_t k = 0; k < 12; ++k) {  // as the frame before says
+    for (std::size_t k = 0; k < 12; ++k) {  // groups as the frame before decides
       const compare::StepMetrics row = simulation->advance(1).at(0), &expected = grouped.rows.at(k),
                                  &profiled_row = profiled.rows.at(k);
       for (const compare::StepMetrics* other : {&expected, &profiled_row}) {
@@ -280,14 +282,14 @@ TEST_CASE("energy only falls while a cloth drops, touches and slides", "[propert
   compare::Scene scene = drop_scene();
   for (auto& body : scene.bodies) body.material.contact_stiffness = 10;
   scene.settings.iterations = 60;
-  scene.settings.redetect_every = 1;
+  scene.settings.detection_every = 1;
   const Outcome outcome = run(scene, 15);
   double before = INFINITY, start = 0;
   for (const auto& row : outcome.rows) {
     const double total = row.kinetic_energy + row.elastic_energy + row.contact_energy + row.gravity_energy;
     if (!std::isfinite(before)) start = row.kinetic_energy;
-    // An unconverged step may leave a little of the energy that its truncated start lost on the way; a thousandth of
-    // the first kinetic energy.
+    // An unconverged step may leave a little of the energy that its truncated start lost meanwhile: a thousandth of the
+    // first kinetic energy.
     CHECK(total <= before + 1e-3 * start);
     before = total;
   }
@@ -342,9 +344,8 @@ TEST_CASE("a slow handle is where its motion says after each step", "[unit]") {
   for (std::size_t k = 0; k < 6; ++k) CHECK(x[k] == targets[k]);
 }
 
-// What a step leaves behind besides a snapshot (the order of the trees, sorted every 16 steps, contacts, bounds, the
-// strain and angles that damping starts from) must decide nothing: each step is taken by a simulation that has seen no
-// other.
+// State that a step leaves besides a snapshot (the order of the trees, sorted every 16 steps, contacts, bounds, the
+// strain and angles that damping starts from) must decide nothing: each step is taken by a fresh simulation.
 TEST_CASE("a simulation that is replaced by a new one after each step comes to the same bits and the same rows",
           "[property]") {
   const compare::Scene scene = drop_scene();
@@ -418,7 +419,7 @@ TEST_CASE("scenes in which nothing is free, odd numbers of iterations and every 
 TEST_CASE("re-detection after a set number of iterations is counted", "[unit]") {
   compare::Scene scene = drop_scene();
   const std::int64_t few = run(scene, 1).rows[0].discrete_detections;
-  scene.settings.redetect_every = 2;
+  scene.settings.detection_every = 2;
   const compare::StepMetrics row = run(scene, 1).rows[0];
   CHECK(row.discrete_detections >= 1 + 4);
   CHECK(row.discrete_detections > few);
@@ -429,7 +430,7 @@ TEST_CASE("each activation, model and form of damping changes the result of a ru
   std::vector<compare::Scene> scenes(1, drop_scene());
   for (int kind = 1; kind < 5; ++kind) {
     scenes.push_back(drop_scene());
-    scenes.back().settings.activation = static_cast<compare::ContactActivation>(kind);
+    scenes.back().settings.contact_activation = static_cast<compare::ContactActivation>(kind);
   }
   const auto add = [&](auto change) {
     scenes.push_back(drop_scene());
@@ -453,8 +454,8 @@ TEST_CASE("each activation, model and form of damping changes the result of a ru
 
 namespace {
 
-/// Two sheets beside each other in one plane, 8 mm apart, at rest and without gravity, stitched along their border,
-/// each vertex of the second to the border of the first.
+/// Returns two sheets beside each other in one plane, 8 mm apart, at rest and without gravity. Each vertex of the
+/// second one's border is stitched to the border of the first.
 compare::Scene seam_scene(bool excluded) {
   compare::Scene scene = empty_scene();
   scene.gravity = {};
@@ -474,7 +475,7 @@ compare::Scene seam_scene(bool excluded) {
   return scene;
 }
 
-/// The widest gap of its stitches [m].
+/// Returns the widest gap of its stitches [m].
 double widest_gap(const compare::Scene& scene, const std::vector<compare::Vec3f>& x) {
   double widest = 0;
   for (const compare::Spring& s : scene.springs) {
@@ -498,8 +499,8 @@ TEST_CASE("a seam of stitches closes where the pairs beside it are no contacts, 
   const Outcome closed = run(seam, 150), open = run(repelled, 150);
   CHECK(closed.rows.back().status == compare::step_clean);
   CHECK(open.rows.back().status == compare::step_clean);
-  // A stitch of 20 N/m against a contact of at most k_c r/2: they balance more than a tenth of r apart; without
-  // contacts nothing holds a stitch open but the sheets.
+  // A stitch of 20 N/m acts against a contact of at most k_c r/2: they balance at more than a tenth of r; without
+  // contacts only the sheets hold a stitch open.
   CHECK(widest_gap(seam, closed.end.positions) < 0.05 * seam.settings.contact_radius);
   CHECK(widest_gap(repelled, open.end.positions) > 0.1 * seam.settings.contact_radius);
 }

@@ -1,4 +1,4 @@
-// Whole runs of solids against what is known on paper: free fall, rest, a stretched bar, a block on a block.
+// Tests whole runs of solids against closed forms: free fall, rest, a stretched bar, a block on a block.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -25,7 +25,7 @@ using ogc::tests::block_mesh;
 
 namespace {
 
-/// A block of n³ vertices, `spacing` apart, whose lowest corner is `corner`.
+/// Adds a block of n³ vertices, `spacing` apart, whose lowest corner is `corner`.
 compare::Body& add_block(compare::Scene& scene, compare::Index n, double spacing, const compare::Vec3& corner,
                          const compare::Material& material = {}) {
   append_body(scene, {.name = "block" + std::to_string(scene.bodies.size()), .material = material},
@@ -37,7 +37,7 @@ bool same_bits(const std::vector<compare::Vec3f>& a, const std::vector<compare::
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(compare::Vec3f)) == 0;
 }
 
-/// A damped block that falls askew onto a fixed one, and a sheet between them where asked for.
+/// Returns a damped block that falls askew onto a fixed one, and, if `with_sheet`, a sheet between them.
 compare::Scene drop_scene(bool with_sheet) {
   compare::Scene scene = empty_scene();
   compare::Material material;
@@ -74,7 +74,7 @@ TEST_CASE("a block far from everything falls as -g h^2 n(n+1)/2, and keeps its s
     const compare::Snapshot now = simulation->snapshot();
     for (std::size_t v = 0; v < now.positions.size(); ++v) {
       const compare::Vec3& rest = scene.mesh.positions[v];
-      // Coordinates of 1 m, rounded once a step and once a sweep.
+      // Coordinates of 1 m are rounded once a step and once a sweep.
       CHECK(double{now.positions[v].y} == Approx(rest.y - g * h * h * n * (n + 1) / 2).margin(n * 1e-6));
       CHECK(double{now.positions[v].x} == Approx(rest.x).margin(n * 1e-6));
     }
@@ -91,7 +91,7 @@ TEST_CASE("a vertex inside a block has no bound, and all others have one", "[uni
 }
 
 TEST_CASE("a bar whose ends are stretched takes the closed-form length and width in between", "[property]") {
-  // No force across: ∂ψ/∂b = 0 of ψ = μ/2 (a² + 2b² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ab², hence J − 1 =
+  // Without force across, ∂ψ/∂b = 0 of ψ = μ/2 (a² + 2b² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ab²; hence J − 1 =
   // μ (a − 1)/((λ + μ) a).
   compare::Scene scene = empty_scene();
   scene.gravity = {};
@@ -192,7 +192,7 @@ TEST_CASE("a scene asks of its sum what it has: kinds, volumes, other models, an
   compare::Scene other = drop_scene(false);
   other.settings.damping = compare::DampingForm::per_vertex;
   CHECK(asked(other) == (asks_tetrahedra | asks_any_model));
-  other.settings.activation = compare::ContactActivation::quadratic;
+  other.settings.contact_activation = compare::ContactActivation::quadratic;
   CHECK(asked(other) == (asks_tetrahedra | asks_any_model | asks_any_activation));
 }
 
@@ -208,13 +208,13 @@ TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free co
   CHECK(two.vertices == 2 * one.vertices);
   CHECK(two.flop == 2 * one.flop);
   CHECK(two.bytes == 2 * one.bytes);
-  // Damping of one block costs its own stencils alone; of a fixed block there is nothing to do.
+  // Damping of one block adds the work of its own stencils alone; a fixed block needs no work.
   scene.bodies[1].material.solid_damping = 1e-3;
   const double damping = sweep_work(scene).flop - two.flop;
   CHECK(damping > 200 * stencils);
   scene.bodies[0].fixed = true;
   CHECK(sweep_work(scene).flop == one.flop + damping);
-  // A held vertex costs nothing itself, and no stencil of its own.
+  // A held vertex needs no work itself, and none of its stencils.
   scene.bodies[0].fixed = false;
   scene.bodies[1].material.solid_damping = 0;
   scene.motions.resize(1);

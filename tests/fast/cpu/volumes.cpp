@@ -1,4 +1,4 @@
-// Driven volumes in the resident simulation (§3.9): they are at their targets, push out, and carry along.
+// Tests driven volumes in the resident simulation (§3.9): they are at their targets, push out, and carry along.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -40,7 +40,7 @@ compare::Body& add_box(Scene& scene, const Vec3& low, const Vec3& high, double f
   return scene.bodies.back();
 }
 
-/// The last body moves along with this velocity [m/s] and turns about the y axis.
+/// Moves the last body with this velocity [m/s] and turns it about the y axis.
 void drive(Scene& scene, const Vec3& velocity, double angular_velocity = 0) {
   compare::Body& body = scene.bodies.back();
   body.fixed = false;
@@ -53,7 +53,7 @@ void drive(Scene& scene, const Vec3& velocity, double angular_velocity = 0) {
   scene.motions.push_back(motion);
 }
 
-/// A sheet over a box that is its ground; r = 5 mm.
+/// Returns a sheet over a box that is its ground; r = 5 mm.
 Scene sheet_over_box(double height, double friction = 0.5) {
   Scene scene = empty_scene();
   compare::Material material;
@@ -61,7 +61,7 @@ Scene sheet_over_box(double height, double friction = 0.5) {
   add_sheet(scene, 8, 0.1, height, false, material);
   add_box(scene, {-0.3, -0.1, -0.3}, {0.3, 0, 0.3}, friction);
   scene.settings.iterations = 20;
-  scene.settings.redetect_fraction = 1;
+  scene.settings.detection_fraction = 1;
   compare::round_to_single(scene);
   return scene;
 }
@@ -93,7 +93,7 @@ TEST_CASE("a sheet that falls on a volume comes to rest r above it, less what it
 
 namespace {
 
-/// A box with walls 5 cm thick around the void from (−0.1, 0, −0.1) to (0.1, 0.1, 0.1) m, of triangles alone.
+/// Adds a box with walls 5 cm thick around the void from (−0.1, 0, −0.1) to (0.1, 0.1, 0.1) m, of triangles alone.
 void add_hollow_box(Scene& scene) {
   add_box(scene, {-0.15, -0.05, -0.15}, {0.15, 0.15, 0.15});
   compare::Body& body = scene.bodies.back();
@@ -110,7 +110,7 @@ void add_hollow_box(Scene& scene) {
   body.vertex_count += 8, body.triangle_count += 12;
 }
 
-/// A block of tetrahedra without its middle cell of 0.2 × 0.2 × 0.2 m, whose floor is y = 0.
+/// Adds a block of tetrahedra without its middle cell of 0.2 × 0.2 × 0.2 m, whose floor is y = 0.
 void add_hollow_block(Scene& scene) {
   compare::Mesh mesh = ogc::tests::block_mesh(4, 0.2, {-0.3, -0.2, -0.3});
   const auto is_middle = [&](Index v) {
@@ -135,7 +135,7 @@ TEST_CASE("a cloth in the void of a volume falls on its floor and stays in the v
   const Vec3 velocity{0.1, 0.05, -0.2};
   if (is_driven) drive(scene, velocity);
   scene.settings.iterations = 20;
-  scene.settings.redetect_fraction = 1;
+  scene.settings.detection_fraction = 1;
   compare::round_to_single(scene);
   REQUIRE(describe(validate(scene)) == "");
   const auto simulation = start_cpu(scene, {});
@@ -182,7 +182,7 @@ TEST_CASE("a driven volume is at its targets, and carries along what lies on it"
 }
 
 TEST_CASE("without friction a driven volume slides away below what lies on it", "[unit]") {
-  // as above one that stands still, but for what roundings of the triangles' points do
+  // compared with a volume that stands still: they differ by roundings of the triangles' points
   const auto velocities = [](bool is_driven) {
     Scene scene = sheet_over_box(0.0049, 0);
     if (is_driven) drive(scene, {0.2, 0, 0});
@@ -212,8 +212,8 @@ TEST_CASE("two sheets on a volume that rises fast never pass through each other"
   }
 }
 
-// Of the layers' 98 vertices none asks for a detection by γ_e K = 1,123 cut ones. Their balls are 0.045 mm a detection,
-// and the box rises 5 mm a step.
+// The layers' 98 vertices alone never request a detection, as γ_e K = 1,122 must be cut. Their balls are 0.045 mm a
+// detection, and the box rises 5 mm a step.
 TEST_CASE("layers that nearly touch are not left deep inside a volume that rises into them, whatever else is not cut",
           "[property]") {
   Scene scene = empty_scene();
@@ -223,7 +223,7 @@ TEST_CASE("layers that nearly touch are not left deep inside a volume that rises
   add_box(scene, {-0.3, -0.1, -0.3}, {0.3, 0, 0.3});
   drive(scene, {0, 0.5, 0});
   scene.settings.iterations = 20;
-  scene.settings.redetect_fraction = 1;
+  scene.settings.detection_fraction = 1;
   compare::round_to_single(scene);
   const auto simulation = start_cpu(scene, {});
   const double radius = scene.settings.contact_radius;

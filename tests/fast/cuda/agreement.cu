@@ -1,4 +1,4 @@
-// The device against the reference: the same judge, the same cases as on the CPU.
+// Tests the device against the reference, with the judge and the cases of the CPU.
 #include "tests/catch.hpp"
 
 #include "compare/judge/cases/stage_traits.hpp"
@@ -20,7 +20,7 @@ TEST_CASE("the fast path on CUDA agrees with the reference in every stage", "[gp
     options.seed = 5;
     const StageReport report = judge_stage(stage, device, authority, options);
     INFO(stage_name(stage) << "\n" << report_mismatches(report, 1));
-    CHECK((report.passed() || report.skipped));  // which stages are ours: tests/experiments/program/stage_list.cpp
+    CHECK((report.passed() || report.skipped));  // tests/experiments/program/stage_list.cpp holds which stages are ours
   }
 }
 

@@ -1,4 +1,4 @@
-// The CUDA backend against its own definition in fast/stages/backend.hpp, computed here in the plainest way.
+// Tests the CUDA backend against its definition in fast/stages/backend.hpp, computed here in the plainest way.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -60,8 +60,8 @@ struct AddBoth {
   OGC_HD void operator()(int) const { *sum += *first + *second; }
 };
 
-// Sums of different kinds in one accumulator; terms span many magnitudes, so that another order of addition gives other
-// bits.
+// Holds sums of different kinds in one accumulator; terms span many magnitudes, so that another order of addition gives
+// other bits.
 struct Sums {
   float large = 0, small = 0;
   int count = 0;
@@ -79,8 +79,8 @@ struct TwoOfRow {
   OGC_HD void operator()(int i, float smallest, float after_rank) const { least[i] = smallest, after[i] = after_rank; }
 };
 
-// Of a row, after a sum: the first number below 20, the next such one, and the smallest of all but at most 45. Teams of
-// one warp ask as often as their rows want, so that their ways part.
+// Searches a row after a sum: the first number below 20, the next one, and the smallest of all but at most 45. Teams of
+// one warp search as often as their rows need, so that their control flow diverges.
 struct AskRow {
   static constexpr int parts = 1;
   const int* offsets;
@@ -106,7 +106,7 @@ struct AskRow {
   }
 };
 
-// A row as three parts of unequal length, the last of them pooled; the first is empty in some rows.
+// Sums a row as three parts of unequal length, the last of them pooled; the first is empty in some rows.
 struct RowSums {
   static constexpr int parts = 3;
   const int* offsets;
@@ -413,7 +413,7 @@ TEST_CASE("two branches part and meet, both at once and in a replay, at the top 
   CudaBuffer<int> left, aside, main, sum;
   for (auto* buffer : {&left, &aside, &main, &sum}) buffer->resize(1);
   CudaRecording recording;
-  // whoever does not wait for both branches reads less than 3 from one of them
+  // a launch that does not wait for both branches reads less than 3 from one of them
   const auto branches = [&] {
     backend.for_each(1, Assign{aside.data(), 1});
     backend.for_each(1, Assign{main.data(), 1});

@@ -1,5 +1,5 @@
-// The device gives the host's bits. Detection does so in every build, because its arithmetic is rounded operation by
-// operation; a whole step does in the strict build, where neither side contracts.
+// Tests that the device gives the host's bits. Detection does so in every build, because its arithmetic is rounded
+// operation by operation; a whole step does in the strict build, where neither side contracts.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -30,7 +30,8 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// Scale 2⁻⁸, where many coordinates coincide, up to 1: touching, parallel and coplanar pairs are frequent.
+/// Returns a point at a scale from 2⁻⁸, where many coordinates coincide, up to 1: touching, parallel and coplanar pairs
+/// are frequent.
 Vec3f random_point(std::mt19937& random) {
   const float unit = std::ldexp(1.0f, -static_cast<int>(random() % 9));
   const auto coordinate = [&] { return unit * static_cast<float>(static_cast<int>(random() % 17) - 8); };
@@ -61,7 +62,7 @@ Crumpled crumpled_sheets(int n) {
   return sheets;
 }
 
-// By member: the defaulted comparisons of the contracts do not survive nvcc's pass over the host code.
+// Compares by member: the defaulted comparisons of the contracts do not survive nvcc's pass over the host code.
 bool same_face(const compare::Face& a, const compare::Face& b) { return a.kind == b.kind && a.index == b.index; }
 bool same_contact(const compare::VertexFacetContact& a, const compare::VertexFacetContact& b) {
   return a.vertex == b.vertex && same_face(a.face, b.face) && a.owner == b.owner;

@@ -1,6 +1,6 @@
-// The judge's numbers in device code and on the host, bit for bit. `between`, which adds a product, is left out:
-// contraction may change it on the device. Names are literals with their length: of a plain one the length is counted
-// by a function of the host, and nvcc drops the whole kernel without a word.
+// Compares the judge's random numbers in device code and on the host, bit for bit. `between`, which adds a product, is
+// left out: contraction may change it on the device. Names are literals with their length: a function of the host
+// counts the length of a plain literal, and nvcc then drops the whole kernel without a message.
 #include <bit>
 #include <cstdint>
 #include <string_view>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int numbers_a_case = 10;
 
-/// Ten numbers of the case with this index, each of another sort.
+/// Writes ten numbers of the case with this index, each of another kind.
 struct NumbersOfCase {
   std::uint64_t* target;
   OGC_HD void operator()(int index) const {

@@ -1,4 +1,4 @@
-// The same real kills as on the CPU (tests/experiments/program/runs/resume.cpp), of runs on the device.
+// Kills runs on the device as tests/experiments/program/runs/resume.cpp does on the CPU.
 #include "tests/catch.hpp"
 #include "tests/experiments/cut_runs.hpp"
 #include "tests/experiments/program.hpp"

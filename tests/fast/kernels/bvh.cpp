@@ -1,5 +1,4 @@
-// The order of the trees. That searches find all that is near, whatever the order, is held by
-// tests/fast/stages/detection.cpp.
+// Tests the order of the trees. tests/fast/stages/detection.cpp tests that searches find all that is near in any order.
 #include "fast/kernels/bvh.hpp"
 
 #include <algorithm>
@@ -19,7 +18,7 @@ struct Placed {
   Cell cell;
 };
 
-/// The cells of a cube along the curve.
+/// Returns the cells of a cube along the curve.
 std::vector<Placed> along_curve(const Cell& corner, std::uint32_t side) {
   std::vector<Placed> cells;
   for (std::uint32_t i = 0; i < side; ++i)
@@ -98,7 +97,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   CHECK(keys == std::vector<std::uint64_t>{key_of(0, 0, 0, 0), key_of(0, last, 0, 0), key_of(0, 0, last, 0),
                                            key_of(0, last, last, last), key_of(1, half, 0, 0),
                                            key_of(1, half, half, half), key_of(2, half, half, 0)});
-  // Where not all are searched, those that are stand in the order of their list.
+  // If not all are searched, the searched ones stand in the order of their list.
   const std::vector<int> searched{3, 1, 1, 0};
   SurfaceView some = surface;
   some.searched = searched.data(), some.searched_vertices = 2, some.searched_edges = 1;

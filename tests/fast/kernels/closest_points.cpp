@@ -22,7 +22,7 @@ long double to_segment(const Exact& x, const Exact& a, const Exact& b) {
   return std::sqrt(by(p, p));
 }
 
-/// By ternary search over the first edge: the distance to the second is convex along it.
+/// Returns the distance by ternary search over the first edge: the distance to the second is convex along it.
 double searched_distance(const Ends& p, const Ends& q) {
   const Exact a = widened(p.a), b = widened(p.b), c = widened(q.a), d = widened(q.b);
   const auto at = [&](long double s) {
@@ -53,7 +53,7 @@ TEST_CASE("closest_points: hand cases", "[unit]") {
   CHECK(features({4, 1, 0}, {4, 5, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::end_0});
   CHECK(features({-9, 3, 0}, {-3, 4, 0}) == std::pair{EdgeFeature::end_0, EdgeFeature::end_1});
   CHECK(edge_edge_distance(x_axis, {{-9, 3, 0}, {-3, 4, 0}}).value == 5);
-  // no length: its end_0
+  // without length: its end_0
   CHECK(features({2, 3, 4}, {2, 3, 4}) == std::pair{EdgeFeature::interior, EdgeFeature::end_0});
 }
 

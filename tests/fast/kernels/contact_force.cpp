@@ -14,7 +14,7 @@ constexpr double u = 0x1p-24;
 constexpr ContactKind kinds[] = {ContactKind::point_point, ContactKind::point_segment, ContactKind::segment_segment,
                                  ContactKind::point_triangle};
 
-// Which slots belong to the first side, the second, or to none.
+// Slots of the first side (1), the second (2), or none (0).
 constexpr int sides[4][4] = {{1, 0, 2, 0}, {1, 0, 2, 2}, {1, 1, 2, 2}, {1, 2, 2, 2}};
 
 struct Placement {
@@ -34,7 +34,7 @@ Placement random_placement(std::mt19937& random, ContactKind kind, double spread
   return p;
 }
 
-// Points of both sides in double, from the weights.
+// Computes the points of both sides in double, from the weights.
 void closest(ContactKind kind, const Placement& p, const ContactWeights& w, D3& first, D3& second) {
   first = second = {};
   for (int k = 0; k < 4; ++k) {
@@ -64,8 +64,8 @@ TEST_CASE("closest points of the closed faces satisfy the conditions of a minimu
         const int side = sides[static_cast<int>(kind)][k];
         total[side] += w.slot[k];
         REQUIRE((side == 0 ? w.slot[k] == 0 : side == 1 ? w.slot[k] >= 0 : w.slot[k] <= 0));
-        // Convexity: no vertex of a side lies nearer to the other side's point than its own closest point does, seen
-        // along the gap.
+        // By convexity no vertex of a side is nearer to the other side's point, seen along the gap, than the side's own
+        // closest point is.
         const double nearer = dot(gap, (wide(p.x[k]) - wide(p.x[0])) - (side == 1 ? first : second)) *
                               (side == 1 ? -1 : 1);
         if (side != 0) REQUIRE(nearer <= 4e4 * u * p.size * p.size);
@@ -139,8 +139,8 @@ TEST_CASE("contact forces leave no net force and no net torque, and blocks are g
       }
       REQUIRE(strength > 0);
       REQUIRE(length(force) <= 16 * u * strength);
-      // The arm of the pair of forces is along n but for the error of the weights' sum; the normal's own error is that
-      // of the gap.
+      // The arm of the pair of forces is along n but for the error of the weights' sum; the normal has the error of the
+      // gap.
       REQUIRE(length(torque) <= 64 * u * strength * p.size * std::max(1.0, p.size / shape.distance));
     }
   }
@@ -251,8 +251,8 @@ TEST_CASE("a point far above a corner keeps its foot on the side where it is, th
 }
 
 TEST_CASE("almost collinear edges one behind the other meet at the end that is nearer, whichever it is", "[unit]") {
-  // The second begins behind the first, seen along the first; seen along itself, the tilted one begins before the first
-  // ends.
+  // The second edge begins behind the first, seen along the first; seen along itself, the tilted one begins before the
+  // first ends.
   const Vec x[4] = {{0, 0, 0}, {1, 0, 0}, {1.00002f, 0, 0.1f}, {2, 0, 0.1004f}};
   const ContactWeights forward = contact_weights(ContactKind::segment_segment, x);
   CHECK(forward.slot[1] == 1);

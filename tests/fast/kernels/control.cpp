@@ -73,7 +73,7 @@ TEST_CASE("an iteration asks for a detection at the threshold or when it is due,
   CHECK(c.cut_last == 4);
   CHECK(iterate(5) == 1);
   CHECK(c.detect == 0);
-  settings.redetect_every = 2;
+  settings.detection_every = 2;
   CHECK(iterate(0) == 0);
   CHECK(iterate(0) == 1);
   CHECK(c.detections == 2);
@@ -95,7 +95,7 @@ TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once 
   CHECK(iterate(true) == 1);
   CHECK(c.cut_last == 1);
   CHECK(iterate(true) == 1);
-  CHECK(iterate(false) == 0);  // it has asked
+  CHECK(iterate(false) == 0);  // it has requested one already
   c = running();
   CHECK(iterate(false) == 1);
   CHECK(iterate(false) == 0);
@@ -199,13 +199,13 @@ TEST_CASE("each coordinate that is not a number or infinite is noticed", "[unit]
 TEST_CASE("with a detection due after every iteration each one asks for it, and begins to count anew", "[unit]") {
   ControlSettings settings;
   settings.redetect_vertices = 5;
-  settings.redetect_every = 1;
+  settings.detection_every = 1;
   StepControl c = running();
   c.cut = 2;
   EndIteration{&c, settings}(0);
   CHECK(c.detect == 1);
   CHECK(c.cut == 0);
-  settings.redetect_every = 0;
+  settings.detection_every = 0;
   EndIteration{&c, settings}(0);
   CHECK(c.detect == 0);
 }

@@ -8,8 +8,8 @@ namespace {
 
 bool same(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-// Three vertices on a line, targets 1, 1 and 0.1 away, bounds 0.25; where contacts hold, the first has r on its way a
-// fixed one without bound.
+// Holds three free vertices on a line, with targets 1, 1 and 0.1 away and bounds 0.25. If contacts hold, the first one
+// is in contact with the second, 1 away, as r is 1.5.
 struct Line {
   Vec target[3] = {{1, 0, 0}, {1, 1, 0}, {0.1f, 2, 0}};
   Vec previous[3] = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};

@@ -1,10 +1,10 @@
-// The numbers of a step's row: no stage asks for them, so they are held here, with different numbers in every place.
+// Tests the numbers of a step's row, with different numbers in every place, because no stage judges them.
 #include "fast/kernels/metrics.hpp"
 
 #include <array>
 #include <cmath>
 
-#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc;
@@ -14,8 +14,8 @@ namespace {
 
 using Sums = std::array<double, sum_columns>;
 
-// One vertex of 3 kg that has come from (1, 2, 4) to (2, 5, 9) and was to go to (4, 9, 16), in steps of half a second
-// under an acceleration of (−1, 2, −10).
+// Holds one vertex of 3 kg that has come from (1, 2, 4) to (2, 5, 9) and was to go to (4, 9, 16), in steps of half a
+// second under an acceleration of (−1, 2, −10).
 struct OneVertex {
   Vec position{2, 5, 9}, start{1, 2, 4}, target{4, 9, 16}, previous{1, 2, 4};
   PaddedVec before{{2, 4, 11}};
@@ -81,7 +81,7 @@ TEST_CASE("terms of vertices add up", "[unit]") {
 
 TEST_CASE("the share of momentum lost is the quotient of two lengths, and 0 where nothing was to move", "[unit]") {
   Sums sums{};
-  const std::array<double, 6> lengths{2, -3, 6, -4, 4, 7};  // of 7 and of 9
+  const std::array<double, 6> lengths{2, -3, 6, -4, 4, 7};  // two vectors of lengths 7 and 9
   for (std::size_t k = 0; k < 6; ++k) sums[static_cast<std::size_t>(sum_lost) + k] = lengths[k];
   CHECK(momentum_lost(sums.data()) == Approx(7.0 / 9).epsilon(1e-15));
   for (std::size_t k = 0; k < 3; ++k) sums[sum_moved + k] = 0;
@@ -92,7 +92,7 @@ TEST_CASE(
     "at the end of a step the smallest bound, the lag of what is prescribed, and what broke its bound or is not finite",
     "[unit]") {
   OneVertex vertex;
-  vertex.target = {4, 8, 15};  // 2, 3, 6 away: 7
+  vertex.target = {4, 8, 15};  // (2, 3, 6) away: 7
   StepControl control = vertex.checked(2);
   CHECK(control.smallest_bound == 10);
   CHECK(float_from_bits(control.largest_lag) == 7);
@@ -188,7 +188,7 @@ TEST_CASE("what a step leaves of forces: means over those that nothing holds, ov
   CHECK(row.left_held == 1);
   finish(nullptr);
   CHECK(std::array{row.left_residual, row.left_rounding} == std::array{0.0, 0.0});
-  left = {0, 1, 1, 4};  // no force to compare with, and nobody free: no quotient of zeros
+  left = {0, 1, 1, 4};  // no force to compare with, and no free vertex: no quotient of zeros
   finish(left.data());
   CHECK(std::array{row.left_residual, row.left_rounding} == std::array{0.0, 0.0});
 }

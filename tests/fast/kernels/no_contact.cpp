@@ -1,5 +1,5 @@
-// What is rejected in single precision must be no contact for the exact decision either, in any scale and next to each
-// of its limits; and of rods it must be nearly all.
+// Tests the rejection of pairs in single precision: the exact decision must not call a rejected pair a contact, at any
+// scale and next to each limit; for rods nearly all pairs must be rejected.
 #include "fast/kernels/block.hpp"
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Counts {
   int pairs = 0, rejected = 0, contacts = 0, wrong = 0;
 };
 
-/// All pairs of edges without a common vertex, each as if it were nearer than r.
+/// Counts all pairs of edges without a common vertex, each as if it were nearer than r.
 Counts count(const tests::TestMesh& mesh) {
   const compare::Topology topology = mesh.topology();
   Surface<CpuBackend> surface(topology, {});
@@ -45,15 +45,15 @@ Counts count(const tests::TestMesh& mesh) {
   return counts;
 }
 
-/// ±2⁻ᵏ or 0.
+/// Returns ±2⁻ᵏ or 0.
 float rung(std::mt19937& random) {
   if (random() % 4 == 0) return 0;
   const float size = std::ldexp(1.0F, -static_cast<int>(random() % 26));
   return random() % 2 == 0 ? size : -size;
 }
 
-/// Rods of unit steps on a lattice, each a rung beside it, with a sheet or none: right angles, half turns, parallel and
-/// straight parts, ends above ends.
+/// Returns rods of unit steps on a lattice, each step a rung off, with a sheet or none: right angles, half turns,
+/// parallel and straight parts, ends above ends.
 tests::TestMesh rods(std::mt19937& random) {
   tests::TestMesh mesh;
   const auto between = [&](int low, int high) {

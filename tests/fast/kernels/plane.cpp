@@ -1,4 +1,4 @@
-#include "fast/kernels/plane.hpp"
+#include "fast/kernels/held.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ PairPlane plane_of(const PairPoints<m, n>& pair) {
   return ogc::fast::plane_of(pair, distance_of(pair).below(), share);
 }
 
-/// n·x in 113 bits: three products of 48 bits, whose exponents lie within 60 of each other here.
+/// Returns n·x in 113 bits: three products of 48 bits, whose exponents lie within 60 of each other here.
 Quad along(const Vec& n, const Vec& x) { return Quad(n.x) * x.x + Quad(n.y) * x.y + Quad(n.z) * x.z; }
 
 bool is_exactly_behind(const HalfSpace& plane, const Vec& x) { return along(plane.normal, x) <= Quad(plane.offset); }
@@ -38,7 +38,7 @@ bool is_exactly_in(const FeasibleRegion& region, const Vec& x) {
 
 bool same_bits(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// Points of pairs of every kind: apart, near, needles, collapsed triangles, far from the origin.
+/// Draws points of pairs of every kind: apart, near, needles, collapsed triangles, far from the origin.
 class RandomPairs {
  public:
   Vec point(float size) { return {size * unit_(random_), size * unit_(random_), size * unit_(random_)}; }
@@ -68,7 +68,8 @@ struct Counts {
   int planes = 0, without = 0, wrong = 0, meeting = 0, broken = 0, met = 0, off_way = 0;
 };
 
-/// Whether x lies between `from` and `to`, but for storing it and stepping three times, 4 u of a coordinate in each.
+/// Returns whether x lies between `from` and `to`, but for storing it and stepping three times, 4 u of a coordinate in
+/// each.
 bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
   const auto wide = [](const Vec& a) { return Vector<double>{a.x, a.y, a.z}; };
   const Vector<double> way = wide(to) - wide(from), gone = wide(x) - wide(from);
@@ -78,7 +79,7 @@ bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
   return std::sqrt(dot(off, off)) <= std::sqrt(3.0) * 8 * 0x1p-24 * size;
 }
 
-/// All points of a pair after each has taken a proposal as far as its region allows it.
+/// Returns all points of a pair after each has taken a proposal as far as its region allows.
 template <int m, int n>
 PairPoints<m, n> moved(RandomPairs& random, const PairPoints<m, n>& pair, const PairPlane& plane, float radius,
                        Counts& counts, bool slides = true) {
@@ -111,7 +112,7 @@ bool is_separated(const PairPlane& plane, const PairPoints<m, n>& pair) {
   return separated;
 }
 
-/// Displacements of any size, whose speeds are anything.
+/// Returns displacements of any size and speed.
 template <int m, int n>
 ByApproach<m, n> approach(RandomPairs& random) {
   ByApproach<m, n> all{};
@@ -170,7 +171,7 @@ TEST_CASE("plane: approach along the normal divides the gap, with a sixteenth fo
   const PairPoints<1, 3> pair{{{0, 0, 0}}, {{-1, -1, 1}, {1, -1, 1}, {0, 2, 1}}, false, false};
   const auto room_of_first = [&](const ByApproach<1, 3>& w) {
     const PairPlane plane = ogc::fast::plane_of(pair, 1, share, w);
-    CHECK(plane.first + (1 - plane.second) == Approx(2 * static_cast<double>(share)));  // of both
+    CHECK(plane.first + (1 - plane.second) == Approx(2 * static_cast<double>(share)));  // the room of both sides
     return plane.first / (2 * static_cast<double>(share));
   };
   CHECK(room_of_first({{{0, 0, 0}}, {}}) == Approx(0.5));
@@ -203,7 +204,7 @@ TEST_CASE("plane: as near as the closest points, and no less room than a ball of
     double extent = 0;
     for (const Vec& x : pair.first)
       for (const Vec& y : pair.second) extent = std::max(extent, norm_1(difference<Rounded>(x, y)));
-    // stored in single precision, n turns by 2⁻²⁴: its shadows move by as much of the extent
+    // stored in single precision, n turns by 2⁻²⁴: projections on it move by as much of the extent
     if (!plane.exists() || d < 0x1p12 * slack || d < 0x1p-12 * extent) return;
     ++planes;
     // o₂ − o₁ = (1 − 2γ_p) of the gap, which is the distance
@@ -260,7 +261,7 @@ TEST_CASE(
 }
 
 TEST_CASE("plane: what slides along a wall keeps its way along it", "[unit]") {
-  // a vertex 1 mm above a wall, which is fixed: it may come down by 0.9 mm
+  // a vertex 1 mm above a fixed wall: it may come down by 0.9 mm
   const PairPoints<1, 3> pair{{{0, 0, 1e-3f}}, {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}, false, true};
   const PairPlane plane = plane_of(pair);
   REQUIRE(plane.exists());
@@ -280,7 +281,7 @@ TEST_CASE("plane: what slides along a wall keeps its way along it", "[unit]") {
 }
 
 TEST_CASE("plane: the least increase of a vertex's energy, not the shortest way", "[unit]") {
-  // H is stiff along x: the half-space x + y ≤ 0 is left along y
+  // H is stiff along x: a vertex leaves the half-space x + y ≤ 0 along y
   const HalfSpace plane{{1, 1, 0}, 0};
   const FeasibleRegion region{{{0, 0, 0}, 1}, &plane, 1};
   const Truncated kept = held(region, {-0.1f, 0, 0}, {0.1f, 0.1f, 0}, BlockMetric{{1000, 0, 0, 1, 0, 1}, 1});

@@ -1,5 +1,5 @@
-// The bound may be too small, never too large: a pair that it rejects must not be able to lower any smallest distance
-// by one bit.
+// Tests that the bound is never too large (it may be too small): a pair that it rejects must not be able to lower any
+// smallest distance by one bit.
 #include "fast/kernels/separation.hpp"
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 using namespace ogc::fast;
 
-/// Points of one pair: generic, on a lattice (parallel, coplanar, touching, zero length), nearly flat, nearly
-/// collinear; far from the origin; any scale.
+/// Draws the points of one pair: generic, on a lattice (parallel, coplanar, touching, zero length), nearly flat, nearly
+/// collinear; far from the origin; at any scale.
 class Points {
  public:
   explicit Points(unsigned seed) : random_(seed) {}

@@ -9,7 +9,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// A vertex above the middle of a triangle, 0.5 away, and where all four want to go.
+/// Holds a vertex above the middle of a triangle, 0.5 away, and the targets of all four.
 struct Touching {
   Vec position[4] = {{0.25f, 0.5f, 0.25f}, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
   Vec target[4] = {{0.25f, 0.5f, 0.25f}, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}};

@@ -10,7 +10,7 @@ namespace {
 
 using namespace ogc::fast;
 
-/// ‖x − p‖ ≤ b in 113-bit arithmetic: squares of 24-bit differences that are exact up to 2⁻¹¹².
+/// Returns whether ‖x − p‖ ≤ b in 113-bit arithmetic: squares of 24-bit differences are exact up to 2⁻¹¹².
 bool obeys(const Vec& p, const Vec& x, float b) {
   using Quad = __float128;
   const Quad u = Quad(x.x) - p.x, v = Quad(x.y) - p.y, w = Quad(x.z) - p.z;

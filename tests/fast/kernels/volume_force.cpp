@@ -16,7 +16,7 @@ struct Placed {
   std::vector<Vec> x, start;
 };
 
-/// A point at `height` over a point of a triangle, seen along a random direction.
+/// Returns a point at `height` over a point of a triangle, seen along a random direction.
 Placed random_contact(std::mt19937& random, float height) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<float> unit(0, 1);
@@ -43,7 +43,7 @@ ForceAndBlock of(const Placed& p, int role, float friction) {
   return sum;
 }
 
-/// φ, with weights and n held.
+/// Returns φ, with weights and n held.
 double height(const Placed& p, const std::vector<D3>& x) {
   double sum = 0;
   for (std::size_t k = 1; k < 4; ++k) sum += p.contact.weights[k - 1] * dot(wide(p.contact.normal), x[0] - x[k]);

@@ -1,4 +1,4 @@
-// A trace tells of the simulation's own step, and looking changes nothing.
+// Tests that a trace records the simulation's own step, and that recording changes nothing.
 #include "fast/probes/probe_step.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool same_bits(const std::vector<compare::Vec3f>& a, const std::vector<compare::
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(compare::Vec3f)) == 0;
 }
 
-// A sheet thrown askew at a fixed one: several rounds, contacts, detections between iterations.
+// Returns a sheet thrown askew at a fixed one: several rounds, contacts, detections between iterations.
 compare::Scene thrown_sheet() {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 7, 0.06, 0.006, false);
@@ -92,7 +92,7 @@ TEST_CASE("a simulation tells the states at which it detected: those of its trac
       if (event.kind == compare::StepEventKind::detection) traced_states.push_back(event.position);
     CHECK(std::ranges::equal(states, traced_states, same_bits));
     unseen->advance(1);
-    for (int k = 0; k < 3; ++k) seen->advance(1), unseen->advance(1);  // nobody looks any more
+    for (int k = 0; k < 3; ++k) seen->advance(1), unseen->advance(1);  // without an observer now
     CHECK(same_bits(seen->snapshot().positions, unseen->snapshot().positions));
   }
 }

@@ -1,4 +1,4 @@
-// The search of volumes on the CPU, against what can be written down by hand.
+// Tests the search of volumes on the CPU against values by hand.
 #include "compare/stages/volume_depth.hpp"
 
 #include <algorithm>
@@ -151,7 +151,7 @@ TEST_CASE("in a body of tetrahedra the depth is r at the surface, and that of th
     CHECK(out.contacts[0].depth == Approx(0.5).margin(2e-6));
     CHECK(out.contacts[0].direction.z == 1);
   }
-  // through the edges and vertices between the cells, as well
+  // ways through the edges and vertices between the cells, too
   for (const Vec3f x : {Vec3f{2, 1, 1.25f}, Vec3f{2, 1.5f, 1.75f}, Vec3f{1, 1, 1.125f}, Vec3f{3, 1, 1.125f}}) {
     const auto out = row.ask({x}, 0.125f);
     REQUIRE(out.contacts.size() == 1);

@@ -51,7 +51,7 @@ void require_valid(const RestState& rest, const Colouring& colouring) {
   }
 }
 
-// A fan of random size around each of a chain of hubs, with non-manifold edges where fans share triangles' edges.
+// Returns a chain of hubs, each with a fan of random size, with non-manifold edges where fans share triangles' edges.
 compare::Scene random_mesh(unsigned seed) {
   std::mt19937 random(seed);
   compare::Scene scene = test::empty_scene();

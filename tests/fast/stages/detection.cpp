@@ -32,7 +32,7 @@ ContactSets find(const TestMesh& surface, float r, float r_q) {
   return find(topology, surface.positions, r, r_q);
 }
 
-/// Three crumpled layers, closer to each other than r.
+/// Returns three crumpled layers, closer to each other than r.
 TestMesh layers(std::uint32_t seed) {
   TestMesh surface;
   for (int k = 0; k < 3; ++k)
@@ -41,7 +41,7 @@ TestMesh layers(std::uint32_t seed) {
   return surface;
 }
 
-/// All pairs, without tree, lists or skipping: the smallest distances.
+/// Returns the smallest distances over all pairs, without tree, lists or skipping.
 ContactSets all_pairs(const TestMesh& surface, float r_q) {
   const compare::Topology topology = surface.topology();
   const auto* x = reinterpret_cast<const Vec*>(surface.positions.data());
@@ -85,7 +85,7 @@ std::vector<compare::VertexFacetContact> of_vertex(const ContactSets& sets, comp
   return found;
 }
 
-/// A triangle far above the plane whose corner 0, vertex `first`, is at x.
+/// Returns a triangle far above the plane whose corner 0, vertex `first`, is at x.
 TestMesh probe(const compare::Vec3f& x) {
   TestMesh surface;
   surface.positions = {x, {x.x + 0.5F, x.y + 50, x.z}, {x.x, x.y + 50, x.z + 0.5F}};
@@ -452,7 +452,7 @@ TEST_CASE("detection: pairs beside excluded ones are left out, of contacts and o
   for (const auto& contact : all.edge_edge) {
     const bool kept = std::find(some.edge_edge.begin(), some.edge_edge.end(), contact) != some.edge_edge.end();
     lost += !kept;
-    // A pair of faces with a vertex may be entered under another pair of edges; of two interiors there is one.
+    // A pair of faces with a vertex may be entered under another pair of edges; two interiors have one pair only.
     if (contact.first.kind != compare::FaceKind::edge || contact.second.kind != compare::FaceKind::edge) continue;
     CHECK(kept != beside(topology.edges[static_cast<std::size_t>(contact.first_edge)],
                          topology.edges[static_cast<std::size_t>(contact.second_edge)]));

@@ -1,4 +1,4 @@
-// Bounds as planes: what a detection makes of them, judged exactly, and what a step is free to do with them.
+// Tests bounds as planes: the planes that a detection makes, judged exactly, and the freedom that a step has with them.
 #include "fast/stages/planes.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Held {
   std::vector<float> nearest;
 };
 
-/// What a detection at `positions` gives.
+/// Returns the planes of a detection at `positions`.
 Held detect(const compare::Topology& topology, const std::vector<compare::Vec3f>& positions,
             const std::vector<std::uint8_t>& is_fixed, float r, float r_q, int capacity = 0,
             const std::vector<compare::Vec3f>& displacement = {}) {
@@ -42,7 +42,7 @@ Held detect(const compare::Topology& topology, const std::vector<compare::Vec3f>
   return {{detection.download_planes(), {view.bound, view.bound + n}}, {view.d_min_vertex, view.d_min_vertex + n}};
 }
 
-/// Three crumpled layers, closer to each other than r.
+/// Returns three crumpled layers, closer to each other than r.
 tests::TestMesh layers(std::uint32_t seed) {
   tests::TestMesh surface;
   for (int k = 0; k < 3; ++k)
@@ -65,7 +65,7 @@ bool are_equal(const compare::PlaneOut& a, const compare::PlaneOut& b) {
                             });
 }
 
-/// The pairs whose planes v bears, each as its vertices, renumbered by `name` and sorted.
+/// Returns the pairs whose planes v bears, each as its vertices, renumbered by `name` and sorted.
 template <class Name>
 std::vector<std::array<compare::Index, 4>> pairs_of(const compare::Topology& topology, const Held& held,
                                                     compare::Index v, Name name) {
@@ -85,8 +85,8 @@ std::vector<std::array<compare::Index, 4>> pairs_of(const compare::Topology& top
   return pairs;
 }
 
-/// A strip that is folded into a V, its edge of three vertices at x = `apex`, its ends at x = `ends` [m]. `is_upright`:
-/// the edge is along y, not along z.
+/// Adds a strip that is folded into a V, its edge of three vertices at x = `apex`, its ends at x = `ends` [m].
+/// `is_upright`: the edge is along y, not along z.
 void add_hook(compare::Scene& scene, double apex, double ends, bool is_upright) {
   const compare::Index first = add_sheet(scene, 3, 1, 0, false).first_vertex;
   compare::PrescribedMotion pull;
@@ -102,7 +102,7 @@ void add_hook(compare::Scene& scene, double apex, double ends, bool is_upright) 
   scene.motions.push_back(pull);
 }
 
-/// Positions at the end of `steps` clean steps.
+/// Returns positions at the end of `steps` steps without failure.
 std::vector<compare::Vec3f> positions_after(const compare::Scene& scene, int steps,
                                             std::vector<compare::StepMetrics>* rows = nullptr) {
   const auto simulation = start_cpu(scene, {});
@@ -113,7 +113,7 @@ std::vector<compare::Vec3f> positions_after(const compare::Scene& scene, int ste
   return simulation->snapshot().positions;
 }
 
-/// A free sheet beside a fixed one, both upright, `apart` [m].
+/// Returns a free sheet beside a fixed one, both upright, `apart` [m].
 compare::Scene beside_a_wall(double apart) {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 4, 0.03, 0, false);
@@ -124,7 +124,7 @@ compare::Scene beside_a_wall(double apart) {
   }
   scene.rest_positions = scene.mesh.positions;
   scene.settings.contact_radius = 0x1p-18;
-  scene.settings.query_radius_cap = 1024;
+  scene.settings.detection_radius_cap = 1024;
   scene.settings.bounds = compare::Bounds::planes;
   return scene;
 }
@@ -215,10 +215,10 @@ TEST_CASE("planes: a sheet that falls past a wall a few micrometres away falls f
   const double fall = 9.81 * h * h * steps * (steps + 1) / 2;
   std::vector<compare::StepMetrics> rows;
   const auto free = positions_after(scene, steps, &rows);
-  // each step rounds a position below 2 m to 2⁻²⁴ m, and the velocity made of it carries that on
+  // each step rounds a position below 2 m to 2⁻²⁴ m, and the velocity made of it carries that error on
   for (std::size_t v = 0; v < 16; ++v)
     CHECK(std::abs(free[v].y - (scene.mesh.positions[v].y - fall)) < steps * (steps + 1) * 0x1p-24);
-  // a ball of that distance lets it fall 16 rounds and 10 iterations of γ_p times as far a step, at most
+  // a ball of that distance lets it fall γ_p times the distance in each of 16 rounds and 10 iterations a step, at most
   scene.settings.bounds = compare::Bounds::ball;
   const auto stuck = positions_after(scene, steps);
   for (std::size_t v = 0; v < 16; ++v)
@@ -248,7 +248,7 @@ TEST_CASE("planes: a cloth pulled out between two plates leaves, and passes neit
     CHECK(compare::audit(topology, compare::to_double(state.positions), compare::exclusions(scene)).count == 0);
     CHECK(reference::broken_planes(state.planes, state.positions) == 0);
   }
-  // 0.3 m: out of the plates, whose edges are 0.15 m from the middle
+  // after 0.3 m it is out of the plates, whose edges are 0.15 m from the middle
   const auto end = simulation->snapshot().positions;
   CHECK(std::ranges::all_of(end.begin(), end.begin() + 36, [](const compare::Vec3f& p) { return p.x > 0.15f; }));
 }
@@ -307,7 +307,7 @@ TEST_CASE("planes: renumbered vertices have the planes of the same pairs, and th
   CHECK(planes > 500);
 }
 
-// Planes of the step before must decide nothing: each step is taken by a simulation that has seen no other.
+// Planes of the step before must decide nothing: each step is taken by a fresh simulation.
 TEST_CASE("planes: a simulation that is replaced by a new one after each step comes to the same bits", "[property]") {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 8, 0.06, 0.003, false);

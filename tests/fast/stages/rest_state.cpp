@@ -66,7 +66,7 @@ TEST_CASE("bodies meet with the harmonic mean of stiffness and the arithmetic me
   CHECK(rest.contact[1].stiffness == Approx(16));
   CHECK(rest.contact[2].stiffness == rest.contact[1].stiffness);
   CHECK(rest.contact[1].friction == Approx(0.3));
-  for (const double other : {0.0, 40.0}) {  // what is not stiff repels nothing
+  for (const double other : {0.0, 40.0}) {  // a body without stiffness repels nothing
     scene.bodies[0].material.contact_stiffness = 0, scene.bodies[1].material.contact_stiffness = other;
     for (const int pair : {0, 1, 2}) {
       const RestState none = build_rest_state(scene, compare::build_topology(scene));

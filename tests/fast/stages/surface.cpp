@@ -20,7 +20,7 @@ Seeds seeds_of(const compare::Topology& topology) {
 
 }  // namespace
 
-// Any pair bounds a search; one that is not next to the primitive bounds it worse, which costs time alone.
+// Any pair bounds a search; a pair that is not next to the primitive bounds it worse, which costs time alone.
 TEST_CASE("searches begin at the nearest pairs of the mesh, opposite to edge, facet and vertex", "[property]") {
   for (const bool reversed : {false, true}) {
     tests::TestMesh mesh = tests::sheet(6, 1, 0);

@@ -25,8 +25,8 @@ std::vector<PaddedVec> padded_of(const std::vector<Vec>& positions, int copies =
   return padded;
 }
 
-// Two crumpled sheets, 0.6 r apart, with contacts of every kind; start positions a little elsewhere, so that damping
-// and friction act.
+// Holds two crumpled sheets, 0.6 r apart, with contacts of every kind; start positions are a little elsewhere, so that
+// damping and friction act.
 struct Fixture {
   compare::Scene scene;
   compare::Topology topology;
@@ -34,16 +34,13 @@ struct Fixture {
   Colouring colouring;
   CpuBackend backend;
   std::vector<Vec> x, start, target, fresh, previous;
-  std::vector<PaddedVec> padded, padded_start;  // of x, twice, and of start
+  std::vector<PaddedVec> padded, padded_start;  // x twice, and start
   std::vector<float> bound;
-  std::vector<Symmetric2> strain;
-  std::vector<float> angle;
   StepControl control;
   std::unique_ptr<Detection<CpuBackend>> detection;
   std::unique_ptr<Sweep<CpuBackend>> sweep;
 
-  /// `rough`: how far vertices stand from the grids of their sheets [m], which are turned against one another by
-  /// `turn`.
+  /// `rough`: distance of vertices from the grids of their sheets [m], which are turned against one another by `turn`.
   Fixture(bool second_fixed, int lanes, double friction = 0.3, double rough = 1e-3, double turn = 0) {
     compare::Material material;
     material.membrane_damping = 1e-3, material.bending_damping = 1e-3, material.bending_stiffness = 1e-5;
@@ -67,14 +64,6 @@ struct Fixture {
     }
     fresh = previous = x;
     bound.assign(x.size(), 1.0f);
-    for (const TriangleRest& t : rest.triangles) {
-      const auto at = [&](int k) { return start[static_cast<std::size_t>(t.corner[k])]; };
-      strain.push_back(green_strain(deformation_gradient(at(1) - at(0), at(2) - at(0), t.gradient[1], t.gradient[2])));
-    }
-    for (const HingeRest& h : rest.hinges) {
-      const auto at = [&](int k) { return start[static_cast<std::size_t>(h.vertex[k])]; };
-      angle.push_back(hinge_shape(at(1) - at(0), at(2) - at(0), at(3) - at(0)).angle);
-    }
     control.active = 1;
     control.query_radius = 0.03f;
     detection = std::make_unique<Detection<CpuBackend>>(backend, topology, compare::rigid_groups(scene));
@@ -93,9 +82,8 @@ struct Fixture {
     padded = padded_of(x, 2);
     padded_start = padded_of(start);
     SweepView v;
+    sweep->begin(start.data());
     sweep->complete(v);
-    v.strain_start = strain.data();
-    v.angle_start = angle.data();
     v.start = {padded_start.data()};
     v.target = target.data();
     v.regions = {previous.data(), bound.data()};
@@ -109,7 +97,7 @@ struct Fixture {
   }
 };
 
-/// A detection's launches that make the stream of a sweep; what else a step has to do in them is kept in here.
+/// Runs a detection's launches that make the stream of a sweep; it holds what else a step has to do in them.
 struct MadeStream {
   std::vector<Vec> previous;
   StepControl control;
@@ -180,8 +168,8 @@ TEST_CASE("an iteration reads lower colours from the fresh buffer and all others
     const SweepView view = f.view();
     f.sweep->iterate(view);
     const std::vector<Vec> answer = f.fresh;
-    // The rule, naively: before each colour, a snapshot of what has been written so far; each vertex of the colour is
-    // solved in it.
+    // Applies the rule naively: before each colour it takes a snapshot of what has been written so far, and solves each
+    // vertex of the colour in it.
     std::vector<Vec> now = f.x;
     for (int c = 0; c < f.colouring.count; ++c) {
       std::vector<Vec> seen = now, out = now;
@@ -291,7 +279,7 @@ TEST_CASE("where models are the usual ones, the sum of any scene has the bits of
 
 namespace {
 
-/// Vertices whose sum in packs has other bits than that of SerialTeam.
+/// Returns the number of vertices whose sum in packs has other bits than that of SerialTeam.
 template <int W>
 int other_bits(const Fixture& f, const SweepView& view, const PackKernels& kernels) {
   int count = 0;
@@ -305,7 +293,7 @@ int other_bits(const Fixture& f, const SweepView& view, const PackKernels& kerne
   return count;
 }
 
-/// Those for every machine that can run here.
+/// Returns the kernels of every machine that can run here.
 std::vector<const PackKernels*> all_kernels() {
 #ifdef __x86_64__
   if (has_avx2()) return {&pack_kernels_baseline, &pack_kernels_avx2};
@@ -439,13 +427,13 @@ TEST_CASE("a stencil that only one free vertex has is not forgotten", "[unit]") 
   const Sweep<CpuBackend> sweep(backend, rest, colour_vertices(rest), topology, scene);
   SweepView view;
   sweep.complete(view);
-  CHECK(view.isometric != nullptr);
-  CHECK(view.spring_rows != nullptr);
+  CHECK(view.hinges.beside != nullptr);
+  CHECK(view.springs.rows != nullptr);
   scene.springs.clear();
   scene.bodies[0].material.bending = compare::BendingModel::discrete_hinge;
   const RestState plain = build_rest_state(scene, topology);
   const Sweep<CpuBackend> other(backend, plain, colour_vertices(plain), topology, scene);
   other.complete(view);
-  CHECK(view.isometric == nullptr);
-  CHECK(view.spring_rows == nullptr);
+  CHECK(view.hinges.beside == nullptr);
+  CHECK(view.springs.rows == nullptr);
 }

@@ -1,9 +1,8 @@
-// The sums of a solid's vertices: in packs and in turn, alone and beside surfaces, to the same bits.
+// Tests that the sums of a solid's vertices have the same bits in packs and in turn, alone and beside surfaces.
 #include <cstring>
 #include <random>
 
 #include "fast/cpu/backend.hpp"
-#include "fast/kernels/initial_guess.hpp"
 #include "fast/stages/sweep.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/problem/solid_scene.hpp"
@@ -15,7 +14,7 @@ using namespace ogc::fast::test;
 
 namespace {
 
-/// A crumpled block, none of whose contacts are known; start positions a little elsewhere, so that damping acts.
+/// Holds a crumpled block without known contacts; start positions are a little elsewhere, so that damping acts.
 struct Fixture {
   compare::Scene scene = empty_scene();
   RestState rest;
@@ -23,7 +22,6 @@ struct Fixture {
   CpuBackend backend;
   std::vector<PaddedVec> padded, padded_start;
   std::vector<Vec> start;
-  std::vector<SolidStrain> strain;
   std::unique_ptr<Sweep<CpuBackend>> sweep;
 
   Fixture(double damping, compare::DampingForm form) {
@@ -45,15 +43,12 @@ struct Fixture {
       start.push_back({p.x, p.y, p.z + normal(random)});
       padded_start.emplace_back(start.back());
     }
-    strain.resize(rest.tetrahedra.size());
-    const BeginTetrahedron begin{rest.tetrahedra.data(), start.data(), strain.data()};
-    for (int t = 0; t < static_cast<int>(strain.size()); ++t) begin(t);
+    sweep->begin(start.data());
   }
 
   SweepView view() {
     SweepView view;
     sweep->complete(view);
-    view.solid_start = strain.data();
     view.start = {padded_start.data()};
     view.old = padded.data();
     view.to_fresh = static_cast<int>(start.size());
@@ -75,7 +70,7 @@ std::vector<const PackKernels*> all_kernels() {
   return {&pack_kernels_baseline};
 }
 
-/// Vertices whose two sums have other bits.
+/// Returns the number of vertices whose two sums have other bits.
 template <int W, class A, class B>
 int other_bits(Fixture& f, const A& a, const B& b) {
   int count = 0;

@@ -1,5 +1,5 @@
-// The stages on a backend that watches them: their memory has margins, what is replayed is noted, and positions can be
-// made wrong before a step looks at them.
+// Runs the stages on a backend that watches them: their memory has margins, replays are noted, and positions can be
+// made wrong before a step checks them.
 #include <cstring>
 #include <functional>
 #include <set>
@@ -20,17 +20,17 @@ using namespace ogc::fast::test;
 namespace {
 
 int broken_margins = 0;
-int strains_begun = 0;  // loops that ask for strains at the start of a step
+int strains_begun = 0;  // loops that need strains at the start of a step
 
 using Launches = std::vector<std::type_index>;
-Launches* launched = nullptr;  // where functors are noted in the order of their launches
+Launches* launched = nullptr;  // notes functors in the order of their launches
 
 template <class F>
 void note_launch() {
   if (launched != nullptr) launched->push_back(typeid(F));
 }
 
-/// CpuBuffer with a margin behind its items, in which bits are ones: floats that are not numbers, places below 0.
+/// A CpuBuffer with a margin of set bits behind its items: floats that are NaN, places below 0.
 template <class T>
 class GuardedBuffer {
  public:
@@ -89,14 +89,14 @@ class WatchedBackend : public CpuBackend {
   };
   using Replayed = std::vector<const Recording*>;
 
-  /// `before_check`: called before a step looks at its positions.
+  /// `before_check`: called before a step checks its positions.
   explicit WatchedBackend(Replayed* replayed = nullptr, std::function<void(Vec*)> before_check = nullptr)
       : replayed_(replayed), before_check_(std::move(before_check)) {}
 
   template <class F>
   void for_each(int n, F f) {
     note_launch<F>();
-    if constexpr (std::is_same_v<F, BeginTriangle>) ++strains_begun;
+    if constexpr (std::is_same_v<F, BeginElement<TriangleKind>>) ++strains_begun;
     if constexpr (is_check<F>) {
       if (before_check_) before_check_(const_cast<Vec*>(f.g.position));
     }
@@ -146,7 +146,7 @@ class WatchedBackend : public CpuBackend {
 
 using Watched = ResidentSimulation<WatchedBackend>;
 
-/// A trace whose own launches, those of a look, are not noted.
+/// A trace whose own launches are not noted.
 class Onlooker : public StepTrace<WatchedBackend> {
  public:
   using StepTrace::StepTrace;
@@ -163,7 +163,7 @@ class Onlooker : public StepTrace<WatchedBackend> {
   }
 };
 
-/// A sheet thrown at a fixed one.
+/// Returns a sheet thrown at a fixed one.
 compare::Scene thrown_sheet() {
   compare::Scene scene = empty_scene();
   compare::Material material;
@@ -178,7 +178,7 @@ compare::Scene thrown_sheet() {
   return scene;
 }
 
-/// A sheet that nothing moves.
+/// Returns a sheet that nothing moves.
 compare::Scene still_sheet() {
   compare::Scene scene = empty_scene();
   scene.gravity = {};
@@ -187,7 +187,7 @@ compare::Scene still_sheet() {
   return scene;
 }
 
-/// What is replayed frame by frame.
+/// Returns the replays, frame by frame.
 WatchedBackend::Replayed replayed(const compare::Scene& scene, int frames, int capacity = 0) {
   WatchedBackend::Replayed noted;
   Watched simulation(WatchedBackend(&noted), scene, {}, "watched", capacity);
@@ -195,7 +195,7 @@ WatchedBackend::Replayed replayed(const compare::Scene& scene, int frames, int c
   return noted;
 }
 
-/// Recordings among them.
+/// Returns the number of recordings among them.
 std::size_t kinds(const WatchedBackend::Replayed& noted) { return std::set(noted.begin(), noted.end()).size(); }
 
 }  // namespace
@@ -267,8 +267,8 @@ TEST_CASE("a position beyond its bound, or none, at a step's end stops the run a
 }
 
 TEST_CASE("iterations are asked in groups whether a detection is due until a frame has one in four of them", "[unit]") {
-  // Steps that sort the trees, the first and the seventeenth, have a recording of their own. Without any detection but
-  // that of the guess loop, which says nothing about iterations; also where a frame had no step, as lists grew.
+  // Steps that sort the trees, the first and the seventeenth, have a recording of their own. The only detections are
+  // those of the guess loop, which do not count for iterations; nor does a frame without a step, as lists grew.
   constexpr int frames = steps_between_sorts + 1;
   const WatchedBackend::Replayed still = replayed(still_sheet(), frames);
   REQUIRE(still.size() == frames);
@@ -276,13 +276,13 @@ TEST_CASE("iterations are asked in groups whether a detection is due until a fra
   CHECK(still.front() != still[1]);
   CHECK(kinds(still) == 2);
   compare::Scene few = thrown_sheet();
-  few.settings.redetect_fraction = 1;
+  few.settings.detection_fraction = 1;
   const WatchedBackend::Replayed grown = replayed(few, frames, 1);
   REQUIRE(grown.size() > frames);
   CHECK(std::count(grown.begin(), grown.end(), grown.front()) > 1);
   CHECK(kinds(grown) == 2);
   compare::Scene many = thrown_sheet();
-  many.settings.redetect_every = 1;
+  many.settings.detection_every = 1;
   const WatchedBackend::Replayed changed = replayed(many, frames);
   REQUIRE(changed.size() == frames);
   CHECK(kinds({changed.begin() + 1, changed.end() - 1}) == 1);

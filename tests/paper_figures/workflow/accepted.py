@@ -243,13 +243,13 @@ class Accepting(Scratch):
                                  if path.is_file()} - {"provenance.csv", "durations.csv"})
 
     def test_of_a_figure_that_says_so_only_some_runs_are_kept_and_all_are_checked(self):
-        for run, commit in (("runs/activation=ogc", "a"), ("newton_ipc_log", "a"), ("runs/activation=cubic", "a"),
-                            ("vbd_ipc_log_kappa2", "a")):
+        for run, commit in (("runs/contact_activation=ogc", "a"), ("newton_ipc_log", "a"),
+                            ("runs/contact_activation=cubic", "a"), ("vbd_ipc_log_kappa2", "a")):
             self.make_run(f"fig21-paper-cuda/{run}", commit=commit * 40)
         (self.runs / "fig21-paper-cuda/fig21.png").write_bytes(picture())
         self.accept("fig21")
         kept = {path.name for path in (self.results / "machine/fig21_paper").iterdir()}
-        self.assertEqual(kept, {f"{run}_{what}" for run in ("activation=ogc", "newton_ipc_log")
+        self.assertEqual(kept, {f"{run}_{what}" for run in ("contact_activation=ogc", "newton_ipc_log")
                                 for what in ("run.json", "steps.csv")})
         self.make_run("fig21-paper-cuda/vbd_ogc_weak", commit="b" * 40)
         with self.assertRaisesRegex(accept.AcceptError, "mixes runs of commits"):

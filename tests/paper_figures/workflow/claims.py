@@ -243,9 +243,9 @@ class Judging(unittest.TestCase):
     def test_a_run_is_told_from_others_by_its_activation(self):
         runs = Evidence().runs_as({"scene": "activation_drop", "scale": "small"})
         for name in ("ogc", "ipc_log"):
-            found = [run for run in runs if run.matches({"activation": name})]
+            found = [run for run in runs if run.matches({"contact_activation": name})]
             self.assertTrue(found)
-            self.assertEqual({run.manifest["settings"]["activation"]["value"] for run in found}, {name})
+            self.assertEqual({run.manifest["settings"]["contact_activation"]["value"] for run in found}, {name})
 
     def test_a_row_about_a_run_that_was_left_out_is_no_evidence(self):
         with tempfile.TemporaryDirectory() as name:
@@ -307,11 +307,11 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.judged(lambda m: None, run={"scale": "paper", "bounds": "planes"}), "not yet run")
 
     def test_bodies_that_may_be_entered_answer_claims_that_name_them_alone(self):
-        volume = lambda m: m["scene"]["bodies"][-1].update(contact="volume")  # noqa: E731
-        said = lambda m: [body.update(contact="surface") for body in m["scene"]["bodies"]]  # noqa: E731
+        volume = lambda m: m["scene"]["bodies"][-1].update(body_contact="volume")  # noqa: E731
+        said = lambda m: [body.update(body_contact="surface") for body in m["scene"]["bodies"]]  # noqa: E731
         self.assertEqual(self.judged(volume), "not yet run")
         self.assertEqual(self.judged(said), "reproduced")
-        wanted = {"run": {"scale": "paper", "contact": "volume"}}
+        wanted = {"run": {"scale": "paper", "body_contact": "volume"}}
         self.assertEqual(self.judged(volume, **wanted), "reproduced")
         for bounded in (said, lambda m: None):
             self.assertEqual(self.judged(bounded, **wanted), "not yet run")

@@ -185,7 +185,7 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
         self.assertNotIn("data", " ".join(study.command(body, "dress", "paper", "cuda")))
 
     def test_a_studys_picture_has_room_for_names_and_titles_and_no_row_that_no_scene_has(self):
-        settings = {"default": (1, 0, 2), "membrane=stable_neo_hookean, bound_relaxation=0.25": (3, 2, 4)}
+        settings = {"default": (1, 0, 2), "membrane=stable_neo_hookean, bounds_relaxation=0.25": (3, 2, 4)}
         metrics = {"median_step": ("ms", settings), "largest_momentum_lost_end": ("1", settings)}
         with mock.patch.object(study.style, "save") as save:
             study.draw({"twist": metrics}, ["median_step", "median_residual", "largest_momentum_lost_end"], "T", "out")

@@ -160,7 +160,7 @@ TEST_CASE("IPC: friction brakes what slides with its coefficient times gravity, 
   set_setting(scene.settings, "ipc_distance", 1e-3);
   set_setting(scene.settings, "ipc_tolerance", 1e-7);
   scene.settings.friction_velocity = 1e-4;
-  set_setting(scene.settings, "friction_solves", 20);
+  set_setting(scene.settings, "newton_friction_solves", 20);
   scene.settings.time_step = 0.005;
   const Run result = run(scene, 40);
   REQUIRE(clean(result));

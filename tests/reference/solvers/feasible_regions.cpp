@@ -55,7 +55,7 @@ std::size_t half_spaces_of_held_run(StartSolver start, const compare::Scene& sce
     const compare::Snapshot state = simulation->snapshot();
     half_spaces += state.planes.items.size();
     const compare::PlaneIn in{&topology, exclusions,         state.previous,
-                              is_fixed,  state.query_radius, static_cast<float>(scene.settings.bound_relaxation)};
+                              is_fixed,  state.query_radius, static_cast<float>(scene.settings.bounds_relaxation)};
     CHECK(plane_guarantee(in, {state.planes, state.bounds}).kept());
     CHECK(broken_planes(state.planes, state.positions) == 0);
     CHECK(compare::audit(topology, compare::to_double(state.positions), exclusions).count == 0);

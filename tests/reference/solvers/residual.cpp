@@ -36,8 +36,8 @@ TEST_CASE("the residual is the mean force by that after the guess loop, to the r
   const double mass = scene.bodies[0].material.density * 0.5e-4 / 3;  // a third of the triangle's mass, at each vertex
   // By Eq. 21 with nothing near, each vertex is held within γ_p r_q of its start; r_q is capped (method.md §5.3).
   const double query_radius = std::min(settings.contact_radius + way,
-                                       settings.query_radius_cap * settings.contact_radius);
-  const double guessed = settings.bound_relaxation * query_radius;
+                                       settings.detection_radius_cap * settings.contact_radius);
+  const double guessed = settings.bounds_relaxation * query_radius;
   REQUIRE(guessed < 0.9 * way);
   const std::vector<compare::Vec3f> start = compare::to_single(scene.mesh.positions);
   const std::vector<compare::Vec3f> velocity(3, {0, -static_cast<float>(speed), 0});

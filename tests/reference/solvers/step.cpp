@@ -32,7 +32,7 @@ std::vector<StepEventKind> order(const compare::Settings& settings, Index moving
 compare::Settings settings(std::int64_t iterations, double fraction = 0.01) {
   compare::Settings settings;
   settings.iterations = iterations;
-  settings.redetect_fraction = fraction;
+  settings.detection_fraction = fraction;
   return settings;
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("the threshold is the fraction of K rounded up, at least one vertex", 
 
 TEST_CASE("detections by count are counted from the last detection", "[unit]") {
   compare::Settings by_count = settings(6);
-  by_count.redetect_every = 2;
+  by_count.detection_every = 2;
   CHECK(order(by_count, 100, {}) == std::vector{find, guess, sweep, sweep, find, sweep, sweep, find, sweep, sweep});
   CHECK(order(by_count, 100, {0, 1}) ==
         std::vector{find, guess, sweep, find, sweep, sweep, find, sweep, sweep, find, sweep});
@@ -144,7 +144,7 @@ TEST_CASE("positions of the reference's own step obey their bounds, and its coun
 TEST_CASE("r_q grows with the fastest vertex, a prescribed one included, up to its cap", "[unit]") {
   compare::Scene scene = scene_of(sheet(3, 1), {0, 0, 0});
   scene.gravity = {};
-  scene.settings.query_radius_cap = 4;
+  scene.settings.detection_radius_cap = 4;
   CHECK(step_of(scene).query_radius == 0.004f);
   compare::PrescribedMotion motion;
   motion.vertices = {0};

@@ -67,7 +67,7 @@ TEST_CASE("reference VBD takes the step of the judged sweep, up to what storing 
           "[agreement]") {
   compare::Scene scene = two_sheets();
   scene.settings.iterations = 3;
-  scene.settings.redetect_every = 2;
+  scene.settings.detection_every = 2;
   round_to_single(scene);
   const compare::Topology topology = build_topology(scene);
   const compare::StepOut judged = reference::reference_step({&scene, &topology});
@@ -93,8 +93,8 @@ TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, sin
   for (compare::Body& body : scene.bodies) body.material.contact_stiffness = 10;
   scene.settings.time_step = 1.0 / 400;
   scene.settings.iterations = 250;
-  scene.settings.redetect_fraction = 0;
-  scene.settings.redetect_every = 5;
+  scene.settings.detection_fraction = 0;
+  scene.settings.detection_every = 5;
   const auto rows = reference::start_vbd(scene, {.iterations = true})->advance(1);
   REQUIRE(rows[0].iteration_rows.size() == 251);
   CHECK(rows[0].iteration_rows.front().residual > 0.5);
@@ -117,7 +117,7 @@ TEST_CASE(
   for (const double height : {0.0, 2.5e-3, 5e-3}) add_sheet(scene, 6, 0.05, height, false, material);
   for (std::size_t v = 0; v < scene.velocities.size(); ++v)
     scene.velocities[v] = {0, v < 36 ? 0.3 : v < 72 ? 0 : -0.3, 0};
-  scene.settings.redetect_fraction = 0;
+  scene.settings.detection_fraction = 0;
   const auto residual = [&](const std::vector<compare::Index>& colour, std::int64_t iterations) {
     scene.settings.iterations = iterations;
     return reference::start_vbd(scene, {.iterations = true}, colour)->advance(1).at(0).iteration_rows.back().residual;

@@ -55,7 +55,7 @@ struct Pile {
     add_sheet(scene, 3, 0.03, 0, true, material);
     const double jitter = kind.is_parallel ? 1e-7 : 2e-4;
     for (compare::Vec3& p : scene.mesh.positions) p = {p.x + any(jitter), p.y + any(jitter), p.z + any(jitter)};
-    scene.settings.activation = kind.activation;
+    scene.settings.contact_activation = kind.activation;
     round_to_single(scene);
     topology = build_topology(scene);
     start = reference::widened(compare::to_single(scene.mesh.positions));

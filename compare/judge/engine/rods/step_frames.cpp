@@ -83,7 +83,7 @@ TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vect
   TurnedFrames asked;
   for (std::size_t e = 0; e < held.size(); ++e) {
     const Quaternion &before = out.orientation_start[e], &now = out.turned[e];
-    const bool is_kept = held[e] == 0 || (held[e] < 0 && !turns(scene.settings.start_frames));
+    const bool is_kept = held[e] == 0 || (held[e] < 0 && !turns(scene.settings.rod_start));
     if (is_kept && now != before) wrong = segment(e) + " has turned before the first sweep";
     if (is_kept) continue;
     if (held[e] > 0 && says_turn(scene.motions[place(held[e]) - 1])) {

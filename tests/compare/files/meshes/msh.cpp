@@ -165,7 +165,7 @@ TEST_CASE("E and nu stand in place of the constants of Lame, and what format 2 r
   CHECK_THAT(with("\"solid_mu\"", R"("solid_young": 2e4, "solid_poisson": 0.4, "solid_mu")"),
              Contains("stands beside 'solid_mu'"));
   CHECK_THAT(with("\"surface\"", "\"solid\""),
-             Contains("/bodies/0/contact: unknown contact 'solid'; there are: surface, volume"));
+             Contains("/bodies/0/body_contact: unknown body contact 'solid'; there are: surface, volume"));
   CHECK_THAT(with("\"fixed\"", R"("orientations": "q.h5", "fixed")"), Contains("/bodies/0/orientations: "));
   CHECK_THAT(with("\"motions\"", R"("body_pairs": [{}], "motions")"),
              Contains("/body_pairs/0: asks for materials of pairs of bodies"));

@@ -14,6 +14,7 @@
 #include "compare/problem/material_table.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/files/scratch.hpp"
+#include "tests/compare/problem/renamed.hpp"
 #include "tests/compare/problem/small_scene.hpp"
 #include "tests/compare/problem/solid_scene.hpp"
 #include "tests/compare/record/small_run.hpp"
@@ -49,7 +50,7 @@ Scene full_scene() {
   set_setting(scene.settings, "tests_share", 1.0 / 3);
   set_setting(scene.settings, "tests_count", 7);
   set_setting(scene.settings, "tests_way", "second");
-  scene.settings.activation = ContactActivation::cubic;
+  scene.settings.contact_activation = ContactActivation::cubic;
   scene.settings.damping = DampingForm::per_vertex;
   scene.springs = {{1, 5, 12, 0.25, 1e-4}, {6, 0, 3, 0, 0}};
   scene.springs.push_back({0, 5, 100, 0, 0, 6, 1.0 / 3});
@@ -133,11 +134,21 @@ TEST_CASE("a volume comes back as one, and a body that says nothing about its co
   round_to_single(scene);
   Edited edited(scene);
   CHECK(read_scene(edited.file()) == scene);
-  edited.content["bodies"][0].erase("contact");
+  edited.content["bodies"][0].erase("body_contact");
   CHECK(edited.error() == "");
   CHECK(read_scene(edited.file()).bodies[0].contact == BodyContact::surface);
-  edited.content["bodies"][0]["contact"] = true;
-  CHECK_THAT(edited.error(), Contains("/bodies/0/contact"));
+  edited.content["bodies"][0]["body_contact"] = true;
+  CHECK_THAT(edited.error(), Contains("/bodies/0/body_contact"));
+}
+
+TEST_CASE("a setting under the name that it had before is refused with the one that it has now", "[unit]") {
+  for (const ogc::tests::Renamed& setting : ogc::tests::renamed_settings) {
+    Edited edited(solid_scene());
+    const bool is_of_bodies = setting.now == "body_contact";
+    const std::string key(setting.before);
+    (is_of_bodies ? edited.content["bodies"][0] : edited.content["settings"])[key] = 1;
+    CHECK_THAT(edited.error(), Contains((is_of_bodies ? "/bodies/0/" : "/settings/") + key + ": " + setting.refusal()));
+  }
 }
 
 TEST_CASE("rods come back from their files bit for bit, and bad ones are named with their path", "[unit]") {

@@ -47,7 +47,7 @@ bool has_coordinates(Stage stage) {
 struct ModelsSeen {
   std::set<std::size_t> membrane, bending, activation, damping;
   void add(const Scene& scene) {
-    activation.insert(static_cast<std::size_t>(scene.settings.activation));
+    activation.insert(static_cast<std::size_t>(scene.settings.contact_activation));
     damping.insert(static_cast<std::size_t>(scene.settings.damping));
     for (const Body& body : scene.bodies) {
       membrane.insert(static_cast<std::size_t>(body.material.membrane));

@@ -55,7 +55,7 @@ TEST_CASE("an ablation with a wrong key or value anywhere in its grid runs nothi
   const TemporaryFolder folder;
   const std::filesystem::path out = folder / "grid";
   for (const char* vary :
-       {"activation=ogc,barrier", "activatoin=ogc", "activation", "iterations=5,", "solver=newton,implicit",
+       {"contact_activation=ogc,barrier", "activatoin=ogc", "activation", "iterations=5,", "solver=newton,implicit",
         "backend=cpu,gpu", "iterations=5,0", "iterations=5,5", "iterations=5 --vary iterations=6",
         "iterations=5,6 --repeat 2", "iterations=5,6 --repeat 2 --jitter 0", "iterations=5,6 --repeat 0 --jitter 1e-6",
         "iterations=5,6 --only 2", "iterations=5 --point iterations=6", "iterations=5 --point friction",
@@ -86,7 +86,7 @@ TEST_CASE("a refused value of an ablation comes with the list of values", "[unit
   const auto said = [](const std::string& vary) {
     return run_ogc("ablate cloth_on_sphere --scale smoke --steps 1 --vary " + vary).err;
   };
-  CHECK_THAT(said("activation=ogc,barrier"), Contains("barrier") && Contains("quadratic, ipc_log, cubic"));
+  CHECK_THAT(said("contact_activation=ogc,barrier"), Contains("barrier") && Contains("quadratic, ipc_log, cubic"));
   CHECK_THAT(said("membrane=rubber"), Contains("rubber") && Contains("stable_neo_hookean"));
   CHECK_THAT(said("iterations=0"), Contains("from 1 to 1073741824"));
   CHECK_THAT(said("iterations=5 --repeat 3"), Contains("--repeat 3") && Contains("same bits") && Contains("--jitter"));

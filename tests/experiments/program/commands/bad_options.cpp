@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/catch.hpp"
+#include "tests/compare/problem/renamed.hpp"
 #include "tests/experiments/program.hpp"
 
 using namespace ogc::tests;
@@ -125,14 +126,17 @@ TEST_CASE("a setting that a scene can't have is refused by name with its range a
                 {"newton_tolerance", "1e-46", "0, or 1.401298464324817e-45 to 1"});
   check_refused("run twist --scale smoke --set membrane=stvk",
                 {"stvk", "did you mean 'st_venant_kirchhoff'?", "none", "stable_neo_hookean"});
-  check_refused("run yarn_stretch --scale smoke --set orientation=published", {"orientation", "exact", "as_published"});
-  check_refused("run yarn_stretch --scale smoke --set start_frames=0", {"start_frames", "turned", "kept"});
+  check_refused("run yarn_stretch --scale smoke --set rod_orientation=published",
+                {"rod_orientation", "exact", "as_published"});
+  check_refused("run yarn_stretch --scale smoke --set rod_start=0", {"rod_start", "turned", "kept"});
+  for (const Renamed& setting : renamed_settings)
+    check_refused("run twist --scale smoke --set " + std::string(setting.before) + "=1", {setting.refusal()});
   check_refused("run twist --scale smoke --solver admm", {"--solver", "admm", "vbd", "newton", "ipc", "penalty"});
   CHECK(!contains(run_ogc("run --help").out, {"admm"}));
   const ProgramResult unknown = run_ogc("run twist --scale smoke --set h=0.01");
   CHECK(unknown.status == 2);
   const std::string first =
-      "unknown setting 'h'; there are: membrane, bending, contact, contact_stiffness, friction, "
+      "unknown setting 'h'; there are: membrane, bending, body_contact, contact_stiffness, friction, "
       "solid_density, solid_mu, solid_lambda, solid_damping, solid_young, solid_poisson, "
       "time_step";
   CHECK(contains(unknown.err, {first, "ipc_iterations", "seed"}));

@@ -130,9 +130,10 @@ TEST_CASE("the option --set reaches the run and its folder", "[unit]") {
 
 TEST_CASE("an activation, a model or a form of damping that is set is the one that runs", "[property]") {
   const TemporaryFolder folder;
-  const std::vector<std::string> choices{
-      "activation=ogc",   "activation=ogc_as_printed",    "activation=quadratic",        "activation=ipc_log",
-      "activation=cubic", "membrane=st_venant_kirchhoff", "bending=isometric_quadratic", "damping=per_vertex"};
+  const std::vector<std::string> choices{"contact_activation=ogc",       "contact_activation=ogc_as_printed",
+                                         "contact_activation=quadratic", "contact_activation=ipc_log",
+                                         "contact_activation=cubic",     "membrane=st_venant_kirchhoff",
+                                         "bending=isometric_quadratic",  "damping=per_vertex"};
   std::set<nlohmann::json> hashes;
   for (const std::string& choice : choices)
     hashes.insert(run("cloth_on_sphere --scale smoke --steps 14 --audit off --set contact_stiffness=0.05 --set " +
@@ -178,7 +179,7 @@ TEST_CASE("wrong settings, files and options of a run exit 2 and say what to do"
   fails("twist --scale smoke --solver newton --backend cuda", {"newton", "CPU"});
   fails("twist --scale smoke --condition", {"--condition", "newton"});
   fails("twist --scale smoke --solver reference_vbd --backend cuda", {"reference_vbd", "CPU"});
-  fails("twist --scale smoke --solver newton --set activation=barrier", {"activation", "ipc_log"});
+  fails("twist --scale smoke --solver newton --set contact_activation=barrier", {"contact_activation", "ipc_log"});
   fails("twist --scale smoke --set membrane=neo", {"membrane", "unknown model 'neo'"});
   fails("twist --scale smoke --solver newton --set damping=per_vertex", {"per_vertex", "vbd"});
   fails("twist --scale smoke --solver magic", {"--solver"});
@@ -263,7 +264,7 @@ TEST_CASE("vbd in single and in double record their residual over iterations of 
   const TemporaryFolder folder;
   const std::string start = (folder / "start").string(),
                     scene =
-                        "cloth_on_sphere --scale smoke --set redetect_fraction=0 --set redetect_every=5 --audit end ";
+                        "cloth_on_sphere --scale smoke --set detection_fraction=0 --set detection_every=5 --audit end ";
   run(scene + "--steps 8 --out " + start);
   std::vector<double> last;
   for (const char* solver : {"vbd", "reference_vbd"}) {

@@ -73,7 +73,7 @@ TEST_CASE("suggested lengths scale with the mesh, the step with its root", "[pro
     compare::write_mesh(folder / "scaled.obj", scaled(experiments::grid(20, 1, 0), factor));
     const nlohmann::json other = suggested(folder / "scaled.obj", "--fall " + std::to_string(factor));
     CHECK(value(other, "contact_radius") == Approx(factor * value(one, "contact_radius")).epsilon(0.1));
-    CHECK(value(other, "query_radius_cap") == Approx(value(one, "query_radius_cap")).epsilon(0.2));
+    CHECK(value(other, "detection_radius_cap") == Approx(value(one, "detection_radius_cap")).epsilon(0.2));
     const double shrunk = value(other, "time_step") / value(one, "time_step") / std::sqrt(factor);
     CHECK(shrunk > 1 / 2.6);
     CHECK(shrunk < 2.6);
@@ -85,7 +85,8 @@ TEST_CASE("ogc suggest gives each number a reason, and its command survives a sh
   const std::filesystem::path mesh = folder / "my shirt (1).obj";
   compare::write_mesh(mesh, experiments::grid(4, 0.3, 0));
   const nlohmann::json suggestion = suggested(mesh);
-  for (const char* setting : {"contact_radius", "query_radius_cap", "contact_stiffness", "time_step", "iterations"}) {
+  for (const char* setting :
+       {"contact_radius", "detection_radius_cap", "contact_stiffness", "time_step", "iterations"}) {
     CHECK(value(suggestion, setting) > 0);
     CHECK(suggestion.at("settings").at(setting).at("reason").get<std::string>().size() > 20);
   }

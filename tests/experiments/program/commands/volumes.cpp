@@ -22,16 +22,16 @@ TEST_CASE("ipc refuses volumes by name, driven or free, before anything is writt
     CHECK(contains(result.err, {"body '" + body + "' is a volume", "ipc", "leave the body a surface"}));
     CHECK(!std::filesystem::exists(out));
   };
-  refuses("dress --scale smoke --set contact=volume", "body");
-  refuses("mat_twist --scale smoke --set contact=volume", "mat");
+  refuses("dress --scale smoke --set body_contact=volume", "body");
+  refuses("mat_twist --scale smoke --set body_contact=volume", "mat");
 }
 
 TEST_CASE("a mat of tetrahedra that is twisted as a free volume runs to its end, and the summary says what is inside",
           "[unit]") {
   const TemporaryFolder folder;
   const std::filesystem::path run = folder / "run";
-  const ProgramResult result = run_ogc("run mat_twist --scale smoke --set contact=volume --steps 40 --json --out " +
-                                       run.string());
+  const ProgramResult result = run_ogc(
+      "run mat_twist --scale smoke --set body_contact=volume --steps 40 --json --out " + run.string());
   INFO(result.err);
   REQUIRE(result.status == 0);
   const auto json = nlohmann::json::parse(result.out);
@@ -60,7 +60,7 @@ TEST_CASE("a free volume that begins inside out is refused with the triangle's n
 TEST_CASE("newton: a dress on a volume does not lag, and no panel intersects another", "[unit]") {
   const TemporaryFolder folder;
   const ProgramResult result = run_ogc(
-      "run dress --scale smoke --set contact=volume --solver newton --steps 4 --audit every --json --out " +
+      "run dress --scale smoke --set body_contact=volume --solver newton --steps 4 --audit every --json --out " +
       (folder / "run").string());
   INFO(result.err);
   REQUIRE(result.status == 0);
@@ -73,7 +73,7 @@ TEST_CASE("newton: a dress on a volume does not lag, and no panel intersects ano
 TEST_CASE("a dress on a volume: no lag, no intersection among its panels, and the summary says what is inside",
           "[unit]") {
   const TemporaryFolder folder;
-  const std::string run = "run dress --scale smoke --set contact=volume --steps 20 --audit every --json --out ";
+  const std::string run = "run dress --scale smoke --set body_contact=volume --steps 20 --audit every --json --out ";
   const ProgramResult result = run_ogc(run + (folder / "run").string());
   INFO(result.err);
   REQUIRE(result.status == 0);
@@ -100,33 +100,35 @@ TEST_CASE("run.json says what each body is to others, and not how deep one is in
     return nlohmann::json::parse(compare::read_bytes(run / "run.json"));
   };
   for (const std::string kind : {"surface", "volume"}) {
-    const auto json = manifest("--set contact=" + kind + " --audit off");
+    const auto json = manifest("--set body_contact=" + kind + " --audit off");
     for (const auto& body : json.at("scene").at("bodies"))
-      CHECK(body.at("contact") == (body.at("name") == "body" ? kind : "surface"));
+      CHECK(body.at("body_contact") == (body.at("name") == "body" ? kind : "surface"));
     for (const char* most : {"most_vertices_inside", "deepest_m", "most_edges_meeting_volumes"}) {
       CHECK(json.contains(most) == (kind == "volume"));
       if (kind == "volume") CHECK(json.at(most) == "not checked");
     }
   }
-  CHECK(manifest("--set contact=volume --audit end").at("most_vertices_inside") == "0");
+  CHECK(manifest("--set body_contact=volume --audit end").at("most_vertices_inside") == "0");
 }
 
 TEST_CASE("a ledger of a scene with volumes is refused before anything is written", "[unit]") {
   const TemporaryFolder folder;
   const std::filesystem::path out = folder / "run";
-  const ProgramResult result = run_ogc("run dress --scale smoke --set contact=volume --ledger --out " + out.string());
+  const ProgramResult result = run_ogc("run dress --scale smoke --set body_contact=volume --ledger --out " +
+                                       out.string());
   CHECK(result.status == 2);
   CHECK(contains(result.err, {"--ledger knows no volumes", "leave it out"}));
   CHECK(!std::filesystem::exists(out));
 }
 
-TEST_CASE("contact= belongs to scenes with a driven body, and knows two words", "[unit]") {
+TEST_CASE("body_contact= belongs to scenes with a driven body, and knows two words", "[unit]") {
   const TemporaryFolder folder;
   const auto said = [&](const std::string& arguments) {
     const ProgramResult result = run_ogc("run " + arguments + " --out " + (folder / "run").string());
     CHECK(result.status == 2);
     return result.err;
   };
-  CHECK(contains(said("twist --scale smoke --set contact=volume"), {"contact", "is moved whole by a motion"}));
-  CHECK(contains(said("dress --scale smoke --set contact=volum"), {"contact", "volum", "volume"}));
+  CHECK(
+      contains(said("twist --scale smoke --set body_contact=volume"), {"body_contact", "is moved whole by a motion"}));
+  CHECK(contains(said("dress --scale smoke --set body_contact=volum"), {"body_contact", "volum", "volume"}));
 }

@@ -66,7 +66,7 @@ TEST_CASE("four detections are enough for a suggested step at the speed of the f
     INFO(fall << " m");
     CHECK(found.time_step.value <= 0.01);
     CHECK(found.time_step.value * speed_after(fall) <=
-          4 * compare::Settings{}.bound_relaxation * found.query_radius.value * (1 + 1e-9));
+          4 * compare::Settings{}.bounds_relaxation * found.query_radius.value * (1 + 1e-9));
     CHECK(found.iterations.value >= 10);
     CHECK(found.iterations.value <= 100);
   }

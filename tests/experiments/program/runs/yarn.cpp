@@ -63,7 +63,7 @@ compare::Scene hooked_rings(compare::Bounds bounds) {
   }
   scene.settings.contact_radius = 1e-3;
   scene.settings.bounds = bounds;
-  if (bounds == compare::Bounds::off) scene.settings.activation = compare::ContactActivation::quadratic;
+  if (bounds == compare::Bounds::off) scene.settings.contact_activation = compare::ContactActivation::quadratic;
   scene.settings.steps = 200;
   round_to_single(scene);
   return scene;
@@ -220,7 +220,7 @@ TEST_CASE("penalty: the run says first and last that nothing is guaranteed, and 
   CHECK(contains(result.out, {"no guarantee (bounds=off)"}));
   const auto settings = nlohmann::json::parse(compare::read_bytes(folder / "run/run.json")).at("settings");
   CHECK(settings.at("bounds").at("value") == "off");
-  CHECK(settings.at("activation").at("value") == "quadratic");
+  CHECK(settings.at("contact_activation").at("value") == "quadratic");
   const ProgramResult refused = run_ogc("run yarn_twist --scale smoke --solver penalty --set bounds=ball" + out);
   CHECK(refused.status == 2);
   CHECK(contains(refused.err, {"--set bounds=ball: --solver penalty has bounds=off; leave it out"}));

@@ -1,5 +1,5 @@
-// Single precision may leave a sign open, but what it is certain of must be right: whatever the scale, and where terms
-// cancel or underflow.
+// Tests Single: it may leave a sign open, but the signs that it is certain of must be right, at every scale, also if
+// terms cancel or underflow.
 #include "fast/kernels/predicates.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace ogc::fast;
 
-/// How often Single was certain, and how often it was wrong then.
+/// Counts how often Single was certain, and how often it was wrong then.
 struct Tally {
   int certain = 0, wrong = 0;
 
@@ -27,8 +27,8 @@ class Points {
  public:
   explicit Points(unsigned seed) : random_(seed) {}
 
-  /// Generic, on a lattice, on a line but for the last digits, or with a right angle but for them; far from the origin
-  /// or not; from 2⁻⁵⁰ to 2³⁰.
+  /// Draws points that are generic, on a lattice, on a line but for the last digits, or with a right angle but for
+  /// them; far from the origin or not; from 2⁻⁵⁰ to 2³⁰.
   void next(Vec (&x)[4], bool generic) {
     const int kind = generic ? 0 : static_cast<int>(random_() % 4);
     const float scale = std::ldexp(1.0F, generic ? -6 : static_cast<int>(random_() % 81) - 50),

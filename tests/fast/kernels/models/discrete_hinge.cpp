@@ -11,8 +11,8 @@ namespace {
 
 constexpr double u = 0x1p-24;
 
-// The angle between the two half planes, from their unit vectors across the edge; 0 where flat, negative where o1 is on
-// the side of (x1 − x0) × (o0 − x0).
+// Returns the angle between the two half planes, from their unit vectors across the edge; 0 where flat, negative if o1
+// is on the side of (x1 − x0) × (o0 − x0).
 double angle_of(const std::vector<D3>& x) {
   const D3 edge = (1 / length(x[1] - x[0])) * (x[1] - x[0]);
   const auto across = [&](const D3& p) {
@@ -33,7 +33,7 @@ struct Case {
     const double a = angle_of(at), from_rest = a - stencil.rest_angle, from_start = a - angle_start;
     return 0.5 * stencil.stiffness * (from_rest * from_rest + damping * from_start * from_start);
   }
-  // As the sweep does it: ends of the edge as x0, opposite vertices as o0.
+  // Adds the hinge as the sweep does: ends of the edge as x0, opposite vertices as o0.
   ForceAndBlock add(std::size_t role) const {
     static constexpr std::size_t order[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {0, 1, 2, 3}, {1, 0, 3, 2}};
     const Vec x0 = x[order[role][0]], x1 = x[order[role][1]], a = x[order[role][2]], b = x[order[role][3]];
@@ -43,7 +43,8 @@ struct Case {
       DiscreteHinge::add(stencil, damping, shape.angle, angle_start, hinge_gradient(shape, role >= 2), sum);
     return sum;
   }
-  // Largest gradient of the angle: one over the smaller height, with the feet of the heights along the edge.
+  // Returns the largest gradient of the angle: one over the smaller height, with the feet of the heights along the
+  // edge.
   double steepness() const {
     const auto w = wide_x();
     const double e = length(w[1] - w[0]), ha = length(cross(w[1] - w[0], w[2] - w[0])) / e,
@@ -82,9 +83,8 @@ TEST_CASE("the hinge's angle is that of the half planes, for every role", "[prop
     const double exact = angle_of(c.wide_x());
     const float forward = hinge_shape(c.x[1] - c.x[0], c.x[2] - c.x[0], c.x[3] - c.x[0]).angle;
     const float backward = hinge_shape(c.x[0] - c.x[1], c.x[3] - c.x[1], c.x[2] - c.x[1]).angle;
-    // Edges are differences of coordinates below 1 m, exact to u of themselves here only up to u of a coordinate: the
-    // test's own input error is none (they are exact in double too), so what is left is 12 u of the sine, amplified by
-    // the shape.
+    // The differences of coordinates below 1 m are exact in double, so the test has no input error. The kernel's
+    // differences err by up to u of a coordinate; what is left is 12 u of the sine, amplified by the shape.
     REQUIRE(std::abs(forward - exact) <= 32 * u * c.conditioning());
     REQUIRE(std::abs(backward - exact) <= 32 * u * c.conditioning());
   }

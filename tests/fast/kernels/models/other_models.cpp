@@ -1,5 +1,5 @@
-// The kernels of the models that are not the default ones, against differences of energies that are written here once
-// more.
+// Tests the kernels of the models that are not the default ones against differences of energies, which are written here
+// once more.
 #include <random>
 
 #include "fast/kernels/sweep/gather.hpp"

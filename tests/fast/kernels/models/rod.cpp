@@ -27,7 +27,7 @@ double size(const Quat& q) {
   return std::sqrt(double{q.x} * q.x + double{q.y} * q.y + double{q.z} * q.z + double{q.w} * q.w);
 }
 
-/// ν of the secular equation by bisection.
+/// Returns ν of the secular equation by bisection.
 double bisected(double upper, double lower, double sigma) {
   double below = 0, above = upper + lower;
   for (int i = 0; i < 200; ++i) {
@@ -79,7 +79,7 @@ TEST_CASE("the force of a segment is the slope of its energy, its block the slop
     const SegmentRest segment{{0, 1}, 0.5f, 3, 0.25f};
     const Vec before = some_vector(random);
     const std::vector<D3> x{wide(some_vector(random)), wide(some_vector(random))};
-    // Turned back by their frames: where the segment points now and pointed then.
+    // The segment's vector now and then, turned back by its frame.
     const auto seen = [](const Quat& frame, const D3& v) { return wide(turned_back(frame, narrow(v))); };
     const D3 strain_then = 2.0 * seen(start, wide(before));
     const auto energy = [&](const std::vector<D3>& at) {
@@ -91,7 +91,7 @@ TEST_CASE("the force of a segment is the slope of its energy, its block the slop
     for (std::size_t end = 0; end < 2; ++end) {
       ForceAndBlock sum;
       add_rod(segment, 0.25f, static_cast<int>(end), narrow(x[1] - x[0]), q, direction, sum);
-      // of a quadratic form central differences err by rounding alone, 2⁻⁵³ of E over the step
+      // for a quadratic form central differences err by rounding alone, 2⁻⁵³ of E over the step
       const D3 slope = force_by_differences(energy, x, end, 1e-3);
       REQUIRE(length(wide(sum.force) - slope) <= 3 * 100 * u * (1 + length(x[1] - x[0]) + length(before)));
       REQUIRE(sum.block.xx == Approx(3 * 1.25 / 0.5));
@@ -105,7 +105,8 @@ TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its
   std::mt19937 random(87);
   const float weight = 2, damping = 0.5f;
   for (int i = 0; i < 1000; ++i) {
-    // Relative to the segment the neighbour stands as at rest, and as at the start: both ask for what is there.
+    // The neighbour stands relative to the segment as at rest, and as at the start: both pull towards the present
+    // frame.
     const Quat now = some_orientation(random), own_start = some_orientation(random),
                relative = some_orientation(random), elsewhere = some_orientation(random);
     for (const bool is_ahead : {false, true}) {
@@ -118,7 +119,7 @@ TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its
       // Each product errs by 8 u, units by 4 u.
       CHECK(size(sum(0, relative, elsewhere) - weight * now) <= 20 * u * weight);
       CHECK(size(sum(damping, relative, beside(own_start)) - weight * (1 + damping) * now) <= 80 * u * weight);
-      // The twin alone: what the neighbour asks for at rest is left out.
+      // The twin alone: the pull towards the relative rotation at rest is subtracted.
       const Quat twin = sum(damping, elsewhere, beside(own_start)) - sum(0, elsewhere, elsewhere);
       CHECK(size(twin - weight * damping * now) <= 80 * u * weight);
     }
@@ -167,17 +168,17 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   CHECK(size(stays - old) == 0);
   const Quat along = rod_orientation(1, {0, 2, 0}, axis, none, old);
   CHECK(length(director(along) - Vec{0, 1, 0}) <= 16 * u);
-  // Reversed: nothing of the old one points along D, and 1 has no part in it either; i has.
+  // Reversed: the old orientation has no part along D, and 1 has none either; i has one.
   const Quat reversed = rod_orientation(1, {0, 0, -1}, axis, none, {0, 0, 0, 1});
   CHECK(length(director(reversed) - Vec{0, 0, -1}) <= 16 * u);
-  // With damping c may be reversed along x, too: then i has no part in it either, and j has.
+  // With damping c may be reversed along x, too: then i has no part along D either, and j has one.
   const Quat across = rod_orientation(1, {2, 0, 0}, {-1, 0, 0}, none, {0, 0, 0, 1});
   CHECK(size(across - Quat{0, 1, 0, 0}) <= 4 * u);
   CHECK(length(turned(across, {-1, 0, 0}) - Vec{1, 0, 0}) <= 16 * u);
   // Neighbours alone.
   const Quat alone = rod_orientation(1, {0, 0, 0}, axis, {0, 3, 4, 0}, old);
   CHECK(size(alone - Quat{0, 0.6f, 0.8f, 0}) <= 4 * u);
-  // Neighbours that ask for a reversed director, weaker than the stretch: the twist is the old one's.
+  // Neighbours pull towards a reversed director, weaker than the stretch: the twist stays that of the old orientation.
   const Quat held = rod_orientation(1, {0, 0, 1}, axis, {0.1f, 0, 0, 0}, {0, 0, 0.6f, 0.8f});
   CHECK(std::abs(size(held) - 1) <= 4 * u);
   CHECK(held.z / held.w == Approx(0.75));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double u = 0x1p-24;
 
-// G of the definition, from single-precision gradients widened: G_ij = (f_i·f_j − δ_ij)/2.
+// Returns G by its definition, from single-precision gradients widened: G_ij = (f_i·f_j − δ_ij)/2.
 std::array<double, 3> strain_of(const TriangleRest& rest, const std::vector<D3>& x) {
   D3 f[2];
   for (int column = 0; column < 2; ++column) {
@@ -48,7 +48,8 @@ struct Case {
                            x[static_cast<std::size_t>(c)] - x[own], before, sum);
     return sum;
   }
-  // Of the rounding of a force: strain of rounding u (1 + ‖F‖²), times stiffness, ‖F‖ and the largest ‖∇N‖.
+  // Returns the scale of a force's rounding: strain of rounding u (1 + ‖F‖²), times stiffness, ‖F‖ and the largest
+  // ‖∇N‖.
   double force_scale() const {
     double stretch = 0, gradient = 0;
     for (int k = 0; k < 3; ++k)

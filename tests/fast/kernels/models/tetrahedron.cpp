@@ -1,4 +1,4 @@
-// The tetrahedron's kernel against differences of its energy, in every shape, and what must hold of it exactly.
+// Tests the tetrahedron's kernel against differences of its energy, in every shape, and its exact properties.
 #include "fast/kernels/models/tetrahedron.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Vec single(const compare::Vec3& x) {
   return {static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z)};
 }
 
-/// Force and block of a corner.
+/// Returns force and block of a corner.
 ForceAndBlock seen_from(const RestState& state, const SolidMaterial& material, const SolidCorners& x,
                         const SolidCorners& start, int corner) {
   const std::vector<int> colours(4, 0);
@@ -59,7 +59,7 @@ ForceAndBlock seen_from(const RestState& state, const SolidMaterial& material, c
   return sum;
 }
 
-/// ψ by F = D D₀⁻¹ in double, with D and D₀ the edges from corner 0: nothing of the kernel.
+/// Returns ψ by F = D D₀⁻¹ in double, with D and D₀ the edges from corner 0; it uses no part of the kernel.
 double energy(const SolidCorners& rest, const SolidMaterial& material, const SolidCorners& x,
               const SolidCorners& start) {
   using Matrix = std::array<std::array<double, 3>, 3>;
@@ -114,7 +114,7 @@ double& coordinate(SolidCorners& x, int corner, int axis) {
 
 std::array<double, 3> numbers(const Vec& a) { return {a.x, a.y, a.z}; }
 
-/// Random shapes: near rest, sheared, flat, inverted, needles.
+/// Returns random shapes: near rest, sheared, flat, inverted, needles.
 SolidCorners random_shape(std::mt19937& random, int kind) {
   std::uniform_real_distribution<double> about(-1, 1);
   SolidCorners x = unit_corners;
@@ -150,8 +150,8 @@ TEST_CASE("a tetrahedron's force is minus the derivative of its energy in every 
           coordinate(ahead, corner, axis) += step, coordinate(behind, corner, axis) -= step;
           const double slope = (energy(rest, material, ahead, start) - energy(rest, material, behind, start)) /
                                (2 * step);
-          // Stiffness times edge length is 4e4 N, and a few times that where F is large: 1e-5 of it, of which single
-          // precision takes most.
+          // Stiffness times edge length is 4e4 N, and a few times that where F is large: 1e-5 of it, most of which is
+          // single precision.
           CHECK(numbers(sum.force)[static_cast<std::size_t>(axis)] == Approx(-slope).margin(2));
         }
       }

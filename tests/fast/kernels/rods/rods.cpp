@@ -1,5 +1,5 @@
-// Kernels of rods that no stage asks for alone: frames at the start of a step and at its end, the numbers of a row, the
-// published update of a frame.
+// Tests kernels of rods that no stage judges alone: frames at the start of a step and at its end, the numbers of a row,
+// the published update of a frame.
 #include <array>
 #include <random>
 
@@ -34,14 +34,15 @@ double size(const Quat& q) {
   return std::sqrt(double{q.x} * q.x + double{q.y} * q.y + double{q.z} * q.z + double{q.w} * q.w);
 }
 
-/// The smallest rotation that takes the direction of `from` to that of `to`, of v: Rodrigues' formula in double.
+/// Returns v after the smallest rotation that takes the direction of `from` to that of `to`: Rodrigues' formula in
+/// double.
 D3 rotated(const Vec& from, const Vec& to, const D3& v) {
   const D3 a = 1 / length(from) * wide(from), b = 1 / length(to) * wide(to), axis = cross(a, b);
   const double cosine = dot(a, b);
   return cosine * v + cross(axis, v) + dot(axis, v) / (1 + cosine) * axis;
 }
 
-/// R(q) v from the matrix of q.
+/// Returns R(q) v from the matrix of q.
 D3 turned_by(const Quat& q, const D3& v) {
   const double x = q.x, y = q.y, z = q.z, w = q.w;
   return {(1 - 2 * (y * y + z * z)) * v.x + 2 * (x * y - w * z) * v.y + 2 * (x * z + w * y) * v.z,
@@ -49,8 +50,8 @@ D3 turned_by(const Quat& q, const D3& v) {
           2 * (x * z - w * y) * v.x + 2 * (y * z + w * x) * v.y + (1 - 2 * (x * x + y * y)) * v.z};
 }
 
-/// One segment from (1, 2, 3) along z that comes to lie along y; two motions, of which the second does not say how it
-/// turns, at the second step of a frame.
+/// Holds one segment from (1, 2, 3) along z that comes to lie along y, and two motions at the second step of a frame,
+/// the second of which gives no rotation.
 struct OneSegment {
   SegmentRest rest{{1, 0}, 2, 1, 0};
   std::array<Vec, 2> start{Vec{1, 2, 5}, Vec{1, 2, 3}}, position{Vec{7, 10, 3}, Vec{7, 8, 3}};
@@ -105,13 +106,13 @@ TEST_CASE("at the start of a step a segment turns as what holds it does", "[unit
   CHECK(size(one.turned(segment_free, true) - one.along()) == 0);
   CHECK(length(turned_by(one.after, {0, 0, 1}) - rotated({0, 0, 1}, {0, 1, 0}, turned_by(one.before, {0, 0, 1}))) <=
         100 * u);
-  CHECK(size(one.turned(segment_free, false) - one.before) == 0);  // start_frames=kept
+  CHECK(size(one.turned(segment_free, false) - one.before) == 0);  // rod_start=kept
   CHECK(size(one.turned(segment_fixed, true) - one.before) == 0);
   for (const bool turns_free : {false, true}) {
     CHECK(size(one.turned(0, turns_free) - one.turns[2] * one.before) <= 20 * u);
     CHECK(size(one.turned(1, turns_free) - one.along()) == 0);
   }
-  one.turns[2] = {0, 0, 0, 1};  // a motion that says that it does not turn
+  one.turns[2] = {0, 0, 0, 1};  // a motion whose rotation is none
   CHECK(size(one.turned(0, true) - one.before) <= 4 * u);
 }
 
@@ -124,7 +125,7 @@ TEST_CASE("a frame that is turned in every step stays of unit length", "[propert
     q = turned_along(from, to, q);
     from = to;
   }
-  CHECK(std::abs(size(q) - 1) <= 4 * u);  // as `unit` leaves it, however often
+  CHECK(std::abs(size(q) - 1) <= 4 * u);  // as `unit` leaves it, however often it is applied
 }
 
 TEST_CASE("frames of a step count where the step does", "[unit]") {
@@ -218,7 +219,7 @@ TEST_CASE("a contact has a distance where it acts, at the positions of the row",
   };
   CHECK(distance(222, 0.3f) == Approx(0.25).epsilon(8 * u));
   CHECK(distance(222, 0.2f) > 1e38f);  // beyond r
-  CHECK(distance(0, 0.3f) > 1e38f);    // of no stiffness
+  CHECK(distance(0, 0.3f) > 1e38f);    // without stiffness
 }
 
 TEST_CASE("the published frame is (μ + M) b with μ = σ + ‖b‖, of unit length", "[property]") {

@@ -1,5 +1,5 @@
-// What a sweep reads of rods: which end, which neighbour, which of two buffers, which damping. The formulas have tests
-// of their own (tests/fast/kernels/models/rod.cpp).
+// Tests what a sweep reads of rods: which end, which neighbour, which of two buffers, which damping. The formulas have
+// tests of their own (tests/fast/kernels/models/rod.cpp).
 #include "fast/kernels/sweep/update_segment.hpp"
 
 #include <array>
@@ -15,8 +15,8 @@ namespace {
 
 bool same(const Quat& a, const Quat& b) { return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w; }
 
-/// A chain of four vertices and three segments; a sweep over the middle one, whose first end has moved already. All
-/// numbers are different.
+/// Holds a chain of four vertices and three segments, and a sweep over the middle one, whose first end has moved
+/// already. All numbers are different.
 struct Chain {
   static constexpr int vertices = 4;
   std::mt19937 random;
@@ -59,9 +59,9 @@ struct Chain {
     const PaddedVec& x = positions[static_cast<std::size_t>(place)];
     return {x.x, x.y, x.z};
   }
-  /// D of the middle segment: from its fresh end to its old one.
+  /// Returns D of the middle segment: from its fresh end to its old one.
   Vec apart() const { return at(2) - at(vertices + 1); }
-  /// b of the middle segment between its neighbours.
+  /// Returns b of the middle segment between its neighbours.
   Quat pull(float damping) const {
     Quat b{0, 0, 0, 0};
     add_neighbour(slot.neighbours.rest[0], false, damping, q[0], start[0], start[1], q[1], b);
@@ -133,7 +133,7 @@ TEST_CASE("a vertex feels its segments by the end that it is, damped as its body
       REQUIRE(felt().block.xx == strain.block.xx);
       add_rod(rest, 0, end, apart, chain.q[1], chain.direction[1], elastic);
       chain.view.rods.is_damped_by_vertex = true;
-      // B is k_s/l I; a difference and two products
+      // B is k_s/l I; a difference and two products are rounded
       const double size = length(elastic.force) + 0.25 * 3 / 0.5 * length(moved);
       REQUIRE(length(felt().force - (elastic.force - 0.25f * 3 / 0.5f * moved)) <= 4 * 0x1p-24 * size);
       REQUIRE(felt().block.xx == Approx(3 * 1.25 / 0.5));

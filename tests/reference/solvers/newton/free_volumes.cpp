@@ -37,7 +37,7 @@ compare::Scene two_blocks() {
   scene.settings.contact_radius = contact_radius;
   set_setting(scene.settings, "newton_tolerance", 1e-9);
   set_setting(scene.settings, "newton_iterations", 1000);
-  set_setting(scene.settings, "friction_solves", 100);
+  set_setting(scene.settings, "newton_friction_solves", 100);
   compare::round_to_single(scene);
   return scene;
 }
@@ -88,7 +88,7 @@ TEST_CASE("free volumes: Newton's method and converged sweeps end at the same mi
           "[property]") {
   compare::Scene scene = two_blocks();
   scene.settings.iterations = 3000;
-  scene.settings.redetect_every = 300;  // Newton's method also detects where it ends
+  scene.settings.detection_every = 300;  // Newton's method also detects where it ends
   const auto newton = reference::start_newton(scene, {}), vbd = reference::start_vbd(scene, {});
   for (int step = 1; step <= 3; ++step) {
     const compare::StepMetrics row = newton->advance(1).back(), swept = vbd->advance(1).back();

@@ -151,14 +151,14 @@ TEST_CASE("Newton pair by pair: sheets that are close and travel far in one step
   compare::Scene scene = facing(1e-4);
   scene.gravity = {};
   for (std::size_t v = 0; v < 85; ++v) scene.velocities[v] = {v < 49 ? 0.5 : -0.5, 2, 0};
-  scene.settings.redetect_fraction = 0;
+  scene.settings.detection_fraction = 0;
   set_setting(scene.settings, "newton_tolerance", 1e-6);
   set_setting(scene.settings, "newton_iterations", 60);
-  set_setting(scene.settings, "truncation", "pair");
+  set_setting(scene.settings, "newton_truncation", "pair");
   const Run pairs = run_of(start_newton, scene, 1);
   REQUIRE(clean(pairs));
   CHECK(pairs.rows[0].residual <= 1e-6);
-  set_setting(scene.settings, "truncation", "vertex");
+  set_setting(scene.settings, "newton_truncation", "vertex");
   const Run balls = run_of(start_newton, scene, 1);
   CHECK(balls.rows[0].status == compare::step_not_converged);
   CHECK(balls.rows[0].residual > 1e-3);

@@ -80,7 +80,7 @@ TEST_CASE("Newton: sheets in contact that fly together stay as they are, however
   add_sheet(scene, 5, 0.05, 4.99e-3, false, material);
   for (compare::Vec3& velocity : scene.velocities) velocity = {1, -3, 0.5};
   scene.gravity = {};
-  scene.settings.redetect_fraction = 0;
+  scene.settings.detection_fraction = 0;
   set_setting(scene.settings, "newton_tolerance", 0);
   set_setting(scene.settings, "newton_step_tolerance", 1e-3);
   const Run result = run(scene, 4);
@@ -179,7 +179,7 @@ TEST_CASE("Newton converges quadratically on a smooth problem", "[property]") {
   }
   set_setting(scene.settings, "newton_tolerance", 1e-9);
   scene.settings.time_step = 0.05;
-  set_setting(scene.settings, "projection", "none");
+  set_setting(scene.settings, "newton_projection", "none");
   const Run result = run(scene, 1);
   REQUIRE(clean(result));
   CHECK(quadratic_steps(result.rows[0]) >= 2);
@@ -316,7 +316,7 @@ TEST_CASE("Newton: friction solves go on until one changes nothing, and end with
   compare::Scene scene = drop_scene();
   set_setting(scene.settings, "newton_tolerance", 1e-8);
   set_setting(scene.settings, "newton_iterations", 2000);
-  set_setting(scene.settings, "friction_solves", 200);
+  set_setting(scene.settings, "newton_friction_solves", 200);
   round_to_single(scene);
   const Run result = run(scene, 2);
   REQUIRE(clean(result));
@@ -325,7 +325,7 @@ TEST_CASE("Newton: friction solves go on until one changes nothing, and end with
   reference::ResidualMeter meter(scene);
   meter.begin_step(before.end.positions, before.end.velocities, 2);
   const double settled = meter.at(result.end.positions).share;
-  set_setting(scene.settings, "friction_solves", 1);
+  set_setting(scene.settings, "newton_friction_solves", 1);
   const auto once = reference::start_newton(scene, {});
   once->restore(before.end);
   once->advance(1);
@@ -343,10 +343,10 @@ TEST_CASE("Newton without projection reports a matrix that is not positive defin
   add_sheet(scene, 4, 0.03, 0, false, stiff);
   for (compare::Vec3& p : scene.mesh.positions) p.x *= 0.5, p.z *= 0.6;
   scene.settings.contact_radius = 1e-3;
-  set_setting(scene.settings, "projection", "none");
+  set_setting(scene.settings, "newton_projection", "none");
   CHECK(run(scene, 1).rows[0].status == compare::step_indefinite);
   for (const auto projection : {reference::HessianProjection::clamp, reference::HessianProjection::absolute}) {
-    set_setting(scene.settings, "projection", static_cast<double>(projection));
+    set_setting(scene.settings, "newton_projection", static_cast<double>(projection));
     CHECK(run(scene, 1).rows[0].status != compare::step_indefinite);
   }
 }
@@ -388,8 +388,8 @@ TEST_CASE("Newton goes on from any state to the same bits, whatever pattern the 
 TEST_CASE("every activation and projection keeps the guarantee and ends its steps", "[property]") {
   for (int k = 0; k < 5; ++k) {
     compare::Scene scene = drop_scene();
-    scene.settings.activation = static_cast<compare::ContactActivation>(k);
-    set_setting(scene.settings, "projection", k % 2 == 0 ? "clamp" : "absolute");
+    scene.settings.contact_activation = static_cast<compare::ContactActivation>(k);
+    set_setting(scene.settings, "newton_projection", k % 2 == 0 ? "clamp" : "absolute");
     set_setting(scene.settings, "newton_tolerance", 1e-2);
     const Run result = run(scene, 5);
     INFO(k);

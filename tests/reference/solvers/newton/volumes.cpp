@@ -102,7 +102,7 @@ TEST_CASE("volumes: Newton's method and converged sweeps end at the same minimis
   scene.settings.iterations = 3000;
   set_setting(scene.settings, "newton_tolerance", 1e-9);
   set_setting(scene.settings, "newton_iterations", 1000);
-  set_setting(scene.settings, "friction_solves", 100);
+  set_setting(scene.settings, "newton_friction_solves", 100);
   const auto newton = reference::start_newton(scene, {}), vbd = reference::start_vbd(scene, {});
   for (int step = 1; step <= 4; ++step) {
     const compare::StepMetrics row = newton->advance(1).back(), swept = vbd->advance(1).back();

@@ -95,7 +95,8 @@ double tangential_share(const Asked& asked, reference::ContactSet set) {
 }  // namespace
 
 TEST_CASE(
-    "contact_set: a level sheet above a level one is pushed straight up by the method's contacts and by a distance "
+    "reference_contact_set: a level sheet above a level one is pushed straight up by the method's contacts and by a "
+    "distance "
     "field, and sideways by one contact of each pair of primitives",
     "[property]") {
   const Asked asked(level_sheets());
@@ -107,7 +108,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "contact_set=pairs has every contact of the method but those that the rule for nearly parallel edges adds, and "
+    "reference_contact_set=pairs has every contact of the method but those that the rule for nearly parallel edges "
+    "adds, and "
     "lists a face as often as pairs have it closest",
     "[property]") {
   const Asked asked = askew_sheets();
@@ -127,8 +129,9 @@ TEST_CASE(
   CHECK(std::ranges::any_of(facets, [&](const auto& c) { return facets.count(c) > 1; }));
 }
 
-TEST_CASE("contact_set=distance has for each vertex one contact with each other body, no farther than any pair",
-          "[property]") {
+TEST_CASE(
+    "reference_contact_set=distance has for each vertex one contact with each other body, no farther than any pair",
+    "[property]") {
   const Asked asked = askew_sheets();
   const auto found = asked.contacts(reference::ContactSet::distance),
              pairs = asked.contacts(reference::ContactSet::pairs);
@@ -149,8 +152,9 @@ TEST_CASE("contact_set=distance has for each vertex one contact with each other 
   for (const auto& c : pairs.vertex_facet) CHECK(seen.count(c.vertex) == 1);
 }
 
-TEST_CASE("colours: greedy and random ones separate stencils, a vertex alone has its own, all together one",
-          "[property]") {
+TEST_CASE(
+    "reference_vbd_colours: greedy and random ones separate stencils, a vertex alone has its own, all together one",
+    "[property]") {
   compare::Scene scene = two_sheets();
   scene.bodies[1].fixed = false;
   round_to_single(scene);
@@ -173,7 +177,7 @@ TEST_CASE("colours: greedy and random ones separate stencils, a vertex alone has
   CHECK(once != colours(Colouring::random));
 }
 
-TEST_CASE("cut_after=iteration and other contact sets keep vertices in their bounds, and change the step",
+TEST_CASE("reference_vbd_cut_after=iteration and other contact sets keep vertices in their bounds, and change the step",
           "[property]") {
   compare::Scene scene = drop_scene();
   scene.settings.time_step = 1.0 / 200;
@@ -192,10 +196,10 @@ TEST_CASE("cut_after=iteration and other contact sets keep vertices in their bou
     return simulation->snapshot().positions;
   };
   const auto plain = end_of("", "");
-  CHECK(end_of("cut_after", "iteration") != plain);
-  CHECK(end_of("contact_set", "pairs") != plain);
-  CHECK(end_of("contact_set", "distance") != plain);
-  CHECK(end_of("contact_blocks", "majorised") == plain);
+  CHECK(end_of("reference_vbd_cut_after", "iteration") != plain);
+  CHECK(end_of("reference_contact_set", "pairs") != plain);
+  CHECK(end_of("reference_contact_set", "distance") != plain);
+  CHECK(end_of("reference_vbd_contact_blocks", "majorised") == plain);
 }
 
 TEST_CASE("a setting that a solver does not read is refused by name, with its value and who reads it", "[unit]") {
@@ -203,7 +207,7 @@ TEST_CASE("a setting that a solver does not read is refused by name, with its va
     compare::Settings settings;
     if (std::string_view(solver) == "penalty") {
       set_setting(settings, "bounds", "off");
-      set_setting(settings, "activation", "quadratic");
+      set_setting(settings, "contact_activation", "quadratic");
     }
     set_setting(settings, name, value);
     try {
@@ -213,18 +217,19 @@ TEST_CASE("a setting that a solver does not read is refused by name, with its va
     }
     return std::string();
   };
-  CHECK_THAT(refused("contact_set", "pairs", "vbd"), ContainsSubstring("'contact_set' can't be 'pairs'"));
-  CHECK(refused("contact_set", "pairs", "newton").empty());
-  CHECK_THAT(refused("colours", "random", "newton"), ContainsSubstring("take --solver reference_vbd"));
-  CHECK(refused("colours", "random", "reference_vbd").empty());
+  CHECK_THAT(refused("reference_contact_set", "pairs", "vbd"),
+             ContainsSubstring("'reference_contact_set' can't be 'pairs'"));
+  CHECK(refused("reference_contact_set", "pairs", "newton").empty());
+  CHECK_THAT(refused("reference_vbd_colours", "random", "newton"), ContainsSubstring("take --solver reference_vbd"));
+  CHECK(refused("reference_vbd_colours", "random", "reference_vbd").empty());
   CHECK_THAT(refused("bounds", "dat", "newton"), ContainsSubstring("line search scales all vertices at once"));
   CHECK(refused("bounds", "planes", "newton").empty());
   CHECK(refused("bounds", "dat", "vbd").empty());
   CHECK_THAT(refused("bounds", "ball", "penalty"), ContainsSubstring("has bounds=off"));
   CHECK(refused("bounds", "off", "penalty").empty());
-  CHECK_THAT(refused("truncation", "pair", "penalty"), ContainsSubstring("take --solver newton"));
+  CHECK_THAT(refused("newton_truncation", "pair", "penalty"), ContainsSubstring("take --solver newton"));
   compare::Scene scene = two_sheets();
-  set_setting(scene.settings, "colours", "random");
+  set_setting(scene.settings, "reference_vbd_colours", "random");
   CHECK_THROWS_AS(reference::start_newton(scene, {}), compare::InputError);
 }
 

@@ -1,4 +1,4 @@
-#include "fast/stages/rods_at_rest.hpp"
+#include "fast/stages/kinds/segment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -200,6 +200,16 @@ std::vector<compare::Quaternion> quaternions(std::span<const Quat> all) {
   std::vector<compare::Quaternion> to;
   for (const Quat& q : all) to.push_back(quaternion(q));
   return to;
+}
+
+std::vector<float> AtRest<SegmentKind>::by_body(const RestShared& shared) const {
+  std::vector<float> damping(shared.materials.size(), 0.0f);
+  bool any = false;
+  for (std::size_t e = 0; e < rods.segments.size(); ++e) {
+    damping[as_index(rods.body[e])] = rods.segments[e].damping;
+    any = any || rods.segments[e].damping > 0;
+  }
+  return any ? damping : std::vector<float>{};
 }
 
 }  // namespace ogc::fast

@@ -1,18 +1,18 @@
-// What a step sums up where there are volumes.
+// Adds what a step sums up if there are volumes.
 #pragma once
 
-#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
 #include "fast/kernels/volumes/stream.hpp"
 
 namespace ogc::fast {
 
-/// Energies, those of contacts with volumes included.
+/// Sums energies, those of contacts with volumes included.
 struct VolumeSums {
   EnergySums energies;
   VolumeTerm volume;
-  int rows;  ///< of its contacts
+  int rows;  ///< rows of contacts with volumes
 
-  /// Those of one chunk.
+  /// Adds the terms of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     energies.add(chunk, chunks, sums);
     add_terms(volume, rows, chunk, chunks, sums);

@@ -1,24 +1,24 @@
-// What a step of a scene with rods adds to its sums, and the extremes of its row, which are found beside them.
+// Adds what a step of a scene with rods sums up, and finds the extremes of its row meanwhile.
 #pragma once
 
 #include "fast/kernels/rods/contact_distance.hpp"
 #include "fast/kernels/rods/metrics.hpp"
-#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
 
 namespace ogc::fast {
 
-/// `Others`: the sums of everything else.
+/// Sums of `Others` and of rods.
 template <class Others>
 struct RodSums {
   Others others;
   SegmentTerm segment;
   int segments;
-  ActiveDistance<VertexFacetRecord> vertex_facet;  ///< of as many records as only the device knows
-  ActiveDistance<EdgeEdgeRecord> edge_edge;        ///< likewise
+  ActiveDistance<VertexFacetRecord> vertex_facet;  ///< the number of its records is known on the device only
+  ActiveDistance<EdgeEdgeRecord> edge_edge;        ///< the same for its records
   const int *vertex_facet_count, *edge_edge_count;
   StepControl* control;  ///< on the backend: extremes are written
 
-  /// Those of one chunk.
+  /// Adds the terms of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     others.add(chunk, chunks, sums);
     float longest = 0, nearest = 3.40282347e38f;

@@ -4,9 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "compare/problem/scene.hpp"
-#include "compare/stages/rest_state.hpp"
-#include "fast/kernels/rods/segments.hpp"
+#include "fast/stages/kinds/at_rest.hpp"
 
 namespace ogc::fast {
 
@@ -28,6 +26,21 @@ std::vector<compare::RestSegment> rest_segments(const RodsAtRest& rods);
 
 /// With the numbers of an answer.
 RodsAtRest rods_of(const compare::Scene& scene, const std::vector<compare::RestSegment>& segments);
+
+template <>
+struct AtRest<SegmentKind> : PlainAtRest<SegmentKind> {
+  RodsAtRest rods;
+
+  const std::vector<SegmentRest>& elements() const { return rods.segments; }
+  void add(const RestBuild& build) { rods = rods_at_rest(build.scene, build.mass); }
+  void add(const compare::RestStateIn& in, const compare::RestStateOut& out) {
+    rods = rods_of(*in.scene, out.segments);
+  }
+  void give(compare::RestStateOut& out) const { out.segments = rest_segments(rods); }
+  bool damps(const RestShared&, int segment) const { return rods.segments[as_index(segment)].damping > 0; }
+  /// k_d/h; empty where it is 0 everywhere.
+  std::vector<float> by_body(const RestShared& shared) const;
+};
 
 /// A quaternion of either room, or several.
 inline Quat quat(const compare::Quaternion& q) { return {q[0], q[1], q[2], q[3]}; }

@@ -1,9 +1,9 @@
-// What a step sums up for its row: one functor for each launch of fast/stages/reduce.hpp, kind after kind.
+// Adds what a step sums up for its row: one functor for each launch of fast/stages/reduce.hpp, kind after kind.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
+#include "fast/kernels/kinds/kinds.hpp"
 #include "fast/kernels/metrics.hpp"
-#include "fast/kernels/sweep_view.hpp"
 
 namespace ogc::fast {
 
@@ -13,21 +13,21 @@ OGC_HD void add_terms(const Term& term, int count, int chunk, int chunks, double
   for (int i = chunk; i < count; i += chunks) term(i, sums);
 }
 
-/// Momenta, kinetic and gravity energy.
+/// Sums momenta, kinetic and gravity energy.
 struct VertexSums {
   VertexTerm term;
   int count;  ///< vertices
 
-  /// Those of one chunk.
+  /// Adds the terms of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
 };
 
-/// What is left of forces, over free vertices.
+/// Sums the forces that a step leaves, over free vertices.
 struct LeftSums {
   const LeftForce* left;  ///< by slot
   int count;              ///< slots
 
-  /// Those of one chunk, by LeftColumn.
+  /// Adds the terms of one chunk, by LeftColumn.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     for (int i = chunk; i < count; i += chunks) {
       const LeftForce own = left[i];
@@ -40,46 +40,48 @@ struct LeftSums {
   }
 };
 
-/// Energy of the tetrahedra and how many are inverted.
-struct TetrahedronSums {
-  TetrahedronTerm term;
-  int count;  ///< tetrahedra
-
-  /// Those of one chunk.
-  OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
-};
-
-/// What each step reports.
-struct StateSums {
-  VertexSums vertices;
-  TetrahedronSums tetrahedra;
-
-  /// Those of one chunk.
+/// The elements of all kinds of a list.
+template <class List>
+struct AllElements;
+template <class... All>
+struct AllElements<KindList<All...>> : ElementsView<All>... {
+  /// Energies of one chunk, kind by kind; unless `all`, of those kinds alone that each step reports.
+  template <bool all>
   OGC_HD void add(int chunk, int chunks, double* sums) const {
-    vertices.add(chunk, chunks, sums);
-    tetrahedra.add(chunk, chunks, sums);
+    (add_kind<all, All>(chunk, chunks, sums), ...);
+  }
+
+ private:
+  template <bool all, class Kind>
+  OGC_HD void add_kind(int chunk, int chunks, double* sums) const {
+    const ElementsView<Kind>& own = *this;
+    if constexpr ((all || Kind::reports_state) && requires { Kind::add_energy(own, 0, sums); })
+      for (int i = chunk; i < own.count; i += chunks) Kind::add_energy(own, i, sums);
   }
 };
 
-/// The same and the energies of elements and contacts.
-struct EnergySums {
-  /// Terms, each with the number of its items; how many contacts there are only the device knows.
-  StateSums state;
-  TriangleTerm triangle;
-  int triangles;
-  HingeTerm hinge;
-  int hinges;
-  SpringTerm spring;
-  int springs;
-  VertexFacetTerm vertex_facet;  ///< as many as its view says, which only the device knows
-  EdgeEdgeTerm edge_edge;        ///< likewise
+/// Sums what each step reports.
+struct StateSums {
+  VertexSums vertices;
+  AllElements<Kinds> elements;
 
-  /// Those of one chunk.
+  /// Adds the terms of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
-    state.add(chunk, chunks, sums);
-    add_terms(triangle, triangles, chunk, chunks, sums);
-    add_terms(hinge, hinges, chunk, chunks, sums);
-    add_terms(spring, springs, chunk, chunks, sums);
+    vertices.add(chunk, chunks, sums);
+    elements.add<false>(chunk, chunks, sums);
+  }
+};
+
+/// The same and the energies of all elements and contacts.
+struct EnergySums {
+  StateSums state;
+  VertexFacetTerm vertex_facet;  ///< as many as its view says, which only the device knows
+  EdgeEdgeTerm edge_edge;        ///< as many as its view says
+
+  /// Adds the terms of one chunk.
+  OGC_HD void add(int chunk, int chunks, double* sums) const {
+    state.vertices.add(chunk, chunks, sums);
+    state.elements.add<true>(chunk, chunks, sums);
     add_terms(vertex_facet, *vertex_facet.view.vertex_facet_count, chunk, chunks, sums);
     add_terms(edge_edge, *edge_edge.view.edge_edge_count, chunk, chunks, sums);
   }

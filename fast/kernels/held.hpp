@@ -1,0 +1,39 @@
+// A proposal held to the region of its vertex (method.md §5): whatever moves a vertex writes the position that this
+// gives.
+#pragma once
+
+#include "fast/kernels/control.hpp"
+#include "fast/kernels/plane.hpp"
+#include "fast/kernels/plane_lists.hpp"
+
+namespace ogc::fast {
+
+/// The proposal of a free vertex as its region allows it; `cut`: it was changed. All of `lanes` call it together.
+template <class Metric, class Lanes = OneLane>
+OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
+                      const Lanes& lanes = {}) {
+  if (region.count == 0) return truncate(region.ball, proposal);
+  if (is_within(region, proposal, lanes)) return {proposal, false};
+  if (!region.slides) return scale_into(region, region.ball.centre, proposal, lanes);
+  return slide_into(region, current, proposal, metric, lanes);
+}
+
+/// The same of a prescribed vertex.
+OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& current, const Vec& target) {
+  if (region.count == 0) return truncate(region.ball, target);
+  if (is_within(region, target)) return {target, false};
+  return scale_into(region, region.slides ? current : region.ball.centre, target, OneLane{});
+}
+
+/// Counts a prescribed vertex that did not reach its target.
+OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, const Vec& previous,
+                                const FeasibleRegions& regions) {
+  if (!kept.cut) return;
+  const Vec &x = kept.position, &p = previous;
+  if (!regions.has_planes())
+    control.count_cut();
+  else
+    control.count_lag(x.x != p.x || x.y != p.y || x.z != p.z);
+}
+
+}  // namespace ogc::fast

@@ -1,0 +1,72 @@
+// What all kinds of elements have in common. A kind is a struct in a file of its own beside this one; kinds.hpp lists
+// them. It has
+//
+//   Rest, Incidence   an element at rest; what one of its vertices sees of it
+//   Beside, Start, ByBody, RestBeside
+//                     further data, `NoData` where there are none: StreamView says what; `RestBeside` belongs to Rest
+//   stream(view)      its stream in a SweepView, and `View`, the part of SweepView that holds it
+//   asked             its bit among what a scene asks of a sum
+//   row_in_vertex     its place in SweepVertex::rows; −1: its rows are an array of their own
+//   is_curve          whether vertices have few elements, so that a narrow team serves them
+//   count, vertices   how many vertices an element has, and which
+//   seen, beside      the incidence of a vertex by its role, that is by its place among the vertices
+//   begin             Start of an element, from xᵗ
+//   add_energy        an element's energy
+//   flop, damping_flop  operations of an incidence, and what damping adds (fast/work.cpp)
+#pragma once
+
+#include "fast/kernels/models/damping.hpp"
+#include "fast/kernels/sweep_view.hpp"
+#include "fast/kernels/team.hpp"
+
+namespace ogc::fast {
+
+/// What a kind has if it does not say otherwise.
+template <class RestOfKind, class IncidenceOfKind>
+struct ElementKind {
+  using Rest = RestOfKind;
+  using Incidence = IncidenceOfKind;
+  using Beside = NoData;
+  using Start = NoData;
+  using ByBody = NoData;
+  using RestBeside = NoData;
+  static constexpr int row_in_vertex = -1;
+  static constexpr bool is_curve = false;
+  static constexpr bool reports_state = false;  ///< whether each step reports its `add_energy`, or only some do
+  static constexpr double damping_flop = 0;
+};
+
+/// The row of a vertex in the stream of a kind. `is_there`: the scene surely has such elements.
+template <class Kind, bool is_there, class View>
+OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
+  if constexpr (Kind::row_in_vertex >= 0)
+    return vertex.rows[Kind::row_in_vertex];
+  else if (is_there || Kind::stream(view).rows != nullptr)
+    return Kind::stream(view).rows[slot];
+  else
+    return {};
+}
+
+/// for_each over the elements of a kind at the start of a step: what their damping counts from.
+template <class Kind>
+struct BeginElement {
+  const typename Kind::Rest* rest;       ///< by element
+  const Vec* start;                      ///< xᵗ by vertex [m]
+  typename Kind::Start* value_at_start;  ///< by element, written
+
+  OGC_HD void operator()(int i) const { value_at_start[i] = Kind::begin(rest[i], start); }
+};
+
+/// The elements of a kind, and what their energy reads.
+template <class Kind>
+struct ElementsView {
+  const typename Kind::Rest* rest = nullptr;          ///< by element
+  const typename Kind::RestBeside* beside = nullptr;  ///< by element; null where no model of the scene reads it
+  const typename Kind::ByBody* by_body = nullptr;     ///< by body
+  const SurfaceMaterial* materials = nullptr;         ///< by body
+  const SurfaceModels* models = nullptr;              ///< by body
+  const Vec* position = nullptr;                      ///< x by vertex [m]
+  int count = 0;                                      ///< elements
+};
+
+}  // namespace ogc::fast

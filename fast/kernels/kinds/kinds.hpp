@@ -1,0 +1,31 @@
+// The list of the kinds of elements. Whatever treats all kinds alike runs over it.
+#pragma once
+
+#include "fast/kernels/kinds/hinge.hpp"
+#include "fast/kernels/kinds/segment.hpp"
+#include "fast/kernels/kinds/spring.hpp"
+#include "fast/kernels/kinds/tetrahedron.hpp"
+#include "fast/kernels/kinds/triangle.hpp"
+
+namespace ogc::fast {
+
+/// A list of kinds.
+template <class... Kinds>
+struct KindList {
+  /// The streams of all.
+  struct Views : Kinds::View... {};
+
+  /// use(kind) for each, in order.
+  template <class Use>
+  static void for_each(const Use& use) {
+    (use(Kinds{}), ...);
+  }
+};
+
+/// All kinds, in the order in which a sum adds their parts.
+using Kinds = KindList<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
+
+/// What the updates of a sweep read and write.
+struct SweepView : SweepShared, Kinds::Views {};
+
+}  // namespace ogc::fast

@@ -1,0 +1,180 @@
+// The streams of elements in the order of the sweep, kind by kind: made once on the host, resident on the backend,
+// with what the elements have at the start of a step.
+#pragma once
+
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "fast/kernels/sums/step_sums.hpp"
+#include "fast/stages/backend.hpp"
+#include "fast/stages/colouring.hpp"
+#include "fast/stages/rest_state.hpp"
+
+namespace ogc::fast {
+
+/// The stream of a kind on the host.
+template <class Kind>
+struct HostStream {
+  std::vector<Row> rows;  ///< by slot; empty where there is no element
+  std::vector<typename Kind::Incidence> incidences;
+  std::vector<typename Kind::Beside> beside;  ///< by incidence; empty where no model of the scene reads it
+};
+
+/// Makes it. The elements of a vertex ascend, and the roles of one that has the vertex twice.
+template <class Kind>
+HostStream<Kind> host_stream(const RestState& rest, const Colouring& colouring) {
+  const AtRest<Kind>& all = at_rest<Kind>(rest);
+  HostStream<Kind> stream;
+  if (all.elements().empty()) return stream;
+  std::vector<std::vector<std::pair<int, int>>> around(rest.mass.size());  // element, role
+  int number = 0;
+  for (const auto& element : all.elements()) {
+    for (int role = 0; role < Kind::count(element); ++role)
+      around[as_index(Kind::vertices(element)[role])].emplace_back(number, role);
+    ++number;
+  }
+  const bool has_beside = all.reads_beside(rest);
+  for (const int v : colouring.order) {
+    const auto& own = around[as_index(v)];
+    stream.rows.push_back({static_cast<int>(stream.incidences.size()), static_cast<int>(own.size())});
+    for (const auto& [element, role] : own) {
+      const ColourOrder encoded{colouring.colour.data(), colouring.colour[as_index(v)]};
+      stream.incidences.push_back(Kind::seen(all.elements()[as_index(element)], element, role, encoded));
+      if (has_beside) stream.beside.push_back(all.beside(element, role));
+    }
+  }
+  return stream;
+}
+
+/// Puts the rows of a kind where its row_in_vertex says.
+template <class Kind>
+void put_rows(const HostStream<Kind>& stream, std::vector<SweepVertex>& vertices) {
+  if constexpr (Kind::row_in_vertex >= 0) {
+    for (std::size_t slot = 0; slot < stream.rows.size(); ++slot)
+      vertices[slot].rows[Kind::row_in_vertex] = stream.rows[slot];
+  }
+}
+
+/// A free vertex by slot, with the rows that it has of streams.
+template <class... All>
+std::vector<SweepVertex> sweep_vertices(KindList<All...>, const RestState& rest, const Colouring& colouring,
+                                        double time_step, const HostStream<All>&... streams) {
+  std::vector<SweepVertex> vertices;
+  for (const int v : colouring.order) {
+    SweepVertex vertex;
+    vertex.vertex = v;
+    vertex.body = rest.body[as_index(v)];
+    vertex.inertia = static_cast<float>(static_cast<double>(rest.mass[as_index(v)]) / (time_step * time_step));
+    vertices.push_back(vertex);
+  }
+  (put_rows<All>(streams, vertices), ...);
+  return vertices;
+}
+/// The resident elements and stream of a kind.
+template <class Backend, class Kind>
+class Stream {
+ public:
+  Stream(const RestState& rest, const HostStream<Kind>& host) {
+    const AtRest<Kind>& all = at_rest<Kind>(rest);
+    upload(rest_, all.elements());
+    upload(rest_beside_, all.rest_beside());
+    upload(by_body_, all.by_body(rest));
+    if (Kind::row_in_vertex < 0) upload(rows_, host.rows);
+    upload(incidences_, host.incidences);
+    upload(beside_, host.beside);
+    bool damps = false;
+    for (int i = 0; i < count() && !damps; ++i) damps = all.damps(rest, i);
+    if (has_start && damps) start_.resize(rest_.size());
+  }
+
+  int count() const { return static_cast<int>(rest_.size()); }  ///< elements
+
+  /// At the start of a step: what damping counts from, where any element is damped. `start`: xᵗ, on the backend.
+  void begin(Backend& backend, const Vec* start) {
+    if constexpr (has_start) {
+      if (start_.size() > 0) backend.for_each(count(), BeginElement<Kind>{rest_.data(), start, start_.data()});
+    }
+  }
+  /// The stream in a view.
+  void complete(SweepView& view) const {
+    using In = StreamView<typename Kind::Incidence, typename Kind::Beside, typename Kind::Start, typename Kind::ByBody>;
+    static_cast<In&>(Kind::stream(view)) = {rows_.data(), incidences_.data(), beside_.data(), start_.data(),
+                                            by_body_.data()};
+  }
+  /// What the elements' energy reads; materials, models and positions are the caller's.
+  void complete(ElementsView<Kind>& elements) const {
+    elements.rest = rest_.data();
+    elements.beside = rest_beside_.data();
+    elements.by_body = by_body_.data();
+    elements.count = count();
+  }
+
+ private:
+  template <class T>
+  using Buffer = typename Backend::template Buffer<T>;
+  static constexpr bool has_start = !std::is_same_v<typename Kind::Start, NoData>;
+
+  template <class T>
+  static void upload(Buffer<T>& buffer, const std::vector<T>& items) {
+    buffer.upload(items.data(), items.size());
+  }
+
+  Buffer<typename Kind::Rest> rest_;
+  Buffer<typename Kind::RestBeside> rest_beside_;
+  Buffer<typename Kind::ByBody> by_body_;
+  Buffer<Row> rows_;
+  Buffer<typename Kind::Incidence> incidences_;
+  Buffer<typename Kind::Beside> beside_;
+  Buffer<typename Kind::Start> start_;
+};
+
+/// The streams of all kinds, and the vertices in the order of the sweep.
+template <class Backend, class List>
+class Streams;
+template <class Backend, class... All>
+class Streams<Backend, KindList<All...>> : Stream<Backend, All>... {
+ public:
+  Streams(const RestState& rest, const Colouring& colouring, double time_step)
+      : Streams(rest, colouring, time_step, host_stream<All>(rest, colouring)...) {}
+
+  /// Free vertices.
+  int slots() const { return static_cast<int>(vertices_.size()); }
+  /// By slot, on the backend.
+  const SweepVertex* vertices() const { return vertices_.data(); }
+
+  /// As Stream::begin, of each kind.
+  void begin(Backend& backend, const Vec* start) { (Stream<Backend, All>::begin(backend, start), ...); }
+  /// The streams of all in a view.
+  void complete(SweepView& view) const {
+    view.vertices = vertices_.data();
+    (Stream<Backend, All>::complete(view), ...);
+  }
+  /// The elements of all at these positions, on the backend.
+  AllElements<KindList<All...>> elements(const SurfaceMaterial* materials, const SurfaceModels* models,
+                                         const Vec* position) const {
+    AllElements<KindList<All...>> all;
+    (complete<All>(all, materials, models, position), ...);
+    return all;
+  }
+
+ private:
+  Streams(const RestState& rest, const Colouring& colouring, double time_step, const HostStream<All>&... host)
+      : Stream<Backend, All>(rest, host)... {
+    const std::vector<SweepVertex> vertices = sweep_vertices(KindList<All...>{}, rest, colouring, time_step, host...);
+    vertices_.upload(vertices.data(), vertices.size());
+  }
+
+  template <class Kind>
+  void complete(ElementsView<Kind>& elements, const SurfaceMaterial* materials, const SurfaceModels* models,
+                const Vec* position) const {
+    elements.materials = materials;
+    elements.models = models;
+    elements.position = position;
+    Stream<Backend, Kind>::complete(elements);
+  }
+
+  typename Backend::template Buffer<SweepVertex> vertices_;
+};
+
+}  // namespace ogc::fast
