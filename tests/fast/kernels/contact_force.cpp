@@ -163,7 +163,7 @@ TEST_CASE("a force pushes the two sides apart by the slope of the activation", "
 TEST_CASE("from r on there is no force, and the curvature that waits at r", "[unit]") {
   const auto at = [](auto activation, float d) {
     ForceAndBlock sum;
-    const float force = add_contact<decltype(activation), float>(activation, contact_shape({d, 0, 0}, 0.005f), 1, 1,
+    const float force = add_contact<decltype(activation), float>(activation, contact_shape(Vec{d, 0, 0}, 0.005f), 1, 1,
                                                                  0.005f, 10, sum);
     CHECK(force == 0);
     CHECK(sum.force.x == 0);
@@ -196,11 +196,11 @@ TEST_CASE("nothing is NaN at zero distance, for collapsed edges and triangles, a
       REQUIRE(std::isfinite(sum.block.xx + sum.block.xy + sum.block.xz + sum.block.yy + sum.block.yz + sum.block.zz));
     }
   }
-  CHECK_FALSE(contact_shape({0, 0, 0}, 1).acts);
-  CHECK_FALSE(contact_shape({1e-30f, 0, 0}, 1).acts);
+  CHECK_FALSE(contact_shape(Vec{0, 0, 0}, 1).acts);
+  CHECK_FALSE(contact_shape(Vec{1e-30f, 0, 0}, 1).acts);
   for (const float d : {1e-18f, 1e-12f, 1e-7f}) {
     ForceAndBlock sum;
-    CHECK(add_contact<OgcActivation, float>({}, contact_shape({d, 0, 0}, 0.005f), 1, 1, 0.005f, 100, sum) > 0);
+    CHECK(add_contact<OgcActivation, float>({}, contact_shape(Vec{d, 0, 0}, 0.005f), 1, 1, 0.005f, 100, sum) > 0);
     CHECK(std::isfinite(sum.block.xx));
   }
 }

@@ -254,6 +254,7 @@ TEST_CASE("the stream made within a detection is that of its contacts", "[proper
   const std::vector<Vec> expected = f.fresh;
   Sweep<CpuBackend> other(f.backend, f.rest, f.colouring, f.topology, f.scene);
   other.reserve_contacts(f.detection->capacity());
+  other.begin(f.start.data());
   MadeStream made;
   f.detection->detect(f.x.data(), 0.02F, &f.control.query_radius, 0.45F, made.launches(*f.detection, other, f.x));
   CHECK(made.control.detections == 1);

@@ -45,8 +45,8 @@ Vec single(const compare::Vec3& x) {
 ForceAndBlock seen_from(const RestState& state, const SolidMaterial& material, const SolidCorners& x,
                         const SolidCorners& start, int corner) {
   const std::vector<int> colours(4, 0);
-  const TetrahedronIncidence seen = detail::tetrahedron_incidence(state, 0, corner, colours);
-  const TetrahedronGradients gradients = detail::tetrahedron_gradients(state.tetrahedra[0], corner);
+  const TetrahedronIncidence seen = TetrahedronKind::seen(state.tetrahedra[0], 0, corner, {colours.data(), 0});
+  const TetrahedronGradients gradients = TetrahedronKind::beside(state.tetrahedra[0], {}, corner);
   const auto to = [&](const SolidCorners& at, int k) {
     const compare::Vec3 &p = at[static_cast<std::size_t>(seen.index[k])], &own = at[static_cast<std::size_t>(corner)];
     return single({p.x - own.x, p.y - own.y, p.z - own.z});

@@ -123,7 +123,7 @@ TEST_CASE("a vertex feels its segments by the end that it is, damped as its body
       const Vec apart = end == 0 ? other - own : own - other;
       const auto felt = [&] {
         ForceAndBlock sum;
-        AddRod{chain.view, {own, moved}, 0.25f}(seen, sum);
+        AddRod{chain.view, chain.view.rods, {own, moved}, 0.25f}(seen, sum);
         return sum;
       };
       ForceAndBlock strain, elastic;
