@@ -21,8 +21,8 @@ namespace ogc::fast {
 
 /// Parameters of a detection [m].
 struct ContactQuery {
-  float contact_radius = 0;        ///< r > 0
-  float query_radius = 0;          ///< r_q ≥ r: nothing is searched beyond it, so no bound exceeds γ_p r_q
+  float contact_radius = 0;         ///< r > 0
+  float query_radius = 0;           ///< r_q ≥ r: nothing is searched beyond it, so no bound exceeds γ_p r_q
   float bounds_relaxation = 0.45F;  ///< γ_p of Eq. 21, in (0, 0.5)
 };
 

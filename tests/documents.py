@@ -160,7 +160,8 @@ class Place:
         return self.fault_by_parser(interpreter, kind, name, rest or ["--help"], path.read_text())  # a name alone
 
     def fault_by_parser(self, interpreter, kind, name, rest, text):
-        if not re.search(r"argparse|baseline_arguments|common import main", text):  # it takes words by position
+        # without a parser it takes words by position
+        if not re.search(r"argparse|baseline_arguments|parser_of_figure|common import main", text):
             if any(word.startswith("-") for word in rest if rest != ["--help"]):
                 return f"{name} takes no options"
             status, _, said = self.run([*interpreter, "-c", f"import {name}"]) if kind == "module" else (0, "", "")

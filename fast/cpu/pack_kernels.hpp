@@ -21,8 +21,8 @@ inline constexpr bool has_packs = requires(const SweepView& view, const SweepVer
   Part::is_packed(view, vertex);
 };
 
-/// As GatherAll with a SerialTeam and the activation `ogc`. `alone`: by part, the sums of those that are not computed in
-/// packs; null sums of a part that is, or that the vertex does not have.
+/// As GatherAll with a SerialTeam and the activation `ogc`. `alone`: by part, the sums of those that are not computed
+/// in packs; null sums of a part that is, or that the vertex does not have.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const TeamLaneSums* alone);
 /// Sums of vertices, and segments of rods.

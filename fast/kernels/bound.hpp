@@ -31,8 +31,8 @@ struct ConservativeBound {
   /// by vertex, edge and triangle [m]: Eq. 22, 24, 26, at most r_q
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;
   float bounds_relaxation;  ///< γ_p of Eq. 21 [1]
-  const int* overflow;     ///< as in ResetDistances
-  float* bound;            ///< b_v by vertex [m], at most γ_p r_q; largest_float inside solids
+  const int* overflow;      ///< as in ResetDistances
+  float* bound;             ///< b_v by vertex [m], at most γ_p r_q; largest_float inside solids
 
   /// Writes the bound. The product of two single-precision numbers is exact in double, so the bound is the largest
   /// float that is not above it.

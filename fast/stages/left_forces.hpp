@@ -2,7 +2,7 @@
 // with the step's own sets, summed up.
 #pragma once
 
-#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
 #include "fast/stages/reduce.hpp"
 #include "fast/stages/sweep.hpp"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "compare/problem/scene.hpp"
-#include "fast/kernels/rods/sums.hpp"
 #include "fast/kernels/rods/turn.hpp"
+#include "fast/kernels/sums/rod_sums.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/rest_state.hpp"
 #include "fast/stages/rod_streams.hpp"

@@ -14,9 +14,9 @@ namespace ogc::fast {
 /// Numbers of a scene that a step needs, in single precision: all are set by `step_settings`.
 struct StepSettings {
   float step = 0, contact_radius = 0, friction_limit = 0, bounds_relaxation = 0;  ///< h [s], r [m], ε_v h [m], γ_p
-  float detection_radius = 0;                                                    ///< r and the margin of contacts [m]
-  Vec acceleration;                                                              ///< [m/s²]
-  int iterations = 0;                                                            ///< of a step
+  float detection_radius = 0;                                                     ///< r and the margin of contacts [m]
+  Vec acceleration;                                                               ///< [m/s²]
+  int iterations = 0;                                                             ///< of a step
   bool divides = false;     ///< whether displacements divide the gaps of pairs (bounds=dat)
   bool energies = false;    ///< whether a row has the energies of elements and contacts
   ControlSettings control;  ///< what the device decides by

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"

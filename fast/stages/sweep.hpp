@@ -1,5 +1,6 @@
-// The sweep (Alg. 4): the streams of elements (streams.hpp), made once on the host; the contact stream, made after each detection on the device; and the launches of one iteration. Every sum has the width
-// W, the one thing beside the input that may change a bit.
+// The sweep (Alg. 4): the streams of elements (streams.hpp), made once on the host; the contact stream, made after each
+// detection on the device; and the launches of one iteration. Every sum has the width W, the one thing beside the input
+// that may change a bit.
 #pragma once
 
 #include <vector>

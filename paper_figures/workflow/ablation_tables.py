@@ -1,19 +1,13 @@
-"""The tables of ablations.md, one a study, from the accepted medians and ranges: a row a scene and point, of the
-largest size at which the scene was run. A bold number lies apart from that of the first point: every run of one is
-above, or below, every run of the other.
-
-Usage: python3 -m paper_figures.workflow.ablation_tables [--write]: checks whether the document's tables are those of
-the files, with exit status 1 if they are not, or writes them. The standard library is enough.
+"""The table of an ablation, from the accepted medians and ranges: a row a scene and point, of the largest size at which
+the scene was run, and a column a metric of which the study's text speaks. A bold number lies apart from that of the
+first point: every run of one is above, or below, every run of the other. `page_tables.py` writes it into ablations.md.
 """
 
-import argparse
 import csv
 import re
-import sys
 
-from paper_figures.workflow.evidence import RESULTS, ROOM, opened
+from paper_figures.workflow.evidence import RESULTS, opened
 
-DOCUMENT = ROOM / "ablations.md"
 FILES = {"smoke": "two_cores/ablations_smoke.csv.gz", "small": "h200/ablations_small.csv.gz",
          "paper": "h200/ablations_paper.csv.gz"}  # the largest size last
 # Titles and factors by metric. A column without a number in a study is left out.
@@ -23,10 +17,22 @@ COLUMNS = {"guarantee_kept": ("kept [runs]", 1), "detections_a_step": ("detectio
            "largest_momentum_lost_guess": ("momentum lost, guess [%]", 100), "largest_lag": ("lag [mm]", 1e3),
            "last_elastic_energy": ("elastic energy [J]", 1), "last_kinetic_energy": ("kinetic energy [J]", 1),
            "last_mean_stretch": ("mean stretch", 1)}
-RODS = "ablation_frames"  # the study with the following columns and points
-OF_RODS = ("median_step", "last_kinetic_energy", "last_mean_stretch")
+SHOWN = {
+    "ablation_overhead": ("detections_a_step", "contacts_a_step", "median_step", "last_kinetic_energy"),
+    "ablation_query_radius": ("detections_a_step", "median_step"),
+    "ablation_policy": ("guarantee_kept", "detections_a_step", "median_step", "largest_lag", "last_elastic_energy"),
+    "ablation_redetection": ("detections_a_step", "largest_share_cut", "largest_momentum_lost_guess",
+                             "last_kinetic_energy"),
+    "ablation_truncation": ("detections_a_step", "median_step", "last_elastic_energy"),
+    "ablation_colours": ("detections_a_step", "last_elastic_energy", "last_kinetic_energy"),
+    "ablation_iterations": ("detections_a_step", "median_step", "last_elastic_energy", "last_kinetic_energy"),
+    "ablation_activation": ("detections_a_step", "smallest_distance", "largest_lag"),
+    "ablation_small_radius": ("detections_a_step", "largest_share_cut", "last_kinetic_energy"),
+    "ablation_membrane": ("detections_a_step", "median_step", "largest_lag", "last_elastic_energy"),
+    "ablation_frames": ("median_step", "last_kinetic_energy", "last_mean_stretch"),
+}
+ALL_KEPT = "Every run kept the guarantee."  # below a table that has no column for it
 POINTS_OF_RODS = re.compile(r"(?!.*iterations=)|.*iterations=(1|16|64)$")
-PLACE = re.compile(r"<!-- table (\w+) -->\n.*?<!-- end -->", re.S)
 
 
 def largest_runs(study, folder=RESULTS):
@@ -35,7 +41,7 @@ def largest_runs(study, folder=RESULTS):
     for size, name in FILES.items():
         with opened(folder / name) as file:
             for row in csv.DictReader(file):
-                left_out = study == RODS and not POINTS_OF_RODS.match(row["point"])
+                left_out = study == "ablation_frames" and not POINTS_OF_RODS.match(row["point"])
                 if row["study"] == study and row["median"] not in ("", "nan") and not left_out:
                     points = found.setdefault(row["scene"], {}).setdefault(size, {})
                     points.setdefault(row["point"], {})[row["metric"]] = row
@@ -62,10 +68,10 @@ def cell(metric, row, first):
 
 
 def table(study, folder=RESULTS):
-    """Returns the lines of a study's table in Markdown."""
+    """Returns the lines of a study's table in Markdown, and a sentence if every run kept the guarantee."""
     runs = largest_runs(study, folder)
     there = {metric for points in runs.values() for metrics in points.values() for metric in metrics}
-    columns = [metric for metric in COLUMNS if metric in there and (study != RODS or metric in OF_RODS)]
+    columns = [metric for metric in SHOWN[study] if metric in there]
     lines = [f"| scene, size | point | {' | '.join(COLUMNS[metric][0] for metric in columns)} |",
              "|---" * (2 + len(columns)) + "|"]
     for (scene, size), points in runs.items():
@@ -73,26 +79,5 @@ def table(study, folder=RESULTS):
         lines += [f"| `{scene}`, {size} | {point} | "
                   + " | ".join(cell(metric, metrics.get(metric), first.get(metric)) for metric in columns) + " |"
                   for point, metrics in points.items()]
-    return lines
-
-
-def rewritten(text, folder=RESULTS):
-    """Returns the document with its tables rebuilt."""
-    return PLACE.sub(lambda place: f"<!-- table {place[1]} -->\n\n" + "\n".join(table(place[1], folder))
-                     + "\n\n<!-- end -->", text)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", action="store_true", help="write them into the document")
-    options = parser.parse_args()
-    before = DOCUMENT.read_text()
-    after = rewritten(before)
-    if options.write:
-        DOCUMENT.write_text(after)
-    elif after != before:
-        sys.exit(f"{DOCUMENT.name}: its tables are not those of the files: write them with --write")
-
-
-if __name__ == "__main__":
-    main()
+    kept = [metrics.get("guarantee_kept") for points in runs.values() for metrics in points.values()]
+    return lines + (["", ALL_KEPT] if all(row and float(row["median"]) == float(row["runs"]) for row in kept) else [])

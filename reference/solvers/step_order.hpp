@@ -9,8 +9,8 @@
 
 namespace ogc::reference {
 
-/// With planes: how many of the cut vertices are prescribed ones behind their targets, and whether one of these has
-/// moved since the last detection (method.md §5.6, Asking).
+/// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since the
+/// last detection (method.md §5.6, Detections).
 struct StepLag {
   compare::Index lagging = 0;  ///< how many
   bool has_advanced = false;   ///< whether one of them has moved

@@ -46,7 +46,8 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   /// (fast/kernels/models/discrete_hinge.hpp).
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
   /// fast/kernels/models/discrete_hinge.hpp: differences 9, normals 18, squares 25, their limits 4, length 1,
-  /// projections 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block 17.
+  /// projections 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block
+  /// 17.
   static constexpr double flop = 141;
 
   template <class AnyView>

@@ -17,7 +17,7 @@ struct RodStream : StreamView<RodIncidence, NoData, NoData, float> {  // by body
   bool as_published = false;                ///< μ = σ + ‖b‖ in place of the root
 };
 
-/// The kind. A segment's energy is summed up beside the extremes of rods (fast/kernels/rods/sums.hpp).
+/// The kind. A segment's energy is summed up beside the extremes of rods (fast/kernels/sums/rod_sums.hpp).
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   using ByBody = float;
   /// Its part of SweepView.

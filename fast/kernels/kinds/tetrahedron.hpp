@@ -34,7 +34,8 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   /// fast/kernels/models/tetrahedron.hpp: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces
   /// 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
   static constexpr double flop = 85;
-  /// F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks 2 + 15 + 45.
+  /// F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks 2 + 15 +
+  /// 45.
   static constexpr double damping_flop = 238;
 
   template <class AnyView>

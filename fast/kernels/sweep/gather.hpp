@@ -10,8 +10,8 @@
 
 namespace ogc::fast {
 
-/// Adds up these parts in this order, then vertex–facet contacts, then edge–edge contacts. `gives` says which kinds of a
-/// scene a part adds, `part_of` makes the part of a vertex.
+/// Adds up these parts in this order, then vertex–facet contacts, then edge–edge contacts. `gives` says which kinds of
+/// a scene a part adds, `part_of` makes the part of a vertex.
 template <class Activation, class... Parts>
 struct Gather {
   static constexpr int parts = sizeof...(Parts) + 2;  ///< warps of a block where teams are spread (fast/cuda/team.cuh)

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc;

@@ -22,7 +22,7 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import ablation_tables, whole_runs  # noqa: E402
+from paper_figures.workflow import page_tables, whole_runs  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS  # noqa: E402
 
 DOCUMENTS = ("README.md", "fast/PERFORMANCE.md", "reference/README.md", "paper_figures/ablations.md",
@@ -143,14 +143,25 @@ class Documents(unittest.TestCase):
         self.assertEqual(list(faults(words, folder)), [])
         self.assertEqual([found[2] for found in faults(words.replace("1.85", "1.86"), folder)], ["1.86"])
 
-    def test_tables_of_studies_are_those_of_the_files_and_a_wrong_number_in_them_is_found(self):
-        text = ablation_tables.DOCUMENT.read_text()
-        self.assertEqual(ablation_tables.rewritten(text), text)
+    def test_generated_tables_are_those_of_the_files_and_a_wrong_number_in_them_is_found(self):
+        for path in page_tables.DOCUMENTS:
+            text = path.read_text()
+            self.assertEqual(page_tables.rewritten(path, text), text, path)
+            at = re.search(r"<!-- table .*?\| (\d[\d.,e-]*) \|", text, re.S)
+            wrong = planted(text, at.start(1), at[1])
+            self.assertNotEqual(wrong, text, path)
+            self.assertEqual(page_tables.rewritten(path, wrong), text, path)
+
+    def test_each_table_that_is_listed_has_its_place(self):
         studies = [path.stem for path in (SOURCE / "paper_figures/figures/ablations").glob("*.yaml")]
-        self.assertEqual(sorted(ablation_tables.PLACE.findall(text)), sorted(studies))
-        wrong = text.replace("| 10 of 10 | 9.2 |", "| 10 of 10 | 9.3 |", 1)
-        self.assertNotEqual(wrong, text)
-        self.assertEqual(ablation_tables.rewritten(wrong), text)
+        listed = {page_tables.ROOM / "ablations.md": studies,
+                  **{RESULTS / name: list(tables) for name, tables in page_tables.LISTED.items()}}
+        for path, names in listed.items():
+            self.assertEqual(sorted(page_tables.PLACE.findall(path.read_text())), sorted(names), path)
+
+    def test_a_row_that_no_file_has_is_refused(self):
+        listed = dict(page_tables.LISTED["h200/README.md"]["quality"], rows=["knot, ball, 1"])
+        self.assertRaises(KeyError, page_tables.table, listed, RESULTS / "h200")
 
     def test_the_table_of_whole_runs_is_computed_from_the_runs_that_are_kept(self):
         for path in RESULTS.glob("*/whole_runs.csv"):
@@ -174,6 +185,12 @@ class Parts(unittest.TestCase):
     def test_numbers_of_a_cell(self):
         self.assertEqual(numbers("0: 15.81; 2400: 88.3; a 5e-07"),
                          [Decimal(x) for x in ("0", "15.81", "2400", "88.3", "5e-07")])
+
+    def test_cells_of_generated_tables(self):
+        for texts, printed_as in ((["0.0012345"], "0.00123"), (["2", "10", "nan", ""], "2 to 10"), (["3", "3.0"], "3"),
+                                  (["yes", "no", "yes"], "yes or no"), (["inf"], "–")):
+            self.assertEqual(page_tables.cell(texts), printed_as)
+        self.assertEqual(page_tables.name_of({"a": "vbd", "b": "20.0", "c": "1921", "d": ""}, "abcd"), "vbd, 20, 1921")
 
 
 if __name__ == "__main__":

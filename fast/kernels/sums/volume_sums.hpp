@@ -1,7 +1,7 @@
 // Adds what a step sums up if there are volumes.
 #pragma once
 
-#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
 #include "fast/kernels/volumes/stream.hpp"
 
 namespace ogc::fast {

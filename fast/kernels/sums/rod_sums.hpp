@@ -3,7 +3,7 @@
 
 #include "fast/kernels/rods/contact_distance.hpp"
 #include "fast/kernels/rods/metrics.hpp"
-#include "fast/kernels/step_sums.hpp"
+#include "fast/kernels/sums/step_sums.hpp"
 
 namespace ogc::fast {
 
