@@ -37,7 +37,7 @@ KEPT = {
                      "penetration_depths",
                      "solid_angle", "surface_topology", "volumetric_contacts"), PAPER),
     **dict.fromkeys(("bounds_above_exact", "edge_edge_by_definition", "edge_edge_over_all_pairs", "edge_edge_with_tree",
-                     "reference_step", "sensitivity", "stencil_derivatives", "vertex_facet_by_definition",
+                     "reference_sweep", "sensitivity", "stencil_derivatives", "vertex_facet_by_definition",
                      "vertex_facet_with_tree"), ORACLE),
     "step_columns": WINDOW,
     "read_mesh": "meshes alone, without where their elements come from: what tests read",

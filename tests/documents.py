@@ -216,7 +216,7 @@ PLANTED = {
     "`experiments/reproduce fig99`": "fig99",
     "`python3 -m paper_figures.workflow.runner --windw 3`": "--windw",
     "`experiments/bundle --strip`": "--strip",
-    "`tests/mutants.py BUILD --stagez a`": "--stagez",
+    "`tests/mutants.py FILE --stagez a`": "--stagez",
     "```sh\nfrobnicate --all\n```": "nobody parses this",
 }
 SOUND = (

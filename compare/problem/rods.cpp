@@ -65,7 +65,7 @@ bool leaves_to_one_side(const Vec3& from, const Vec3& a, const Vec3& b) {
 
 void check_turns(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit,
                  std::span<const Index> segments) {
-  ProblemKind reversed(problems, limit, "reverses onto its neighbour at rest, where a rod has no frame",
+  ProblemKind reversed(problems, limit, "reverses onto its neighbour at rest, where a rod has no orientation",
                        "bend the rest shape there, or let the curve end");
   std::vector<std::array<Index, 2>> seen(scene.mesh.positions.size(), {-1, -1});  // segments at the vertex
   std::vector<Index> count(seen.size());

@@ -24,51 +24,63 @@ template <class Choice>
 constexpr double last = choice_count<Choice> - 1;
 
 constexpr auto problem_table = std::to_array<SettingInfo>({
-    {"time_step", "s", "simulated time that one step covers, h; smaller steps are more accurate and cost more in all",
+    {"time_step", "s", "a step covers this simulated time, h; smaller steps are more accurate and cost more in total",
      0x1p-20, 1, &Settings::time_step},
-    {"steps", "1", "number of steps of the run", 0, most_count, &Settings::steps},
-    {"iterations", "1", "sweeps over all vertices in a step (vbd); more make materials as stiff as they are given", 1,
-     most_count, &Settings::iterations},
-    {"contact_radius", "m", "distance below which two surfaces push each other apart, r", least_length, most_length,
+    {"steps", "1", "a run has this many steps", 0, most_count, &Settings::steps},
+    {"iterations", "1",
+     "vbd, reference_vbd: a step sweeps over all vertices this often; more sweeps bring materials nearer to their "
+     "stiffness",
+     1, most_count, &Settings::iterations},
+    {"contact_radius", "m", "two surfaces push each other apart below this distance, r", least_length, most_length,
      &Settings::contact_radius},
-    {"detection_radius_cap", "r", "farthest that detection looks for neighbours, in contact radii: the cap of r_q", 1,
-     1024, &Settings::detection_radius_cap},
+    {"detection_radius_cap", "r",
+     "detection looks for neighbours at most so many contact radii away; it is the cap of r_q", 1, 1024,
+     &Settings::detection_radius_cap},
     {"bounds", "1",
-     "what keeps a vertex from passing through others between two detections: a ball as in the paper, planes between "
-     "near pairs, nothing, or planes as in Divide and Truncate (vbd)",
+     "between two detections a vertex stays in a ball, as in the paper (ball), on its side of planes between near "
+     "pairs (planes), or on its side of the planes of Divide and Truncate (dat; vbd, reference_vbd); off: nothing "
+     "holds it",
      0, last<Bounds>, &Settings::bounds, choice_names<Bounds>},
     {"bounds_relaxation", "1",
-     "share of its distance to the nearest neighbour that a vertex may move before the next detection, γ_p of Eq. 21",
+     "a vertex may move by this share of its distance to the nearest neighbour before the next detection, γ_p of Eq. "
+     "21",
      0x1p-10, 0.5 - 0x1p-10, &Settings::bounds_relaxation},
-    {"contact_margin", "r", "how much farther than the contact radius contacts are listed, before they act", 0, 1,
+    {"contact_margin", "r", "contacts are listed so much beyond the contact radius, before they act", 0, 1,
      &Settings::contact_margin},
     {"detection_fraction", "1",
-     "share of vertices stopped at their bounds from which contacts are detected again within a step, γ_e", 0, 1,
+     "a step detects contacts again once bounds have stopped this share of the vertices, γ_e", 0, 1,
      &Settings::detection_fraction},
-    {"detection_every", "1", "iterations after which contacts are detected again at the latest; 0: never by count", 0,
+    {"detection_every", "1",
+     "a step detects contacts again after so many iterations at the latest; 0: their number asks for nothing", 0,
      most_count, &Settings::detection_every},
     {"guess_rounds", "1",
-     "rounds of detecting and moving at most that bring vertices to where inertia takes them; 1: as printed in Eq. 28",
+     "a step moves vertices to where inertia takes them in at most so many rounds, each with a detection; 1 is Eq. 28 "
+     "as printed",
      1, 1 << 20, &Settings::guess_rounds},
-    {"friction_velocity", "m/s", "speed of sliding from which friction acts in full, ε_v", 0x1p-30, 0x1p10,
+    {"friction_velocity", "m/s", "friction acts in full from this speed of sliding on, ε_v", 0x1p-30, 0x1p10,
      &Settings::friction_velocity},
-    {"frame_steps", "1", "steps from one stored frame to the next; 0: 60 frames a simulated second", 0, most_count,
-     &Settings::frame_steps},
-    {"lanes", "1", "partial sums that forces on a vertex are added up in, W (vbd); bits depend on it; 0: by mesh size",
+    {"frame_steps", "1", "a run stores a frame (a state) every so many steps; 0: 60 frames a simulated second", 0,
+     most_count, &Settings::frame_steps},
+    {"lanes", "1",
+     "vbd: forces on a vertex are added up in so many partial sums, W, on which bits depend; 0: the size of the mesh "
+     "decides",
      0, 16, &Settings::lanes},
     {"contact_activation", "1",
-     "how the repulsion grows as surfaces approach: the paper's, as printed there, or another to compare with", 0,
-     last<ContactActivation>, &Settings::contact_activation, choice_names<ContactActivation>},
-    {"damping", "1", "what damping resists: the change of strains, or the motion of each vertex alone (vbd)", 0,
+     "repulsion grows by this law as surfaces approach: the paper's (ogc), the same with Eq. 19 as it is printed, or "
+     "another one to compare with",
+     0, last<ContactActivation>, &Settings::contact_activation, choice_names<ContactActivation>},
+    {"damping", "1",
+     "damping resists the change of strains (strain), or the motion of each vertex (per_vertex; vbd, reference_vbd)", 0,
      last<DampingForm>, &Settings::damping, choice_names<DampingForm>},
-    {"seed", "1", "which of its random starts a scene takes; recorded with the run", 0, most_seed, &Settings::seed},
+    {"seed", "1", "a scene draws its start by this seed, which run.json records", 0, most_seed, &Settings::seed},
     {"rod_orientation", "1",
-     "how a sweep sets the orientation of a rod's segment: to the least energy, or as Stable Cosserat Rods has it "
-     "(vbd)",
+     "vbd, reference_vbd: a sweep sets the orientation of a rod's segment to the least energy (exact), or as Stable "
+     "Cosserat Rods does (as_published)",
      0, last<RodOrientation>, &Settings::rod_orientation, choice_names<RodOrientation>},
     {"rod_start", "1",
-     "orientations of rods' segments that a step begins with: turned with the segments, or kept (vbd)", 0,
-     last<RodStart>, &Settings::rod_start, choice_names<RodStart>},
+     "a step begins with orientations of rods' segments that have turned with the segments (turned), or that the step "
+     "before left (kept)",
+     0, last<RodStart>, &Settings::rod_start, choice_names<RodStart>},
 });
 
 /// Names that settings had before, each with the one that replaces it.

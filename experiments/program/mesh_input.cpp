@@ -59,17 +59,17 @@ void expect_solid(const MeshInput& input) {
 
 void add_mesh_options(CLI::App& command, compare::MeshOptions& options) {
   command.add_flag("--triangulate,!--no-triangulate", options.triangulate,
-                   "Mesh files: cut faces of four corners and more into triangles, with a word "
-                   "(the default; --no-triangulate refuses them)");
-  command.add_flag(
-      "--drop-unused,!--no-drop-unused", options.drop_unused,
-      "Mesh files: leave out vertices that no face uses, with a word (the default; --no-drop-unused refuses them)");
+                   "Mesh files: faces of four corners and more are cut into triangles, and a note says so (the "
+                   "default); --no-triangulate refuses them");
+  command.add_flag("--drop-unused,!--no-drop-unused", options.drop_unused,
+                   "Mesh files: vertices that no face uses are left out, and a note says so (the default); "
+                   "--no-drop-unused refuses them");
   command.add_flag("--strict", options.strict,
-                   "Mesh files: refuse faces that name a vertex twice, have no area or are there twice, and inverted "
-                   "tetrahedra (default: leave them out, or turn them, with a word)");
-  command.add_flag(
-      "--weld", options.weld,
-      "Mesh files: merge vertices with exactly equal coordinates (STL and glTF have no shared vertices: always)");
+                   "Mesh files: faces that name a vertex twice, have no area or are there twice are refused, and so "
+                   "are inverted tetrahedra (default: faces are left out, tetrahedra turned, and a note says so)");
+  command.add_flag("--weld", options.weld,
+                   "Mesh files: vertices with exactly equal coordinates are merged (always in STL and glTF, which "
+                   "share no vertices)");
 }
 
 std::vector<std::string> words_about(const compare::LoadedMesh& loaded, const std::string& dust_treatment) {

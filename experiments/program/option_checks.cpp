@@ -52,7 +52,9 @@ CLI::Validator real_number(double least, double most, const std::string& unit, b
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads of the CPU (default: all); changes no bit of the result")
+  command
+      .add_option("--threads", threads,
+                  "The CPU works with so many threads (default: all), which changes no bit of the result")
       ->check(whole_number(1, most_threads));
 }
 

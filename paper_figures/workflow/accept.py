@@ -111,11 +111,10 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
     found = [(f"{recipe.name}_{scale}{path.suffix}", bytes_of(path)) for path in outputs if path not in missing]
     found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv"))
               if not path.stem.endswith(f"_{scale}")]
-    if "vary" not in recipe.body:  # a sweep's table is its data
-        paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
-        for path in paths:  # one run lies beside its picture, several in a folder
-            apart = f"/{run_name(path, folder)}" if len(paths) > 1 else ""
-            found += run_files(path, f"{recipe.name}_{scale}{apart}")
+    paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
+    for path in paths:  # one run lies beside its picture, several in a folder
+        apart = f"/{run_name(path, folder)}" if len(paths) > 1 else ""
+        found += run_files(path, f"{recipe.name}_{scale}{apart}")
     return found
 
 

@@ -7,7 +7,7 @@ those of `ogc run`; `backend` is that of VBD in single precision, everything els
 
 from dataclasses import dataclass
 
-from paper_figures.workflow import layers, release, slide
+from paper_figures.workflow import layers, release
 from paper_figures.workflow.audited import Audit
 from paper_figures.workflow.first_meeting import FirstMeeting
 from paper_figures.workflow.jobs import Job, Share, Step
@@ -288,22 +288,6 @@ def mat_whole(scale, backend):
         yield from whole_runs(row, scale, backend, folder=bounds)
 
 
-MAT_VOLUMES = f"{MAT}{WITH_VOLUMES}"
-# Steps between stored, audited states if the mat is a volume: the oracle takes long to find which vertices are inside
-# their own body.
-MAT_VOLUMES_FRAME_STEPS = {"smoke": 4, "small": 10, "paper": 40}
-# At paper until 5.5 s: from 3 s on hundreds of vertices are inside, and the volume takes a second of each step.
-MAT_VOLUMES_STEPS = {"paper": 1320}
-
-
-def mat_as_volume(scale, backend):
-    """Returns the mat as a volume, and with both kinds of bounds."""
-    steps = ("--steps", MAT_VOLUMES_STEPS[scale]) if scale in MAT_VOLUMES_STEPS else ()
-    for row in (MAT_VOLUMES, MAT, MAT_PLANES):
-        yield Job(f"{row}/begin", (MAT, "--scale", scale, "--backend", backend, "--audit", "frame", *of_row(row, ""),
-                                   *steps, "--set", f"frame_steps={MAT_VOLUMES_FRAME_STEPS[scale]}"))
-
-
 def mat_without_friction(scale, backend):
     """Returns the runs without friction; a state every 1/15 s is audited."""
     for bounds, (_, options) in MAT_BOUNDS.items():
@@ -394,31 +378,6 @@ def minimiser(scale, backend):
         by_vbd_alone = ("--backend", backend, "--residual", "--set", "iterations=3000")
         for solver, options in (("vbd", by_vbd_alone), ("newton", (*NEWTON, "--set", "newton_iterations=200"))):
             yield Job(f"{scene}_{solver}", (*last, *options), (scene, Step(step)), 1)
-
-
-# What the parts of a step do to energy and momentum, by balls and by planes: so many steps after a step of a plain run
-# where truncation takes most, because a ledger of a step costs many steps; and the number of vertices along a side of
-# the sliding sheet.
-LEDGER_STEPS = {"smoke": {"twist": (600, 120), "fifty_layers": (80, 30), "slide": (0, 100)},
-                "small": {"twist": (1700, 120), "fifty_layers": (240, 30), "slide": (0, 150)},
-                "paper": {"twist": (4500, 60), "fifty_layers": (960, 10), "slide": (0, 150)}}
-LEDGER_SIDES = {"smoke": 8, "small": 20, "paper": 70}
-
-
-def ledgers(scale, backend):
-    """Returns a run for each scene and kind of bounds, audited at its end; where necessary it starts from a plain run's
-    last state."""
-    for scene, (first, steps) in LEDGER_STEPS[scale].items():
-        sheet = slide.Slide(LEDGER_SIDES[scale], steps) if scene == "slide" else None
-        words = () if sheet else (scene, "--scale", scale)
-        for bounds in ("ball", "planes"):
-            name, shared_words = f"{scene}_{bounds}", (*words, "--backend", backend, "--set", f"bounds={bounds}")
-            start = f"{name}_start"
-            if first > 0:
-                last = ("--steps", first, "--set", f"frame_steps={first}", "--audit", "end")
-                yield Job(start, (*shared_words, *last))
-            state = {"state": (start, Step(first)), "more_steps": steps} if first > 0 else {}
-            yield Job(name, (*shared_words, "--ledger", "--audit", "end"), scene=sheet, **state)
 
 
 # Fig. 15 and 16. The baseline is the same sweep without bounds and with a force that stays finite at every distance:

@@ -15,7 +15,6 @@ from the progress in the log of the running program.
 
 import argparse
 import contextlib
-import json
 import os
 import re
 import shutil
@@ -38,16 +37,14 @@ SCENE = re.compile(r"\((\d+) of (\d+)\): ogc ", re.M)  # of a study, before its 
 RUNS_SAID = 2**16  # bytes at the end of a log in which its last run and scene are looked for
 
 
-def verb(step, recipe, points):
-    """Describes what a step of a recipe does; `points`: the number of points of a sweep."""
+def verb(step, recipe):
+    """Describes what a step of a recipe does."""
     body, part = recipe.body, step.name.removeprefix(recipe.name).strip("_")
     if "illustration" in body:
         return "computing it exactly" if part else "drawing"
     if "rows" in body and part:
         return f"the runs of {part}"
-    if "vary" in body and part:
-        return f"point {int(part)} of {points}"
-    if {"run", "of", "rows", "vary"} & set(body):
+    if {"run", "of", "rows"} & set(body):
         return {"run": f"simulating {recipe.scene}", "movie": "making the movie"}.get(part, "drawing")
     return f"simulating{f' {recipe.scene}' if recipe.scene else ''}, then drawing"
 
@@ -94,7 +91,7 @@ class Known:
             for step in steps:
                 before = job.record(Path(runs) / step.log)
                 self.figure[step.name] = f"{recipe.name} ({recipe.title})"
-                self.words[step.name] = verb(step, recipe, len(steps) - 1)
+                self.words[step.name] = verb(step, recipe)
                 self.logs[step.name] = Path(runs) / step.log
                 self.seconds[step.name] = before.get("seconds", whole[0] / len(steps) if whole else None)
 

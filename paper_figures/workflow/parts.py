@@ -1,4 +1,4 @@
-"""Names the parts that the runner can make: the runs of a figure, a row of Table 1 or a measurement, as chains of jobs.
+"""Names the parts that the runner can make: the runs of a figure or a row of Table 1, as chains of jobs.
 
 A chain's jobs are made one after the other; chains of one part may run at the same time. Folders below that of the runs
 are those of the workflow (FIGURE-SCALE-BACKEND).
@@ -8,7 +8,6 @@ import os
 from dataclasses import dataclass
 
 from paper_figures.workflow import commands
-from paper_figures.workflow.judge_counts import STAGES, Counts
 
 # Rows of Table 1, the most wanted first: the figure drawn from the row, and the frames that are packed of it.
 OF_SCENES = {"twist": ("", 2), "fifty_layers_1m": ("", 0), "cloth_on_sphere": ("fig18", 21),
@@ -41,7 +40,7 @@ class Part:
 @dataclass(frozen=True)
 class Wanted:
     """Holds the choices for all parts; `window`, `runs`, `steps`, `audit` and `data` concern Table 1, `window_seconds`
-    Fig. 19, `share`, `seed` and `stages` (none: all) the judge's counts."""
+    Fig. 19."""
 
     scale: str = "paper"
     backend: str = "cuda"
@@ -51,9 +50,6 @@ class Wanted:
     audit: str = "afterwards"
     data: str = ""
     window_seconds: float = 0
-    share: float = 1
-    seed: int = 1
-    stages: tuple = ()
 
     @property
     def backends(self):
@@ -69,7 +65,7 @@ def book(wanted):
     figures, rows = of_figures(wanted), of_table(wanted)
     first = {name: figures.pop(name) for name in ("fig02", "fig20", "fig17")}
     return {"twist": rows.pop("twist"), **first, **rows, **of_growth(wanted), **figures, **whole_figures(wanted),
-            **windows(wanted), **measurements(wanted)}
+            **windows(wanted)}
 
 
 def of_figures(wanted):
@@ -100,7 +96,6 @@ def of_figures(wanted):
         **of_mat(wanted),
         "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0, last=1),
         "quality": Part(folder("table1"), (tuple(commands.to_quality(scale, backend)),), "quality", frames=0),
-        "ledger": Part(folder("ledger"), (tuple(commands.ledgers(scale, backend)),), "ledger", frames=0),
         "fig15": Part(folder("fig15"), tuple(commands.yarn_stretched(scale, backend)), "fig15", frames=13, last=1),
         "fig16": Part(folder("fig16"), tuple(commands.yarn_twisted(scale, backend)), "fig16", frames=13, last=1),
         "fig16_rest": Part(folder("fig16_rest"), tuple(commands.yarn_at_rest(scale, backend)), "fig16_rest", frames=0,
@@ -154,12 +149,6 @@ def of_growth(wanted):
     over = {f"growth_{backend}": commands.sizes(wanted.scale, backend) for backend in reversed(wanted.backends)}
     over["threads"] = commands.threads(wanted.scale, os.cpu_count() or 1)
     return {name: Part(wanted.folder("growth"), (tuple(jobs),), "growth", frames=0) for name, jobs in over.items()}
-
-
-def measurements(wanted):
-    """Returns the parts that belong to no figure."""
-    counts = Counts(wanted.backend, wanted.share, wanted.seed, wanted.stages or tuple(STAGES))
-    return {"judge": Part(f"judge-{wanted.backend}", ((counts,),))}
 
 
 def chosen(parts, names=(), figures=()):

@@ -4,17 +4,15 @@ Slurm cluster. Paths are relative to the folder of the runs.
 
 Keys of a YAML file: `illustrations`, with a title for each; or `title` with `scene`, `script` (a module of
 paper_figures.figures) and `run` (options of `ogc run`; without it the script makes its runs itself, with `options`), or
-`scene` with `vary` (one `ogc ablate` a point), or `script` with `of` (figures whose runs it draws); `movie: yes` if the
-script makes one of its run; or `study` (figures/ablations/study.py describes its keys); or `rows` of Table 1;
-`backends` if only one makes sense; `kept` if results hold only the runs whose names match one of these patterns, and of
-the others their rows in the figure's table. A figure that is not implemented has `title`, `scene` and `missing`: what
-the program lacks for it.
+`script` with `of` (figures whose runs it draws); `movie: yes` if the script makes one of its run; or `study`
+(figures/ablations/study.py describes its keys); or `rows` of Table 1; `backends` if only one makes sense; `kept` if
+results hold only the runs whose names match one of these patterns, and of the others their rows in the figure's table.
+A figure that is not implemented has `title`, `scene` and `missing`: what the program lacks for it.
 """
 
 import argparse
 import csv
 import hashlib
-import itertools
 import json
 import sys
 from dataclasses import dataclass
@@ -31,10 +29,10 @@ FIGURES, RESULTS, ROOT = ROOM / "figures", ROOM / "results", ROOM.parent
 SCALES = ("smoke", "small", "paper")
 PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
-RUNS = ("commands.py", "layers.py", "release.py", "slide.py")  # modules that define the runs of figures with several
+RUNS = ("commands.py", "layers.py", "release.py")  # modules that define the runs of figures with several
 # Files that determine a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
-KEYS = {"title", "illustrations", "scene", "script", "run", "options", "vary", "of", "movie", "rows", "backends",
+KEYS = {"title", "illustrations", "scene", "script", "run", "options", "of", "movie", "rows", "backends",
         "missing", "kept", "study"}
 STUDIES = "ablations"  # the studies' folder, and the name for all of them
 
@@ -113,9 +111,9 @@ def load(folder=FIGURES):
 
 
 def choose(names, recipes, backend):
-    """Returns recipes by figure, scene, `illustrations`, `ablations` or `all` (without sweeps and studies). Throws
-    RecipeError for a name that is none of these, is not implemented, or has no such backend."""
-    chosen, apart = [], {"vary", "missing", "study"}
+    """Returns recipes by figure, scene, `illustrations`, `ablations` or `all` (without studies). Throws RecipeError for
+    a name that is none of these, is not implemented, or has no such backend."""
+    chosen, apart = [], {"missing", "study"}
     for name in names or [REPRESENTATIVE]:
         found = [r for r in recipes.values() if r.name == name] or [r for r in recipes.values() if r.scene == name][:1]
         if name == "all":
@@ -156,8 +154,6 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
         return [Step(f"{recipe.name}_data", data, (PROGRAM,), (ogc, "illustrate", recipe.name, "--out", here)),
                 Step(recipe.name, picture, (data, str(FIGURES / "illustrations.py"), *plots),
                      (*drawing, here, recipe.name))]
-    if "vary" in recipe.body:
-        return _sweep(recipe, scale, backend, ogc, python, plots)
     if "rows" in recipe.body:
         return _table(recipe, scale, backend, ogc, python)
     if "run" in recipe.body:
@@ -181,22 +177,6 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
     return [Step(recipe.name, picture, (PROGRAM, *made_by, *plots), drawing, gpu, all_cores=True),
             *([Step(f"{recipe.name}_movie", movie, (picture, *script, *plots), (*drawing, "--movie", movie))]
               if movie else [])]
-
-
-def _sweep(recipe, scale, backend, ogc, python, plots):
-    here, vary = recipe.folder(scale, backend), recipe.body["vary"]
-    points = []
-    for values in itertools.product(*vary.values()):
-        name = ",".join(f"{key}={value}" for key, value in zip(vary, values))
-        options = [word for key, value in zip(vary, values) for word in ("--vary", f"{key}={value}")]
-        command = (ogc, "ablate", recipe.scene, "--scale", scale, "--backend", backend, "--audit", "end", *options,
-                   "--out", f"{here}/{name}")
-        points.append(Step(f"{recipe.name}_{len(points) + 1:02d}", f"{here}/{name}/{name}/run.json", (PROGRAM,),
-                           command, int(backend == "cuda")))
-    gather = Step(recipe.name, recipe.picture(scale, backend),
-                  (*(point.output for point in points), str(FIGURES / "sweep.py"), *plots),
-                  (python, "-m", "paper_figures.figures.sweep", here, recipe.picture(scale, backend)))
-    return [*points, gather]
 
 
 def _table(recipe, scale, backend, ogc, python):

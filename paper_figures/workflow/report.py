@@ -1,5 +1,5 @@
-"""The report: index.html with every figure, table and claim, a page a scene with its curves, and one of the ablations;
-each file contains its pictures and style and needs no network.
+"""The report: index.html with every figure, table and claim, and a page a scene with its curves; each file contains its
+pictures and style and needs no network.
 
 It is generated from claims, accepted results and recipes, and never edited: its verdicts are those of verdicts.py,
 which a test checks. New runs are shown beside the accepted ones: their numbers, judged if they have the size that the
@@ -17,7 +17,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from paper_figures.workflow import ablation_page, recipes, verdicts
+from paper_figures.workflow import recipes, verdicts
 from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError
 
 DEVIATIONS = recipes.ROOT / "compare/deviations.md"
@@ -283,9 +283,8 @@ def write(out, evidence=None, fresh=None):
     judgements = verdicts.judge_all(evidence)
     figures = [f for f in PAPER_ORDER if any(numbered(n) == f for n in book)
                or any(j.claim["figures"][0] == f for j in judgements)]
-    figures += [name for name, recipe in book.items() if {"vary", "study"} & set(recipe.body)]
-    contents = " · ".join([*(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"]),
-                           f'<a href="{ablation_page.NAME}">ablations</a>'])
+    figures += [name for name, recipe in book.items() if "study" in recipe.body]
+    contents = " · ".join(f'<a href="#{name}">{name}</a>' for name in [*figures, "table1", "deviations"])
     sections = [figure_section(figure, book, judgements, evidence, fresh) for figure in figures]
     beside = (f'<p id="fresh">Beside the accepted results stand {len(fresh.evidence.runs)} finished runs of '
               f"{escape(fresh.folder)}, asked for at scale {escape(fresh.scale)} on {escape(fresh.backend)}.</p>"
@@ -301,8 +300,7 @@ def write(out, evidence=None, fresh=None):
     out.parent.mkdir(parents=True, exist_ok=True)
     scenes = sorted({j.claim["scene"] for j in judgements} | {recipe.scene for recipe in book.values()} - {""})
     pages = {out.with_name(f"{scene}.html"): scene_page(scene, judgements, evidence, fresh) for scene in scenes}
-    written = {out: page("OGC Testbed: report", body), **pages,
-               out.with_name(ablation_page.NAME): page("Two settings over each other", ablation_page.body())}
+    written = {out: page("OGC Testbed: report", body), **pages}
     for path, text in written.items():
         path.write_text(text)
     return list(written)

@@ -1,4 +1,4 @@
-"""Makes the runs of figures, of Table 1 and of measurements, with a limit of time: what is finished is kept, what was
+"""Makes the runs of figures and of Table 1, with a limit of time: what is finished is kept, what was
 cut off goes on from its checkpoint at the next call. Needs Python's own library and a program `ogc`
 (experiments/bundle).
 
@@ -24,7 +24,6 @@ from paper_figures.workflow import packing, parts
 from paper_figures.workflow.device_memory import DeviceMemory
 from paper_figures.workflow.jobs import (CALL_AGAIN, FAILED, FINISHED, KEPT, MEMORY, STOPPED, Limit, RunFailure,
                                          manifest_of)
-from paper_figures.workflow.judge_counts import STAGES
 
 
 class Runner:
@@ -117,11 +116,6 @@ def arguments():
     add = parser.add_argument_group("Fig. 19").add_argument
     add("--window-seconds", type=float, default=0, metavar="N",
         help="of IPC's windows, and of Newton's steps at most (default: 120; 5 at scale smoke)")
-    counts = parser.add_argument_group("the judge's counts (part judge)")
-    add = counts.add_argument
-    add("--share", type=float, default=1, help="of the cases wanted (default: 1)")
-    add("--seed", type=int, default=1, help="default: 1")
-    add("--stages", nargs="+", default=(), choices=tuple(STAGES), metavar="STAGE", help="default: all")
     return parser
 
 
@@ -159,8 +153,8 @@ def main():
     options = parser.parse_intermixed_args()
     if options.unpack:
         sys.exit(unpacked(options))
-    keys = ("scale", "backend", "window", "runs", "steps", "audit", "data", "window_seconds", "share", "seed")
-    wanted = parts.Wanted(**{key: getattr(options, key) for key in keys}, stages=tuple(options.stages))
+    keys = ("scale", "backend", "window", "runs", "steps", "audit", "data", "window_seconds")
+    wanted = parts.Wanted(**{key: getattr(options, key) for key in keys})
     try:
         chosen = parts.chosen(parts.book(wanted), options.parts, options.figures)
     except KeyError as word:

@@ -16,27 +16,30 @@ constexpr std::array<std::string_view, 2> stopping_names{"displacement", "veloci
 constexpr std::array<std::string_view, 2> ccd_names{"partial", "full"};
 
 constexpr std::array<compare::SettingInfo, 10> rows{{
-    {"ipc_distance", "m", "IPC: distance at which the barrier begins to act; 0: by ipc_relative_distance", 0,
+    {"ipc_distance", "m", "ipc: the barrier begins to act at this distance; 0: ipc_relative_distance says where", 0,
      most_length, Declared{real, 0}},
-    {"ipc_relative_distance", "1", "IPC: the same distance as a share of the diagonal of the scene's box at rest",
+    {"ipc_relative_distance", "1", "ipc: the same distance is this share of the diagonal of the scene's box at rest",
      least_length, 1, Declared{real, 1e-3}},
-    {"ipc_thickness", "m", "IPC: the distance that surfaces keep at least", 0, most_length, Declared{real, 0}},
-    {"ipc_stiffness", "J/m⁴", "IPC: stiffness of the barrier, held fixed; 0: it adapts", 0, 0x1p120, Declared{real, 0}},
+    {"ipc_thickness", "m", "ipc: surfaces keep at least this distance", 0, most_length, Declared{real, 0}},
+    {"ipc_stiffness", "J/m⁴", "ipc: the barrier has this fixed stiffness; 0: the stiffness adapts", 0, 0x1p120,
+     Declared{real, 0}},
     {"ipc_adaptation", "1",
-     "IPC: whether the stiffness adapts to distances, or to the gaps that a thickness leaves of them", 0, 1,
+     "ipc: the stiffness adapts to distances (distance), or to distances less ipc_thickness (gap)", 0, 1,
      Declared{choice, static_cast<double>(IpcAdaptation::distance)}, adaptation_names},
     {"ipc_stopping", "1",
-     "IPC: whether the last iteration's displacement ends a step, or the mean velocity of the last three", 0, 1,
-     Declared{choice, static_cast<double>(IpcStopping::displacement)}, stopping_names},
-    {"ipc_ccd", "1", "IPC: whether the pairs near each other alone limit a move, or all pairs", 0, 1,
+     "ipc: a step ends by the displacement of the last iteration (displacement), or by the mean velocity of the last "
+     "three (velocity)",
+     0, 1, Declared{choice, static_cast<double>(IpcStopping::displacement)}, stopping_names},
+    {"ipc_ccd", "1", "ipc: pairs that are near each other limit a move (partial), or all pairs do (full)", 0, 1,
      Declared{choice, static_cast<double>(IpcCcd::partial)}, ccd_names},
     {"ipc_tolerance", "1/s",
-     "IPC, displacement: motion at which a step ends, in diagonals of the smallest free body's box a second; 0: all "
-     "iterations are done",
+     "ipc, with ipc_stopping=displacement: a step ends at this motion, in diagonals of the smallest free body's box a "
+     "second; 0: a step does all iterations",
      0, 0x1p10, Declared{real, 1e-2}},
-    {"ipc_velocity_tolerance", "m/s", "IPC, velocity: mean velocity at which a step ends; 0: all iterations are done",
-     0, 0x1p10, Declared{real, 1e-3}},
-    {"ipc_iterations", "1", "IPC: iterations in a step at most", 1, most_count, Declared{whole, 10000}},
+    {"ipc_velocity_tolerance", "m/s",
+     "ipc, with ipc_stopping=velocity: a step ends at this mean velocity; 0: a step does all iterations", 0, 0x1p10,
+     Declared{real, 1e-3}},
+    {"ipc_iterations", "1", "ipc: a step has at most so many iterations", 1, most_count, Declared{whole, 10000}},
 }};
 
 const compare::SettingsDeclaration declaration("ipc", rows);

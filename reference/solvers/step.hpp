@@ -1,5 +1,4 @@
-// Stage step: Algorithm 3 (method.md §5.2): computes what follows from an answer's own positions and counts, and takes
-// a step of the reference's own.
+// Stage step: Algorithm 3 (method.md §5.2): computes what follows from an answer's own positions and counts.
 #pragma once
 
 #include <functional>
@@ -26,10 +25,5 @@ Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compar
 /// Computes r_q, prescribed targets, the order of events, moves of the guess loop, velocities. The answer's target,
 /// position and velocity must have one entry a vertex; its events may be any.
 compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answer);
-
-/// Takes a step with the reference's own stages: exact sets, bounds and targets, updates in double; positions are
-/// stored in single precision where the contract stores them, within their bounds. Vertices are coloured in the order
-/// of their numbers.
-compare::StepOut reference_step(const compare::StepIn& in);
 
 }  // namespace ogc::reference

@@ -299,16 +299,9 @@ void ask_from_surfaces_alone(const StepIn& in, StepOut& out) {
                   [&](const VolumeContact& c) { return is_volume[static_cast<std::size_t>(c.point)]; });
 }
 
-/// Returns a fault in which volumes are surfaces to contact and bounds.
-Fault bounded_volumes() {
-  return shown_by("volume",
-                  {"step: a volume that truncates", Stage::step, [](Contestant& contestant, const Authority&) {
-                     contestant.step = [right = contestant.step](const StepIn& in) {
-                       Topology topology = *in.topology;
-                       topology.off_surface.clear();
-                       return right({in.scene, &topology});
-                     };
-                   }});
+/// Makes volumes surfaces to contact and bounds.
+void bound_volumes(Scene& scene) {
+  for (Body& body : scene.bodies) body.contact = BodyContact::surface;
 }
 
 void velocity_from_last_detection(const StepIn& in, StepOut& out) {
@@ -373,7 +366,7 @@ std::vector<Fault> step_faults() {
       about_volumes("a vertex left inside asks nothing", ask_nothing_inside),
       about_free_volumes("free volumes where the step began", ask_volumes_of_before),
       about_free_volumes("vertices of free volumes do not ask", ask_from_surfaces_alone),
-      bounded_volumes(),
+      shown_by("volume", asked_wrongly("a volume that truncates", bound_volumes)),
   };
   return faults;
 }

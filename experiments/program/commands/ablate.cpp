@@ -455,30 +455,34 @@ void add_ablate_command(CLI::App& app, CommandContext& context) {
       "ablate", "Run a scene over a grid of settings, if asked from several jittered starts, and compare");
   add_run_options(*command, options->run);
   command
-      ->add_option("--vary", options->vary,
-                   "key=a,b,c: a setting, or solver, or backend; repeatable, all combinations are run")
+      ->add_option(
+          "--vary", options->vary,
+          "key=a,b,c: a setting, solver or backend takes these values; repeatable, and all combinations are run")
       ->take_all()
       ->type_size(1)
       ->expected(1);
   command
       ->add_option("--point", options->points,
-                   "key=a,other=b: one point of settings that change together, or default for the scene's own; "
-                   "repeatable, and each is combined with all of --vary")
+                   "key=a,other=b: settings change together at this point; `default` is the scene's own; repeatable, "
+                   "and each point is combined with all of --vary")
       ->take_all()
       ->type_size(1)
       ->expected(1);
   command
       ->add_option("--repeat", options->repeat,
-                   "Runs of each point, from starts that --jitter moves by seeds SEED, SEED + 1, …")
+                   "Each point is run so often, from starts that --jitter moves by seeds SEED, SEED + 1, …")
       ->check(whole_number(1, most_repeats))
       ->capture_default_str();
   command->add_flag("--slurm", options->slurm,
-                    "Run nothing, and write OUT/slurm_array.sh, an array job with a task a run");
-  command->add_option("--only", options->only, "Make the run of this number alone, from 0, and no table: a task's run")
+                    "Nothing is run; OUT/slurm_array.sh gets an array job with a task a run");
+  command
+      ->add_option("--only", options->only,
+                   "Only the run of this number is made, from 0 on, and no table: a task of the array job does so")
       ->check(whole_number(0, most_counted));
   command
-      ->add_option("--jobs", options->jobs,
-                   "Runs at a time, each a process of its own; times of a run then tell settings apart and no more")
+      ->add_option(
+          "--jobs", options->jobs,
+          "So many runs go on at a time, each in a process of its own; their times compare settings and say no more")
       ->check(whole_number(1, most_jobs))
       ->capture_default_str();
   command->add_flag("--json", context.json, "Print runs, medians and findings as JSON on standard output");

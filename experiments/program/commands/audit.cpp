@@ -403,35 +403,33 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand(
       "audit", "Exact self-intersection audit of a mesh, of a run, or of the frames of any other program");
   command
-      ->add_option(
-          "MESH|FRAMES|RUN", options->request.paths,
-          "A mesh (.obj, .ply, .vtp, .vtu, .vtk, .msh, .mesh, .stl, .off, .gltf, .glb), several of them as frames, a "
-          "folder of them, frames in one file (.npz, .npy, .pc2) or several .npy, or a run folder")
+      ->add_option("MESH|FRAMES|RUN", options->request.paths,
+                   "A mesh (.obj, .ply, .vtp, .vtu, .vtk, .msh, .mesh, .stl, .off, .gltf, .glb); frames as several "
+                   "meshes, as a folder of meshes, as several .npy, or in one file (.npz, .npy, .pc2); or a run folder")
       ->required();
   command->add_option(
       "--mesh", options->request.topology,
-      "A mesh, or an array (.npy, .npz), with the triangles of frames in .npy or .pc2 files, or in a .npz "
-      "without any");
+      "This mesh or array (.npy, .npz) has the triangles of frames that come without: in .npy, .pc2, or .npz");
   command->add_option("--show", options->show,
-                      "Write what intersects as .vtp files to this folder, for the first 8 such states; python3 -m "
-                      "plots.offenders FILE "
-                      "draws one");
+                      "The first 8 states with an intersection get a .vtp of what intersects in this folder; python3 "
+                      "-m plots.offenders FILE draws one");
   command
       ->add_option("--deepest", options->deepest,
-                   "A state with a vertex deeper than so much inside a volume fails (default: none does)")
+                   "A state fails where a vertex lies deeper inside a volume than this (default: no state does)")
       ->check(real_number(0, compare::most_length, "m"));
-  command->add_flag("--between", options->between,
-                    "Ask the straight ways between states, too: which faces meet while every vertex moves straight");
+  command->add_flag(
+      "--between", options->between,
+      "The audit also asks which faces meet while every vertex moves straight from one state to the next");
   add_mesh_options(*command, options->request.meshes);
   command
       ->add_option("--limit", options->request.limit,
-                   "Intersections of a state to list at most; all of them are counted")
+                   "The audit lists at most so many intersections of a state; it counts all of them")
       ->check(whole_number(0, most_counted))
       ->capture_default_str();
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(
-      "Two triangles, or edges, intersect where they meet beyond the corner or side that they share; touching counts, "
-      "and a triangle that is folded flat onto its neighbour counts, too.\n"
+      "Two triangles, or two edges, intersect where they meet beyond the corner or side that they share. Touching "
+      "counts, and so does a triangle that is folded flat onto its neighbour.\n"
       "No rounding decides. In a run, pairs inside one fixed or prescribed body, and the scene's excluded "
       "pairs, are left out. Of volumes, which may be entered, it says how many vertices are inside (by winding "
       "number), "

@@ -165,37 +165,42 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<CommandOptions>();
   CLI::App* command = app.add_subcommand(
       "bench", "Time stages, steps of scenes and their parts; compare two results by a rank test");
-  command->add_option("--filter", options->filter, "Regular expression: only benchmarks whose name it fits")
+  command
+      ->add_option("--filter", options->filter,
+                   "Only benchmarks whose name matches this regular expression are measured")
       ->capture_default_str();
-  command->add_option("--backend", options->backend, "cpu, cuda, or all that can run here")
+  command->add_option("--backend", options->backend, "Stages and vbd run on this backend, or on all that are here")
       ->check(CLI::IsMember({"cpu", "cuda", "all"}))
       ->capture_default_str();
-  command->add_option("--scale", options->bench.scale, "smoke, small, paper")->capture_default_str();
+  command->add_option("--scale", options->bench.scale, "Scenes have this size: smoke, small or paper")
+      ->capture_default_str();
   command
       ->add_option("--from-state", options->bench.states,
-                   "Steps from a frame of a run (RUN/frames/…) instead of the scenes' starts; repeatable")
+                   "Steps begin at this frame of a run (RUN/frames/…) in place of the scenes' starts; repeatable")
       ->take_all()
       ->type_size(1)
       ->expected(1);
-  command->add_option("--steps", options->bench.steps, "Steps of a window, one window a repetition")
+  command->add_option("--steps", options->bench.steps, "A repetition measures a window of so many steps")
       ->check(whole_number(1, most_counted))
       ->capture_default_str();
-  command->add_option("--repetitions", options->bench.repetitions, "Of each benchmark in a process")
+  command->add_option("--repetitions", options->bench.repetitions, "A process repeats each benchmark so often")
       ->check(whole_number(1, most_repetitions))
       ->capture_default_str();
   command
       ->add_option("--processes", options->processes,
-                   "With --json: measure in so many processes, one after the other; each is one sample of a comparison")
+                   "With --json: so many processes measure, one after the other; each is one sample of a comparison")
       ->check(whole_number(1, most_repetitions))
       ->capture_default_str();
   add_threads_option(*command, options->threads);
   command->add_flag("--list", options->list, "Print the names and stop");
+  command->add_option("--json", options->json,
+                      "This file gets the result in the format of Google Benchmark, with every repetition, counters, "
+                      "machine and commit");
   command->add_option(
-      "--json", options->json,
-      "Write the result to this file, as Google Benchmark does: every repetition, counters, machine, commit");
-  command->add_option("--against", options->against,
-                      "Say what changed since this earlier file. Exit status 1: something is slower beyond noise");
-  command->add_option("--results", options->results, "With --against: compare this finished file and measure nothing");
+      "--against", options->against,
+      "The result is compared with this earlier file; exit status 1 says that something is slower beyond noise");
+  command->add_option("--results", options->results,
+                      "With --against: this finished file is compared, and nothing is measured");
   command->add_flag("--json-changes", context.json, "Print the comparison as JSON on standard output");
   command->footer(
       "Examples:\n"

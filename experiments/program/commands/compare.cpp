@@ -248,42 +248,47 @@ std::string all_stage_names() {
 void add_compare_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand("compare", "Differential test of the fast stages against the exact reference");
-  command->add_option("STAGE", options->stages, all_stage_names() + "; none: all that both sides have");
-  command->add_option("--backend", options->backend, "cpu or cuda")->capture_default_str();
+  command->add_option("STAGE", options->stages,
+                      all_stage_names() + "; without a name, all stages that both sides have");
+  command->add_option("--backend", options->backend, "The judged kernels run on cpu or cuda")->capture_default_str();
   command
-      ->add_option("--cases", options->cases,
-                   "Cases a stage; for meshes a case is a vertex or an edge, for steps a vertex at an event")
+      ->add_option(
+          "--cases", options->cases,
+          "A stage gets so many cases; of a mesh each vertex or edge is a case, of a step each vertex at an event")
       ->capture_default_str()
       ->check(whole_number(1, most_cases));
-  command->add_option("--seed", options->seed, "Of the generators")
+  command->add_option("--seed", options->seed, "Generators draw their cases by this seed")
       ->capture_default_str()
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   command->add_option("--generator", options->generator,
-                      "Only this one: uniform, ladder.parallel, … (a wrong name lists them)");
-  command->add_option("--states", options->states, "A run folder, whose frames become cases too");
-  auto* problem = command->add_option(
-      "--problem", options->problem,
-      "One case by its problem string, as printed in messages; told whole: inputs by name and unit, both answers");
-  auto* batch = command->add_option("--batch", options->batch, "A file with one problem string a line");
-  auto* replay = command->add_option("--replay", options->replay, "A failing case as saved: shrunk, with every bit");
+                      "Only this generator makes cases: uniform, ladder.parallel, … (a wrong name lists them)");
+  command->add_option("--states", options->states, "Frames of this run folder become cases, too");
+  auto* problem = command->add_option("--problem", options->problem,
+                                      "This one case is asked and told whole, with its inputs by name and unit and "
+                                      "both answers; messages print its problem string");
+  auto* batch = command->add_option("--batch", options->batch,
+                                    "This file has one problem string a line, each of which is asked");
+  auto* replay = command->add_option("--replay", options->replay,
+                                     "This saved case is asked again, shrunk as it was saved and with every bit");
   problem->excludes(replay);
   batch->excludes(replay);
-  command->add_option(
-      "--plugin", options->plugin,
-      "A shared library with your own kernels (compare/plugin.h), judged instead of ours and timed beside them");
-  command->add_option("--time-limit", options->time_limit, "Seconds for one call of a plug-in; a tenth once it hung")
+  command->add_option("--plugin", options->plugin,
+                      "This shared library has your kernels (compare/plugin.h), which are judged in place of ours and "
+                      "timed beside them");
+  command
+      ->add_option("--time-limit", options->time_limit,
+                   "A call of a plug-in may take so many seconds, and a tenth of that once a call hung")
       ->capture_default_str()
       ->check(whole_number(1, 3600));
   command->add_option("--report", options->report,
-                      "Folder for report.html, report.jsonl, report.txt and failures/ (without it failures go to "
-                      "ogc-compare/failures)");
+                      "report.html, report.jsonl, report.txt and failures/ go into this folder (without it failures go "
+                      "to ogc-compare/failures)");
   command->add_flag("--determinism", options->determinism,
-                    "Ask the backend alone: the same bits again, shuffled, in small batches, with other numbers of "
-                    "threads? The digests of two machines or builds "
-                    "may be compared");
+                    "The backend alone is asked whether it gives the same bits again, shuffled, in small batches and "
+                    "with other numbers of threads; digests of two machines or builds may be compared");
   auto* list = command->add_flag("--list", options->list,
-                                 "Print all stages with what they are asked, their generators and parameters");
-  command->add_flag("--markdown", options->markdown, "With --list: as the table of compare/README.md")->needs(list);
+                                 "Print all stages with their questions, generators and parameters");
+  command->add_flag("--markdown", options->markdown, "With --list: print the table of compare/README.md")->needs(list);
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(
       "Discrete answers must be equal outside the grey zone, bounds never too large, errors within the tolerances of "

@@ -114,17 +114,18 @@ void add_contacts_command(CLI::App& app, CommandContext& context) {
       ->check(real_number(least_radius, most_radius, "m"));
   command->add_option("--query-radius", options->query_radius, "Query radius r_q ≥ r [m] (default: 4 r)")
       ->check(real_number(least_radius, most_query_radius, "m"));
-  command->add_option("--engine", options->engine, "exact (the reference), cpu or cuda (the fast path)")
+  command->add_option("--engine", options->engine, "The reference computes (exact), or the fast path on cpu or cuda")
       ->check(CLI::IsMember({"exact", "cpu", "cuda"}))
       ->capture_default_str();
   add_threads_option(*command, options->threads);
   command->add_flag("--ipc", options->further.ipc,
-                    "List F_IPC (Eq. 3) too; exact engine, looks at all pairs of vertices and triangles");
-  command->add_flag("--sdf", options->further.sdf, "List F_SDF (Eq. 4) too; likewise");
+                    "With --engine exact: F_IPC (Eq. 3) is listed, too, from all pairs of vertices and triangles");
+  command->add_flag("--sdf", options->further.sdf,
+                    "With --engine exact: F_SDF (Eq. 4) is listed, too, from all pairs of vertices and triangles");
   command->add_flag("!--no-margins", options->margins,
-                    "Leave the margins of contacts out of the JSON, which they make several times as large");
+                    "The JSON leaves out the margins of contacts, which make it several times as large");
   command->add_flag("--squares", options->squares,
-                    "With --json: the exact squares of smallest distances and bounds, as fractions [m²]");
+                    "With --json: smallest distances and bounds come with their exact squares, as fractions [m²]");
   command->add_flag("--schema", options->schema, "Print the JSON Schema of --json");
   command->add_flag("--json", context.json,
                     "Print all contacts, sets by primitive, smallest distances and bounds as JSON on standard output");

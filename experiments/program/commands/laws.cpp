@@ -83,14 +83,18 @@ void run(const Options& options, CommandContext& context) {
 void add_laws_command(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("laws", "Closed answers (falls, slopes, beams …) asked of each solver");
-  command->add_option("LAW", options->laws, "Names of laws (default: all; see --list)");
-  command->add_option("--solver", options->solver, "vbd, newton or ipc (default: each of them)")
+  command->add_option("LAW", options->laws, "Names of laws (default: all laws of --list)");
+  command
+      ->add_option("--solver", options->solver,
+                   "This solver is asked: This solver is asked: vbd, newton or ipc (default: each of them)")
       ->check(CLI::IsMember({"vbd", "newton", "ipc"}));
-  command->add_option("--backend", options->backend, "Of vbd: cpu or cuda (default: cpu)")
+  command->add_option("--backend", options->backend, "vbd runs on cpu or cuda (default: cpu)")
       ->check(CLI::IsMember({"cpu", "cuda"}));
-  command->add_option("--bounds", options->bounds, "ball or planes (default: vbd with both, newton with ball)")
+  command
+      ->add_option("--bounds", options->bounds,
+                   "Vertices have this bound: ball or planes (default: vbd is asked with both, newton with ball)")
       ->check(CLI::IsMember({"ball", "planes"}));
-  command->add_flag("--quick", options->quick, "The least size of each law, as CI asks it");
+  command->add_flag("--quick", options->quick, "Each law is asked at its least size, as CI does");
   command->add_flag("--list", options->list, "List the laws with what they prove and their answers");
   command->add_flag("--schema", options->schema, "Print the JSON Schema of --json");
   command->add_flag("--json", context.json, "Print every reading of every row as JSON on standard output");

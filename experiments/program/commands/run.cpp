@@ -73,7 +73,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   auto resume = std::make_shared<std::string>();
   command->add_option(
       "--resume", *resume,
-      "Go on with a run that was cut off, in its own folder, to the same bits; takes no scene, no settings");
+      "The run in this folder, which was cut off, goes on to the same bits; --resume takes no scene and no settings");
   add_threads_option(*command, options->threads);
   command->add_flag("--json", context.json, "Print the summary as JSON on standard output");
   command->footer(

@@ -145,11 +145,12 @@ void add_scenes_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, show one, or write one as files to edit");
   command->add_option("NAME", options->scene, "A scene; without it all are listed");
   command->add_option("--write", options->folder, "Write NAME.json and its meshes into this folder");
-  command->add_flag("--force", options->force, "With --write: write over files of these names");
-  command->add_option("--scale", options->scale, "smoke, small or paper: which size --write writes")
+  command->add_flag("--force", options->force, "With --write: files of these names are written over");
+  command->add_option("--scale", options->scale, "--write writes this size: smoke, small or paper")
       ->capture_default_str();
   command
-      ->add_option("--set", options->assignments, "data=DIR: write dress of Codimensional IPC's published files in DIR")
+      ->add_option("--set", options->assignments,
+                   "data=DIR: dress is written from Codimensional IPC's published files in DIR")
       ->take_all()
       ->type_size(1)
       ->expected(1);

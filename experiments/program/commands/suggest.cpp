@@ -97,7 +97,7 @@ void add_suggest_command(CLI::App& app, CommandContext& context) {
   add_mesh_options(*command, options->reading);
   command
       ->add_option("--fall", options->fall,
-                   "How far it falls before it meets something [m] (default: a tenth of its size)")
+                   "The mesh falls so far before it meets something [m] (default: a tenth of its size)")
       ->check(real_number(compare::least_length, compare::most_length, "m"));
   command->add_flag("--json", context.json, "Print settings, reasons and the command as JSON on standard output");
   command->footer(

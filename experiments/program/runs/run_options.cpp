@@ -123,76 +123,81 @@ const std::vector<std::string> backend_names{"cpu", "cuda"};
 CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
   const std::string kinds =
       "A built-in scene (" + scene_names() +
-      "), a scene file, or a mesh file: cloth, or with tetrahedra a solid, that falls on a ground";
+      "), a scene file, or a mesh file, which falls on a ground as cloth, or as a solid if it has tetrahedra";
   CLI::Option* scene = command.add_option("SCENE|FILE.json|MESH", options->scene, kinds)->required();
   command
       .add_option("--ground", options->ground,
-                  "With a mesh file: height y of the ground [m] (default: a tenth of the mesh's size below it)")
+                  "Mesh files: the ground has this height y [m] (default: a tenth of the mesh's size below it)")
       ->check(real_number(-compare::most_length, compare::most_length, "m"));
   add_mesh_options(command, options->mesh);
   command
       .add_option("--solver", options->solver,
-                  "How a step is solved; penalty, a baseline, has no bounds and guarantees nothing")
+                  "Steps are solved by this method; penalty is a baseline without bounds, which guarantees nothing")
       ->check(CLI::IsMember(std::vector<std::string>(solver_names().begin(), solver_names().end())))
       ->capture_default_str();
-  command.add_option("--backend", options->backend, "Where it is computed")
+  command
+      .add_option("--backend", options->backend,
+                  "vbd is computed on the CPU or on a CUDA device; other solvers have the CPU alone")
       ->check(CLI::IsMember(backend_names))
       ->capture_default_str();
-  command.add_option("--scale", options->scale,
-                     "smoke (seconds), small (minutes on 2 cores; default), paper (the paper's sizes)");
-  command.add_option("--steps", options->steps, "Number of the last step (default: the scene's)")
+  command.add_option(
+      "--scale", options->scale,
+      "Built-in scenes: smoke takes seconds, small (the default) minutes on 2 cores, paper has the paper's sizes");
+  command.add_option("--steps", options->steps, "The run ends with the step of this number (default: the scene's)")
       ->check(whole_number(1, most_counted));
   command.add_option("--set", options->assignments, "key=value, repeatable; the settings are listed below")
       ->take_all()
       ->type_size(1)
       ->expected(1);
   command
-      .add_option("--audit", options->audit, "Which states are judged: each step, stored frames, the last one, none")
+      .add_option("--audit", options->audit,
+                  "The audit judges the state after every step, each stored frame, the last state (end), or none (off)")
       ->check(CLI::IsMember({"every", "frame", "end", "off"}))
       ->capture_default_str();
   command.add_option(
       "--audit-meetings", options->audit_meetings,
-      "FROM:TO: of these steps count the pairs of faces that meet on the way, exactly, from detection to "
-      "detection (compare/meetings.md); or off (default: of curves with --audit every, all steps, but at "
-      "paper scale none)");
+      "FROM:TO, or off: count exactly the pairs of faces that meet on the way in these steps (compare/meetings.md). "
+      "Default: off; with --audit every and curves all steps, but none at scale paper");
   command
       .add_option("--deepest", options->deepest,
-                  "A state with a vertex deeper than so much inside a volume fails (default: none does)")
+                  "A state fails where a vertex lies deeper inside a volume than this (default: no state does)")
       ->check(real_number(0, compare::most_length, "m"));
   command.add_option("--from-state", options->from_state,
-                     "Start from a frame file of a run (RUN/frames/…) instead of the scene's start");
+                     "The run starts from this frame file (RUN/frames/…) in place of the scene's start");
   command
       .add_option("--jitter", options->jitter.largest,
-                  "Move each coordinate of each free vertex of the start by a random offset up to so much, less than a "
-                  "tenth of contact_radius; the start is audited as always")
+                  "Each coordinate of each free vertex of the start moves by a random offset of at most this, which is "
+                  "less than a tenth of contact_radius; the start is audited as always")
       ->check(real_number(0, compare::most_length, "m"));
-  command.add_option("--seed", options->jitter.seed, "Of --jitter; the same seed gives the same bits on every machine")
+  command
+      .add_option("--seed", options->jitter.seed,
+                  "--jitter draws its offsets by this seed; the same seed gives the same bits on every machine")
       ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->needs("--jitter")
       ->capture_default_str();
-  command.add_flag(
-      "--tolerate-start", options->tolerate_start,
-      "Begin although faces meet: their pairs of vertices are no contact, not bounded and not audited until "
-      "they are apart (experiments/garments.md); start_pairs.csv says how many are open at each frame");
-  command.add_flag("--profile", options->profile, "Record the time of each stage (slows the run down a little)");
-  command.add_flag(
-      "--residual", options->residual,
-      "The residual of Eq. 29 in steps.csv with contacts and friction of the very end, measured beside the run (slow)");
+  command.add_flag("--tolerate-start", options->tolerate_start,
+                   "The run begins although faces meet. Their pairs of vertices have no contact, no bound and no audit "
+                   "until they are apart (experiments/garments.md); start_pairs.csv counts them at each frame");
+  command.add_flag("--profile", options->profile,
+                   "steps.csv gets the time of each stage, which slows the run down a little");
+  command.add_flag("--residual", options->residual,
+                   "steps.csv gets the residual of Eq. 29 with the contacts and the friction of the end of the step; "
+                   "it is measured beside the run (slow)");
   command.add_flag("--iterations", options->iterations,
-                   "Write iterations.csv, a row an iteration, measured beside the run");
-  command.add_flag("--ledger", options->ledger,
-                   "With vbd: what the parts of a step do to energy and momentum, what truncation takes and which way, "
-                   "and vertices that stand still, in steps.csv (reference/ledger.md), measured beside the run "
-                   "(slow)");
+                   "iterations.csv gets a row an iteration, which is measured beside the run");
+  command.add_flag(
+      "--ledger", options->ledger,
+      "vbd: steps.csv gets what each part of a step does to energy and momentum, what truncation takes and in which "
+      "direction, and how many vertices stand still (reference/ledger.md); it is measured beside the run (slow)");
   command.add_flag("--condition", options->condition,
-                   "With newton: the same, with the condition number of each matrix, also without friction and without "
-                   "contact (slow)");
-  command.add_option("--out", options->out, "Run folder (default: runs/SCENE-SCALE-TIME)");
+                   "newton: iterations.csv gets the condition number of each matrix, of it without friction, and of it "
+                   "without contact (slow)");
+  command.add_option("--out", options->out, "The run goes into this folder (default: runs/SCENE-SCALE-TIME)");
   command.add_option("--show", options->show,
-                     "Folder for a .vtp of what intersects, where the start, or a later state, is refused");
+                     "If the start or a later state is refused, a .vtp of what intersects goes into this folder");
   command
       .add_option("--checkpoint", options->checkpoint_seconds,
-                  "Seconds between two checkpoints, at least; 0: at each state that is judged")
+                  "The run writes a checkpoint after at least so many seconds; 0: at each state that is judged")
       ->check(real_number(1e-3, most_checkpoint_seconds, "s", true))
       ->capture_default_str();
   return scene;
@@ -228,14 +233,16 @@ std::string settings_help() {
   for (const compare::SettingInfo& info : compare::setting_table())
     add(info.name, info.unit, value_text(defaults, info), compare::range_text(info), info.meaning);
   add("membrane", "1", "the scene's", compare::joined(compare::choice_names<compare::MembraneModel>),
-      "how cloth resists stretch: the model of every body that does");
+      "every body that resists stretch does so by this model");
   add("bending", "1", "the scene's", compare::joined(compare::choice_names<compare::BendingModel>),
-      "how cloth resists bending: the model of every body that does");
+      "every body that resists bending does so by this model");
   for (const MaterialSetting& constant : material_settings())
     add(constant.name, constant.unit, "the scene's", constant.range, constant.meaning);
   add("body_contact", "1", "the scene's", compare::joined(compare::choice_names<compare::BodyContact>),
-      "bodies that a motion drives: inside the guarantee, or volumes that push out, with detection_fraction 0 or 0.01");
-  add("data", "folder", "none", "a folder", "dress: made of Codimensional IPC's published files in it");
+      "bodies that a motion moves whole, and bodies with tetrahedra: nothing enters them (surface), or they push out "
+      "what enters (volume); where a motion moves one, detection_fraction becomes 0 or 0.01");
+  add("data", "folder", "none", "a folder",
+      "scene dress: its bodies come from the published files of Codimensional IPC in this folder");
   std::istringstream lines(table(rows, 4));
   const std::string head = "Settings for --set (a scene brings its own values; defaults are those of a scene file ";
   std::string text = head + "that says nothing):\n", line;

@@ -17,9 +17,9 @@ using compare::Material;
 using compare::MaterialInfo;
 
 /// E and ν are not in the table, because the Lamé constants contain the same information.
-constexpr MaterialInfo young{"solid_young",       "Pa",   "tetrahedra: Young's modulus", compare::least_young,
-                             compare::most_young, nullptr},
-    poisson{"solid_poisson", "1", "tetrahedra: Poisson's ratio", 0, compare::most_poisson, nullptr};
+constexpr MaterialInfo young{
+    "solid_young", "Pa", "bodies with tetrahedra: Young's modulus", compare::least_young, compare::most_young, nullptr},
+    poisson{"solid_poisson", "1", "bodies with tetrahedra: Poisson's ratio", 0, compare::most_poisson, nullptr};
 
 bool is_of_solids(std::string_view name) { return name.starts_with("solid_"); }
 
@@ -51,7 +51,7 @@ std::vector<MaterialSetting> material_settings() {
   std::vector<MaterialSetting> all;
   for (const MaterialInfo& info : offered())
     all.push_back({info.name, info.unit, compare::range_text(info),
-                   std::string(info.meaning) + (is_of_solids(info.name) ? "" : ": of every body")});
+                   (is_of_solids(info.name) ? "" : "every body: ") + std::string(info.meaning)});
   return all;
 }
 

@@ -16,7 +16,6 @@ import math
 import sys
 from array import array
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 

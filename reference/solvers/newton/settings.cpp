@@ -14,22 +14,25 @@ constexpr std::array<std::string_view, 3> projection_names{"none", "clamp", "abs
 constexpr std::array<std::string_view, 2> truncation_names{"vertex", "pair"};  // in the order of Truncation
 
 constexpr std::array<compare::SettingInfo, 6> rows{{
-    {"newton_iterations", "1", "Newton's iterations in a step at most", 1, most_count,
+    {"newton_iterations", "1", "newton, penalty: a step has at most so many iterations", 1, most_count,
      compare::DeclaredSetting{whole, 50}},
     {"newton_tolerance", "1",
-     "relative force that may remain when a Newton step has converged (Eq. 29); 0: all iterations are done", 0, 1,
-     compare::DeclaredSetting{real, 1e-4}},
+     "newton, penalty: a step has converged once only this share of the force is left (Eq. 29); 0: a step does all "
+     "iterations",
+     0, 1, compare::DeclaredSetting{real, 1e-4}},
     {"newton_step_tolerance", "m/s",
-     "a Newton step has also converged where no vertex wants to move faster than this; 0: this does not end it", 0,
-     0x1p10, compare::DeclaredSetting{real, 0}},
-    {"newton_friction_solves", "1", "Newton's solves in a step, each with the friction that the one before led to", 1,
+     "newton, penalty: a step has converged, too, once no vertex wants to move faster than this; 0: this ends no step",
+     0, 0x1p10, compare::DeclaredSetting{real, 0}},
+    {"newton_friction_solves", "1",
+     "newton, ipc: a step is solved so many times, each time with the friction that the solve before led to", 1,
      1 << 20, compare::DeclaredSetting{whole, 1}},
     {"newton_projection", "1",
-     "what Newton does with negative curvature of an energy: keep it, cut it off at zero, or take its absolute value",
+     "newton, ipc: negative curvature of an energy is kept (none), set to zero (clamp), or replaced by its absolute "
+     "value (absolute)",
      0, 2, compare::DeclaredSetting{choice, static_cast<double>(HessianProjection::clamp)}, projection_names},
     {"newton_truncation", "1",
-     "what Newton's step is cut to: each vertex to its own bound, or each near pair to a plane that travels with it", 0,
-     1, compare::DeclaredSetting{choice, static_cast<double>(Truncation::vertex)}, truncation_names},
+     "newton: a step is cut at each vertex's bound (vertex), or at planes that travel with near pairs (pair)", 0, 1,
+     compare::DeclaredSetting{choice, static_cast<double>(Truncation::vertex)}, truncation_names},
 }};
 
 const compare::SettingsDeclaration declaration("newton", rows);

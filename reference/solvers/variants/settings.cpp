@@ -15,19 +15,21 @@ constexpr std::array<std::string_view, 2> cut_names{"update", "iteration"};
 
 constexpr std::array<compare::SettingInfo, 4> rows{{
     {"reference_contact_set", "1",
-     "solvers of the reference: which contacts are listed, the method's, one of each pair of primitives within r (as "
-     "IPC has them), or of each vertex the closest point of each other body",
+     "reference_vbd, newton, penalty: detection lists the method's contacts (ogc), one contact of each pair of "
+     "primitives within r, as IPC does (pairs), or each vertex's closest point of each other body (distance)",
      0, 2, DeclaredSetting{choice, 0}, set_names},
     {"reference_vbd_colours", "1",
-     "reference_vbd: who is updated together, by greedy colours that are turned in each component, as they are, in a "
-     "random order, each vertex alone, or all",
+     "reference_vbd: a sweep updates the vertices of a colour together; colours are greedy and turned in each "
+     "component (turned), greedy (greedy), greedy in a random order (random), one a vertex (vertex), or one in all "
+     "(together)",
      0, 4, DeclaredSetting{choice, 0}, colour_names},
     {"reference_vbd_contact_blocks", "1",
-     "reference_vbd: whether the block of a contact majorises what all of its vertices of one colour do, or is w²", 0,
-     1, DeclaredSetting{choice, 0}, block_names},
+     "reference_vbd: the block of a contact majorises what all of its vertices of one colour do (majorised), or is w² "
+     "(own)",
+     0, 1, DeclaredSetting{choice, 0}, block_names},
     {"reference_vbd_cut_after", "1",
-     "reference_vbd: whether a vertex is cut to its bound at its update, or all after an iteration", 0, 1,
-     DeclaredSetting{choice, 0}, cut_names},
+     "reference_vbd: a vertex is cut to its bound at its update (update), or all are after an iteration (iteration)", 0,
+     1, DeclaredSetting{choice, 0}, cut_names},
 }};
 
 const compare::SettingsDeclaration declaration("reference", rows);

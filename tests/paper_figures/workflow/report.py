@@ -6,11 +6,9 @@ status 77: skipped, matplotlib is missing.
 """
 
 import base64
-import csv
 import functools
 import json
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -26,7 +24,7 @@ except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
 from paper_figures.workflow import report, verdicts  # noqa: E402
-from paper_figures.workflow.evidence import manifest_at, opened  # noqa: E402
+from paper_figures.workflow.evidence import manifest_at  # noqa: E402
 
 # Appended to a copy of a page: the browser itself says which pictures it could not show, and what it asked the network
 # for.
@@ -116,9 +114,7 @@ def faults(folder):
                   for number, source in enumerate(page.pictures) if not png(source)]
         found += [f"{name}: movie {number} can't be read"
                   for number, source in enumerate(page.movies) if not mp4(source)]
-        own = ["script", "script"] if name == report.ablation_page.NAME else []
-        if page.foreign != own:
-            found += [f"{name}: holds a {tag}" for tag in page.foreign] or [f"{name}: lacks its script"]
+        found += [f"{name}: holds a {tag}" for tag in page.foreign]
     return found
 
 
@@ -149,28 +145,6 @@ def check_faults_are_found(folder):
         index.write_text(planted)
         assert any(words in fault for fault in faults(folder)), f"not found: {words}"
     index.write_text(good)
-
-
-def check_ablations(folder):
-    """The page holds the accepted tables, and its script says of two points what `ogc ablate` said of them."""
-    text = (Path(folder) / report.ablation_page.NAME).read_text()
-    data = json.loads(re.search(r'id="data">(.*?)</script>', text, re.DOTALL)[1])
-    assert data == report.ablation_page.tables()
-    for name, words in report.ablation_page.TABLES.items():
-        with opened(report.RESULTS / name) as file:
-            rows = [row for row in csv.DictReader(file) if row["median"]]
-        metrics = [metric for study in data[words].values() for scene in study.values() for point in scene.values()
-                   for metric in point]
-        assert len(metrics) == len(rows) > 10, f"{name}: rows are missing or stand for each other"
-    node = shutil.which("node")
-    if node is None:
-        return
-    script = report.ablation_page.SCRIPT.partition("for (const [id, next]")[0].replace(
-        "const data = JSON.parse(document.getElementById('data').textContent);", "")
-    asked = "console.log(JSON.stringify([compared([2, 1, 3], [8, 6, 9]), compared([2, 1, 3], [2.5, 2, 4]), " \
-            "compared([0, 0, 0], [1, 1, 1])]))"
-    done = subprocess.run([node, "-e", script + asked], capture_output=True, text=True, check=True)
-    assert json.loads(done.stdout) == ["4 times, 2 to 9", "not shown", "apart"], done.stdout
 
 
 def check_just_made(folder):
@@ -237,7 +211,6 @@ if __name__ == "__main__":
         wrong = faults(scratch)
         assert not wrong, "\n".join(wrong)
         check_faults_are_found(scratch)
-        check_ablations(scratch)
         check_just_made(Path(scratch) / "runs")
         if "--browser" in sys.argv:
             browse(*sys.argv[sys.argv.index("--browser") + 1:][:1], scratch, sys.argv[-1])

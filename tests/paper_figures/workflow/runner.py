@@ -20,7 +20,7 @@ del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
 from paper_figures.figures import table1  # noqa: E402
 from paper_figures.figures.measured import growth  # noqa: E402
-from paper_figures.workflow import commands, device_memory, job, jobs, judge_counts, layers  # noqa: E402
+from paper_figures.workflow import commands, device_memory, job, jobs, layers  # noqa: E402
 from paper_figures.workflow import packing, parts  # noqa: E402
 from paper_figures.workflow.evidence import run_at  # noqa: E402
 from paper_figures.workflow.jobs import FINISHED, KEPT, PROCESSOR_TIME, STOPPED, Job, Limit, Step  # noqa: E402
@@ -385,67 +385,6 @@ class Memory(Scratch):
         on_device = [job.on_device for job in commands.whole_runs("twist", "paper", "cuda")]
         self.assertEqual(on_device, [True, False], "the audit is the CPU's")
         self.assertFalse(any(job.on_device for job in commands.cpu_windows("twist", 20, "paper")))
-
-
-# Stands for ogc: one mismatch in truncate, no answer in spring.
-JUDGE = """#!/usr/bin/env python3
-import json, sys
-from pathlib import Path
-if sys.argv[1] == "--version":
-    sys.exit(print("stand-in"))
-stage, folder = sys.argv[2], Path(sys.argv[sys.argv.index("--report") + 1])
-if stage == "spring":
-    sys.exit("out of memory")
-(folder / "failures").mkdir(parents=True)
-(folder / "failures/problems.txt").write_text("stage=truncate")
-keys = ("cases", "questions", "decisions", "grey", "grey_not_exact", "near", "seconds", "contestant_seconds",
-        "authority_seconds")
-report = {"stage": stage, "mismatches": 1, **{key: 10**9 for key in keys}}
-(folder / "report.jsonl").write_text(json.dumps(report))
-sys.exit(1)
-"""
-
-
-class Judge(Scratch):
-    """Large counts: sums are those of the chunks, a chunk that fails is kept and fails the job."""
-
-    def test_sums_are_those_of_the_chunks_and_counts_go_on(self):
-        job = judge_counts.Counts("cpu", 0.0005, stages=("truncate", "detect_edge_edge"))
-        root = self.folder / "counts"
-        ends = [job.make(OGC, root, limit) for limit in (Until(root, "*.chunk.json"), Limit(), Limit())]
-        self.assertEqual(ends, [STOPPED, FINISHED, KEPT])
-        counts = json.loads((root / "counts.json").read_text())
-        chunks = [json.loads(path.read_text()) for path in root.glob("*.chunk.json")]
-        self.assertEqual((set(counts["stages"]), counts["failed"]), ({"truncate", "detect_edge_edge"}, []))
-        for stage, sums in counts["stages"].items():
-            self.assertGreaterEqual(sums["cases"], judge_counts.STAGES[stage][0] * 0.0005)
-            for key, value in sums.items():
-                self.assertAlmostEqual(value, sum(chunk[key] for chunk in chunks if chunk["stage"] == stage), places=6)
-        table = (root / "counts.md").read_text()
-        self.assertTrue("| `truncate` | " in table and "pairs: " in table)
-        self.assertEqual([path for path in root.iterdir() if path.is_dir()], [])
-        self.assertEqual({path.name for path in job.results(root, 0, 0)}, {"counts.md", "counts.json"})
-
-    def test_failed_chunks_are_kept_and_fail(self):
-        stub, root = self.program(JUDGE), self.folder / "counts"
-        job = judge_counts.Counts("cpu", stages=("truncate", "spring"))
-        for _ in "ab":
-            with self.assertRaisesRegex(jobs.RunFailure,
-                                        "(?s)spring.s1000: exit status 1.*truncate.s1000: exit status 1"):
-                job.make(stub, root)
-        sums = json.loads((root / "counts.json").read_text())["stages"]
-        self.assertEqual((sums["truncate"]["mismatches"], sums["spring"]["cases"]), (1, 0))
-        self.assertEqual((root / "truncate.s1000/failures/problems.txt").read_text(), "stage=truncate")
-        self.assertIn("out of memory", (root / "spring.s1000.log").read_text())
-        kept = {path.relative_to(root).as_posix() for path in job.results(root, 0, 0)}
-        self.assertLessEqual({"truncate.s1000/failures/problems.txt", "spring.s1000.log", "counts.md"}, kept)
-
-    def test_counts_of_another_program_or_seed_begin_anew(self):
-        root = self.folder / "counts"
-        for seed in (1, 2):
-            job = judge_counts.Counts("cpu", 1e-5, seed, ("truncate",))
-            self.assertEqual(job.make(OGC, root), FINISHED)
-            self.assertEqual({path.name.partition(".s")[2][:1] for path in root.glob("*.chunk.json")}, {str(seed)})
 
 
 class Growth(Scratch):

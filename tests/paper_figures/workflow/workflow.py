@@ -18,7 +18,6 @@ from unittest import mock
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 try:
-    from paper_figures.figures import sweep
     from paper_figures.figures.ablations import study
     from paper_figures.workflow import job, parts, recipes
 except ImportError as missing:
@@ -64,10 +63,6 @@ class Recipes(unittest.TestCase):
                                                    and "illustration" not in recipe.body), step)
                     made.add(step.output)
                 self.assertLessEqual(set(recipe.outputs("smoke", backend)), made)
-
-    def test_the_sweep_has_sixty_points_of_its_own(self):
-        steps = recipes.steps(recipes.load()["sweep"], "smoke", "cpu", "ogc")
-        self.assertEqual((len(steps), len({step.output for step in steps})), (61, 61))
 
     def test_names_are_figures_scenes_or_all(self):
         book = recipes.load()
@@ -135,7 +130,7 @@ class Recipes(unittest.TestCase):
         book = recipes.load()
         there = {part.recipe for part in parts.book(parts.Wanted()).values()} - {""}
         simulated = {name for name, recipe in book.items() if recipe.scene
-                     and not {"missing", "vary"} & set(recipe.body)}
+                     and "missing" not in recipe.body}
         self.assertEqual(there, simulated | {"table1"})
 
 
@@ -294,12 +289,6 @@ class Jobs(Scratch):
         for ended, seconds in (("", 0), ("2026-01-01T00:01:30Z", 90)):
             manifest.write_text(json.dumps({"started": "2026-01-01T00:00:00Z", "ended": ended}))
             self.assertEqual(recipes.seconds_of_run(manifest), seconds)
-
-    def test_points_of_a_sweep_make_one_table(self):
-        for point in ("a=1", "a=2"):
-            (self.runs / point).mkdir()
-            (self.runs / point / "ablation.csv").write_text(f"a,folder\n{point[-1]},x\n")
-        self.assertEqual(sweep.gather(self.runs), [{"a": "1"}, {"a": "2"}])
 
     def test_the_stamp_is_rewritten_for_another_program_alone(self):
         stamp = self.runs / recipes.PROGRAM

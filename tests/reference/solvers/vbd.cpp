@@ -1,25 +1,18 @@
-// Compares Vertex Block Descent in double with the potential that Newton differentiates, and with the judged sweep.
+// Compares Vertex Block Descent in double with the potential that Newton differentiates.
 #include "reference/solvers/vbd_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "reference/energies/rest_state.hpp"
 #include "reference/simulation.hpp"
-#include "reference/solvers/step.hpp"
+#include "reference/solvers/colouring.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 
 using namespace ogc;
 using namespace ogc::tests;
 using reference::State, reference::operator+;
-
-namespace {
-
-double distance(const compare::Vec3f& a, const compare::Vec3f& b) {
-  return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
-}
-
-}  // namespace
 
 TEST_CASE(
     "reference VBD: a vertex's force is minus the gradient of the potential with friction of the same state; its block "
@@ -63,28 +56,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("reference VBD takes the step of the judged sweep, up to what storing single-precision positions does",
-          "[agreement]") {
-  compare::Scene scene = two_sheets();
-  scene.settings.iterations = 3;
-  scene.settings.detection_every = 2;
-  round_to_single(scene);
-  const compare::Topology topology = build_topology(scene);
-  const compare::StepOut judged = reference::reference_step({&scene, &topology});
-  const auto simulation = reference::start_vbd(scene, {}, judged.colour);
-  const auto rows = simulation->advance(1);
-  REQUIRE(rows[0].status == compare::step_clean);
-  CHECK(rows[0].vertex_facet_contacts + rows[0].edge_edge_contacts > 20);
-  CHECK(rows[0].discrete_detections ==
-        std::ranges::count(judged.events, compare::StepEventKind::detection, &compare::StepEvent::kind));
-  const compare::Snapshot end = simulation->snapshot();
-  // Coordinates below 6 cm are stored to 2⁻²⁹ m, once a colour and iteration. A vertex passes on no more than the
-  // errors that it reads, because its own stiffness is the sum of those that couple it to them.
-  const int roundings = 3 * (1 + *std::ranges::max_element(judged.colour));
-  for (std::size_t v = 0; v < end.positions.size(); ++v)
-    CHECK(distance(end.positions[v], judged.position[v]) <= roundings * std::sqrt(3.0) * 0x1p-29);
-}
-
 TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, single-precision storage left out",
           "[property]") {
   compare::Scene scene = two_sheets();
@@ -124,7 +95,8 @@ TEST_CASE(
   };
   round_to_single(scene);
   const compare::Topology topology = build_topology(scene);
-  const std::vector<compare::Index> turned = reference::reference_step({&scene, &topology}).colour;
+  const std::vector<compare::Index> turned = reference::colours_of(
+      scene, reference::rest_state({&scene, &topology}).exact, compare::rigid_groups(scene));
   std::vector<compare::Index> shared;
   for (std::size_t v = 0; v < turned.size(); ++v) shared.push_back(turned[v % 36]);
   for (std::size_t v = 36; v < turned.size(); ++v) CHECK(turned[v] != turned[v - 36]);
