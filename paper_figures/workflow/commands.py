@@ -288,6 +288,22 @@ def mat_whole(scale, backend):
         yield from whole_runs(row, scale, backend, folder=bounds)
 
 
+MAT_VOLUMES = f"{MAT}{WITH_VOLUMES}"
+# Steps between stored, audited states if the mat is a volume: the oracle takes long to find which vertices are inside
+# their own body.
+MAT_VOLUMES_FRAME_STEPS = {"smoke": 4, "small": 10, "paper": 40}
+# At paper until 5.5 s: from 3 s on hundreds of vertices are inside, and the volume takes a second of each step.
+MAT_VOLUMES_STEPS = {"paper": 1320}
+
+
+def mat_as_volume(scale, backend):
+    """Returns the mat as a volume, and with both kinds of bounds."""
+    steps = ("--steps", MAT_VOLUMES_STEPS[scale]) if scale in MAT_VOLUMES_STEPS else ()
+    for row in (MAT_VOLUMES, MAT, MAT_PLANES):
+        yield Job(f"{row}/begin", (MAT, "--scale", scale, "--backend", backend, "--audit", "frame", *of_row(row, ""),
+                                   *steps, "--set", f"frame_steps={MAT_VOLUMES_FRAME_STEPS[scale]}"))
+
+
 def mat_without_friction(scale, backend):
     """Returns the runs without friction; a state every 1/15 s is audited."""
     for bounds, (_, options) in MAT_BOUNDS.items():

@@ -29,7 +29,7 @@ FIGURES, RESULTS, ROOT = ROOM / "figures", ROOM / "results", ROOM.parent
 SCALES = ("smoke", "small", "paper")
 PROGRAM = "program.txt"
 REPRESENTATIVE = "fig18"
-RUNS = ("commands.py", "layers.py", "release.py")  # modules that define the runs of figures with several
+RUNS = ("commands.py", "layers.py", "release.py", "slide.py")  # modules that define the runs of figures with several
 # Files that determine a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
 KEYS = {"title", "illustrations", "scene", "script", "run", "options", "of", "movie", "rows", "backends",

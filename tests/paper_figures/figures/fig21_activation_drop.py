@@ -18,6 +18,7 @@ try:
     import numpy as np
 
     from paper_figures.figures import fig21_activation_drop
+    from paper_figures.figures.measured import activation_load
     from paper_figures.workflow import accept, commands, contact_forces
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
@@ -155,6 +156,33 @@ class Figure(unittest.TestCase):
             counted = sum(int(row["contacts [1]"]) for row in self.table("fig21_forces") if row["activation"] == label)
             self.assertEqual(counted, int(self.rows[label]["contacts [1]"]))
             self.assertGreater(counted, 50)
+
+
+class Load(unittest.TestCase):
+    """Where both energies have the same curvature, or keep the same distance."""
+
+    def test_the_logarithms_slope_and_curvature_are_those_of_its_energy(self):
+        energy, step = lambda u: -((u - 1) ** 2) * np.log(u), 1e-4
+        for u in (0.05, 0.3, 0.7, 0.95):
+            low, here, high = (energy(u + shift) for shift in (-step, 0, step))
+            self.assertAlmostEqual(activation_load.log_force(u), -(high - low) / (2 * step), delta=1e-3)
+            self.assertAlmostEqual(activation_load.log_curvature(u), (high - 2 * here + low) / step**2, delta=1e-2)
+            self.assertAlmostEqual(activation_load.distance_at(activation_load.log_force(u)), u, delta=1e-9)
+
+    def test_equal_curvature_is_that_of_ours_at_that_force(self):
+        for force, least in ((0.03, 0), (0.15, 0), (0.6, 2)):
+            ratios = [activation_load.stiffer(force, ratio) for ratio in activation_load.RATIOS]
+            self.assertGreater(min(ratios), least)
+            place = activation_load.crossing(ratios, 1)
+            self.assertEqual(place is None, least > 0, "a high load has no equal")
+            if place is not None:
+                self.assertAlmostEqual(activation_load.stiffer(force, np.exp(place)), 1, delta=0.05)
+
+    def test_a_crossing_is_the_last_one(self):
+        values = [3, 1, 3, 1, 1, 1, 1, 1]
+        found = np.exp(activation_load.crossing(values, 2))
+        self.assertTrue(activation_load.RATIOS[2] < found < activation_load.RATIOS[3])
+        self.assertIsNone(activation_load.crossing(values, 4))
 
 
 if __name__ == "__main__":
