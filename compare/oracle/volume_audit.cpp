@@ -125,8 +125,8 @@ class PlacedPart {
     return is_inside;
   }
 
-  /// Returns the distance from the part's own vertex to those of its triangles that share no vertex with the triangles
-  /// around it; 0 if there are none.
+  /// Returns the distance from the part's own vertex to the part, without the triangles that have a vertex in common
+  /// with those around it; 0 if none is left.
   double distance_of_own(Index vertex) const {
     std::vector<Index> around;
     for (const Triangle& t : triangles_)

@@ -51,7 +51,7 @@ class VolumeAuditor {
     std::vector<std::vector<Edge>> rims;  ///< for each closed rim its edges in the sense of the missing triangles
     std::vector<Tetrahedron> tetrahedra;  ///< of a body of tetrahedra
   };
-  /// A vertex that may be inside, and the part that it belongs to; −1: it is of a surface.
+  /// A vertex that may be inside a volume, and the part to which it belongs; −1 if it belongs to a surface.
   struct Asker {
     Index vertex, part;
   };

@@ -1,6 +1,6 @@
-// Clears dust: what is left of a sine that should be 0, like 6e-17. Nearly every generated mesh has some. It means
-// nothing, and it makes the numbers of exact arithmetic as long as their exponents are apart. So it becomes 0 when a
-// scene's meshes are read (method.md §2.4), and never later.
+// Clears dust: tiny numbers like 6e-17, which are left of a sine that should be 0. Nearly every generated mesh has
+// some. Dust means nothing, but it spreads the exponents, and numbers of exact arithmetic are as long as this spread.
+// So it becomes 0 when a scene's meshes are read (method.md §2.4), and never later.
 #pragma once
 
 #include <string>

@@ -114,7 +114,7 @@ std::string ElementNames::triangle(Index t, const Triangle& corners) const {
 
 std::string ElementNames::tetrahedron(Index t, const Tetrahedron& corners) const {
   static const NamedBody none;
-  // the last body with this start, see body_of_triangle
+  // Several bodies may start at the same tetrahedron; upper_bound finds the last of them (see body_of_triangle).
   const auto after = std::ranges::upper_bound(bodies_, t, {}, &NamedBody::first_tetrahedron);
   const NamedBody& body = after == bodies_.begin() ? none : *(after - 1);
   const Index local = t - body.first_tetrahedron;

@@ -38,7 +38,7 @@ struct ExclusionView {
 /// there is no pair. Indices are valid.
 CompressedRows partner_rows(std::size_t count, std::span<const std::array<Index, 2>> pairs);
 
-/// Returns the pairs of such rows, smaller vertex first, ascending.
+/// Returns the pairs in rows of partners, smaller vertex first, ascending.
 std::vector<std::array<Index, 2>> pairs_of(const CompressedRows& partners);
 
 }  // namespace ogc::compare

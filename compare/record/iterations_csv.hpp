@@ -1,5 +1,5 @@
-// Writes iterations.csv: one row for each iteration, for solvers that keep them. Columns as in steps.csv: "name
-// [unit]".
+// Writes iterations.csv: one row for each iteration of the solvers that keep rows of iterations. Columns are named as
+// in steps.csv: "name [unit]".
 #pragma once
 
 #include <span>

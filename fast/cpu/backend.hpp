@@ -110,7 +110,7 @@ class CpuBackend {
     for_each(std::min(*n, capacity), f);
   }
 
-  /// One loop after the other.
+  /// Runs one loop after the other.
   template <class F, class G>
   void for_both(int m, F f, const int* n, int capacity, G g) {
     for_each(m, f);
@@ -146,7 +146,7 @@ class CpuBackend {
     });
   }
 
-  /// One loop over both kinds, so that no thread waits between them.
+  /// Runs one loop over both kinds, so that no thread waits between them.
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
     for_each_range(first.count + second.count, [&first, &second](int begin, int end) {
@@ -156,7 +156,7 @@ class CpuBackend {
     });
   }
 
-  /// In the calling thread.
+  /// Runs both scans in the calling thread.
   void exclusive_scans(const Scan& first, const Scan& second) {
     exclusive_scan(first);
     exclusive_scan(second);
@@ -190,7 +190,7 @@ class CpuBackend {
     for (decide(0); *flag != 0; decide_again(0)) body();
   }
 
-  /// One after the other.
+  /// Runs one after the other.
   template <class Aside, class Body>
   void at_once(Aside aside, Body body) {
     aside();
@@ -212,7 +212,7 @@ class CpuBackend {
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
   }
-  /// Wall time of each repetition since it was asked last [ms].
+  /// Returns the wall time of each repetition since the last call [ms].
   std::vector<double> replay_milliseconds() { return std::exchange(replay_milliseconds_, {}); }
 
   void synchronize() {}
@@ -233,7 +233,7 @@ class CpuBackend {
     scan.out[scan.count] = total;
   }
 
-  /// run(begin, end) for ranges that make up 0 … n.
+  /// Calls run(begin, end) for ranges that make up 0 … n.
   template <class Run>
   static void for_each_range(int n, const Run& run) {
     constexpr int grain = 64;

@@ -10,13 +10,13 @@
 
 namespace ogc::fast {
 
-/// The number of threads.
+/// Returns the number of threads.
 BackendInfo cpu_info();
 
-/// All stages on the host's threads.
+/// Returns a contestant with all stages on the host's threads.
 compare::Contestant cpu_contestant();
 
-/// For ContactFinder; `topology` must outlive the engine.
+/// Returns an engine for ContactFinder; `topology` must outlive it.
 std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,
                                                   const compare::ExclusionView& exclusions);
 

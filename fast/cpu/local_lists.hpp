@@ -8,17 +8,18 @@
 
 namespace ogc::fast {
 
-/// A list of one thread, with room for so many, that takes the place of a common one.
+/// A list of one thread, with `room` items, that takes the place of a common one.
 template <class Item, int room>
 class LocalList {
  public:
-  /// In place of the common list and its counter, for functors that add to these.
+  /// Return items and counter in place of the common ones, for functors that add to these.
   Item* items() { return items_; }
   int* count() { return &count_; }
-  /// Whether so many more fit; asked before they are added, since beyond its room a list only counts.
+  /// Checks whether `more` further items fit. Call it before they are added: beyond its room a list only counts.
   bool has_room_for(int more) const { return count_ + more <= room; }
 
-  /// Moves all to a common list, which counts also those that find no room; these are left to without_room(item).
+  /// Moves all items to a common list. The common count includes items that find no room there; these are passed to
+  /// without_room(item).
   template <class Without>
   void flush(Item* common, int capacity, int* common_count, Without without_room) {
     if (count_ == 0) return;
@@ -33,7 +34,8 @@ class LocalList {
   int count_ = 0;
 };
 
-/// Pairs that the searches of one thread note. Those of a detection without room for all are not used.
+/// Holds the pairs that the searches of one thread note. Pairs without room in the common list are dropped: that
+/// detection has overflowed and is repeated.
 class LocalNotes {
  public:
   explicit LocalNotes(const ListsView& common) : common_(common) {}
@@ -41,13 +43,13 @@ class LocalNotes {
   LocalNotes& operator=(const LocalNotes&) = delete;
   ~LocalNotes() { flush(); }
 
-  /// The common lists with this list of notes.
+  /// Returns the common lists, with this list in place of their notes.
   ListsView view() {
     ListsView lists = common_;
     lists.noted = list_.items(), lists.noted_count = list_.count(), lists.noted_capacity = room;
     return lists;
   }
-  /// Before as many more are noted at most.
+  /// Makes room for `more` further notes.
   void expect(int more) {
     if (!list_.has_room_for(more)) flush();
   }
@@ -63,14 +65,14 @@ class LocalNotes {
   LocalList<NotedPair, room> list_;
 };
 
-/// The items of a loop that one thread runs.
+/// Runs items begin … end − 1 of a loop in this thread.
 template <class F>
 void run_range(const F& f, int begin, int end) {
   for (int i = begin; i < end; ++i) f(i);
 }
 
-/// Each pair is one contact at most. A contact without room is not counted for its bucket and its vertices, as
-/// FillBuckets would look for it there.
+/// Collects contacts, at most one for each pair. A contact without room is not counted in its bucket and at its
+/// vertices, because FillBuckets would look for it there.
 inline void run_range(const CollectContacts& f, int begin, int end) {
   constexpr int room = 256;  // 4 KiB
   const ListsView& common = f.lists;

@@ -81,14 +81,14 @@ struct PackOf {
   PackOf(Numbers packed) : value(packed) {}                    // NOLINT: formulas mix packs with constants
   PackOf(float everywhere) : value(everywhere - Numbers{}) {}  // NOLINT: less +0 keeps even a zero's sign
   explicit PackOf(const float* from) { std::memcpy(&value, from, sizeof value); }
-  /// number(k) in lane k.
+  /// Returns number(k) in lane k.
   template <class F>
   static PackOf of_each(F number) {
     return [&]<int... k>(std::integer_sequence<int, k...>) { return PackOf(Numbers{number(k)...}); }
     (std::make_integer_sequence<int, N>());
   }
 
-  /// Lane k to to[k], which needs no alignment.
+  /// Writes lane k to to[k], which needs no alignment.
   void store(float* to) const { std::memcpy(to, &value, sizeof value); }
   float operator[](int k) const { return value[k]; }
 
@@ -138,17 +138,17 @@ struct PackOf {
   }
 };
 
-/// What nodes and searches take.
+/// The pack that nodes and searches use.
 using Pack = PackOf<4>;
 
-/// As wide as registers are.
+/// The widest pack that fits a register.
 #if defined(__AVX2__)
 using WidePack = PackOf<8>;
 #else
 using WidePack = PackOf<4>;
 #endif
 
-/// True in the first `count` lanes.
+/// Returns a mask that is true in the first `count` lanes.
 template <class P>
 typename P::Mask first_of(int count) {
   using Bits = typename P::Mask::Bits;
@@ -156,7 +156,7 @@ typename P::Mask first_of(int count) {
   (std::make_integer_sequence<int, P::width>());
 }
 
-/// In each 16 B of the result lanes p, q, r and s of those 16 B of a; from N on, of b.
+/// Returns a pack whose 16 B blocks hold numbers p, q, r and s of the same block of a; from N on they are numbers of b.
 template <int p, int q, int r, int s, int N>
 PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   return [&]<int... k>(std::integer_sequence<int, k...>) {
@@ -166,12 +166,12 @@ PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   (std::make_integer_sequence<int, N>());
 }
 
-/// Of the four numbers of each 16 B: the first ones of a, b, c and d, then their second ones, and so on.
+/// The columns of four rows a, b, c and d, in each block of 16 B by itself.
 template <int N>
 struct ColumnsOf {
   PackOf<N> x, y, z, w;  ///< x: number 0 of each 16 B of a, b, c and d in this order; y, z and w: numbers 1, 2 and 3
 };
-/// The ColumnsOf of four rows.
+/// Returns the columns of four rows.
 template <int N>
 ColumnsOf<N> transposed(const PackOf<N>& a, const PackOf<N>& b, const PackOf<N>& c, const PackOf<N>& d) {
   const PackOf<N> xy_ab = mixed<0, N, 1, N + 1>(a, b), xy_cd = mixed<0, N, 1, N + 1>(c, d);
@@ -181,14 +181,14 @@ ColumnsOf<N> transposed(const PackOf<N>& a, const PackOf<N>& b, const PackOf<N>&
 }
 using Columns = ColumnsOf<4>;
 
-/// Two halves as one; registers all the way, as a pack that is read back from two halves in memory waits for both to
+/// Joins two halves. They stay in registers: a pack that is read back from two halves in memory waits for both to
 /// arrive there.
 #if defined(__AVX2__)
-/// `low` in lanes 0 … 3, `high` in lanes 4 … 7.
+/// Returns `low` in lanes 0 … 3 and `high` in lanes 4 … 7.
 inline PackOf<8> halves(Pack low, Pack high) { return PackOf<8>::Numbers(_mm256_set_m128(high.value, low.value)); }
 #endif
 
-/// The x, the y and the z of as many positions as P is wide, each of which is read whole.
+/// Returns x, y and z of P::width positions, each of which is read whole.
 template <class P>
 [[gnu::always_inline]] inline Vector<P> transposed(const PaddedVec* const* position) {
   const auto whole = [position](int k) { return Pack(std::bit_cast<Pack::Numbers>(*position[k])); };

@@ -1,4 +1,5 @@
-// The sum of a vertex in packs, compiled for several machines and chosen at run time, to the same bits.
+// Declares the sum of a vertex in packs. It is compiled for several machines and chosen at run time; all give the same
+// bits.
 #pragma once
 
 #include <cstddef>
@@ -9,29 +10,29 @@
 
 namespace ogc::fast {
 
-/// A part of so many items that was computed one by one: the sums of all team lanes; null: none.
+/// The sums of a part that was computed item by item, one for each team lane; null if there are none.
 struct TeamLaneSums {
   const ForceAndBlock* sums = nullptr;  ///< by team lane, W of them
   int count = 0;                        ///< items of the part; where they are fewer than W the last sums are 0
 };
 
-/// Whether packs know a part of a sum (fast/kernels/kinds): those of a vertex where its `is_packed` says so.
+/// Whether packs can compute a part of a sum (fast/kernels/kinds), at vertices where its `is_packed` returns true.
 template <class Part>
 inline constexpr bool has_packs = requires(const SweepView& view, const SweepVertex& vertex) {
   Part::is_packed(view, vertex);
 };
 
-/// As GatherAll with a SerialTeam and the activation `ogc`. `alone`: by part, the sums of those that are not computed
-/// in packs; null sums of a part that is, or that the vertex does not have.
+/// Computes the sum of GatherAll with a SerialTeam and the activation `ogc`. `alone`: by part, the sums of parts that
+/// are not computed in packs; null sums for other parts, and for parts that the vertex does not have.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const TeamLaneSums* alone);
 /// Sums of vertices, and segments of rods.
 struct PackKernels {
   GatherInPacks gather_4, gather_8, gather_16;  ///< for W = 4, 8, 16 team lanes
-  /// As f for its items begin … end − 1.
+  /// Updates segments begin … end − 1 as f does.
   void (*update_segments)(const UpdateSegment& f, int begin, int end);
 
-  /// That of W.
+  /// Returns the kernel for W team lanes.
   template <int W>
   GatherInPacks gather() const {
     static_assert(W == 4 || W == 8 || W == 16);
@@ -39,19 +40,19 @@ struct PackKernels {
   }
 };
 
-/// Compiled without and with AVX2. Where has_avx2() is false the latter must not be called.
+/// The kernels compiled without and with AVX2. Where has_avx2() is false the latter must not be called.
 extern const PackKernels pack_kernels_baseline, pack_kernels_avx2;
 
-/// Whether this machine can run those for AVX2.
+/// Returns whether this machine can run pack_kernels_avx2.
 bool has_avx2();
-/// The fastest that this machine can run.
+/// Returns the fastest kernels that this machine can run.
 const PackKernels& pack_kernels();
 
-/// The segments of a loop that one thread runs.
+/// Updates segments begin … end − 1 of a loop in this thread.
 inline void run_range(const UpdateSegment& f, int begin, int end) { pack_kernels().update_segments(f, begin, end); }
 
-/// As a Gather of all: in packs where there are any of a part's models, the other parts item by item; with other
-/// activations all of it.
+/// Computes the same sum as a Gather: in packs the parts that have packs for their models, the other parts item by
+/// item. With another activation than `ogc`, or fewer than 4 team lanes, it computes all of them item by item.
 template <class All>
 struct PackedGather;
 template <class... Parts>

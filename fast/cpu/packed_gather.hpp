@@ -10,7 +10,7 @@ namespace ogc::fast {
 inline namespace OGC_PACKS {
 namespace packed {
 
-/// P::width sums as one of packs, sum k in lane k.
+/// Returns P::width sums as a sum of packs, sum k in lane k.
 template <class P>
 ForceAndBlockOf<P> together(const ForceAndBlock* a) {
   const auto each = [a](auto number) { return P::of_each([&](int k) { return number(a[k]); }); };
@@ -48,7 +48,7 @@ struct TeamLanes {
       packs[first / P::width] += together<P>(part.sums + first);
   }
 
-  /// The sum of all team lanes, by the tree of SerialTeam.
+  /// Returns the sum of all team lanes, added by the tree of SerialTeam.
   ForceAndBlock total() {
     for (int s = W / P::width / 2; s > 0; s /= 2) {
       for (int l = 0; l < s; ++l) packs[l] += packs[l + s];

@@ -19,7 +19,7 @@ struct Items {
   }
   using Number = P;  ///< of the formulas
 
-  /// number(item), and condition(item), of each.
+  /// Return number(item) of each item, and where condition(item) holds.
   template <class F>
   P each(F number) const {
     return P::of_each([&](int k) { return number(*at[k]); });
@@ -28,19 +28,20 @@ struct Items {
   typename P::Mask which(F condition) const {
     return each([&](const Item& item) { return condition(item) ? 1.0F : 0.0F; }) > P{};
   }
-  /// Where the update of a vertex finds the vertices with the encoded indices index(item) [m].
+  /// Returns the positions of the vertices with the encoded indices index(item), as the update of a vertex reads them
+  /// [m].
   template <class F>
   Vector<P> position(const SweepShared& view, F index) const {
     return each_position([&](const Item& item) -> const PaddedVec& { return view.old[view.number(index(item))]; });
   }
-  /// xᵗ of those vertices [m].
+  /// Returns xᵗ of those vertices [m].
   template <class F>
   Vector<P> start(const SweepShared& view, F index) const {
     return each_position([&](const Item& item) -> const PaddedVec& { return view.start.at[decoded(index(item))]; });
   }
 
  private:
-  /// position(item): where it is.
+  /// Returns the positions of all items; position(item) refers to one.
   template <class F>
   Vector<P> each_position(F position) const {
     const PaddedVec* padded[P::width];
@@ -49,7 +50,7 @@ struct Items {
   }
 };
 
-/// The same vector in each lane.
+/// Returns the same vector in each lane.
 template <class P>
 Vector<P> everywhere(const Vec& a) {
   return {a.x, a.y, a.z};
@@ -57,7 +58,7 @@ Vector<P> everywhere(const Vec& a) {
 
 }  // namespace packed
 
-/// a where the condition holds, else b.
+/// Returns a where the condition holds, else b.
 template <class P>
 ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>& a, const ForceAndBlockOf<P>& b) {
   const Symmetric3Of<P>&p = a.block, &q = b.block;

@@ -16,7 +16,7 @@ inline Vector<Pack> gathered(PaddedVecs positions, int a, int b, int c, int d) {
   return transposed<Pack>(vertex);
 }
 
-/// Lower bounds of the distances of an edge and four others, as `separation` gives them [m].
+/// Returns lower bounds of the distances of an edge from four others, as `separation` gives them [m].
 inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* primitive) {
   const EdgeEnds own = query.surface.edges[search.owner];
   EdgeEnds other[Pack::width];
@@ -27,7 +27,7 @@ inline Pack separations(const DetectEdgeEdge& query, const Search& search, const
                                  gathered(x, other[0].b, other[1].b, other[2].b, other[3].b)});
 }
 
-/// The same of a vertex and four facets.
+/// Returns lower bounds of the distances of a vertex from four facets [m].
 inline Pack separations(const DetectVertexFacet& query, const Search& search, const int* primitive) {
   const int* corner[Pack::width];
   for (int k = 0; k < Pack::width; ++k) corner[k] = query.surface.facets[primitive[k]].corner;
@@ -47,7 +47,7 @@ struct Waiting {
   /// squared gaps of boxes, gap limits of reaches, and what candidate_limit says [m²]
   float gap[Pack::width], reach[Pack::width], within[Pack::width];
 
-  /// One candidate more.
+  /// Adds a candidate; looks at all when a pack is full.
   void take(const Offer& offer) {
     const float limit = query.candidate_limit(search, offer);
     if (limit < 0) return;
@@ -70,7 +70,7 @@ struct Waiting {
   }
 };
 
-/// The searches begin … end − 1, by one thread.
+/// Runs searches begin … end − 1 in this thread.
 template <class Query>
 void run_searches(const Searches<Query>& searches, int begin, int end) {
   if (searches.query.is_off()) return;

@@ -1,4 +1,4 @@
-// Updates of vertices on the host's threads.
+// Instantiates the updates of vertices for the host's threads.
 #include "fast/stages/update_vertices.hpp"
 
 #include "fast/cpu/backend.hpp"

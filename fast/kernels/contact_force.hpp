@@ -26,20 +26,20 @@ namespace ogc::fast {
 /// Which faces meet; the head of this file says which slots a kind has.
 enum class ContactKind : std::uint8_t { point_point, point_segment, segment_segment, point_triangle };
 
-/// Of two bodies that meet (method.md §4.5).
+/// The constants of contacts between two bodies (method.md §4.5).
 struct ContactMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ [1]
 };
 
-/// Where a segment is closest to a point, as a parameter in [0, 1]; 0 for a segment of length zero. `from_start` =
-/// point − start.
+/// Returns the parameter in [0, 1] of the point of a segment that is closest to a given point; 0 for a segment of
+/// length zero. `from_start` = point − start.
 OGC_HD inline float closest_on_segment(const Vec& along, const Vec& from_start) {
   const float length_squared = dot(along, along), t = dot(along, from_start);
   if (!(t > 0)) return 0.0f;
   return t < length_squared ? t / length_squared : 1.0f;
 }
 
-/// t within [0, 1]; 0 for NaN.
+/// Returns t clamped to [0, 1]; 0 for NaN.
 template <class T>
 OGC_HD T clamp_unit(const T& t) {
   return select(t > T(0.0f), select(t < T(1.0f), t, T(1.0f)), T(0.0f));
@@ -149,9 +149,9 @@ struct TwoSegments {
   }
 };
 
-/// Of nearly parallel segments with an overlap of more than a point: the middle of the overlap on the first, its
-/// projection on the second (method.md §1.4), which needs the first to be the lower-numbered edge. Lengths of zero are
-/// legal.
+/// Returns the closest points of two segments, which may have length zero. If they are nearly parallel and overlap in
+/// more than a point: the middle of the overlap on the first, and its projection on the second (method.md §1.4); the
+/// first must be the lower-numbered edge for that.
 OGC_HD inline SegmentParameters closest_on_segments(const TwoSegments<float>& at) {
   if (at.is_usual()) return at.parameters();
   if (!(at.aa > 0)) return {0.0f, closest_on_segment(at.second, Vec{} - at.between)};
@@ -168,7 +168,7 @@ template <class T>
 struct ContactWeightsOf {
   T slot[4] = {};  ///< w, adding up to 0 but for rounding
 
-  /// w of slot k, by selection: an index would move the array from registers to memory.
+  /// Returns w of slot k by selection: an index would move the array from registers to memory.
   OGC_HD T of(int k) const {
     const T low = k == 0 ? slot[0] : slot[1], high = k == 2 ? slot[2] : slot[3];
     return k < 2 ? low : high;
@@ -176,7 +176,7 @@ struct ContactWeightsOf {
 };
 using ContactWeights = ContactWeightsOf<float>;
 
-/// Those of a segment and a segment, and of a point and a triangle.
+/// Return the weights of two segments, and of a point and a triangle.
 template <class T>
 OGC_HD ContactWeightsOf<T> weights_of(const SegmentParametersOf<T>& at) {
   return {{1.0f - at.first, at.first, at.second - 1.0f, -at.second}};
@@ -190,7 +190,7 @@ OGC_HD ContactWeightsOf<T> weights_of(const TriangleWeightsOf<T>& at) {
 /// instructions.
 enum class PairKind { any, vertex_facet, edge_edge };
 
-/// Weights of the closest points of a contact whose slots are at x.
+/// Returns the weights of the closest points of a contact whose slots are at x.
 template <PairKind pairs = PairKind::any>
 OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
   if (kind == ContactKind::point_point) return {{1, 0, -1, 0}};
@@ -204,7 +204,7 @@ OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
   return weights_of(closest_on_triangle(x));
 }
 
-/// Σ w_i x_i, from differences to slot 0.
+/// Returns Σ w_i x_i, computed from differences to slot 0.
 template <class T>
 OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T>* x) {
   return weights.slot[1] * (x[1] - x[0]) + weights.slot[2] * (x[2] - x[0]) + weights.slot[3] * (x[3] - x[0]);
@@ -221,7 +221,7 @@ struct ContactShapeOf {
 };
 using ContactShape = ContactShapeOf<float>;
 
-/// From Σ w_i x_i.
+/// Returns normal and distance for `separation` = Σ w_i x_i.
 template <class T>
 OGC_HD ContactShapeOf<T> contact_shape(const Vector<T>& separation, float contact_radius) {
   const T squared = dot(separation, separation);
@@ -264,8 +264,8 @@ OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_sq
   return q * (2.0f - q);
 }
 
-/// Of nearly parallel edges: their overlap, seen along the first, over the shorter one's length. To where the second
-/// one starts and ends, from the first one's start.
+/// Returns for nearly parallel edges the length of their overlap, measured along the first, over the length of the
+/// shorter one. `to_start` and `to_end` go from the first one's start to the second one's ends.
 OGC_HD inline float overlap_share(const Vec& first, const Vec& second, const Vec& to_start, const Vec& to_end) {
   const float aa = dot(first, first), bb = dot(second, second);
   const float start = clamp_unit(dot(first, to_start) / aa), end = clamp_unit(dot(first, to_end) / aa);

@@ -1,6 +1,6 @@
-// From the records of a detection to the stream that the sweep reads: slots, stiffness with the mollifier of this
-// detection, friction, and for each neighbour the buffer it is read from. Made once a detection, so that the sweep has
-// nothing to look up.
+// Makes the stream that the sweep reads from the records of a detection: slots, stiffness with the mollifier of this
+// detection, friction, and for each neighbour the buffer from which it is read. It is made once a detection, so that
+// the sweep has nothing to look up.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// What a record does not say itself.
+/// Data of contacts that are not in their records.
 struct ContactTables {
   const int* body = nullptr;                   ///< by vertex
   const ContactMaterial* materials = nullptr;  ///< of bodies a and b, at a · body_count + b
@@ -22,7 +22,7 @@ struct ContactTables {
   const Vec* previous = nullptr;        ///< X_prev, positions of the detection, for e_k
 };
 
-/// A contact with the k_c [N/m] and μ of two vertices' bodies (method.md §4.5), and nothing else.
+/// Returns a contact with the k_c [N/m] and μ of two vertices' bodies (method.md §4.5), and nothing else.
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;
@@ -31,7 +31,7 @@ OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, i
   return contact;
 }
 
-/// Kind and vertices of a contact.
+/// Sets kind and vertices of a contact.
 OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a, int b, int c, int d) {
   contact.kind = kind;
   contact.index[0] = a;
@@ -40,7 +40,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a,
   contact.index[3] = d;
 }
 
-/// A record's slots with plain vertex numbers as indices, `own` 0.
+/// Sets kind and vertices from a vertex–facet record: plain vertex numbers as indices, `own` 0.
 OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord& record) {
   const int v = record.vertex;
   const int* corner = record.corner;
@@ -52,14 +52,15 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord&
     set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
 }
 
-/// A vertex–facet contact as a record has it: plain vertex numbers as indices, `own` 0.
+/// Returns the vertex–facet contact of a record: plain vertex numbers as indices, `own` 0.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
   ContactIncidence contact = meeting(tables, record.vertex, record.corner[0]);
   set_slots(contact, record);
   return contact;
 }
 
-/// e_k of two interiors: the mollifier; of two edges without triangles the share that nearly parallel ones overlap.
+/// Returns e_k of two interiors: the mollifier; for two edges without triangles the share of nearly parallel ones that
+/// overlaps.
 OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeRecord& record) {
   const Vec* x = tables.previous;
   const Ends p{x[record.first[0]], x[record.first[1]]}, q{x[record.second[0]], x[record.second[1]]};
@@ -72,7 +73,7 @@ OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeReco
   return called(is_shared) ? overlap_share(first, second, q.a - p.a, q.b - p.a) : 1.0f;
 }
 
-/// The slots of an edge–edge record, likewise.
+/// Sets kind and vertices from an edge–edge record: plain vertex numbers as indices, `own` 0.
 OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& record) {
   const int* p = record.first;
   const int* q = record.second;
@@ -84,7 +85,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& re
     set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
 }
 
-/// The same of an edge–edge contact. The stiffness of two interiors holds e_k.
+/// Returns the edge–edge contact of a record in the same way. The stiffness of two interiors includes e_k.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
   ContactIncidence contact = meeting(tables, record.first[0], record.second[0]);
   set_slots(contact, record);
@@ -92,13 +93,13 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
   return contact;
 }
 
-/// Bit k: the kind has slot k.
+/// Returns the slots of a kind: bit k is set if it has slot k.
 OGC_HD inline int slots_of(ContactKind kind) {
   return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;
 }
 
-/// Slot of a role of contact_view.hpp. A facet's corners follow the vertex in a triangle, and are the second side
-/// otherwise.
+/// Returns the slot of a role of contact_view.hpp. A facet's corners follow the vertex in a triangle, and are the
+/// second side otherwise.
 OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
   const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
@@ -149,7 +150,7 @@ struct ResolveContact {
   }
 };
 
-/// Energy of a contact with plain indices [J]; e_k within the stiffness.
+/// Returns the energy of a contact with plain indices [J]; its stiffness includes e_k.
 OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position,
                                     const AnyActivation& activation, float contact_radius) {
   Vec x[4];
@@ -159,7 +160,7 @@ OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* 
   return activation.energy(activation_distance(shape.distance, contact_radius), contact_radius, contact.stiffness);
 }
 
-/// Energy of the vertex–facet contacts, record by record; how many there are is known on the device only.
+/// Adds the energies of the vertex–facet contacts, record by record; only the device knows how many there are.
 struct VertexFacetTerm {
   ContactView view;
   ContactTables tables;  ///< of the last detection, whose e_k counts
@@ -173,7 +174,7 @@ struct VertexFacetTerm {
   }
 };
 
-/// Energy of the edge–edge contacts, likewise.
+/// Adds the energies of the edge–edge contacts, record by record.
 struct EdgeEdgeTerm {
   ContactView view;
   ContactTables tables;  ///< of the last detection, whose e_k counts

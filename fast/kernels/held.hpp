@@ -8,7 +8,8 @@
 
 namespace ogc::fast {
 
-/// The proposal of a free vertex as its region allows it; `cut`: it was changed. All of `lanes` call it together.
+/// Returns the proposal of a free vertex, truncated to its region; `cut`: it was changed. All of `lanes` call it
+/// together.
 template <class Metric, class Lanes = OneLane>
 OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
                       const Lanes& lanes = {}) {
@@ -18,7 +19,7 @@ OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Ve
   return slide_into(region, current, proposal, metric, lanes);
 }
 
-/// The same of a prescribed vertex.
+/// Returns the target of a prescribed vertex, truncated along its straight path.
 OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& current, const Vec& target) {
   if (region.count == 0) return truncate(region.ball, target);
   if (is_within(region, target)) return {target, false};

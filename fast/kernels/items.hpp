@@ -13,7 +13,7 @@ struct OneItem {
   using Number = float;  ///< of the formulas
   const Item& item;
 
-  /// number(item), and condition(item).
+  /// Return number(item) and condition(item).
   template <class F>
   OGC_HD float each(F number) const {
     return number(item);
@@ -22,12 +22,12 @@ struct OneItem {
   OGC_HD bool which(F condition) const {
     return condition(item);
   }
-  /// Where the update of a vertex finds the vertex with the encoded index index(item) [m].
+  /// Returns the position of the vertex with the encoded index index(item), as the update of a vertex reads it [m].
   template <class F>
   OGC_HD Vec position(const SweepShared& view, F index) const {
     return view.read(index(item));
   }
-  /// xᵗ of that vertex [m].
+  /// Returns xᵗ of that vertex [m].
   template <class F>
   OGC_HD Vec start(const SweepShared& view, F index) const {
     return view.start[decoded(index(item))];

@@ -30,7 +30,7 @@ struct StepRow {
   /// with rods: smallest distance of contacts that act [m], mean and largest ‖D‖/l − 1 of segments
   float smallest_contact = 0, largest_stretch = 0;
   double mean_stretch = 0;
-  double last_motion = 0;  ///< way of the last sweep over that of the step, by mass [1]
+  double last_motion = 0;  ///< motion of the last sweep over that of the step, weighted by mass [1]
   /// if forces were measured: Eq. 29 and the part of it that may be rounding [1]; vertices that a bound holds
   double left_residual = 0, left_rounding = 0;
   int left_held = 0;

@@ -32,7 +32,8 @@ struct PairPoints {
   bool is_first_fixed, is_second_fixed;
 };
 
-/// The gap of the shadows of both sides on `direction`, over its length; from points relative to one of them.
+/// Returns the gap between the shadows of both sides on `direction`, divided by its length. Points are relative to one
+/// of them.
 template <int m, int n>
 OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Real (&second)[n]) {
   double top = dot(direction, first[0]).value, bottom = dot(direction, second[0]).value;
@@ -41,8 +42,8 @@ OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Re
   return divide(sub(bottom, top), square_root(squared(direction)));
 }
 
-/// The better of two directions: two convex sets are no nearer than the gap of their shadows, and between the closest
-/// points that gap is the distance. So nobody has to decide which faces hold them.
+/// Keeps the better of two directions. Two convex sets are no nearer than the gap of their shadows, and along the line
+/// of their closest points that gap is their distance. So it is not necessary to know which faces hold these points.
 template <int m, int n>
 OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction, const Real (&first)[m],
                             const Real (&second)[n]) {
@@ -52,10 +53,11 @@ OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction,
   best_gap = gap;
 }
 
-/// From the point at the origin to the segment from a along e.
+/// Returns the vector from the origin, where the point lies, to the segment from a along e.
 OGC_HD inline Real to_segment(const Real& a, const Real& e) { return a + Rounded{segment_parameter(-a, e)} * e; }
 
-/// From the closest point of the first side, a vertex, to that of the second, a triangle; 0 where they touch.
+/// Returns the direction from the closest point of the first side, a vertex, to that of the second, a triangle; 0 where
+/// they touch.
 OGC_HD inline Real separating_direction(const PairPoints<1, 3>& pair) {
   const Real first[1] = {};
   const Real second[3] = {difference<Rounded>(pair.second[0], pair.first[0]),
@@ -74,7 +76,7 @@ OGC_HD inline Real separating_direction(const PairPoints<1, 3>& pair) {
   return best;
 }
 
-/// The same of two edges.
+/// Returns the same direction for two edges.
 OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
   const Real e = difference<Rounded>(pair.first[1], pair.first[0]),
              f = difference<Rounded>(pair.second[1], pair.second[0]),
@@ -92,7 +94,8 @@ OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
   return best;
 }
 
-/// Of the closed faces, with its slack. The distance alone: no exact sign decides which faces hold the closest points.
+/// Returns the distance of the closed faces, with its slack, and nothing else: no exact sign decides which faces hold
+/// the closest points.
 OGC_HD inline Distance distance_of(const PairPoints<1, 3>& pair) {
   return point_triangle_distance(pair.first[0], {pair.second[0], pair.second[1], pair.second[2]});
 }
@@ -100,7 +103,7 @@ OGC_HD inline Distance distance_of(const PairPoints<2, 2>& pair) {
   return edge_edge_distance({pair.first[0], pair.first[1]}, {pair.second[0], pair.second[1]});
 }
 
-/// What the first side has of 2γ_p of the gap where both can move: half of it.
+/// The first side's share of 2γ_p of the gap where both can move: one half.
 struct Halved {
   OGC_HD double operator()(const Vec&) const { return 0.5; }
 };
@@ -159,7 +162,7 @@ OGC_HD int first_left(const FeasibleRegion& region, const Vec& x, const Lanes& l
   return lanes.first(region.count, from, [&](int k) { return !is_behind(region.planes[k], x); });
 }
 
-/// Decided on the stored numbers: x is in the region for certain.
+/// Checks whether x is in the region for certain; decides on the stored numbers.
 template <class Lanes = OneLane>
 OGC_HD bool is_within(const FeasibleRegion& region, const Vec& x, const Lanes& lanes = {}) {
   return first_left(region, x, lanes) == region.count && is_within(region.ball, x);
@@ -172,7 +175,7 @@ struct BlockMetric {
 
   OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }
 };
-/// The same of a vertex that inertia alone holds.
+/// The direction for a vertex that only inertia holds: n itself.
 struct InertiaMetric {
   OGC_HD Vec operator()(const Vec& n) const { return n; }
 };
@@ -182,28 +185,28 @@ namespace slide {
 using Point = Vector<double>;
 inline constexpr int passes = 4, nudges = 3;  ///< over the half-spaces; of a stored position, at most
 
-/// To double without loss, and back with one rounding.
+/// Convert to double without loss, and back with one rounding.
 OGC_HD inline Point wide(const Vec& a) { return {a.x, a.y, a.z}; }
 OGC_HD inline Vec stored(const Point& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// How far across the plane storing y in single precision, 2⁻²⁴ of each coordinate, and `steps` of `nudged`, at most
-/// 2⁻²³ of one of them each, can move it.
+/// Returns how far across the plane y can move when it is stored in single precision (2⁻²⁴ of each coordinate) and
+/// moved by `steps` of `nudged` (at most 2⁻²³ of one coordinate each).
 OGC_HD inline double room_to_store(const HalfSpace& plane, const Point& y, int steps) {
   const Point n = wide(plane.normal);
   return (1 + 2 * steps) * 0x1p-24 * (modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z));
 }
 
-/// How far y lies beyond the plane, and as much farther as storing it can move it. Guides the search for a position;
-/// whether that one is taken `is_within` decides.
+/// Returns how far y lies beyond the plane, plus the distance that storing it can add. It guides the search for a
+/// position; `is_within` decides whether the position is taken.
 OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
   return dot(wide(plane.normal), y) - plane.offset + room_to_store(plane, y, 0);
 }
 
-/// The radius within which a position may be stored, and moved by `steps`, anywhere. Storing moves each coordinate by
-/// 2⁻²⁴ of itself, at most ‖X_prev‖_∞ + b, and so the point by √3 times that: twice that leaves some for the arithmetic
-/// here.
+/// Returns the radius within which a position may be stored, and moved by `steps`, anywhere. Storing moves each
+/// coordinate by at most 2⁻²⁴ of ‖X_prev‖_∞ + b, and so the point by √3 times that; twice that leaves room for the
+/// arithmetic here.
 OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
   const Point centre = wide(region.ball.centre);
   const double radius = static_cast<double>(region.ball.radius);
@@ -211,7 +214,7 @@ OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
   return larger(0.0, radius - (2 + 2 * steps) * 0x1p-24 * size);
 }
 
-/// Along the violated half-spaces in their order, then into the ball.
+/// Moves y along the violated half-spaces in their order, then into the ball.
 template <class Metric, class Lanes>
 OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric, const Lanes& lanes) {
   const Point centre = wide(region.ball.centre);
@@ -236,9 +239,10 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
   return y;
 }
 
-/// One coordinate by one float towards the inside of what x violates first: the coordinate that leads farthest inside.
-/// Storing takes a point out of a half-space by half a spacing of each coordinate times |n_k| at most, so that two
-/// steps of the best coordinate take it back; those of a small coordinate, whose spacing is small, would lead nowhere.
+/// Moves one coordinate of x by one float towards the inside of the first plane or ball that x violates: the coordinate
+/// that leads farthest inside. Storing takes a point out of a half-space by at most half a spacing of each coordinate
+/// times |n_k|, so two steps of the best coordinate take it back; steps of a small coordinate, whose spacing is small,
+/// would lead nowhere.
 template <class Lanes>
 OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   const int left = first_left(region, x, lanes);
@@ -251,7 +255,8 @@ OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   return x;
 }
 
-/// The stored position, nudged where storing took it out of the region; whether that helps, `is_within` says.
+/// Returns the stored position, nudged if storing took it out of the region; the caller checks with `is_within` whether
+/// that was enough.
 template <class Lanes>
 OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lanes& lanes) {
   Vec x = stored(y);
@@ -305,7 +310,7 @@ OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, 
   return {is_within(region, x, lanes) ? x : slide::scaled(region, current, y, lanes), true};
 }
 
-/// The same on the straight way from `current`: for prescribed vertices, whose groups shall stay rigid.
+/// Truncates along the straight line from `current`: for prescribed vertices, whose groups must stay rigid.
 template <class Lanes>
 OGC_HD OGC_OUT_OF_LINE Truncated scale_into(FeasibleRegion region, Vec current, Vec proposal, Lanes lanes) {
   return {slide::scaled(region, current, slide::wide(proposal), lanes), true};

@@ -44,8 +44,8 @@ struct Side {
   }
 };
 
-/// Is negative if the distance to the line ab falls from v towards w. With c(e, v) inside ab this is the plane of Eq.
-/// 15 at v: c in U_v iff ≥ 0 for all w.
+/// Is negative if the distance to the line ab falls from v towards w. If the closest point c of edge e to v is inside
+/// ab, this is the plane of Eq. 15 at v: c lies in U_v if and only if the value is ≥ 0 for all w.
 struct Receding {
   /// ((v − a) × (b − a))·((w − v) × (b − a)) [m⁴].
   static constexpr int degree = 4;

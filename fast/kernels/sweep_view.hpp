@@ -126,11 +126,11 @@ struct SweepShared {
     return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0));
   }
 
-  /// Where an encoded index is read.
+  /// Returns the place at which an encoded index is read.
   OGC_HD int number(int index) const { return decoded(index) + ((index >> 31) & to_fresh); }
-  /// The position there.
+  /// Returns the position at an encoded index.
   OGC_HD Vec read(int index) const { return PaddedVecs{old}[number(index)]; }
-  /// A new position.
+  /// Writes the new position of a vertex.
   OGC_HD void write(int v, const Vec& x) const {
     old[v + to_fresh] = PaddedVec(x);
     position[v] = x;

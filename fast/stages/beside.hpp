@@ -1,11 +1,11 @@
-// Two loops in one launch: a launch of its own costs a device more than the items of a short one.
+// Runs two loops in one launch: a launch of its own costs a device more than the items of a short one.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
 
 namespace ogc::fast {
 
-/// f(i) for i < first, g(i) for i < second; index over count(). Neither reads what the other writes.
+/// Calls f(i) for i < first and g(i) for i < second; index over count(). Neither may read what the other writes.
 template <class F, class G>
 struct Beside {
   int first;
@@ -25,7 +25,7 @@ struct Nothing {
   OGC_HD void operator()(int) const {}
 };
 
-/// One launch of both.
+/// Runs both loops in one launch.
 template <class Backend, class F, class G>
 void for_each_beside(Backend& backend, int first, const F& f, int second, const G& g) {
   const Beside<F, G> both{first, f, second, g};

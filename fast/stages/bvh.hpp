@@ -32,7 +32,8 @@ inline int node_count(const TreeView& tree) {
 template <class Backend>
 class Bvh {
  public:
-  /// In index order until the first rebuild: correct, but slow. `searched`: Surface::searched of the same surface.
+  /// Orders primitives by index until the first rebuild: correct, but slow. `searched`: Surface::searched of the same
+  /// surface.
   Bvh(const SurfaceView& surface, const std::vector<int>& searched) : surface_(surface) {
     const std::size_t total = static_cast<std::size_t>(facets_at()) + surface.searched_facets;
     std::vector<int> order = searched;

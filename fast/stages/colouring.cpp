@@ -63,7 +63,7 @@ int smallest_free_colour(const compare::CompressedRows& graph, const std::vector
   return c;
 }
 
-// Greedy in the given order; returns the number of colours.
+// Colours greedily in the given order; returns the number of colours.
 int colour_in_order(const compare::CompressedRows& graph, const std::vector<int>& order, std::vector<int>& colour) {
   std::fill(colour.begin(), colour.end(), uncoloured);
   std::vector<int> seen;
@@ -76,7 +76,8 @@ int colour_in_order(const compare::CompressedRows& graph, const std::vector<int>
   return count;
 }
 
-// DSATUR: next is the vertex whose neighbours show most colours, then most neighbours, then the lowest number.
+// Colours by DSATUR and returns its order: next is the vertex whose neighbours have most colours, then the one with
+// most neighbours, then the lowest number.
 std::vector<int> saturation_order(const compare::CompressedRows& graph, const std::vector<int>& vertices,
                                   std::vector<int>& colour) {
   using Entry = std::array<int, 3>;
@@ -103,8 +104,8 @@ std::vector<int> saturation_order(const compare::CompressedRows& graph, const st
   return order;
 }
 
-// The vertices class by class: classes reversed on even passes, smallest first on odd ones. Greedy in such an order
-// never needs a colour more.
+// Returns the vertices class by class: classes are reversed on even passes, smallest first on odd ones. A greedy
+// colouring in this order never needs more colours.
 std::vector<int> order_by_class(const std::vector<int>& vertices, const std::vector<int>& colour, int count, int pass) {
   std::vector<int> size(static_cast<std::size_t>(count)), rank(size.size());
   for (const int v : vertices) ++size[static_cast<std::size_t>(colour[static_cast<std::size_t>(v)])];
@@ -193,8 +194,8 @@ void balance(const compare::CompressedRows& graph, const std::vector<int>& verti
   }
 }
 
-// From a greedy colouring in `order`: passes by class, and after each an attempt to empty the last class, which greedy
-// leaves smallest.
+// Improves a greedy colouring in `order`. Each pass orders by class and then tries to empty the last class, which the
+// greedy colouring leaves smallest.
 int improve(const compare::CompressedRows& graph, std::vector<int> order, int passes, std::vector<int>& colour) {
   int count = colour_in_order(graph, order, colour);
   for (int pass = 0; pass < passes; ++pass) {

@@ -20,18 +20,19 @@ struct Colouring {
   std::vector<int> begin{0};  ///< colour c is order[begin[c] .. begin[c + 1])
 };
 
-/// Free vertices that share a membrane or bending stencil, a spring, a tetrahedron or a segment with v, ascending; rows
-/// of other vertices are empty.
+/// Returns in row v the free vertices that share a membrane or bending stencil, a spring, a tetrahedron or a segment
+/// with v, ascending; rows of vertices that are not free are empty.
 compare::CompressedRows conflict_graph(const RestState& rest);
 
-/// Passes in which the number of colours is brought down, where vertices have so many neighbours in all: as many as
-/// visit 2·10⁷ of them, which is about a second, but 4 at least and 100 at most.
+/// Returns the number of passes that reduce the number of colours: as many as visit 2·10⁷ neighbours, which takes about
+/// a second, but at least 4 and at most 100. `neighbours`: all neighbours of all vertices.
 int colouring_passes(std::size_t neighbours);
 
 /// Colours the vertices with Mobility::free.
 Colouring colour_vertices(const RestState& rest);
 
-/// Colours the segments that nothing holds; two on an open chain, three on an odd ring. Of none: no colour.
+/// Colours the segments that nothing holds: with two colours on an open chain, three on an odd ring, none if there are
+/// none.
 Colouring colour_segments(const RodsAtRest& rods);
 
 }  // namespace ogc::fast

@@ -27,12 +27,12 @@ namespace ogc::fast {
 /// The first and the last launch of a detection, which nothing else shares here; a step has work of its own in both
 /// (fast/stages/step_detection.hpp).
 struct PlainLaunches {
-  /// First launch.
+  /// Runs the first launch.
   template <class Backend>
   void begin(Backend& backend, const BeginDetection& detection) const {
     backend.for_each(detection.count(), detection);
   }
-  /// Last launch, over *count ≤ `capacity` incidences.
+  /// Runs the last launch, over *count ≤ `capacity` incidences.
   template <class Backend>
   void rank(Backend& backend, const ListsView& lists, const int* count, int capacity) const {
     backend.for_each_counted(count, capacity, RankIncidences{lists});
@@ -62,13 +62,13 @@ class Detection {
     d_min_triangle_.resize(static_cast<std::size_t>(surface.triangle_count));
   }
 
-  /// New order of the trees for `positions`: worth its sort every few steps. Enqueued like a detection, and never
-  /// needed for a right answer.
+  /// Sorts the trees anew for `positions`; it pays every few steps. It is enqueued like a detection, and no right
+  /// answer depends on it.
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
-  /// Contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q =
-  /// *query_radius ≥ r [m] (on the backend), γ_p = bounds_relaxation. A no-op while *overflow() is set. `launches`: the
-  /// first and the last launch, with whatever the caller adds to them.
+  /// Computes contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q
+  /// = *query_radius ≥ r [m] (on the backend), γ_p = bounds_relaxation. A no-op while *overflow() is set. `launches`:
+  /// the first and the last launch, with the work that the caller adds to them.
   template <class Launches = PlainLaunches>
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
               const Launches& launches = {}) {
@@ -77,12 +77,12 @@ class Detection {
                     planes_.distances(), launches);
   }
 
-  /// As kernels see them; positions are those of the last detection.
+  /// Return surface, positions and lists as kernels see them; the positions are those of the last detection.
   SurfaceView surface() { return surface_.view(); }
   PaddedVecs positions() { return {padded_.data()}; }
   ListsView lists() { return lists_.view(); }
 
-  /// Of the last complete detection; valid until grow() returns true.
+  /// Returns the contacts of the last complete detection; valid until grow() returns true.
   ContactView view() {
     const ListsView lists = lists_.view();
     return {.vertex_facet = lists.vertex_facet,
@@ -95,22 +95,22 @@ class Detection {
             .d_min_vertex = planes_.is_used() ? planes_.nearest() : d_min_vertex_.data()};
   }
 
-  /// As Planes::divide_by.
+  /// Forwards to Planes::divide_by.
   void divide_planes_by(const Vec* displacement) { planes_.divide_by(displacement); }
-  /// Host only: see Planes::download.
+  /// Host only: forwards to Planes::download.
   compare::VertexPlanes download_planes() const { return planes_.download(); }
-  /// Of the last complete detection. `centre`: the positions that it was for, on the backend.
+  /// Returns the regions of the last complete detection. `centre`: the positions of that detection, on the backend.
   FeasibleRegions regions(const Vec* centre) const { return planes_.regions(centre, bound_.data()); }
 
-  /// Incidences in the rows of ContactView::incidence_offsets, in any order within one.
+  /// Returns the incidences in the rows of ContactView::incidence_offsets; within a row they have any order.
   const LooseIncidence* loose_incidences() { return lists_.view().loose; }
 
-  /// On the backend, not 0 once a list was too small. Work that must not run on incomplete sets asks this first; only
-  /// grow() clears it.
+  /// Returns a flag on the backend that is not 0 once a list was too small. Work that must not run on incomplete sets
+  /// reads it first; only grow() clears it.
   const int* overflow() const { return lists_.overflow(); }
 
-  /// Host only: enlarges what was too small and clears the flag; true where there was anything to do, and the detection
-  /// has to be repeated.
+  /// Host only: enlarges what was too small and clears the flag. Returns true if something was too small; then the
+  /// detection has to be repeated.
   bool grow() {
     const bool grown = lists_.grow();
     planes_.reserve(lists_.noted_capacity());
@@ -119,10 +119,10 @@ class Detection {
 
   /// Contacts that fit before the lists have to grow.
   int capacity() const { return lists_.capacity(); }
-  /// Those of all lists, for `reserve` of another detection over the same surface.
+  /// Returns the capacities of all lists, for `reserve` of another detection over the same surface.
   std::vector<std::int64_t> capacities() const { return {lists_.capacity(), lists_.noted_capacity()}; }
-  /// Host only: gives the lists the capacities that another detection had. Throws std::invalid_argument where they are
-  /// not of such lists.
+  /// Host only: gives the lists the capacities that another detection had. Throws std::invalid_argument if they cannot
+  /// be capacities of these lists.
   void reserve(const std::vector<std::int64_t>& capacities) {
     const auto possible = [](std::int64_t capacity) {
       return capacity > 0 && capacity <= std::numeric_limits<int>::max();
@@ -136,11 +136,11 @@ class Detection {
   const float* d_min_vertex() const { return d_min_vertex_.data(); }      ///< Eq. 22, rounded down [m]
   const float* d_min_edge() const { return d_min_edge_.data(); }          ///< Eq. 24
   const float* d_min_triangle() const { return d_min_triangle_.data(); }  ///< Eq. 26
-  /// The contact face of each vertex–facet record, as SurfaceView numbers faces.
+  /// Returns the contact face of each vertex–facet record, as SurfaceView numbers faces.
   const int* vertex_facet_faces() { return lists_.view().vertex_facet_face; }
 
  private:
-  /// All before the lists.
+  /// Does all of a detection that comes before the lists.
   template <class Launches>
   void find(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
             const Launches& launches) {
@@ -169,7 +169,7 @@ class Detection {
     }
   }
 
-  /// None where there is no facet.
+  /// Returns the number of searches for facets; 0 if there is no facet.
   int facet_searches() { return searches_of(vertex_facet_query(0)).count; }
 
   DetectVertexFacet vertex_facet_query(float contact_radius) {

@@ -12,7 +12,7 @@ namespace ogc::fast {
 template <class Backend>
 class LeftForces {
  public:
-  /// For a mesh of `vertices`, `slots` of which are free.
+  /// Takes the number of vertices of the mesh, and of its free vertices (`slots`).
   LeftForces(Backend& backend, int vertices, int slots) : reduction_(backend, vertices), slots_(slots) {
     left_.resize(static_cast<std::size_t>(slots));
     totals_.resize(left_columns);
@@ -25,7 +25,7 @@ class LeftForces {
     reduction_.template add<0, left_columns>(LeftSums{left_.data(), slots_}, 0, Nothing{});
     reduction_.total(totals_.data(), 0, Nothing{}, 0, Nothing{});
   }
-  /// By LeftColumn, on the backend; of the step that ended last.
+  /// Returns the totals by LeftColumn, on the backend, for the step that ended last.
   const double* totals() const { return totals_.data(); }
 
  private:

@@ -30,7 +30,7 @@ class Lists {
     resize(capacity, least_noted + 4 * capacity);
   }
 
-  /// As kernels see them.
+  /// Returns the lists as kernels see them.
   ListsView view() {
     ListStatus* status = status_.data();
     return {.noted = noted_.data(),
@@ -59,13 +59,13 @@ class Lists {
             .incidences = incidences_.data()};
   }
 
-  /// Of vertex–facet records; on the backend.
+  /// Returns the number of vertex–facet records, on the backend.
   const int* vertex_facet_count() const { return record_offsets_.data() + surface_.vertex_count; }
-  /// Of edge–edge records; on the backend.
+  /// Returns the number of edge–edge records, on the backend.
   const int* edge_edge_count() const { return &status_.data()->edge_edge; }
-  /// Not 0 once a list was too small; on the backend.
+  /// Returns a flag on the backend that is not 0 once a list was too small.
   const int* overflow() const { return &status_.data()->overflow; }
-  /// Contacts that the lists have room for.
+  /// Returns the number of contacts for which the lists have room.
   int capacity() const { return capacity_; }
   /// Noted pairs that the lists have room for.
   int noted_capacity() const { return noted_capacity_; }

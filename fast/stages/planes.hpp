@@ -51,9 +51,9 @@ class Planes {
     if (is_used()) regions.planes = rows_.data(), regions.counts = counts_.data();
     return regions;
   }
-  /// By vertex: not above the distance of its nearest pair, at most r_q [m].
+  /// Returns by vertex a lower bound of the distance of its nearest pair, at most r_q [m].
   const float* nearest() const { return nearest_.data(); }
-  /// By noted pair: not above its distance [m]; null where bounds are no planes.
+  /// Returns by noted pair a lower bound of its distance [m]; null if bounds are not planes.
   const float* distances() const { return is_used() ? distance_.data() : nullptr; }
 
   /// After the searches: planes and balls (`bound`) of `vertices` vertices from the pairs that `noted` has. Where there

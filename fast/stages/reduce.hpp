@@ -51,7 +51,7 @@ struct AddRun {
 template <class Backend, int columns>
 class Reduction {
  public:
-  /// For a mesh of `vertices`.
+  /// Takes the number of vertices of the mesh.
   Reduction(Backend& backend, int vertices) : backend_(backend), chunks_(reduce_chunks(vertices)) {
     partial_.resize(static_cast<std::size_t>(chunks_ * columns));
     runs_.resize(static_cast<std::size_t>(chunks_ / reduce_run * columns));

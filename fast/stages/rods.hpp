@@ -15,7 +15,8 @@
 
 namespace ogc::fast {
 
-/// Where a scene says nothing else: those of the rest shape, each turned to where its segment starts.
+/// Returns the scene's orientations at the start. If the scene has none: those of the rest shape, each turned from its
+/// segment's direction at rest to its direction at the start.
 std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods);
 
 /// How each motion turns in `steps` steps from `first` on, counted from 0: [step][motion]; w = 2: it does not say.

@@ -334,8 +334,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     return result;
   }
 
-  /// Of a snapshot; of one without, those that the scene starts with. Throws std::invalid_argument where they are not
-  /// one for each segment.
+  /// Returns the orientations of a snapshot; if it has none, those with which the scene starts. Throws
+  /// std::invalid_argument if there is not one for each segment.
   std::vector<Quat> orientations_of(const compare::Snapshot& snapshot) const {
     if (snapshot.orientations.empty()) return start_orientations(scene_, rest_.rods);
     if (snapshot.orientations.size() != rest_.rods.segments.size())

@@ -69,12 +69,12 @@ class StepObserver {
   virtual ~StepObserver() = default;
   /// A step begins, perhaps once more.
   virtual void begin() = 0;
-  /// Where an event of this kind may have ended; StepControl counts those that did. `position`: where x is now, on the
-  /// backend.
+  /// Is called where an event of this kind may have ended; StepControl counts the events that did. `position`: where x
+  /// is now, on the backend.
   virtual void after(compare::StepEventKind kind, const Vec* position) = 0;
-  /// Contacts with volumes are found where the guess loop detected last.
+  /// Is called when contacts with volumes have been found at the positions of the guess loop's last detection.
   virtual void after_finding() = 0;
-  /// The guess loop is over, and frames of segments are turned.
+  /// Is called when the guess loop is over and frames of segments are turned.
   virtual void after_guess() = 0;
 };
 
@@ -82,7 +82,7 @@ class StepObserver {
 template <class Backend>
 class Step {
  public:
-  /// For a mesh of `vertices`; `state` is filled later.
+  /// Takes the number of vertices of the mesh; `state` is filled later.
   Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep,
        Volumes<Backend>& volumes, Rods<Backend>& rods, StageClock<Backend>& clock, StepSettings settings, int vertices)
       : backend_(backend),
@@ -120,8 +120,8 @@ class Step {
     });
   }
 
-  /// The contacts with volumes of who is at `position` (on the backend). Driven volumes are where the step has them
-  /// since its first detection.
+  /// Finds the contacts with volumes of the vertices at `position` (on the backend). Driven volumes stay where the step
+  /// placed them at its first detection.
   void find_in_volumes(const Vec* position) {
     clock_.time(StepStage::volumes, [&] {
       volumes_.find(backend_,
@@ -202,13 +202,13 @@ class Step {
     });
   }
 
-  /// Everything is found anew, contacts with volumes included.
+  /// Detects everything anew, contacts with volumes included.
   void detect() {
     beside_volumes(state_.position.data(), [&] { detect_surfaces(nullptr); });
     observe(compare::StepEventKind::detection);
   }
 
-  /// In the guess loop, after which those with volumes are found.
+  /// Detects in the guess loop; contacts with volumes are found after the loop.
   void detect_in_round() {
     detect_surfaces(state_.target.data());
     observe(compare::StepEventKind::detection);

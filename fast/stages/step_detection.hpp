@@ -16,13 +16,13 @@ struct StepLaunches {
   int slots;                             ///< free vertices
   ResolveContact resolve;                ///< the stream's contacts
 
-  /// As PlainLaunches::begin.
+  /// Runs the first launch, with the certificate of the regions that end (see PlainLaunches::begin).
   template <class Backend>
   void begin(Backend& backend, const BeginDetection& detection) const {
     const BeginStepDetection begin{regions, detection};
     backend.for_each(begin.count(), begin);
   }
-  /// As PlainLaunches::rank.
+  /// Runs the last launch, which also makes the stream of contacts (see PlainLaunches::rank).
   template <class Backend>
   void rank(Backend& backend, const ListsView& lists, const int* count, int capacity) const {
     backend.for_both(std::max(1, slots), EndStepDetection{end, rows, slots}, count, capacity,

@@ -1,4 +1,5 @@
-// What a step needs to know of its scene, in single precision, and how often what is not asked in each step is.
+// Holds what a step needs to know of its scene, in single precision, and how often work is done that not every step
+// needs.
 #pragma once
 
 #include <algorithm>

@@ -140,17 +140,17 @@ class Streams<Backend, KindList<All...>> : Stream<Backend, All>... {
 
   /// Free vertices.
   int slots() const { return static_cast<int>(vertices_.size()); }
-  /// By slot, on the backend.
+  /// Returns the free vertices by slot, on the backend.
   const SweepVertex* vertices() const { return vertices_.data(); }
 
-  /// As Stream::begin, of each kind.
+  /// Calls Stream::begin of each kind.
   void begin(Backend& backend, const Vec* start) { (Stream<Backend, All>::begin(backend, start), ...); }
-  /// The streams of all in a view.
+  /// Puts the streams of all kinds into a view.
   void complete(SweepView& view) const {
     view.vertices = vertices_.data();
     (Stream<Backend, All>::complete(view), ...);
   }
-  /// The elements of all at these positions, on the backend.
+  /// Returns the elements of all kinds at these positions, on the backend.
   AllElements<KindList<All...>> elements(const SurfaceMaterial* materials, const SurfaceModels* models,
                                          const Vec* position) const {
     AllElements<KindList<All...>> all;

@@ -24,13 +24,14 @@ struct Seeds {
 Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,
                  const compare::CompressedRows* partners, const std::vector<Facet>& facets);
 
-/// What searches look at (SurfaceView::searched), and how many of each kind; no numbers where that is all.
+/// The primitives that take part in searches (SurfaceView::searched), and the number of each kind; an empty list means
+/// all of them.
 struct Searched {
   std::vector<int> numbers;  ///< of vertices, then of edges, then of facets
   int vertices = 0, edges = 0, facets = 0;
 };
 
-/// All but what is of volumes.
+/// Returns all primitives that are not of volumes.
 Searched find_searched(const compare::Topology& topology);
 
 /// The complex of one mesh.
@@ -67,7 +68,7 @@ class Surface {
   /// On the host: what searches look at, as SurfaceView has it; empty: all.
   const std::vector<int>& searched() const { return searched_.numbers; }
 
-  /// As kernels see it.
+  /// Returns the surface as kernels see it.
   SurfaceView view() const {
     return {.vertex_count = vertex_count_,
             .edge_count = edge_count_,

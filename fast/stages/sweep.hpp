@@ -67,7 +67,7 @@ void measure_vertices(Backend& backend, int slots, const MeasureVertex<GatherAll
 template <class Backend>
 class Sweep {
  public:
-  /// Of a scene; `backend` and nothing else must outlive it. `segments`: colours of the segments of its rods.
+  /// Makes the sweep of a scene; only `backend` must outlive it. `segments`: colours of the segments of its rods.
   Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology,
         const compare::Scene& scene, const Colouring& segments = {})
       : backend_(backend),
@@ -104,34 +104,36 @@ class Sweep {
   ContactActivation activation() const { return activation_; }
   const int* colour() const { return colour_.data(); }  ///< by vertex; −1: not free. On the backend
 
-  /// What a record does not say itself; `previous`: X_prev, the positions of the last detection.
+  /// Returns the data of contacts that are not in their records. `previous`: X_prev, the positions of the last
+  /// detection.
   ContactTables tables(const Vec* previous) const {
     ContactTables tables = tables_;
     tables.previous = previous;
     return tables;
   }
 
-  /// Room for so many contacts of a detection, and their incidences. Host only, outside a step.
+  /// Makes room for the contacts of a detection, and for their incidences. Host only, outside a step.
   void reserve_contacts(int contacts) { contacts_.resize(4 * static_cast<std::size_t>(contacts)); }
 
   /// Free vertices: items of a launch over contact_rows.
   int slots() const { return streams_.slots(); }
   /// The stream of the last detection: a vertex's contacts are where its row of incidences is; on the backend.
   const ContactIncidence* contacts() const { return contacts_.data(); }
-  /// By slot; on the backend.
+  /// Returns the free vertices by slot, on the backend.
   const SweepVertex* vertices() const { return streams_.vertices(); }
-  /// What makes the rows of the stream after a detection. Where *overflow is not 0 the old stream stays, which is
-  /// whole.
+  /// Returns the functor that makes the rows of the stream after a detection. If *overflow is not 0 the old stream
+  /// stays; it is complete.
   template <class Item>
   CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* overflow) {
     return {incidence_offsets, incidences, overflow, vertices(), contact_rows_.data()};
   }
-  /// What writes the stream, as each incidence gets its place; `previous`: the positions of the detection.
+  /// Returns the functor that writes the stream when each incidence gets its place. `previous`: the positions of the
+  /// detection.
   ResolveContact resolve_contact(const ContactView& view, const Vec* previous) {
     return {view, tables(previous), colour_.data(), contacts_.data()};
   }
 
-  /// The stream of contacts that are there already.
+  /// Makes the stream of contacts that are there already.
   void resolve_contacts(const ContactView& view, const Vec* previous) {
     backend_.for_both(slots(), contact_rows(view.incidence_offsets, view.incidences, nullptr),
                       view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),

@@ -26,7 +26,7 @@ class Curve {
     if (extent > 0) scale_ = (0x1p20 - 1) / static_cast<double>(extent);
   }
 
-  /// Of the mean of these vertices.
+  /// Returns the place on the curve of the mean of these vertices.
   template <std::size_t N>
   std::uint64_t operator()(const std::array<compare::Index, N>& vertices,
                            std::span<const compare::Vec3f> positions) const {

@@ -16,34 +16,35 @@ struct PartOrder {
 /// The parts of volumes.
 using VolumeParts = std::vector<PartOrder>;
 
-/// Those of a scene, in the order of their lowest-numbered triangles; facets and tetrahedra along a Hilbert curve at
-/// the scene's start. Tetrahedra are numbered as volume_tetrahedra lists them.
+/// Returns the parts of a scene's volumes in the order of their lowest-numbered triangles; facets and tetrahedra lie
+/// along a Hilbert curve at the scene's start. Tetrahedra are numbered as volume_tetrahedra lists them.
 VolumeParts volume_parts(const compare::Scene& scene, const compare::Topology& topology);
 
-/// Those of a topology whose triangles are all of one volume, at `positions`. `cavities`: as VolumeDepthIn has them.
+/// Returns the parts of one volume that has all triangles of the topology, at `positions`. `cavities`: as in
+/// VolumeDepthIn.
 VolumeParts volume_parts(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra,
                          std::span<const compare::Edge> cavities, std::span<const compare::Vec3f> positions);
 
-/// The tetrahedra of a scene's volumes, body by body.
+/// Returns the tetrahedra of a scene's volumes, body by body.
 std::vector<compare::Tetrahedron> volume_tetrahedra(const compare::Scene& scene);
 
-/// Who asks volumes, by row (fast/kernels/volumes/contacts.hpp).
+/// The vertices that are tested against volumes, by row (fast/kernels/volumes/contacts.hpp).
 struct AskerRows {
   std::vector<int> askers;   ///< by row: the vertex; −1: nobody
   std::vector<int> slot_of;  ///< by vertex: its slot, or −1; empty where no volume is free
 };
 
-/// Of a scene; `order`: its free vertices by slot. Without volumes: no row.
+/// Returns the rows of a scene, none if it has no volumes. `order`: its free vertices by slot.
 AskerRows asker_rows(const compare::Scene& scene, const compare::Topology& topology, const std::vector<int>& order);
 
-/// What SolidView looks at, on the host.
+/// The arrays of SolidView, on the host.
 struct SolidTables {
   std::vector<SolidElement> elements;
   std::vector<int> offsets, items;  ///< by vertex: tetrahedra that contain it
   std::vector<int> owner;           ///< by triangle; −1 where it is of no tetrahedron
 };
 
-/// Of these tetrahedra; none: all empty.
+/// Returns the tables of these tetrahedra; all are empty if there are none.
 SolidTables solid_tables(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra);
 
 }  // namespace ogc::fast

@@ -86,13 +86,13 @@ class VolumeTrees {
   Buffer<std::uint8_t> is_positive_;
 };
 
-/// What volumes are asked at a detection; all on the backend.
+/// The data with which a detection tests vertices against volumes; all on the backend.
 struct VolumeAskers {
   PaddedVecs volumes;          ///< positions of driven volumes' vertices, by vertex [m]
-  const Vec* position;         ///< of those who ask, and of free volumes, by vertex [m]
+  const Vec* position;         ///< of these vertices and of free volumes, by vertex [m]
   ContactTables tables;        ///< k and μ
   float contact_radius;        ///< r [m]
-  const StepControl* control;  ///< where it is not active nobody asks
+  const StepControl* control;  ///< where it is not active no vertex is tested
 };
 
 /// The resident volumes of one scene.
@@ -139,14 +139,15 @@ class Volumes {
   /// Whether some are free.
   bool has_free() const { return !slot_of_host_.empty(); }
 
-  /// The trees of driven volumes at these positions, where they stay during the step; by vertex, on the backend [m].
+  /// Refits the trees of driven volumes to these positions, where they stay during the step; by vertex, on the backend
+  /// [m].
   void refit(Backend& backend, const Vec* positions) {
     if (!is_used() || has_free()) return;
     backend.for_each(static_cast<int>(clear_.size()), ForgetClearBalls{clear_.data()});
     trees_.refit(backend, surface_, positions);
   }
 
-  /// The contacts of all who ask. *overflow (on the backend) is set where a row was too short.
+  /// Finds the contacts of all askers. *overflow (on the backend) is set if a row was too short.
   void find(Backend& backend, const VolumeAskers& asked, int* overflow) {
     if (!is_used()) return;
     PaddedVecs volumes = asked.volumes;
@@ -174,7 +175,7 @@ class Volumes {
     backend.for_each(slots_, SortCorners{asked.control, corners, longest_.data() + 1, overflow});
   }
 
-  /// What the sweep reads.
+  /// Returns the stream as the sweep reads it.
   VolumeStream stream() const {
     VolumeStream stream{stream_.data(), counts_.data(), capacity_};
     if (!has_free()) return stream;
@@ -184,21 +185,22 @@ class Volumes {
     stream.corner_capacity = corner_capacity_;
     return stream;
   }
-  /// What was found, beside the stream.
+  /// Returns further data of the contacts, which are not in the stream.
   const FoundVolumeContact* found() const { return found_.data(); }
-  /// By row: who asks; sheets without a way, null where there are no solids. On the backend.
+  /// Return by row the asker, and the number of sheets without a path to the boundary (null if there are no solids). On
+  /// the backend.
   const int* askers() const { return askers_.data(); }
   const int* unresolved() const { return unresolved_.data(); }
-  /// Of contacts, where there are volumes; else 0.
+  /// Returns the number of rows of contacts; 0 if there are no volumes.
   int rows() const { return is_used() ? rows_ : 0; }
 
-  /// Into the control, at the end of a step.
+  /// Counts contacts into the control, at the end of a step.
   void count(Backend& backend, float contact_radius, StepControl* control) const {
     backend.for_each(rows(), CountVolumeContacts{counts_.data(), found_.data(), unresolved_.data(), capacity_,
                                                  contact_radius, control});
   }
 
-  /// Host only: rows as long as the last detection needed.
+  /// Host only: makes rows as long as the last detection needed.
   void grow() {
     if (!is_used()) return;
     int longest[2] = {0, 0};
@@ -212,8 +214,8 @@ class Volumes {
     if (!has_free()) return {capacity_};
     return {capacity_, corner_capacity_};
   }
-  /// Host only: rows of these lengths, empty until the next detection. Throws std::invalid_argument where they are no
-  /// such.
+  /// Host only: makes rows of these lengths, empty until the next detection. Throws std::invalid_argument if they
+  /// cannot be lengths of these rows.
   void reserve(std::span<const std::int64_t> capacities) {
     if (capacities.size() != this->capacities().size()) throw std::invalid_argument("capacities of other lists");
     for (const std::int64_t capacity : capacities)
@@ -223,7 +225,7 @@ class Volumes {
     if (capacities.size() > 1) reserve_corners(static_cast<int>(capacities[1]));
   }
 
-  /// Host only: contacts in place of those of a detection, row by row.
+  /// Host only: replaces the contacts of a detection, row by row.
   void put(const std::vector<std::vector<VolumeIncidence>>& rows) {
     std::vector<int> counts;
     std::size_t longest = 1;
@@ -319,7 +321,7 @@ class Volumes {
   Buffer<int> askers_, answers_, counts_, unresolved_, longest_;
   Buffer<ClearBall> clear_;                             ///< beside `answers_`, where none are free
   Buffer<int> slot_of_, corner_counts_, corner_codes_;  ///< where some are free
-  Buffer<PaddedVec> padded_;                            ///< likewise: positions of the detection, by vertex [m]
+  Buffer<PaddedVec> padded_;  ///< where some are free: positions of the detection, by vertex [m]
   Buffer<VolumeIncidence> stream_;
   Buffer<FoundVolumeContact> found_;
 };

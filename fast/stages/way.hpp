@@ -1,4 +1,4 @@
-// Where a step detected: an observer that keeps X_prev of each detection on the host.
+// Records where a step detected: an observer that keeps X_prev of each detection on the host.
 #pragma once
 
 #include <utility>
@@ -9,7 +9,8 @@
 
 namespace ogc::fast {
 
-/// Of one simulation; of a step that is repeated because a list grew, the last attempt.
+/// Records the detections of one simulation's last step; if the step was repeated because a list grew, those of the
+/// last attempt.
 template <class Backend>
 class WayRecorder : public StepObserver {
  public:
@@ -35,7 +36,7 @@ class WayRecorder : public StepObserver {
   void after_finding() override {}
   void after_guess() override {}
 
-  /// By detection X_prev [m].
+  /// Returns X_prev of each detection [m].
   std::vector<std::vector<compare::Vec3f>> take() { return std::move(states_); }
 
  private:

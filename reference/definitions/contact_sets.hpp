@@ -50,9 +50,9 @@ std::vector<double> penetration_depths(const Complex& mesh, std::span<const comp
 /// Returns F_IPC(v) (Eq. 3): triangles without v nearer than r, ascending.
 std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float contact_radius);
 
-/// Returns F_SDF (Eq. 4) of a point in space: the closest triangles where they are nearer than r; all of them where
-/// several are equally near (the printed argmin is then not one). Triangles that contain the point are included, as
-/// printed: for a vertex of the mesh these are its own.
+/// Returns F_SDF (Eq. 4) of a point in space: the closest triangle if it is nearer than r, or all of the closest ones
+/// if several are equally near (the printed argmin is then not one triangle). A triangle that contains the point
+/// counts, as printed: at a vertex of the mesh the result is the vertex's own triangles.
 std::vector<Index> sdf_face_set(const Complex& mesh, const Vec3f& x, float contact_radius);
 
 }  // namespace ogc::reference

@@ -1,4 +1,4 @@
-// Makes the inputs of a stencil the innermost directions of differentiation, so that each derivative comes with its
+// Differentiates first by the inputs of a stencil, so that each later derivative (force, block) comes with its
 // condition: the unit in which the judge counts errors (compare/stages/force.hpp).
 #pragma once
 

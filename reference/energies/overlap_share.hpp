@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// Returns x, clamped to [0, 1]; it keeps its derivatives, which hold on at least one side of the corner.
+/// Returns x, clamped to [0, 1], with the derivatives of x; at a corner these are right on at least one side.
 template <class T>
 T within_unit(const T& x) {
   const double value = plain(x);

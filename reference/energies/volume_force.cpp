@@ -8,7 +8,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Returns n as one given vector.
+/// Returns n as an input that is given, not computed: it is one vector whose error is u of its length.
 Triple<Input> direction_of(Inputs& inputs, const compare::VolumeForceCase& q) {
   return inputs.vector({q.direction[0], q.direction[1], q.direction[2]}, {});
 }

@@ -12,8 +12,8 @@ compare::TruncateTruth truncate(const compare::TruncateIn& in);
 /// Returns the nearest single-precision position, stepped towards X_prev until it obeys the bound.
 compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound);
 
-/// Does the same in the region of case i, and steps back from half-spaces, too. Where that fails, returns the vertex's
-/// current position.
+/// Returns the nearest single-precision position, stepped back until it is within the bound and the half-spaces of case
+/// i. If that fails, returns the vertex's current position.
 compare::Vec3f stored_in_region(const compare::Vec3& position, const compare::TruncateIn& in, std::size_t i);
 
 }  // namespace ogc::reference

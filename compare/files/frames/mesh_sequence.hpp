@@ -38,7 +38,8 @@ std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::p
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
 /// Reads the frames of arrays of positions (numpy.save), one file after another, with shapes and orders as in an
-/// archive. If `topology` is null, one of several files holds the triangles. There must be at least one file.
+/// archive. There must be at least one file. If `topology` is null, there must be several files, and one of them must
+/// hold the triangles.
 std::unique_ptr<MeshSequence> npy_sequence(const std::vector<std::filesystem::path>& files, const Mesh* topology);
 
 /// Reads a mesh without positions: the triangles of a .npy, triangles and edges of a .npz. Throws InputError.

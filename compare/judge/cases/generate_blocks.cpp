@@ -108,7 +108,8 @@ class Asker {
   const std::vector<Vec3f>& positions_;
 };
 
-/// Takes the mesh that the detections' generator `family` makes of these random numbers.
+/// Takes the mesh that the generator `family` of vertex–facet detection makes from these random numbers, and adds
+/// questions about blocks.
 template <const auto& family, int count = questions_a_mesh>
 CaseData about(Random& random) {
   MeshCase mesh = case_of<MeshCase>(find_generator(Stage::detect_vertex_facet, family).make(random));

@@ -88,9 +88,9 @@ struct StepBuilder {
     add(mesh, velocity, fixed);
   }
 
-  /// Adds a block of tetrahedra that stands on the plane of a sheet at `origin`, with a vertex inside, or hangs from
-  /// it. In some cases it starts turned inside out, upside down in its own place; not as a volume, as nothing could be
-  /// inside of it.
+  /// Adds a block of tetrahedra with a vertex inside. It stands on the plane of a sheet at `origin`, or hangs from it.
+  /// One block in five is mirrored upside down in its place, so that it starts inside out; never one that is a volume,
+  /// as nothing could be inside of it.
   void block(const Vec3& origin, const Vec3& velocity, bool hangs, BodyContact contact = BodyContact::surface) {
     const double height = random.between(0.5, 1.5);
     Mesh mesh = hangs ? jittered_block(random, spacing, height) : jittered_cube(random, spacing, height);

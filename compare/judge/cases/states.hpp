@@ -44,7 +44,7 @@ class States {
   std::size_t frame(std::uint64_t index) const { return index % states_.size(); }
   std::size_t contact_frame(std::uint64_t index) const { return *frame_with_contact(frame(index)); }
 
-  /// Return a whole frame: for detection with r_q = r × 1 … cap, and with questions about blocks.
+  /// Return a whole frame. The detection case has r_q = r × 1 … cap; the block case has questions about blocks.
   MeshCase whole(std::size_t frame, Random& random) const;
   PlaneCase plane(std::size_t frame, Random& random) const;
   BlockCase block(std::size_t frame, Random& random) const;
@@ -53,19 +53,19 @@ class States {
   BoundCase bound(std::size_t frame) const;
   /// Returns the first sweep of the step that follows the frame.
   SweepCase sweep(std::size_t frame, Random& random) const;
-  /// Returns the step that follows the frame; motions go on from where they are.
+  /// Returns the step that follows the frame; prescribed motions continue at the time of the frame.
   StepCase step(std::size_t frame) const;
-  /// Return a vertex and a triangle, and two edges: those of a contact, or near each other.
+  /// Return a vertex and a triangle, or two edges, that are in contact or near each other.
   ClosestFaceCase vertex_triangle(std::size_t frame, Random& random) const;
   ClosestPointsCase edge_edge(std::size_t frame, Random& random) const;
   /// Returns a contact of the frame's lists, at the frame or within a step from it at the frame's velocities.
   FrictionForceCase contact(std::size_t frame, Random& random) const;
   /// Returns the distance of a contact of the frame, but at least 2⁻²³ r (compare/stages/contact_force.hpp).
   ActivationCase contact_distance(std::size_t frame, Random& random) const;
-  /// Return a vertex from this frame to the next one, and a vertex at the start of the step that follows.
+  /// Return a vertex on its way from this frame to the next one, and a vertex at the start of the step that follows.
   TruncateCase moved_vertex(std::size_t frame, Random& random) const;
   InitialGuessCase guessed_vertex(std::size_t frame, Random& random) const;
-  /// Return stencils of the rest data after a step at the frame's velocities.
+  /// Return an element at rest with its vertices where a step at the frame's velocities takes them.
   MembraneCase triangle(std::size_t frame, Random& random) const;
   BendingCase hinge(std::size_t frame, Random& random) const;
   SpringCase spring(std::size_t frame, Random& random) const;

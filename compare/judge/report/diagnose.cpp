@@ -127,7 +127,7 @@ class Diagnosing {
     best.otherwise = otherwise;
   }
 
-  /// Returns those of the cases that the form fits, for authorities that another form may have spoiled before.
+  /// Returns the cases that the form fits. The authority may already make the mistake of another form.
   static std::vector<const Evidence*> fitting(const WrongForm& form, const Authority& authority,
                                               const std::vector<const Evidence*>& rest) {
     std::vector<const Evidence*> found;
@@ -152,7 +152,8 @@ class Diagnosing {
                                [&](const Evidence* one) { return fits(form, *one, authority) || (left -= 1) >= 0; });
   }
 
-  /// Checks whether the form fits one of a few of the cases: most forms fit none, and are not tried on the others.
+  /// Checks whether the form fits at least one of a few sampled cases. Most forms fit none of them; the other cases are
+  /// then not tried.
   static bool may_fit(const WrongForm& form, const Authority& authority, const std::vector<const Evidence*>& rest) {
     const std::size_t count = std::min(most_tried, rest.size());
     for (std::size_t i = 0; i < count; ++i)

@@ -74,9 +74,9 @@ bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, 
 bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
 /// Checks that every pair is held apart, and no vertex held back by more than that needs.
 void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);
-/// Judges each part by itself. A point that a part of triangles holds has one accepted contact; a point outside has all
-/// contacts that are certain and none but possible ones; in a part of tetrahedra each certain sheet with a way has its
-/// contact. Numbers must lie within their tolerances.
+/// Judges each part by itself. A point inside a part of triangles has one accepted contact. A point outside has all
+/// contacts that are certain, and no others than possible ones. In a part of tetrahedra each certain sheet with a path
+/// to the boundary has its contact. Numbers must lie within their tolerances.
 void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, const VolumeDepthOut& out, Tally& tally);
 /// Checks that bounds are never above γ_p · min(…).
 void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& out, Tally& tally);

@@ -111,9 +111,9 @@ double gradients(double size, const std::array<double, n>& opposite) {
   return sum;
 }
 
-/// Returns q: Σ size ‖∇N‖² (μ + (λ + μ)/dimension), the stiffness of vertices whose neighbours stand still, averaged
-/// over directions, divided by the mass [1/s²]. Both are sums over all vertices, because sweeps treat a smooth mode
-/// like that.
+/// Returns q = Σ size ‖∇N‖² (μ + (λ + μ)/dimension) divided by the mass [1/s²]: the stiffness of a vertex whose
+/// neighbours stand still, averaged over directions. Stiffness and mass are summed over all vertices first, because
+/// sweeps treat a smooth mode as such an average.
 double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& material) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
   const auto over = [](double mu, double lambda, double dimension) { return mu + (lambda + mu) / dimension; };

@@ -36,7 +36,7 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   using Beside = IsometricStencil;
   using RestBeside = HingeWeights;
   using Start = float;  ///< θᵗ [rad]; 0 where the hinge has collapsed
-  /// Its part of SweepView.
+  /// The kind's part of SweepView.
   struct View {
     StreamView<HingeIncidence, IsometricStencil, float> hinges;
   };

@@ -20,7 +20,7 @@ struct RodStream : StreamView<RodIncidence, NoData, NoData, float> {  // by body
 /// The kind. A segment's energy is summed up beside the extremes of rods (fast/kernels/sums/rod_sums.hpp).
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   using ByBody = float;
-  /// Its part of SweepView.
+  /// The kind's part of SweepView.
   struct View {
     RodStream rods;
   };

@@ -16,7 +16,7 @@ struct SpringIncidence {
 
 /// The kind.
 struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
-  /// Its part of SweepView.
+  /// The kind's part of SweepView.
   struct View {
     StreamView<SpringIncidence> springs;
   };

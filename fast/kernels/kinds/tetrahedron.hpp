@@ -21,7 +21,7 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   using Beside = TetrahedronGradients;
   using Start = SolidStrain;  ///< Gᵗ
   using ByBody = SolidMaterial;
-  /// Its part of SweepView.
+  /// The kind's part of SweepView.
   struct View {
     StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial> tetrahedra;
   };
@@ -79,7 +79,7 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
     return solid_strain(solid_deformation(gradients, start[rest.corner[1]] - own, start[rest.corner[2]] - own,
                                           start[rest.corner[3]] - own));
   }
-  /// Also counts whether it is inverted.
+  /// Adds the energy of tetrahedron t, and counts the tetrahedron if it is inverted.
   OGC_HD static void add_energy(const ElementsView<TetrahedronKind>& all, int t, double* sum) {
     const TetrahedronRest& rest = all.rest[t];
     const Vec *x = all.position, own = x[rest.corner[0]], a = x[rest.corner[1]] - own, b = x[rest.corner[2]] - own,

@@ -31,7 +31,7 @@ struct MembraneEnergy {
 /// The kind.
 struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
   using Start = Symmetric2;  ///< Gᵗ
-  /// Its part of SweepView.
+  /// The kind's part of SweepView.
   struct View {
     StreamView<MembraneIncidence, NoData, Symmetric2> triangles;
   };

@@ -32,13 +32,13 @@ OGC_HD inline float spring_weight(const SpringRest& spring, int end) {
   return end == 0 ? 1.0f : end == 1 ? spring.ratio - 1.0f : -spring.ratio;
 }
 
-/// Returns l [m]; 0 if the squared length is no normal number.
+/// Returns l [m]; 0 if the squared length is not a normal number.
 OGC_HD inline float spring_length(const Vec& apart) {
   const float squared = dot(apart, apart);
   return squared >= 0x1p-126f ? sqrtf(squared) : 0.0f;
 }
 
-/// Adds force and block of the end of weight w; `apart` is that of spring_apart, `length_start` lᵗ.
+/// Adds force and block of the end with weight w. `apart`: the result of spring_apart; `length_start`: lᵗ.
 OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart,
                               float length_start, ForceAndBlock& sum) {
   const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;

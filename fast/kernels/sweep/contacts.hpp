@@ -7,16 +7,16 @@
 
 namespace ogc::fast {
 
-/// Weights of the closest points of a contact whose slots are at x.
+/// Returns the weights of the closest points of a contact whose slots are at x.
 template <PairKind pairs>
 OGC_HD ContactWeights closest_weights(const OneItem<ContactIncidence>& one, const Vec* x) {
   return contact_weights<pairs>(one.item.kind, x);
 }
-/// The weight of the vertex itself.
+/// Returns the weight of the vertex itself.
 OGC_HD inline float own_weight(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   return weights.of(one.item.own);
 }
-/// |w| Σ |w_u| over the vertices u of the own one's colour, itself included; w² mostly.
+/// Returns |w| Σ |w_u| over the vertices u of the own one's colour, itself included; mostly this is w².
 OGC_HD inline float majorant_of(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   const float own = fabsf(own_weight(one, weights));
   float together = own;

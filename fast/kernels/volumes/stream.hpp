@@ -83,7 +83,7 @@ struct VolumeContacts {
   }
 };
 
-/// From this share of r on a vertex is deep inside a volume (compare/volumes.md, The step).
+/// A vertex is deep inside a volume from this share of r on (compare/volumes.md, The step).
 inline constexpr float deep_share = 0.5F;
 
 /// Returns whether a contact's point lies deep inside a volume by what the contact froze: φ < −r/2. `x`: by role [m].
@@ -133,7 +133,7 @@ struct CountDeepInside {
   }
 };
 
-/// Energy of the contacts of a row, in double.
+/// Adds the energy of the contacts of a row, in double.
 struct VolumeTerm {
   VolumeStream volumes;
   const Vec* position;   ///< by vertex [m]

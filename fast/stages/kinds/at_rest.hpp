@@ -56,7 +56,7 @@ struct PlainAtRest {
 template <class Kind>
 struct AtRest;
 
-/// For indices of the mesh.
+/// Converts an index of the mesh to an index of an array.
 inline std::size_t as_index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace ogc::fast

@@ -29,10 +29,10 @@ RestVector unit_direction(const RestVector& a) {
 }
 RestVector opposite(const RestVector& a) { return {-a.x, -a.y, -a.z}; }
 
-/// Half a turn about the first axis of a frame turns its director round.
+/// A half turn about the first axis of a frame, which reverses its director.
 constexpr RestFrame turned_round{1, 0, 0, 0};
 
-/// From one unit direction to another: (a × b, 1 + a·b), normalised.
+/// Returns the rotation from one unit direction to another: (a × b, 1 + a·b), normalised.
 RestFrame turn_between(const RestVector& a, const RestVector& b) {
   const RestVector axis = rest_cross(a, b);
   const double real = 1 + rest_dot(a, b);
@@ -40,7 +40,7 @@ RestFrame turn_between(const RestVector& a, const RestVector& b) {
   return normal({axis.x, axis.y, axis.z, real});
 }
 
-/// What meets at a vertex: segments with the number of their end there.
+/// The segments that meet at a vertex, each with the number of its end there.
 using Ends = std::vector<std::pair<int, int>>;
 
 /// Neighbours, and frames along the walks of compare/stages/rest_state.hpp.
@@ -65,7 +65,7 @@ class Walks {
 
   int neighbour(int e, int end) const { return neighbours_[at(e)][at(end)]; }
   const RestFrame& frame(int e) const { return frames_[at(e)]; }
-  /// p° as the segment sees it across that end.
+  /// Returns p° as the segment sees it across that end.
   RestFrame relative(int e, int end) const {
     const RestFrame &own = frame(e), &other = frame(neighbour(e, end));
     return end == 1 ? conjugate(own) * other : conjugate(other) * own;

@@ -18,13 +18,14 @@ struct RodsAtRest {
   bool empty() const { return segments.empty(); }
 };
 
-/// Also adds half of ρ l of each segment of a body that moves to its ends [kg].
+/// Returns the rods of a scene at rest; also adds half of ρ l of each segment of a moving body to the mass of each of
+/// its ends [kg].
 RodsAtRest rods_at_rest(const compare::Scene& scene, std::vector<double>& mass);
 
-/// As the judge asks for them.
+/// Returns the segments in the form that the judge asks for.
 std::vector<compare::RestSegment> rest_segments(const RodsAtRest& rods);
 
-/// With the numbers of an answer.
+/// Returns rods with the numbers of an answer.
 RodsAtRest rods_of(const compare::Scene& scene, const std::vector<compare::RestSegment>& segments);
 
 template <>

@@ -1,5 +1,6 @@
-// Differentiates a batch of stencils: pack by pack through the energy as one function of lanes, then the whole batch
-// through the projection, then back to the vertices. Included by the files that are compiled for several machines.
+// Differentiates a batch of stencils in three passes: the energy, pack by pack, as one function of lanes; the
+// projection of the whole batch; the way back to the vertices. The files that are compiled for several machines include
+// this one.
 #pragma once
 
 #include <utility>

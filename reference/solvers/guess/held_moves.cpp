@@ -217,7 +217,8 @@ Passed passed(const Meeting& meeting, const Asked& asked, std::size_t own, const
   const bool ends = meeting.may_end(), acts = meeting.acts();
   if (!(apart > 0) || weight == 0 || (!acts && !ends)) return {.move = move};
   Measured at = measure(meeting, asked, own, move);
-  // Weight and distance are denominators: first-order errors grow by 1/(1 − doubt).
+  // Weight and distance are divisors: where the relative error of one is `doubt`, first-order errors grow by a factor
+  // of 1/(1 − doubt).
   const double doubt = std::max(unit * meeting.inputs.condition({&meeting.weight[own], 1}) / std::abs(weight),
                                 roundings / compare::contact_grey * meeting.doubt / apart);
   for (double* number : {&at.taken, &at.sliding, &at.normal}) *number /= 1 - std::min(doubt, 0.5);

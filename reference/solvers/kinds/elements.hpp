@@ -31,7 +31,7 @@ class Elements {
  public:
   using Term = typename Kind::Term;  ///< one of them
 
-  /// Of a rounded scene, by its rest state.
+  /// Takes the elements of a rounded scene and its rest state.
   Elements(const compare::Scene& scene, const compare::RestStateOut& rest) {
     for (std::size_t i = 0; i < Kind::elements(scene, rest).size(); ++i) terms_.push_back(Kind::term(scene, rest, i));
   }

@@ -20,7 +20,7 @@ struct HingeKind : compare::HingeKind {
   static constexpr double force_tolerance = compare::bending_force_tolerance,
                           block_tolerance = compare::bending_block_tolerance;
 
-  /// As the rest state has it.
+  /// Returns element i with the data of the rest state.
   static Term term(const compare::Scene& scene, const compare::RestStateOut& from, std::size_t i) {
     const compare::RestHinge& rest = from.hinges[i];
     const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;

@@ -40,12 +40,12 @@ template <class... Kinds>
 struct ListsOf<std::tuple<Kinds...>> {
   /// A list for each kind.
   using type = std::tuple<typename Kinds::List...>;
-  /// Of a rounded scene, by its rest state.
+  /// Returns the lists of a rounded scene and its rest state.
   static type made(const compare::Scene& scene, const compare::RestStateOut& rest) {
     return type(typename Kinds::List(scene, rest)...);
   }
 };
-/// Those of the list.
+/// The lists of all kinds.
 using ElementLists = ListsOf<ElementKinds>::type;
 
 }  // namespace ogc::reference

@@ -26,7 +26,7 @@ struct SpringKind : compare::SpringKind {
     return {spring.first, spring.second, -1};
   }
 
-  /// As the rest state has it.
+  /// Returns element i of the scene.
   static Term term(const compare::Scene& scene, const compare::RestStateOut&, std::size_t i) {
     const compare::Spring& spring = scene.springs[i];
     const double s = spring.ratio;

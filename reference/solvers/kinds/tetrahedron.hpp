@@ -20,7 +20,7 @@ struct TetrahedronKind : compare::TetrahedronKind {
   static constexpr double force_tolerance = compare::tetrahedron_force_tolerance,
                           block_tolerance = compare::tetrahedron_block_tolerance;
 
-  /// As the rest state has it.
+  /// Returns element i with the data of the rest state.
   static Term term(const compare::Scene& scene, const compare::RestStateOut& from, std::size_t i) {
     const compare::RestTetrahedron& rest = from.tetrahedra[i];
     const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;

@@ -20,7 +20,7 @@ struct TriangleKind : compare::TriangleKind {
   static constexpr double force_tolerance = compare::membrane_force_tolerance,
                           block_tolerance = compare::membrane_block_tolerance;
 
-  /// As the rest state has it.
+  /// Returns element i with the data of the rest state.
   static Term term(const compare::Scene& scene, const compare::RestStateOut& from, std::size_t i) {
     const compare::RestTriangle& rest = from.triangles[i];
     const compare::Material& material = scene.bodies[static_cast<std::size_t>(rest.body)].material;

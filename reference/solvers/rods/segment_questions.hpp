@@ -1,4 +1,4 @@
-// Segments of a sweep as questions to the stages orientation and rod.
+// Makes questions to the stages orientation and rod from the segments of a sweep.
 #pragma once
 
 #include "compare/stages/sweep.hpp"

@@ -89,7 +89,8 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
 }
 
 TEST_CASE("robot_shirt: nothing but stitched shoulders is nearer than the contact radius at the start", "[unit]") {
-  // Lifting the shoulders' primitives to the front's height sets them aside; nothing else can hide behind them.
+  // Stitched pairs are moved 1.05 r apart, as far as front and back are, so that they do not count; nothing else can
+  // hide behind them.
   Scene scene = make_scene("robot_shirt", Scale::small);
   const double r = scene.settings.contact_radius;
   for (const Spring& s : scene.springs) {

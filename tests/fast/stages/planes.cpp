@@ -113,7 +113,7 @@ std::vector<compare::Vec3f> positions_after(const compare::Scene& scene, int ste
   return simulation->snapshot().positions;
 }
 
-/// Returns a free sheet beside a fixed one, both upright, `apart` [m].
+/// Returns a free sheet beside a fixed one; both are upright, and their distance is `apart` [m].
 compare::Scene beside_a_wall(double apart) {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 4, 0.03, 0, false);

@@ -1,5 +1,5 @@
-// Tests §3.9 outside the body: which points are inside, and blocks that go outward only. The two decisions share no
-// formula, so each tests the other.
+// Tests §3.9 outside the body: the decision which points are inside, and the blocks, which extend outward only. The two
+// decisions share no formula, so each tests the other.
 #include "reference/definitions/closed_surface.hpp"
 
 #include <algorithm>

@@ -27,8 +27,8 @@ class Points {
  public:
   explicit Points(unsigned seed) : random_(seed) {}
 
-  /// Draws points that are generic, on a lattice, on a line but for the last digits, or with a right angle but for
-  /// them; far from the origin or not; from 2⁻⁵⁰ to 2³⁰.
+  /// Draws generic points, points of a lattice, points near a line, or points with a nearly right angle; the last two
+  /// are perturbed by 2⁻²⁹ … 1. Some are far from the origin. Sizes are 2⁻⁵⁰ … 2³⁰.
   void next(Vec (&x)[4], bool generic) {
     const int kind = generic ? 0 : static_cast<int>(random_() % 4);
     const float scale = std::ldexp(1.0F, generic ? -6 : static_cast<int>(random_() % 81) - 50),

@@ -330,7 +330,8 @@ TEST_CASE("Newton: friction solves go on until one changes nothing, and end with
   once->restore(before.end);
   once->advance(1);
   const double lagged = meter.at(once->snapshot().positions).share;
-  // Only the storing of positions is left; friction of the step before is another force.
+  // The settled state has only the error of storing positions. After one solve, friction is still lagged to the
+  // previous step, so its force differs.
   CHECK(settled < 1e-4);
   CHECK(lagged > 10 * settled);
 }
