@@ -32,16 +32,38 @@ struct Row {
 /// Stands for data that a kind of elements does not have.
 struct NoData {};
 
+/// Parts of a stream. One that a kind does not have takes no room: every launch copies its view.
+template <bool has_rows>
+struct RowsOfStream {
+  const Row* rows = nullptr;  ///< by slot; null: the scene has no such element
+};
+template <>
+struct RowsOfStream<false> {};
+template <class Beside>
+struct BesideOfStream {
+  const Beside* beside = nullptr;  ///< by incidence; null where no model of the scene reads it
+};
+template <>
+struct BesideOfStream<NoData> {};
+template <class Start>
+struct StartOfStream {
+  const Start* start = nullptr;  ///< by element; read where it is damped
+};
+template <>
+struct StartOfStream<NoData> {};
+template <class ByBody>
+struct ByBodyOfStream {
+  const ByBody* by_body = nullptr;  ///< by body; null where no element reads it
+};
+template <>
+struct ByBodyOfStream<NoData> {};
+
 /// The stream of a kind: what each free vertex of an element sees of it, row by row in the order of slots. `Beside`:
 /// what some models read of an incidence besides. `Start`: of an element when the step starts, for damping. `ByBody`:
-/// constants of a body that no other kind reads.
-template <class Incidence, class Beside = NoData, class Start = NoData, class ByBody = NoData>
-struct StreamView {
-  const Row* rows = nullptr;              ///< by slot; null: SweepVertex has them, or the scene has no such element
+/// constants of a body that no other kind reads. `has_rows`: the rows are an array, and not in SweepVertex.
+template <class Incidence, class Beside, class Start, class ByBody, bool has_rows>
+struct StreamView : RowsOfStream<has_rows>, BesideOfStream<Beside>, StartOfStream<Start>, ByBodyOfStream<ByBody> {
   const Incidence* incidences = nullptr;  ///< row by row
-  const Beside* beside = nullptr;         ///< by incidence; null where no model of the scene reads it
-  const Start* start = nullptr;           ///< by element; read where it is damped
-  const ByBody* by_body = nullptr;        ///< by body; null where no element reads it
 };
 
 /// Says as what index the update of a vertex reads another one.

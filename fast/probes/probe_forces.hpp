@@ -105,10 +105,10 @@ struct ElementBatch {
     const auto n = static_cast<int>(rest.size());
     SweepView view;
     auto& stream = Kind::stream(view);
-    stream.rows = memory.template in<Row>(rows);
+    if constexpr (requires { stream.rows; }) stream.rows = memory.template in<Row>(rows);
     stream.incidences = memory.template in<typename Kind::Incidence>(incidences);
-    stream.beside = memory.template in<typename Kind::Beside>(beside);
-    stream.by_body = memory.template in<typename Kind::ByBody>(by_body);
+    if constexpr (requires { stream.beside; }) stream.beside = memory.template in<typename Kind::Beside>(beside);
+    if constexpr (requires { stream.by_body; }) stream.by_body = memory.template in<typename Kind::ByBody>(by_body);
     view.vertices = memory.template in<SweepVertex>(vertices);
     view.materials = memory.template in<SurfaceMaterial>(materials);
     view.models = memory.template in<SurfaceModels>(models);

@@ -98,9 +98,12 @@ class Stream {
   }
   /// The stream in a view.
   void complete(SweepView& view) const {
-    using In = StreamView<typename Kind::Incidence, typename Kind::Beside, typename Kind::Start, typename Kind::ByBody>;
-    static_cast<In&>(Kind::stream(view)) = {rows_.data(), incidences_.data(), beside_.data(), start_.data(),
-                                            by_body_.data()};
+    auto& stream = Kind::stream(view);
+    stream.incidences = incidences_.data();
+    if constexpr (Kind::row_in_vertex < 0) stream.rows = rows_.data();
+    if constexpr (requires { stream.beside; }) stream.beside = beside_.data();
+    if constexpr (has_start) stream.start = start_.data();
+    if constexpr (requires { stream.by_body; }) stream.by_body = by_body_.data();
   }
   /// What the elements' energy reads; materials, models and positions are the caller's.
   void complete(ElementsView<Kind>& elements) const {

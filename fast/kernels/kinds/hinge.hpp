@@ -38,7 +38,7 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   using Start = float;  ///< θᵗ [rad]; 0 where the hinge has collapsed
   /// The kind's part of SweepView.
   struct View {
-    StreamView<HingeIncidence, IsometricStencil, float> hinges;
+    StreamView<HingeIncidence, IsometricStencil, float, NoData, false> hinges;
   };
   static constexpr unsigned asked = asks_hinges;
   static constexpr int row_in_vertex = 1;

@@ -8,8 +8,8 @@ namespace ogc::fast {
 
 /// What the sweep reads and writes of rods: the stream of segments by vertex, and the quaternions that segments have
 /// beside the vertices.
-struct RodStream : StreamView<RodIncidence, NoData, NoData, float> {  // by body: k_d/h [1]
-  const SegmentSlot* slots = nullptr;                                 ///< by slot of the segments
+struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // by body: k_d/h [1]
+  const SegmentSlot* slots = nullptr;                                       ///< by slot of the segments
   const Vec* direction = nullptr;           ///< by segment: c, as rod_rest_direction; null where none damps strains
   const Quat* orientation_start = nullptr;  ///< by segment: qᵗ
   Quat* orientation = nullptr;              ///< by segment: q

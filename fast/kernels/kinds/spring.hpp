@@ -18,7 +18,7 @@ struct SpringIncidence {
 struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
   /// The kind's part of SweepView.
   struct View {
-    StreamView<SpringIncidence> springs;
+    StreamView<SpringIncidence, NoData, NoData, NoData, true> springs;
   };
   static constexpr unsigned asked = asks_springs;
   static constexpr bool is_curve = true;

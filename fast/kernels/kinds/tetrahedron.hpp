@@ -23,7 +23,7 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   using ByBody = SolidMaterial;
   /// The kind's part of SweepView.
   struct View {
-    StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial> tetrahedra;
+    StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial, true> tetrahedra;
   };
   static constexpr unsigned asked = asks_tetrahedra;
   static constexpr bool reports_state = true;  ///< how many are inverted

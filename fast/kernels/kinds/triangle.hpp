@@ -33,7 +33,7 @@ struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
   using Start = Symmetric2;  ///< Gᵗ
   /// The kind's part of SweepView.
   struct View {
-    StreamView<MembraneIncidence, NoData, Symmetric2> triangles;
+    StreamView<MembraneIncidence, NoData, Symmetric2, NoData, false> triangles;
   };
   static constexpr unsigned asked = asks_triangles;
   static constexpr int row_in_vertex = 0;
