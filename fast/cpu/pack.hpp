@@ -138,6 +138,12 @@ struct PackOf {
   }
 };
 
+/// Returns a() where the condition holds, else b(); computes both.
+template <int N, class A, class B>
+PackOf<N> choose(PackMaskOf<N> condition, const A& a, const B& b) {
+  return select(condition, a(), b());
+}
+
 /// The pack that nodes and searches use.
 using Pack = PackOf<4>;
 

@@ -135,17 +135,18 @@ struct TwoSegments {
   OGC_HD Mask<T> is_parallel() const { return sine < 1e-6f * aa * bb; }
   /// Whether `parameters` holds: no length is zero, and they are not nearly parallel.
   OGC_HD Mask<T> is_usual() const { return aa > T(0.0f) && bb > T(0.0f) && !is_parallel(); }
-  OGC_HD SegmentParametersOf<T> parameters() const {
-    return beside(clamp_unit(dot(cross(between, second), cross(first, second)) / sine));
-  }
+  OGC_HD SegmentParametersOf<T> parameters() const { return beside(on_first()); }
+  /// The parameter of the closest point of the first line, within the segment.
+  OGC_HD T on_first() const { return clamp_unit(dot(cross(between, second), cross(first, second)) / sine); }
   /// The closest point of the second segment to the point s of the first, and, where that is an end, the closest one of
   /// the first to it.
   OGC_HD SegmentParametersOf<T> beside(const T& s) const {
     const T t = (s * ab - dot(second, between)) / bb;
     const Mask<T> is_inside = t > T(0.0f) && t < T(1.0f);
-    if (is_false(!is_inside)) return {s, t};
     const T end = select(t > T(0.0f), T(1.0f), T(0.0f));
-    return {select(is_inside, s, clamp_unit((to_start + end * ab) / aa)), select(is_inside, t, end)};
+    return {choose(
+                is_inside, [&] { return s; }, [&] { return clamp_unit((to_start + end * ab) / aa); }),
+            select(is_inside, t, end)};
   }
 };
 
@@ -153,14 +154,18 @@ struct TwoSegments {
 /// more than a point: the middle of the overlap on the first, and its projection on the second (method.md §1.4); the
 /// first must be the lower-numbered edge for that.
 OGC_HD inline SegmentParameters closest_on_segments(const TwoSegments<float>& at) {
-  if (at.is_usual()) return at.parameters();
   if (!(at.aa > 0)) return {0.0f, closest_on_segment(at.second, Vec{} - at.between)};
   if (!(at.bb > 0)) return {closest_on_segment(at.first, at.between), 0.0f};
-  if (!at.is_parallel()) return at.parameters();  // not a number
-  const float p = at.to_start / at.aa, q = (at.to_start + at.ab) / at.aa;
-  const float low = clamp_unit(p < q ? p : q), high = clamp_unit(p < q ? q : p);
-  const float s = 0.5f * (low + high);
-  return high > low ? SegmentParameters{s, closest_on_segment(at.second, s * at.first - at.between)} : at.beside(s);
+  float s = 0;
+  if (at.is_parallel()) {
+    const float p = at.to_start / at.aa, q = (at.to_start + at.ab) / at.aa;
+    const float low = clamp_unit(p < q ? p : q), high = clamp_unit(p < q ? q : p);
+    s = 0.5f * (low + high);
+    if (high > low) return {s, closest_on_segment(at.second, s * at.first - at.between)};
+  } else {
+    s = at.on_first();
+  }
+  return at.beside(s);
 }
 
 /// Weights w of the closest points by slot [1]; 0 for a slot that the kind lacks.

@@ -13,9 +13,8 @@ namespace ogc::fast {
 /// f₁(y)/y [1/m] with ε = ε_v h [m]: (2 − y/ε)/ε for y < ε, 1/y above; 2/ε at y = 0.
 template <class T>
 OGC_HD T friction_slope_over_slip(const T& slip, float limit) {
-  const Mask<T> is_slow = slip < T(limit);
-  if (is_false(is_slow)) return 1.0f / slip;
-  return select(is_slow, (2.0f - slip / limit) / limit, 1.0f / slip);
+  return choose(
+      slip < T(limit), [&] { return (2.0f - slip / limit) / limit; }, [&] { return 1.0f / slip; });
 }
 
 /// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ), with `majorant` in place of w². `moved` = Σ w_i (x_i −

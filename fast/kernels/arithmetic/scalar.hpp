@@ -24,6 +24,11 @@ template <class T, class M>
 OGC_HD Vector<T> select(const M& condition, const Vector<T>& a, const Vector<T>& b) {
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
+/// Returns a() where the condition holds, else b(). One number computes one of both; several side by side compute both.
+template <class A, class B>
+OGC_HD float choose(bool condition, const A& a, const B& b) {
+  return condition ? a() : b();
+}
 OGC_HD inline float absolute(float a) { return fabsf(a); }
 OGC_HD inline float root(float a) { return sqrtf(a); }
 /// Returns whether the condition is true for no number, so that a formula may end early.
