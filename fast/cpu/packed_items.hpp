@@ -70,6 +70,7 @@ ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>
 /// Adds where the condition holds: add(sum) computes all lanes, and the others keep their sums, bit for bit.
 template <int N, class Add>
 void add_where(PackMaskOf<N> condition, ForceAndBlockOf<PackOf<N>>& sum, Add add) {
+  if (is_false(condition)) return;
   ForceAndBlockOf<PackOf<N>> with = sum;
   add(with);
   sum = selected<PackOf<N>>(condition, with, sum);

@@ -11,7 +11,8 @@
 
 namespace ogc::fast {
 
-/// The free segments in the order of their colours; ends that are not free vertices are read where they have moved to.
+/// Returns the free segments in the order of their colours. Ends that are not free vertices are read where they have
+/// moved to.
 inline std::vector<SegmentSlot> segment_slots(const RodsAtRest& rods, const Colouring& vertices,
                                               const Colouring& segments) {
   std::vector<SegmentSlot> slots;
@@ -24,7 +25,7 @@ inline std::vector<SegmentSlot> segment_slots(const RodsAtRest& rods, const Colo
   return slots;
 }
 
-/// On the backend.
+/// Holds the free segments on the backend and launches their updates.
 template <class Backend>
 class RodSweep {
  public:

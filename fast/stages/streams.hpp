@@ -21,7 +21,8 @@ struct HostStream {
   std::vector<typename Kind::Beside> beside;  ///< by incidence; empty where no model of the scene reads it
 };
 
-/// Makes it. The elements of a vertex ascend, and the roles of one that has the vertex twice.
+/// Makes the stream of a kind. The elements of a vertex ascend, and so do the roles of an element that has the vertex
+/// twice.
 template <class Kind>
 HostStream<Kind> host_stream(const RestState& rest, const Colouring& colouring) {
   const AtRest<Kind>& all = at_rest<Kind>(rest);
@@ -56,7 +57,7 @@ void put_rows(const HostStream<Kind>& stream, std::vector<SweepVertex>& vertices
   }
 }
 
-/// A free vertex by slot, with the rows that it has of streams.
+/// Returns the free vertices by slot, each with its rows in the streams that keep them there.
 template <class... All>
 std::vector<SweepVertex> sweep_vertices(KindList<All...>, const RestState& rest, const Colouring& colouring,
                                         double time_step, const HostStream<All>&... streams) {
@@ -71,6 +72,7 @@ std::vector<SweepVertex> sweep_vertices(KindList<All...>, const RestState& rest,
   (put_rows<All>(streams, vertices), ...);
   return vertices;
 }
+
 /// The resident elements and stream of a kind.
 template <class Backend, class Kind>
 class Stream {
@@ -90,13 +92,13 @@ class Stream {
 
   int count() const { return static_cast<int>(rest_.size()); }  ///< elements
 
-  /// At the start of a step: what damping counts from, where any element is damped. `start`: xᵗ, on the backend.
+  /// Computes, at the start of a step, what damping counts from, if any element is damped. `start`: xᵗ, on the backend.
   void begin(Backend& backend, const Vec* start) {
     if constexpr (has_start) {
       if (start_.size() > 0) backend.for_each(count(), BeginElement<Kind>{rest_.data(), start, start_.data()});
     }
   }
-  /// The stream in a view.
+  /// Puts the stream into a view.
   void complete(SweepView& view) const {
     auto& stream = Kind::stream(view);
     stream.incidences = incidences_.data();
@@ -105,7 +107,7 @@ class Stream {
     if constexpr (has_start) stream.start = start_.data();
     if constexpr (requires { stream.by_body; }) stream.by_body = by_body_.data();
   }
-  /// What the elements' energy reads; materials, models and positions are the caller's.
+  /// Fills in what the elements' energy reads, but for materials, models and positions.
   void complete(ElementsView<Kind>& elements) const {
     elements.rest = rest_.data();
     elements.beside = rest_beside_.data();

@@ -47,7 +47,7 @@ OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
     return {};
 }
 
-/// for_each over the elements of a kind at the start of a step: what their damping counts from.
+/// for_each over the elements of a kind at the start of a step: computes what their damping counts from.
 template <class Kind>
 struct BeginElement {
   const typename Kind::Rest* rest;       ///< by element

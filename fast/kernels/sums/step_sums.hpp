@@ -45,7 +45,7 @@ template <class List>
 struct AllElements;
 template <class... All>
 struct AllElements<KindList<All...>> : ElementsView<All>... {
-  /// Energies of one chunk, kind by kind; unless `all`, of those kinds alone that each step reports.
+  /// Adds the energies of one chunk, kind by kind. Without `all` it adds only the kinds that each step reports.
   template <bool all>
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     (add_kind<all, All>(chunk, chunks, sums), ...);
@@ -72,7 +72,7 @@ struct StateSums {
   }
 };
 
-/// The same and the energies of all elements and contacts.
+/// Sums the same and the energies of all elements and contacts.
 struct EnergySums {
   StateSums state;
   VertexFacetTerm vertex_facet;  ///< as many as its view says, which only the device knows

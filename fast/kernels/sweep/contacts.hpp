@@ -75,7 +75,7 @@ OGC_HD void add_contact_friction(const ContactAtOf<N>& at, const N& normal_force
   });
 }
 
-/// Force and block of contacts on one vertex each, friction included.
+/// Returns force and block of contacts on one vertex each, friction included.
 template <PairKind pairs, class Activation, class Items>
 OGC_HD ForceAndBlockOf<typename Items::Number> contact_term(const SweepShared& view, const Activation& activation,
                                                             const Items& items) {
