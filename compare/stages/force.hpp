@@ -19,10 +19,10 @@ struct ForceOut {
   std::vector<std::array<float, 6>> block;  ///< xx, xy, xz, yy, yz, zz [N/m]
 };
 
-/// One accepted answer, and the units of its errors: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil, where coordinates
-/// are vectors relative to one vertex (for a hinge, the one that makes the sum largest, since a formula may choose any
-/// vertex). A relative change u of each input changes the answer by as much, so no formula that reads single-precision
-/// differences can do much better.
+/// Holds one accepted answer and the units of its errors. A unit is Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil,
+/// with coordinates as vectors relative to one vertex (for a hinge, the vertex that makes the sum largest, since a
+/// formula may choose any). A relative change u of each input changes the answer by up to u units, so no formula that
+/// reads single-precision differences can do much better.
 struct ForceAnswer {
   Vec3 force;                               ///< [N]
   std::array<double, 6> block{};            ///< [N/m]

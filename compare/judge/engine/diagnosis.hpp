@@ -20,8 +20,8 @@ struct SecondMistake {
 struct Diagnosis {
   std::string name, meaning;            ///< of the form (compare/judge/report/wrong_forms.hpp); empty where none fits
   std::vector<std::string> as_well;     ///< forms that fit equally many cases: these do not tell them apart
-  std::uint64_t fits = 0, failing = 0;  ///< failing cases that the form fits; all failing cases that were looked at
-  /// right cases that differ from the form; all right cases that were looked at
+  std::uint64_t fits = 0, failing = 0;  ///< failing cases that the form fits, of all that were checked
+  /// right cases that differ from the form, of all that were checked
   std::uint64_t otherwise = 0, right = 0;
   std::uint64_t forms = 0;  ///< number of forms that were tried
   /// what all failing cases have in common and right ones lack, for example "activation is ogc"; or empty
