@@ -5,9 +5,9 @@
 //   AskVolumes          each row and each part of triangles: whether the vertex is inside, nearer than r, or far. The
 //                       answer is stored with the nearest facet, where the next search begins. With an answer `far` a
 //                       ball may be stored: no vertex within it is tested again before the volumes move
-//   ListVolumeContacts  each row: its contacts, part by part, in a row of fixed length. If a row is too short, the step is
-//                       repeated with longer rows (fast/stages/lists.hpp)
-//   FillCorners         if volumes are free, each row: its contacts into the rows of their corners, also of fixed length
+//   ListVolumeContacts  each row: its contacts, part by part, in a row of fixed length. If a row is too short, the step
+//                       is repeated with longer rows (fast/stages/lists.hpp)
+//   FillCorners         free volumes, each row: its contacts into the rows of their corners, also of fixed length
 //   SortCorners         each slot: its row of corners in ascending order, so that the order of filling has no effect
 #pragma once
 

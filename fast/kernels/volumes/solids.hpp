@@ -3,16 +3,16 @@
 // at the end of its way. A way is a segment from x to the closest point c of a boundary triangle that can be traversed
 // through tetrahedra; the shortest one counts.
 //
-//   sheets   the tree of tetrahedra offers those whose boxes hold x. Signs of exact determinants decide which of them hold
-//            x, and which of their simplices holds x in its interior. The lowest-numbered tetrahedron of a sheet
+//   sheets   the tree of tetrahedra offers those whose boxes hold x. Signs of exact determinants decide which of them
+//            hold x, and which of their simplices holds x in its interior. The lowest-numbered tetrahedron of a sheet
 //            represents the sheet
-//   ways     the nearest triangle of all is mostly the right one. If it has no way, the tree of facets offers all triangles
-//            that are nearer than the shortest way so far, and each of them is tried
-//   passing  from c to x, from tetrahedron to tetrahedron, in rounded double. Heights over the sides of a tetrahedron are
-//            affine along the segment. A height below 2⁻³⁶ of the moduli of its terms counts as zero: this is far above
-//            its rounding error, and far below the precision of the coordinates. If the segment leaves by one side, the
-//            tetrahedron behind this side is next. If it leaves by an edge or a vertex, all tetrahedra ahead that have
-//            this edge or vertex are next, so that no ray is lost
+//   ways     the nearest triangle of all is mostly the right one. If it has no way, the tree of facets offers all
+//            triangles that are nearer than the shortest way so far, and each of them is tried
+//   passing  from c to x, from tetrahedron to tetrahedron, in rounded double. Heights over the sides of a tetrahedron
+//            are affine along the segment. A height below 2⁻³⁶ of the moduli of its terms counts as zero: this is far
+//            above its rounding error, and far below the precision of the coordinates. If the segment leaves by one
+//            side, the tetrahedron behind this side is next. If it leaves by an edge or a vertex, all tetrahedra ahead
+//            that have this edge or vertex are next, so that no ray is lost
 //
 // Tetrahedra without positive volume hold no point and are never traversed, and no way ends at their sides.
 #pragma once
