@@ -39,10 +39,10 @@ struct PlaneListsView {
   int* pair_offsets = nullptr;             ///< vertices + 1
   float* pair_rows = nullptr;              ///< distances of vertex v's pairs [m] from pair_offsets[v] on, in any order
   float* threshold = nullptr;              ///< δ_v [m]
-  float* nearest = nullptr;  ///< by vertex: lower bound of the distance of its nearest pair, at most r_q [m]
-  float* unplaned = nullptr;               ///< by vertex: the same bound for its nearest pair without a plane
-  HalfSpace* placed = nullptr;             ///< half-spaces of vertex v from v · most_planes on, in any order
-  NotedPair* placed_pairs = nullptr;       ///< the pair of each half-space in `placed`
+  float* nearest = nullptr;           ///< by vertex: lower bound of the distance of its nearest pair, at most r_q [m]
+  float* unplaned = nullptr;          ///< by vertex: the same bound for its nearest pair without a plane
+  HalfSpace* placed = nullptr;        ///< half-spaces of vertex v from v · most_planes on, in any order
+  NotedPair* placed_pairs = nullptr;  ///< the pair of each half-space in `placed`
   HalfSpace* rows = nullptr;  ///< half-spaces of each vertex in ascending order of pair; `pairs` holds their pairs
   NotedPair* pairs = nullptr;
   int* counts = nullptr;   ///< half-spaces by vertex, at most most_planes
