@@ -56,7 +56,7 @@ OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceVi
 // F. A difference errs by u of itself, a dot product by 6 u of the product of the lengths. So the parameter of c times
 // ‖F‖ errs by 16 u S, d by 24 u S, d·g by 32 u S ‖g‖₁. The code uses 64 u S ‖g‖₁, plus more than underflow can take.
 
-/// More than underflow takes from a sum of products of two lengths, if squared edges are above 2⁻¹⁰⁰ [m²].
+/// Exceeds what underflow can take from a sum of products of two lengths, if squared edges are above 2⁻¹⁰⁰ [m²].
 inline constexpr float lost_to_underflow = 0x1p-120F;
 
 /// Returns whether `product`, which is d·g or −d·g, is certainly positive; d errs by at most `error` [m].

@@ -99,8 +99,8 @@ OGC_HD inline int slots_of(ContactKind kind) {
   return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;
 }
 
-/// Returns the slot of a role (contact_view.hpp). A triangle's corners have slots 1, 2, 3; those of a smaller facet,
-/// the second side, begin at slot 2.
+/// Returns the slot of a role (contact_view.hpp). A triangle's corners have slots 1, 2, 3. A smaller facet is the
+/// second side, and its vertices begin at slot 2.
 OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
   const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);

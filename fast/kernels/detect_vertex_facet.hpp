@@ -1,6 +1,6 @@
-// Runs Algorithm 1. The smallest distances also take the gap of a pair's boxes as its distance if it is larger than the
-// computed lower bound; it never exceeds the exact distance. So a pair whose gap reaches the minima found so far cannot
-// change them by one bit. It may be skipped, in whatever order searches find each other's minima.
+// Runs Algorithm 1. The gap of a pair's boxes never exceeds the pair's exact distance, so the larger of this gap and
+// the computed lower bound counts as the distance. Then a pair whose gap reaches the minima found so far cannot lower
+// them by one bit. It may be skipped, in whatever order searches find each other's minima.
 //
 // A search computes the smallest distances and notes each pair that may be nearer than r. Afterwards one thread a pair
 // decides which of these pairs are contacts, and with which face (collect_contacts.hpp). Few pairs need this decision,

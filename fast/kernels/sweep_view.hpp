@@ -18,9 +18,9 @@
 
 namespace ogc::fast {
 
-/// Features that a scene requires of the sum over a vertex's stencils, one bit each: elements of these kinds; volumes;
-/// `any_model`, bending or damping other than discrete hinges and damping of strains; `any_activation`, other than
-/// `ogc`.
+/// Features that a scene requires of the sum over a vertex's stencils, one bit each: elements of these kinds, and
+/// volumes. asks_any_model: bending or damping other than discrete hinges and damping of strains. asks_any_activation:
+/// an activation other than `ogc`.
 inline constexpr unsigned asks_triangles = 1, asks_hinges = 2, asks_springs = 4, asks_tetrahedra = 8,
                           asks_segments = 16, asks_volumes = 32, asks_any_model = 64, asks_any_activation = 128;
 

@@ -16,7 +16,7 @@ struct SumList {
   template <std::size_t number>
   using At = std::tuple_element_t<number, std::tuple<Sums...>>;
 
-  /// Returns the number of the first sum that gives all that is asked; `count` if there is none.
+  /// Returns the number of the first sum that gives all features in `asked`; `count` if there is none.
   static constexpr int first_that_gives(unsigned asked) {
     int number = 0, found = count;
     ((found = found == count && (asked & ~Sums::gives) == 0 ? number : found, ++number), ...);

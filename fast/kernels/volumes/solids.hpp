@@ -48,7 +48,7 @@ struct SolidAnswer {
 /// Finds where a point lies relative to a volume's parts of tetrahedra.
 class SolidQuestion {
  public:
-  /// Takes the volume and the point. `own`: the vertex at the point, if it belongs to the volume; else −1.
+  /// `own` is the vertex at the point if it is a vertex of the volume, else −1.
   OGC_HD SolidQuestion(const VolumeView& volume, const Vec& point, int own)
       : volume_(volume), solids_(volume.solids), faces_(volume, point), x_(point), own_(own) {}
 
@@ -226,7 +226,7 @@ class SolidQuestion {
     return passage;
   }
 
-  /// Holds the tetrahedra that a segment has reached but not left, and those that it met last.
+  /// Holds the tetrahedra that a segment has reached but not left, and the tetrahedra that it met last.
   struct Front {
     static constexpr int most = 32;  ///< capacity: tetrahedra ahead of one point, and remembered ones
     int waiting[most], met[most], waiting_count = 0, met_count = 0;
