@@ -6,11 +6,10 @@
 
 namespace ogc::fast {
 
-/// b_v of a vertex inside a solid, which nothing bounds.
+/// b_v of an unbounded vertex: off the surface.
 inline constexpr float largest_float = 0x1.fffffep127f;
 
-/// Sets the smallest distances to r_q before a query, as nothing is known beyond it. Index over the largest of the
-/// counts.
+/// Sets the smallest distances to r_q before a query, which finds nothing beyond it. Index up to the largest count.
 struct ResetDistances {
   const float* query_radius;  ///< r_q [m], on the backend
   const int* overflow;        ///< on the backend; if it is not 0 a list was too small, and nothing is written
@@ -32,10 +31,10 @@ struct ConservativeBound {
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;
   float bounds_relaxation;  ///< γ_p of Eq. 21 [1]
   const int* overflow;      ///< as in ResetDistances
-  float* bound;             ///< b_v by vertex [m], at most γ_p r_q; largest_float inside solids
+  float* bound;             ///< b_v by vertex [m], at most γ_p r_q; largest_float off the surface
 
-  /// Writes the bound. The product of two single-precision numbers is exact in double, so the bound is the largest
-  /// float that is not above it.
+  /// Writes the bound. The product of two floats is exact in double, so the bound is the largest float that is not
+  /// above it.
   OGC_HD void operator()(int v) const {
     if (*overflow != 0) return;
     if (surface.is_off_surface(v)) {

@@ -1,12 +1,12 @@
 // Builds a tree of boxes over primitives in the order of a Hilbert curve, four children to a node. The children of
-// level 0 are the primitives themselves, those of each level above are the nodes below. So node j of level l has the
-// children 4j … 4j + 3 of level l − 1, and only the start of each level is stored. A traversal keeps the children that
-// it still has to visit, four bits a level, in one integer. Boxes are those of the primitives at their current
-// positions, not inflated: the query brings its radius.
+// level 0 are the primitives; the children of each level above are the nodes of the level below. Node j of level l has
+// the children 4j … 4j + 3 of level l − 1, so only the start of each level is stored. A traversal stores the children
+// that it still has to visit in one integer, four bits a level. Boxes enclose primitives at their current positions and
+// are not inflated: a query adds its own radius.
 //
 // Each child also has a `reach`: how far its primitives still have to search. A pair matters only if it is nearer than
-// r or could lower the smallest distance of one of its partners, and for most primitives a neighbour in the mesh bounds
-// that distance far below r_q before any search.
+// r or could lower the smallest distance of a partner. For most primitives a neighbour in the mesh bounds that distance
+// far below r_q before any search.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace ogc::fast {
 
-/// Larger than every distance: position of an empty box, distance of a neighbour that a primitive lacks.
+/// Larger than every distance: corner of an empty box, distance to a missing neighbour.
 inline constexpr float infinity = __builtin_huge_valf();
 
 /// A closed box; empty at first.
@@ -32,45 +32,45 @@ struct Box {
   }
 };
 
-/// Returns the gap of two intervals; 0 if they meet.
+/// Returns the gap between two intervals; 0 if they meet.
 OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
 #if defined(__CUDA_ARCH__)
-  // one instruction each; a zero of the other sign has the same square
+  // Each call is one instruction. A zero may have the other sign, but its square is the same.
   return fmaxf(fmaxf(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
 #else
   return larger(larger(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
 #endif
 }
 
-/// Returns the squared distance of two boxes, at most (1 + u)⁵ times the exact one: one difference (twice), one
-/// product, two sums. A box inside another one is never nearer.
+/// Returns the squared distance between two boxes, at most (1 + u)⁵ times the exact one: one difference (counted
+/// twice), one product, two sums. Boxes inside `a` and `b` never give less.
 OGC_HD inline float squared_gap(const Box& a, const Box& b) {
   const float x = gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x), y = gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y);
   const float z = gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
   return add(add(mul(x, x), mul(y, y)), mul(z, z));
 }
 
-/// Returns a length that is not above the exact distance of boxes with this squared_gap: the root errs by u, the gap by
-/// 2.5 u, the product by u.
+/// Returns a lower bound of the exact distance between boxes with this squared_gap. The factor covers the errors of the
+/// gap (2.5 u), of the root (u) and of the product (u).
 OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 1 - 0x1p-21F); }
 
-/// Returns a limit of squared gaps: beyond it gap_below ≥ reach. reach² (1 + 64 u) makes up for the 20 u of gap_below
-/// and for the two roundings here.
+/// Returns the limit for a reach: boxes with a larger squared gap have gap_below ≥ reach. The factor 1 + 64 u covers
+/// the 20 u of gap_below and the two roundings here.
 OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0x1p-18F); }
 
-/// Holds a box with the gap limit of its reach and, in level 0, its primitive; a thread reads it in two loads of 16 B.
+/// Holds a box, the gap limit of its reach and, in level 0, its primitive. A thread reads it in two loads of 16 B.
 struct alignas(16) Child {
-  Vec lower{infinity, infinity, infinity};     ///< of the box [m]
-  float reach = 0;                             ///< gap limit of the farthest search of its primitives [m²]
-  Vec upper{-infinity, -infinity, -infinity};  ///< of the box [m]
+  Vec lower{infinity, infinity, infinity};     ///< lower corner of the box [m]
+  float reach = 0;                             ///< gap limit of the largest reach of its primitives [m²]
+  Vec upper{-infinity, -infinity, -infinity};  ///< upper corner of the box [m]
   int primitive = -1;  ///< number of the facet or edge; −1 above level 0 and in an empty child
 
   OGC_HD Box box() const { return {lower, upper}; }
 };
 
-/// Holds a node: four children, empty ones without a box. It fills one cache line of a device.
+/// Holds the four children of a node; missing ones are empty. A node fills one cache line of a device.
 struct alignas(128) Quad {
-  Child child[4];  ///< child k of node j is node 4 j + k of the level below, or place 4 j + k of the order
+  Child child[4];  ///< child k of node j: node 4 j + k of the level below, in level 0 the primitive at place 4 j + k
 
   /// Returns the box of all children.
   OGC_HD Box whole() const {
@@ -78,23 +78,23 @@ struct alignas(128) Quad {
     for (int k = 1; k < 4; ++k) all.include(child[k].box());
     return all;
   }
-  /// Returns the largest reach of a child.
+  /// Returns the largest reach of the children.
   OGC_HD float whole_reach() const {
     return larger(larger(child[0].reach, child[1].reach), larger(child[2].reach, child[3].reach));
   }
 };
 
-inline constexpr int max_levels = 16;  ///< 4 bits each in the 64 of a traversal; 4¹⁶ primitives
+inline constexpr int max_levels = 16;  ///< a traversal has 64 bits, 4 a level; enough for 4¹⁶ primitives
 
 /// Holds a tree on the backend.
 struct TreeView {
-  Quad* nodes = nullptr;       ///< level by level, from start[level]
+  Quad* nodes = nullptr;       ///< level by level; level l begins at start[l]
   const int* order = nullptr;  ///< primitive at each place
   int count = 0;               ///< primitives
   int levels = 0;              ///< at least 2; the last has one node
   int start[max_levels] = {};  ///< number of each level's first node
 
-  /// Returns node j of a level, by reference.
+  /// Returns node j of a level.
   OGC_HD Quad& node(int level, int j) const { return nodes[start[level] + j]; }
 };
 
@@ -120,7 +120,7 @@ struct QuadGaps {
 
 #if defined(__CUDACC__)
 
-/// Computes the gaps. Limits are squared, as gap_limit makes them [m²].
+/// Computes the gaps; `limit` is a gap_limit [m²].
 OGC_HD inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
   QuadGaps gaps{{}, 0};
   for (unsigned i = 0; i < 4; ++i) {
@@ -137,16 +137,15 @@ inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit);
 
 #endif
 
-/// Holds a primitive that a leaf offers to a search, with the squared gap of their boxes and the gap limit of its
-/// reach.
+/// One primitive that a traversal finds near the box of the query.
 struct Offer {
   int primitive;     ///< number of the facet or edge
   float gap, reach;  ///< squared gap and gap limit [m²]
 };
 
-/// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box`, or within its own
-/// reach. The visitor may lower `limit` meanwhile. `Tree` is a TreeView, or a type that counts opened nodes
-/// (fast/work.cpp).
+/// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box` or within the
+/// primitive's own reach. The visitor may lower `limit` during the traversal. `Tree` is a TreeView, or a type that
+/// counts opened nodes (fast/work.cpp).
 template <class Tree, class Visit>
 OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const float& limit, Visit visit) {
   QuadGaps gaps;
@@ -154,7 +153,7 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
   const auto near_children = [&](int level, int j) {
     quad = &tree.node(level, j);
     gaps = squared_gaps(*quad, box, limit);
-    const int passed = (from >> (2 * level)) - 4 * j;  // children that lie before `from` altogether
+    const int passed = (from >> (2 * level)) - 4 * j;  // children whose places all lie before `from`
     return passed > 0 ? gaps.near & 15U << (passed < 4 ? passed : 4) : gaps.near;
   };
   int level = tree.levels - 1, j = 0;
@@ -180,9 +179,9 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
   }
 }
 
-/// Computes how far primitives have to search at most: r_q, or an upper bound of the distance to a neighbour in the
-/// mesh (SurfaceView's seeds). The bound is the distance of a vertex to an edge whose faces form a pair that the query
-/// must find, so the smallest distance is not above it.
+/// Computes the reach of primitives: the smaller of r_q and an upper bound of the distance to a neighbour in the mesh
+/// (SurfaceView's seeds). The bound is the distance between a vertex and an edge whose faces form a pair that the query
+/// must find. So the smallest distance is at most the bound.
 struct Reach {
   SurfaceView surface;
   const Vec* positions;       ///< by vertex [m]
@@ -221,28 +220,29 @@ struct Reach {
     nearest.squared = smaller(nearest.squared, squared_to_segment(u, e));
     nearest.size = larger(nearest.size, add(norm_1(u), norm_1(e)));
   }
-  /// Returns the reach, rounded up. The root of squared_to_segment errs by 2⁻⁴⁸ of the sum of both lengths.
+  /// Returns the reach, rounded up. The root of squared_to_segment errs by 2⁻⁴⁸ of norm_1(u) + norm_1(e).
   OGC_HD float above(const Nearest& nearest) const {
     return smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
   }
 };
 
-/// Returns the number of nodes of a level, or of primitives for level −1; 1, with empty children, if there are none.
+/// Returns the number of nodes of a level, or of primitives for level −1. A tree without primitives has one node of
+/// empty children, so the result is 1.
 OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
 
-/// Computes boxes and gap limits of the reach of all primitives and of the nodes above them, and the gap limits of
-/// vertices. Index: places of the facets, of the edges, each filled up to a multiple of 32, then vertices. The thread
-/// that completes the 16 grandchildren of a node goes on with this node, so that one launch refits the whole tree; no
-/// bit depends on which thread it is. A warp of a device holds 32 neighbours that must call this together, so that the
-/// lowest two levels never leave its registers.
+/// Computes the boxes and gap limits of all primitives and nodes, and the gap limits of vertices. Index: places of
+/// facets, then places of edges, each padded to a multiple of 32, then vertices. The last thread that completes one of
+/// a node's 16 grandchildren continues with the node, so one launch refits the whole tree. No bit depends on which
+/// thread continues. The 32 neighbouring threads of a warp must call this together: the lowest two levels stay in their
+/// registers.
 struct RefitTrees {
   Reach reach;
   TreeView facets, edges;               ///< in the order of the last rebuild; their boxes and reaches are written
-  int *facet_arrivals, *edge_arrivals;  ///< a count for each node, 0 between two launches
+  int *facet_arrivals, *edge_arrivals;  ///< a counter for each node, 0 between two launches
   float* vertex_limit;                  ///< by vertex: gap limit of its reach [m²], written
   int vertex_count;
 
-  /// Returns the next multiple of a warp; count() returns the items of the launch.
+  /// Returns `count` rounded up to whole warps; count() returns the items of the launch.
   OGC_HD static int filled_up(int count) { return (count + 31) / 32 * 32; }
   OGC_HD int count() const { return filled_up(facets.count) + filled_up(edges.count) + filled_up(vertex_count); }
 
@@ -257,7 +257,8 @@ struct RefitTrees {
     }
   }
 
-  /// Writes a place of a tree and climbs from it; beyond the primitives the child is empty.
+  /// Writes the child at a place of a tree and refits the nodes above it. A place beyond the primitives gets an empty
+  /// child.
   template <class Of>
   OGC_HD static void place(const TreeView& tree, int* arrivals, int j, Of child_of) {
     Child own;
@@ -282,8 +283,7 @@ struct RefitTrees {
 
   static constexpr unsigned everyone = 0xffffffffU;
 
-  /// Returns the child that holds four children: those of neighbouring threads, or of threads that are `apart` from
-  /// each other. All four threads get it.
+  /// Returns the union of four threads' children to all four threads; their lanes are `apart` from each other.
   OGC_HD static Child of_four(Child child, int apart) {
     for (int step = apart; step <= 2 * apart; step *= 2) {
       const auto other = [step](float number) { return __shfl_xor_sync(everyone, number, step); };
@@ -295,11 +295,11 @@ struct RefitTrees {
     return child;
   }
 
-  /// Writes the child at a place and climbs from there. 16 neighbours go on together, as long as they complete the
-  /// grandchildren of a node: each reads one of them.
+  /// Writes the child at a place and refits the nodes above it. 16 neighbouring threads continue together while they
+  /// complete a node's grandchildren; each then reads one grandchild.
   OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, Child own) {
     const int lane = static_cast<int>(threadIdx.x % 16);
-    int node = j / 16;  // of level 1 first
+    int node = j / 16;  // node of `level`
     bool goes_on = j - lane < tree.count;
     if (j < tree.count) tree.node(0, j / 4).child[j % 4] = own;
     for (int level = 1;; level += 2) {
@@ -323,7 +323,7 @@ struct RefitTrees {
 
 #else
 
-  /// Writes the child at a place and climbs from there until another thread is still to come.
+  /// Writes the child at a place and refits the nodes above it, up to the first that still waits for another thread.
   OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, const Child& own) {
     if (j >= tree.count) return;
     tree.node(0, j / 4).child[j % 4] = own;
@@ -335,14 +335,13 @@ struct RefitTrees {
     }
   }
 
-  /// Returns a node as the child of the node above it.
+  /// Returns a node as a child of the node above it.
   OGC_HD static Child whole(const Quad& quad) {
     const Box box = quad.whole();
     return {box.lower, quad.whole_reach(), box.upper, -1};
   }
 
-  /// Writes the children of node j of `level`, given the nodes of the level below, and the node as a child of the one
-  /// above.
+  /// Writes the children of node j of `level` from the level below, and enters node j as a child in the level above.
   OGC_HD static void refit_node(const TreeView& tree, int level, int j) {
     Quad& quad = tree.node(level, j);
     const int below = level_size(tree.count, level - 1);
@@ -390,18 +389,18 @@ OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
   return spread_bits(x[0] ^ flips) << 2 | spread_bits(x[1] ^ flips) << 1 | spread_bits(x[2] ^ flips);
 }
 
-/// Writes the Hilbert keys of all vertices, edges and facets that are searched, for one sort; two bits above the keys
-/// keep the three kinds apart.
+/// Writes the Hilbert keys of all searched vertices, edges and facets, so that one sort orders all of them. The two
+/// bits above a key are its kind.
 struct HilbertKeys {
   static constexpr int kind_bit = 60;
-  /// Lowest bit that a sort has to look at: cells of a 1024th of the extent hold few primitives, which then keep the
-  /// order of their numbers.
+  /// Lowest bit that the sort compares: the bits above it tell cells of a 1024th of the extent apart. Few primitives
+  /// share such a cell; they keep the order of their numbers.
   static constexpr int lowest_sorted_bit = 30;
 
   SurfaceView surface;
   const Vec* positions;    ///< by vertex [m]
   TreeView facets, edges;  ///< refitted; their roots give the extent
-  std::uint64_t* keys;     ///< kind from kind_bit on, place on the curve below
+  std::uint64_t* keys;     ///< kind from bit kind_bit on, place on the curve below it
   int* values;             ///< number within its kind; the sort moves it with its key
 
   OGC_HD void operator()(int i) const {

@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// Returns whether ‖x − X_prev‖ > b_v. Differences of single-precision numbers of one size are exact in double; the
+/// Returns whether ‖x − X_prev‖ > b_v. Differences of single-precision numbers of similar size are exact in double; the
 /// squares leave an error of 2⁻⁵² b².
 OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
   const Vec& previous = ball.centre;
@@ -16,8 +16,8 @@ OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
   return x * x + y * y + z * z > static_cast<double>(ball.radius) * ball.radius;
 }
 
-/// Returns whether a position is not proved to be in the region: it is beyond the ball, or a half-space fails the test
-/// of stored positions.
+/// Returns whether a position is not proved to be in the region: it is beyond the ball, or the test of a half-space
+/// fails.
 OGC_HD inline bool is_outside(const FeasibleRegion& region, const Vec& position) {
   for (int k = 0; k < region.count; ++k)
     if (!is_behind(region.planes[k], position)) return true;

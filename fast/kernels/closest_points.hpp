@@ -1,6 +1,6 @@
-// Computes the distance of two edges (in rounded double, with a derived slack), and the faces that hold the closest
-// points (by exact signs), with the rule of method.md §1.4 for nearly parallel edges. The least squares problem is
-// convex, so a pair of faces is right iff its own first-order conditions hold: no solve decides.
+// Computes the distance of two edges in rounded double, with a derived slack, and the faces that hold the closest
+// points, by exact signs. Nearly parallel edges follow method.md §1.4. The distance is convex in both parameters, so a
+// pair of faces is right if and only if its own first-order conditions hold: no system is solved.
 #pragma once
 
 #include "compare/stages/closest_points.hpp"
@@ -11,7 +11,7 @@ namespace ogc::fast {
 
 using compare::EdgeFeature;
 
-/// Holds the two ends of an edge, lower-numbered vertex first.
+/// Holds the two ends of an edge, the lower-numbered vertex first.
 template <class T>
 struct EndsOf {
   Vector<T> a, b;  ///< [m]
@@ -23,10 +23,10 @@ using Ends = EndsOf<float>;
 /// The faces of two edges that hold their closest points.
 struct EdgePairFeatures {
   EdgeFeature first = EdgeFeature::interior, second = EdgeFeature::interior;
-  bool nearly_parallel = false;  ///< decided with is_overlapping_parallel; closest_edge_features leaves it false
+  bool nearly_parallel = false;  ///< set by is_overlapping_parallel; closest_edge_features leaves it false
 };
 
-/// Returns the smallest distance of an end of one edge from the other edge [m]; e and f are the edges, w leads from the
+/// Returns the smallest distance of an end of one edge from the other edge [m]. e and f are the edges; w goes from the
 /// start of e to the start of f.
 OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const Real& f) {
   const double of_first = smaller(squared_to_segment(-w, f), squared_to_segment(e - w, f));
@@ -35,10 +35,11 @@ OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const R
 
 /// Returns the distance of the two closed edges.
 ///
-/// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction and the place of the foot err by 32
-/// roundings of 1/θ and S/θ², and the foot's error moves the distance by θ times as much: under 2⁻⁴⁷ S/θ. At θ < 2⁻²³
-/// no points of two edges are nearer than an end by more than θ ‖shorter‖. Below θ = 2⁻⁸ the distance is taken from a
-/// point of one edge to the other, never between the lines, which can meet where the edges end.
+/// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction errs by 32 roundings of 1/θ, the
+/// place of the foot by 32 roundings of S/θ². The foot's error changes the distance by θ times as much: under 2⁻⁴⁷ S/θ.
+/// At θ < 2⁻²³ no points of two edges are nearer than an end by more than θ ‖shorter‖. Below θ = 2⁻⁸ the distance is
+/// computed from a point of one edge to the other, never between the lines, because lines can meet beyond the ends of
+/// the edges.
 OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a),
              n = cross(e, f);
@@ -57,10 +58,10 @@ OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   return {smaller(of_point, smallest_end_distance(w, e, f)), slack};
 }
 
-/// Returns the faces that hold the closest points, whatever the angle; of several equally near pairs (parallel or
-/// zero-length edges) the first in order.
+/// Returns the faces that hold the closest points, at any angle. Parallel or zero-length edges may have several equally
+/// near pairs of faces: then the first in order.
 OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& q) {
-  // [end][end of the other edge]: the one lies before the other, seen along the other edge
+  // p_before[i][j]: end i of p lies before end j of q, seen along q; q_before: the same with p and q exchanged
   bool p_before[2][2], q_before[2][2];
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
@@ -84,8 +85,8 @@ OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& 
   return {};
 }
 
-/// Returns whether nearly parallel edges have projections that overlap in more than a point; p is the lower-numbered
-/// edge, on whose line they are compared.
+/// Returns whether nearly parallel edges have projections that overlap in more than a point. They are projected onto
+/// the line of p, the lower-numbered edge.
 OGC_HD inline bool is_overlapping_parallel(const Ends& p, const Ends& q) {
   if (exact_sign(NearlyParallel{p.a, p.b, q.a, q.b}) <= 0) return false;
   const bool reaches_a = exact_sign(End{q.a, p.a, p.b}) > 0 || exact_sign(End{q.b, p.a, p.b}) > 0;
@@ -93,7 +94,7 @@ OGC_HD inline bool is_overlapping_parallel(const Ends& p, const Ends& q) {
 }
 
 /// Returns whether the edges are nearer than r, given the faces `on` of closest_edge_features; decides exactly if the
-/// slack leaves it open.
+/// slack does not.
 OGC_HD inline bool is_within(const Ends& p, const Ends& q, EdgePairFeatures on, const Distance& d, float r) {
   if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
   const bool first_inside = on.first == EdgeFeature::interior, second_inside = on.second == EdgeFeature::interior;
@@ -109,8 +110,8 @@ struct EdgeParameters {
 };
 
 /// Returns one end of the overlap of two nearly parallel edges, on p and projected on the line of q: q's end or, if
-/// that lies beyond p, p's. At q's end the parameter of q is measured from that end: measured from p's, a difference
-/// would be rounded at the size of p, which is 10⁷ roundings of an edge that is 10⁻⁷ as long.
+/// that lies beyond p, p's. At q's end the parameter of q is measured from that end. Measured from p's end, a
+/// difference would be rounded at the size of p: 10⁷ roundings of an edge that is 10⁻⁷ as long.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);
@@ -128,8 +129,8 @@ OGC_HD inline EdgeParameters overlap_parameters(const Ends& p, const Ends& q) {
   return {mul(0.5, add(from.first, to.first)), clamped_parameter(mul(0.5, add(from.second, to.second)))};
 }
 
-/// Returns the points whose distance the force takes, given the faces that hold them. For nearly parallel edges these
-/// are the middle of the overlap and its projection (method.md §1.4), not the closest points.
+/// Returns the points between which the force acts, given the faces that hold them. For nearly parallel edges these are
+/// the middle of the overlap and its projection (method.md §1.4), not the closest points.
 OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, EdgePairFeatures on) {
   if (on.nearly_parallel) return overlap_parameters(p, q);
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);

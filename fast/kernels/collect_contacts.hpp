@@ -1,5 +1,4 @@
-// Decides which of the pairs that the searches noted are contacts, one thread a pair: the second half of both
-// detections.
+// Decides which of the noted pairs are contacts, one thread a pair. This is the second half of both detections.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -9,10 +8,10 @@ namespace ogc::fast {
 
 /// Enters the contacts among the noted pairs. Index over these pairs.
 struct CollectContacts {
-  /// gives 128 registers; at 6 the spills cost more than the added warps win (fast/PERFORMANCE.md)
+  /// allows 128 registers; with 6 blocks, spills would cost more than the added warps gain (fast/PERFORMANCE.md)
   static constexpr int resident_blocks = 4;
   CollectVertexFacet vertex_facet;  ///< decides pairs whose first number is negative, ~vertex
-  /// decides pairs of edges; its radius also leaves out pairs that were noted for their planes alone
+  /// decides pairs of edges; pairs beyond its radius were noted only for their planes
   CollectEdgeEdge edge_edge;
   ListsView lists;                   ///< contacts are entered here; the overflow flag ends the launch
   const float* distances = nullptr;  ///< of the noted pairs, rounded down [m]; set if pairs beyond r are noted, too
@@ -20,11 +19,11 @@ struct CollectContacts {
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
     const RawContact found = contact(i);
-    // in one place, where threads that decided different kinds of pairs meet again
+    // one call for both kinds of pairs, so that threads that diverged meet here
     if (found.bucket >= 0) lists.enter(found, {edge_edge.surface});
   }
 
-  /// Returns the contact of the i-th pair; its bucket is −1 if the pair is none.
+  /// Returns the contact of the i-th pair; its bucket is −1 if there is none.
   OGC_HD RawContact contact(int i) const {
     if (distances != nullptr && !(distances[i] < edge_edge.contact_radius)) return {-1, -1, -1, -1};
     const NotedPair pair = lists.noted[i];

@@ -1,15 +1,15 @@
-// A contact between two sides, each the closed face of a record (fast/contact_view.hpp), at the positions that a vertex
-// update reads: closest points in single precision from relative coordinates, weights, normal and distance; force −g' w
-// n and block g'' w² n nᵀ of one vertex (method.md §4.2, and §7.4 for w²).
+// Contact between two sides, the closed faces of a record (fast/contact_view.hpp), at the positions that a vertex
+// update reads. Closest points are computed in single precision from relative coordinates; they give weights, normal
+// and distance. One vertex has the force −g' w n and the block g'' w² n nᵀ (method.md §4.2; §7.4 for w²).
 //
-//   kind              slots
+//   kind              slots of the first | second side
 //   point_point       0 | 2
 //   point_segment     0 | 2 3
-//   segment_segment   0 1 | 2 3   a segment never meets a point: first < second as faces
+//   segment_segment   0 1 | 2 3   (a segment is never before a point: first < second as faces)
 //   point_triangle    0 | 1 2 3   (compare/stages/detect_edge_edge.hpp)
 //
-// Σ w_i = 0, and Σ w_i x_i is the vector d n from the second side's closest point to the first's, so action equals
-// reaction whatever the weights. Slots that a kind lacks repeat slot 0: their weight is 0 and they cost no branch.
+// Σ w_i = 0, so action equals reaction for any weights. Σ w_i x_i is the vector d n from the second side's closest
+// point to the first's. Slots that a kind lacks repeat slot 0 with weight 0, so they need no branch.
 #pragma once
 
 #include <cmath>
@@ -23,10 +23,10 @@
 
 namespace ogc::fast {
 
-/// Which faces meet; the head of this file says which slots a kind has.
+/// Which faces meet; the head of this file lists the slots of each kind.
 enum class ContactKind : std::uint8_t { point_point, point_segment, segment_segment, point_triangle };
 
-/// The constants of contacts between two bodies (method.md §4.5).
+/// Holds the constants of contacts between two bodies (method.md §4.5).
 struct ContactMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ [1]
 };
@@ -48,22 +48,22 @@ OGC_HD T clamp_unit(const T& t) {
 /// Barycentric weights of the point of the closed triangle (a, b, c) closest to p.
 template <class T>
 struct TriangleWeightsOf {
-  T a{}, b{}, c{};  ///< ≥ 0; they add up to 1 but for rounding
+  T a{}, b{}, c{};  ///< ≥ 0; their sum is 1 up to rounding
 };
 using TriangleWeights = TriangleWeightsOf<float>;
 
-/// Where the point x[0] lies about the triangle (x[1], x[2], x[3]).
+/// Holds the position of the point x[0] relative to the triangle (x[1], x[2], x[3]).
 template <class T>
 struct PointAndTriangle {
   Vector<T> ab, ac, ap;
-  T area, a, b, c;  ///< the squared normal, and the weights over the plane times it
+  T area, a, b, c;  ///< ‖normal‖², and the weights of the projection onto the plane, times ‖normal‖²
 
   OGC_HD explicit PointAndTriangle(const Vector<T>* x) : ab(x[2] - x[1]), ac(x[3] - x[1]), ap(x[0] - x[1]) {
     const Vector<T> normal = cross(ab, ac);
     area = dot(normal, normal);
     b = dot(cross(ap, ac), normal), c = dot(cross(ab, ap), normal), a = area - b - c;
   }
-  /// Whether the point lies over the interior, and then the weights.
+  /// Returns whether the point lies over the interior; only then weights() are valid.
   OGC_HD Mask<T> is_inside() const { return a > T(0.0f) && b > T(0.0f) && c > T(0.0f); }
   OGC_HD TriangleWeightsOf<T> weights() const { return {a / area, b / area, c / area}; }
 };
@@ -77,12 +77,13 @@ OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
 
 }  // namespace detail
 
-/// Weights of the point of the triangle (x[1], x[2], x[3]) closest to x[0]. Never NaN; a collapsed triangle is its
-/// longest edge.
+/// Returns the weights of the point of the triangle (x[1], x[2], x[3]) closest to x[0]. They are never NaN. If the sine
+/// at a is below 2⁻²⁰ (16 roundings), the signs of weights are unreliable and the triangle is replaced by its longest
+/// edge.
 ///
-/// A point that is not over the interior lies beyond one edge, and is closest to that, or beyond two, and then the foot
-/// that is not their common corner wins. Signs of weights decide: distances of points far above a corner agree in all
-/// digits long before their feet do. Below a sine of 2⁻²⁰ at a (16 roundings) the signs say nothing.
+/// A point that is not over the interior lies beyond one edge or two. Beyond one edge, it is closest to this edge.
+/// Beyond two, it is closest to the edge whose foot is not the common corner. Signs decide this, not distances: far
+/// above a corner, distances agree in all digits although the feet differ.
 OGC_HD inline TriangleWeights closest_on_triangle(const Vec* x) {
   const PointAndTriangle<float> at(x);
   if (at.is_inside()) return at.weights();
@@ -119,7 +120,7 @@ using SegmentParameters = SegmentParametersOf<float>;
 template <class T>
 struct TwoSegments {
   Vector<T> first, second, between;
-  T aa, bb, ab, sine, to_start;  ///< squares and product of both, ‖first × second‖², first · between
+  T aa, bb, ab, sine, to_start;  ///< first², second², first · second, ‖first × second‖², first · between
 
   OGC_HD TwoSegments(const Vector<T>& along_first, const Vector<T>& along_second, const Vector<T>& apart)
       : first(along_first),
@@ -131,15 +132,15 @@ struct TwoSegments {
     const Vector<T> normal = cross(first, second);
     sine = dot(normal, normal), to_start = dot(first, between);
   }
-  /// Whether they are nearly parallel: ‖e × e'‖² < 10⁻⁶ ‖e‖² ‖e'‖².
+  /// Returns whether they are nearly parallel: ‖e × e'‖² < 10⁻⁶ ‖e‖² ‖e'‖².
   OGC_HD Mask<T> is_parallel() const { return sine < 1e-6f * aa * bb; }
-  /// Whether `parameters` holds: no length is zero, and they are not nearly parallel.
+  /// Returns whether `parameters` is valid: no length is zero, and they are not nearly parallel.
   OGC_HD Mask<T> is_usual() const { return aa > T(0.0f) && bb > T(0.0f) && !is_parallel(); }
   OGC_HD SegmentParametersOf<T> parameters() const { return beside(on_first()); }
-  /// The parameter of the closest point of the first line, within the segment.
+  /// Returns the parameter of the closest point of the first line, clamped to the segment.
   OGC_HD T on_first() const { return clamp_unit(dot(cross(between, second), cross(first, second)) / sine); }
-  /// The closest point of the second segment to the point s of the first, and, where that is an end, the closest one of
-  /// the first to it.
+  /// Returns the parameters of two points: s on the first segment, and the closest point of the second segment. If the
+  /// latter is an end, s is replaced by the point of the first segment closest to this end.
   OGC_HD SegmentParametersOf<T> beside(const T& s) const {
     const T t = (s * ab - dot(second, between)) / bb;
     const Mask<T> is_inside = t > T(0.0f) && t < T(1.0f);
@@ -151,8 +152,8 @@ struct TwoSegments {
 };
 
 /// Returns the closest points of two segments, which may have length zero. If they are nearly parallel and overlap in
-/// more than a point: the middle of the overlap on the first, and its projection on the second (method.md §1.4); the
-/// first must be the lower-numbered edge for that.
+/// more than a point, returns the middle of the overlap on the first and its projection on the second (method.md §1.4).
+/// So the first must be the lower-numbered edge.
 OGC_HD inline SegmentParameters closest_on_segments(const TwoSegments<float>& at) {
   if (!(at.aa > 0)) return {0.0f, closest_on_segment(at.second, Vec{} - at.between)};
   if (!(at.bb > 0)) return {closest_on_segment(at.first, at.between), 0.0f};
@@ -171,7 +172,7 @@ OGC_HD inline SegmentParameters closest_on_segments(const TwoSegments<float>& at
 /// Weights w of the closest points by slot [1]; 0 for a slot that the kind lacks.
 template <class T>
 struct ContactWeightsOf {
-  T slot[4] = {};  ///< w, adding up to 0 but for rounding
+  T slot[4] = {};  ///< w; their sum is 0 up to rounding
 
   /// Returns w of slot k by selection: an index would move the array from registers to memory.
   OGC_HD T of(int k) const {
@@ -191,8 +192,7 @@ OGC_HD ContactWeightsOf<T> weights_of(const TriangleWeightsOf<T>& at) {
   return {{T(1.0f), -at.a, -at.b, -at.c}};
 }
 
-/// Which pairs a contact is of: where it is known, formulas of kinds that do not occur take no room among a device's
-/// instructions.
+/// Pairs that a contact may have. If they are known when a kernel is compiled, it omits the formulas of other kinds.
 enum class PairKind { any, vertex_facet, edge_edge };
 
 /// Returns the weights of the closest points of a contact whose slots are at x.
@@ -215,9 +215,9 @@ OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T
   return weights.slot[1] * (x[1] - x[0]) + weights.slot[2] * (x[2] - x[0]) + weights.slot[3] * (x[3] - x[0]);
 }
 
-/// Normal and distance of the closest points. `acts`: 0 < d < r. Where the squared distance is not a normal number the
-/// points have met as far as single precision can tell: there is no normal, and no force; the bound, which is zero
-/// then, keeps them apart.
+/// Holds normal and distance of the closest points; `acts`: 0 < d < r. If the squared distance is not a normal number,
+/// the points coincide in single precision. Then there is no normal and no force, and the bound, which is 0, keeps the
+/// points apart.
 template <class T>
 struct ContactShapeOf {
   Vector<T> normal;  ///< n, a unit vector from the second side's closest point to the first side's
@@ -236,17 +236,17 @@ OGC_HD ContactShapeOf<T> contact_shape(const Vector<T>& separation, float contac
   return {(1.0f / length) * separation, distance, is_apart && distance < T(contact_radius)};
 }
 
-/// The distance at which slope and curvature are evaluated: within 2⁻²³ r … r. At 2⁻²³ r the logarithmic stage's g'' =
-/// k_c r²/(4 d²) is 2⁴⁴ k_c (IPC's 2⁴⁶ k_c), far above every other block and far below overflow; nearer points feel the
-/// force of this distance. Farther ones than r feel none, and keep the curvature that waits at r: without it an update
-/// that begins beyond r lands far too deep, and sweeps cycle (method.md §4.2).
+/// Returns the distance at which slope and curvature are evaluated: d, clamped to 2⁻²³ r … r. At 2⁻²³ r the logarithmic
+/// stage has g'' = k_c r²/(4 d²) = 2⁴⁴ k_c (IPC 2⁴⁶ k_c), far above every other block and far below overflow. Beyond r
+/// there is no force, but the curvature at r remains: without it, an update that begins beyond r ends far too deep, and
+/// sweeps cycle (method.md §4.2).
 template <class T>
 OGC_HD T activation_distance(const T& distance, float contact_radius) {
   const float least = 0x1p-23f * contact_radius;
   return select(distance < contact_radius, select(distance > least, distance, T{least}), T{contact_radius});
 }
 
-/// Adds the force and block of a vertex with weight w to `sum`; `majorant` stands for w² in the block (ContactAt).
+/// Adds the force and block of a vertex with weight w to `sum`; `majorant` replaces w² in the block (method.md §7.4).
 /// Returns the normal force λ = −g' ≥ 0 [N].
 template <class Activation, class T>
 OGC_HD T add_contact(const Activation& activation, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
@@ -258,8 +258,8 @@ OGC_HD T add_contact(const Activation& activation, const ContactShapeOf<T>& shap
   return -at.slope;
 }
 
-/// e_k of two edges with rest lengths ē, ē' (method.md §4.3): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε = 10⁻³
-/// ‖ē‖²‖ē'‖², else 1.
+/// Returns e_k of two edges with rest lengths ē, ē' (method.md §4.3): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε =
+/// 10⁻³ ‖ē‖²‖ē'‖², else 1.
 OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_squared_first,
                               float rest_squared_second) {
   const Vec normal = cross(first, second);
@@ -269,8 +269,8 @@ OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_sq
   return q * (2.0f - q);
 }
 
-/// Returns for nearly parallel edges the length of their overlap, measured along the first, over the length of the
-/// shorter one. `to_start` and `to_end` go from the first one's start to the second one's ends.
+/// Returns, for nearly parallel edges, the length of their overlap along the first over the length of the shorter one.
+/// `to_start` and `to_end` go from the first edge's start to the second edge's ends.
 OGC_HD inline float overlap_share(const Vec& first, const Vec& second, const Vec& to_start, const Vec& to_end) {
   const float aa = dot(first, first), bb = dot(second, second);
   const float start = clamp_unit(dot(first, to_start) / aa), end = clamp_unit(dot(first, to_end) / aa);

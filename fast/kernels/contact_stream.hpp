@@ -1,6 +1,6 @@
-// Makes the stream that the sweep reads from the records of a detection: slots, stiffness with the mollifier of this
-// detection, friction, and for each neighbour the buffer from which it is read. It is made once a detection, so that
-// the sweep has nothing to look up.
+// Converts the records of a detection into the stream that the sweep reads: slots, stiffness with this detection's
+// mollifier, friction, and the buffer from which each neighbour is read. This happens once a detection, so that the
+// sweep has nothing to look up.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace ogc::fast {
 
-/// Data of contacts that are not in their records.
+/// Data of contacts that their records lack.
 struct ContactTables {
   const int* body = nullptr;                   ///< by vertex
   const ContactMaterial* materials = nullptr;  ///< of bodies a and b, at a · body_count + b
   int body_count = 0;                          ///< 0 in probes: then materials are by body b alone
-  const float* rest_squared = nullptr;  ///< ‖ē‖² by edge [m²]; 0 without triangles: parallel strands must repel
+  const float* rest_squared = nullptr;  ///< ‖ē‖² by edge [m²]; 0 for an edge without triangles, which has no mollifier
   const Vec* previous = nullptr;        ///< X_prev, positions of the detection, for e_k
 };
 
-/// Returns a contact with the k_c [N/m] and μ of two vertices' bodies (method.md §4.5), and nothing else.
+/// Returns a contact with only k_c [N/m] and μ set, from the bodies of two vertices (method.md §4.5).
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;
@@ -59,8 +59,8 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Ver
   return contact;
 }
 
-/// Returns e_k of two interiors: the mollifier; for two edges without triangles the share of nearly parallel ones that
-/// overlaps.
+/// Returns e_k of two edge interiors: the mollifier if both have triangles, 1 if one has. For two nearly parallel edges
+/// without triangles it is their overlap_share, otherwise 1.
 OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeRecord& record) {
   const Vec* x = tables.previous;
   const Ends p{x[record.first[0]], x[record.first[1]]}, q{x[record.second[0]], x[record.second[1]]};
@@ -85,7 +85,8 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& re
     set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
 }
 
-/// Returns the edge–edge contact of a record in the same way. The stiffness of two interiors includes e_k.
+/// Returns the edge–edge contact of a record: plain vertex numbers as indices, `own` 0. The stiffness of two interiors
+/// includes e_k.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
   ContactIncidence contact = meeting(tables, record.first[0], record.second[0]);
   set_slots(contact, record);
@@ -93,26 +94,26 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
   return contact;
 }
 
-/// Returns the slots of a kind: bit k is set if it has slot k.
+/// Returns the slots of a kind as bits: bit k is set if it has slot k.
 OGC_HD inline int slots_of(ContactKind kind) {
   return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;
 }
 
-/// Returns the slot of a role of contact_view.hpp. A facet's corners follow the vertex in a triangle, and are the
-/// second side otherwise.
+/// Returns the slot of a role (contact_view.hpp). A triangle's corners have slots 1, 2, 3. A smaller facet is the
+/// second side, and its vertices begin at slot 2.
 OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
   const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// for_each over slots: each vertex' row of the stream. `Item`: an incidence of whatever kind; rows may have any order.
+/// Writes each vertex's row of the stream. Index over slots. `Item` is a type of incidence; a row may have any order.
 template <class Item>
 struct CopyContactRows {
   const int* incidence_offsets;  ///< by vertex, vertices + 1
   const Item* incidences;        ///< row of vertex v: from incidence_offsets[v]
-  const int* overflow;           ///< not 0: the old rows stay; null: never
+  const int* overflow;           ///< not 0: rows are not written; null: they always are
   const SweepVertex* vertices;   ///< by slot
-  ContactRow* rows;              ///< by slot, written; each begins where the vertex's row of incidences does
+  ContactRow* rows;              ///< by slot, written; begins where the vertex's row of incidences begins
 
   OGC_HD void operator()(int slot) const {
     if (overflow != nullptr && *overflow != 0) return;
@@ -123,8 +124,8 @@ struct CopyContactRows {
   }
 };
 
-/// An incidence at its place in the stream (step_detection.hpp); or for_each_counted over all incidences of a row order
-/// that stands already.
+/// Writes an incidence at its place in the stream. step_detection.hpp gives place and incidence; otherwise the index
+/// runs over incidences that are already in order.
 struct ResolveContact {
   ContactView view;  ///< records of the detection
   ContactTables tables;
@@ -160,10 +161,10 @@ OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* 
   return activation.energy(activation_distance(shape.distance, contact_radius), contact_radius, contact.stiffness);
 }
 
-/// Adds the energies of the vertex–facet contacts, record by record; only the device knows how many there are.
+/// Adds the energies of the vertex–facet contacts. Index over their records.
 struct VertexFacetTerm {
   ContactView view;
-  ContactTables tables;  ///< of the last detection, whose e_k counts
+  ContactTables tables;  ///< of the last detection, which gives e_k
   const Vec* position;   ///< by vertex [m]
   AnyActivation activation;
   float contact_radius;  ///< r [m]
@@ -174,10 +175,10 @@ struct VertexFacetTerm {
   }
 };
 
-/// Adds the energies of the edge–edge contacts, record by record.
+/// Adds the energies of the edge–edge contacts. Index over their records.
 struct EdgeEdgeTerm {
   ContactView view;
-  ContactTables tables;  ///< of the last detection, whose e_k counts
+  ContactTables tables;  ///< of the last detection, which gives e_k
   const Vec* position;   ///< by vertex [m]
   AnyActivation activation;
   float contact_radius;  ///< r [m]

@@ -1,5 +1,5 @@
-// Holds what the device decides by itself: flags that the host never sees inside a step, counters, and kernels of one
-// item that turn counters into flags.
+// Control of a step on the device: counters, flags that the host never reads inside a step, and kernels of one item
+// that turn counters into flags.
 //
 //   BeginStep ─► detect, guess ─► EndRound ─► … ─► sweep ─► EndIteration ─► … ─► EndCheck ─► FinishStep
 //                     ▲── detect ────┘               ▲── detect ──┘     (a detection ends in EndDetection)
@@ -36,29 +36,29 @@ OGC_HD inline float float_from_bits(int bits) {
 /// Holds the settings of the control, the same in each step.
 struct ControlSettings {
   double redetect_vertices = 1;    ///< γ_e K
-  int detection_every = 0;         ///< iterations after which a detection is due in any case; 0: none ever is
-  int iterations = 1 << 30;        ///< iterations of a step; after the last no detection is made
+  int detection_every = 0;         ///< iterations between two detections, at most; 0: no limit
+  int iterations = 1 << 30;        ///< iterations of a step; no detection follows the last one
   int guess_rounds = 16;           ///< rounds of a step's guess loop, at most
   int sort_every = 1;              ///< steps between two sorts of the trees
   float contact_radius = 0;        ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
 
-  /// Returns the least number of cut vertices that requests a detection: after an iteration `times` is 1, after a round
-  /// of the guess loop it is the number of the round.
+  /// Returns the least number of cut vertices that requests a detection. `times` is 1 after an iteration, and the
+  /// number of the round after a round of the guess loop.
   OGC_HD int least_cut(int times = 1) const {
     const double least = ceil(times * redetect_vertices);
     return least > 1 ? static_cast<int>(least) : 1;
   }
 };
 
-/// Holds the state of a frame and of its step on the device.
+/// Holds the state of a frame and of its current step on the device.
 struct StepControl {
   // Values of the frame:
   int active = 0;      ///< 1: steps take place; 0: they are no-ops
   int status = 0;      ///< compare::StepStatus bits that stopped the frame
   int steps_done = 0;  ///< steps committed since the frame began; indexes the row of metrics and the row of targets
-  int since_sort = 1 << 30;  ///< steps begun since the last sort of the trees; the host carries it from frame to frame
-  // Values of the step. Flags that `when` reads are 0 unless the frame is active.
+  int since_sort = 1 << 30;  ///< steps begun since the last sort of the trees; kept from frame to frame
+  // Values of the step. Flags that Backend::when reads are 0 unless the frame is active.
   int attempted = 0;                      ///< 1: the step began active
   int sort = 0;                           ///< 1: the trees are sorted anew
   int guess = 0;                          ///< 1: the guess loop has another round
@@ -66,15 +66,15 @@ struct StepControl {
   int turn = 0;                           ///< next iteration, from 0; −1 while a detection is due
   float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
-  float smallest_bound = 0;               ///< smallest b_v, with planes smallest distance [m]
-  /// vertices cut in this round or iteration; cut_last: in the one before, lagging ones included
+  float smallest_bound = 0;               ///< smallest b_v; with planes, smallest distance [m]
+  /// vertices cut in this round or iteration; cut_last: those of the previous one, plus lagging ones
   int cut = 0, cut_last = 0;
   int deep_inside = 0;  ///< with volumes: vertices that this iteration left deep inside one
   /// With planes: number of prescribed vertices behind their targets, whether one has moved since the last detection,
   /// and whether one has requested a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
   int not_finite = 0, violations = 0;
-  /// with volumes, 1: a row of contacts had no room; set beside a detection, whose lists have their own flag
+  /// with volumes: 1 if a row of contacts was full; lists of a detection have their own flag
   int short_rows = 0;
   /// With volumes, at the end: contacts, vertices inside, bits of the largest depth at the last detection [m], sheets
   /// without any way out.
@@ -84,7 +84,7 @@ struct StepControl {
   float nearest_contact = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
-  /// Threads of one launch call the counters together; sums and maxima do not depend on their order.
+  /// Count atomically; sums and maxima do not depend on the order of threads.
   OGC_HD void count_cut() { atomic_add(&cut, 1); }
   OGC_HD void count_deep_inside() { atomic_add(&deep_inside, 1); }
   OGC_HD void count_lag(bool has_advanced) {
@@ -95,9 +95,9 @@ struct StepControl {
   OGC_HD void count_violation() { atomic_add(&violations, 1); }
 };
 
-/// Returns whether the cut vertices request a detection, and resets their counts. A lagging prescribed vertex requests
-/// one alone if the last detection let it advance, otherwise once a step; of the others γ_e K must be cut, or one if a
-/// vertex is deep inside a volume.
+/// Returns whether a detection is requested, and resets the counts. Cut vertices request it if there are at least
+/// `least_cut`, or one while a vertex is deep inside a volume. Lagging prescribed vertices request it if the last
+/// detection let one advance, otherwise once a step.
 OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
              asks = c.cut >= least_cut || (c.cut > 0 && c.deep_inside > 0);
@@ -107,7 +107,7 @@ OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   return asks || lag_asks;
 }
 
-/// Ends the step if something went wrong; nothing of it is committed then.
+/// Stops the frame if something went wrong; the step is not committed then.
 OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.not_finite > 0) c.status |= compare::step_not_finite;
   if (c.violations > 0) c.status |= compare::step_bound_violated;
@@ -115,7 +115,7 @@ OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.status != 0) c.active = c.guess = c.detect = 0;
 }
 
-/// Begins a step: the first kernel that it launches.
+/// Resets the values of the step; the first kernel of each step.
 struct BeginStep {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -182,7 +182,8 @@ struct EndRound {
 };
 
 /// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) or `detection_every` iterations
-/// have passed. `number`: of this iteration, which counts only if it is its turn; −1: it always counts.
+/// have passed. `number` is the number of this iteration: nothing happens if it is another iteration's turn. −1: no
+/// such check.
 struct EndIteration {
   StepControl* control;  ///< on the backend
   ControlSettings settings;

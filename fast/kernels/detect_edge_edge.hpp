@@ -1,6 +1,6 @@
-// Runs Algorithm 2, each pair once: the edge at place i of the tree order searches the places behind its own only, and
-// both partners take the distance. Pairs are skipped, and those closer than r decided afterwards, as in
-// detect_vertex_facet.hpp; pairs that block.hpp proves to be no contact are not noted.
+// Runs Algorithm 2, each pair once: the edge at place i of the tree order only searches the places behind i, and the
+// distance counts for both partners. As in detect_vertex_facet.hpp, pairs may be skipped, and pairs nearer than r are
+// decided afterwards. Pairs that block.hpp proves to be no contact are not noted.
 #pragma once
 
 #include "fast/kernels/arithmetic/atomic.hpp"
@@ -11,19 +11,19 @@
 
 namespace ogc::fast {
 
-/// Searches all edges in their tree; a Query of search.hpp.
+/// Searches the tree of edges for all edges; a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
   PaddedVecs positions;  ///< of the detection, by vertex [m]
   TreeView tree;         ///< of all edges, refitted at these positions
-  ListsView lists;       ///< pairs are noted here; with its overflow flag set nothing is searched
+  ListsView lists;       ///< pairs are noted here; nothing is searched if its overflow flag is set
   float contact_radius;  ///< r, with the contact margin [m]
   float* d_min_edge;     ///< at most r_q before the launch
 
   /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// Returns the search of the edge at place i of the tree, from the place behind it.
+  /// Returns the search of the edge at place i of the tree; it covers the places behind i.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {.box = child.box(),
@@ -33,8 +33,8 @@ struct DetectEdgeEdge {
             .reach = child.reach};
   }
 
-  /// Returns the squared distance up to which a pair matters; negative if its boxes are farther apart, or if it is none
-  /// (method.md §2.3).
+  /// Returns the squared distance up to which a pair matters. Negative if the boxes are farther apart, or if the edges
+  /// form no pair (method.md §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
     if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return -1.0F;
@@ -42,7 +42,7 @@ struct DetectEdgeEdge {
     return offer.gap > within ? -1.0F : within;
   }
 
-  /// Returns whether the candidate needs a distance.
+  /// Returns whether the distance of the candidate must be computed.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -51,8 +51,8 @@ struct DetectEdgeEdge {
     return !is_beyond(apart, within) && !is_idle(search, offer, apart);
   }
 
-  /// Returns whether a pair within r needs no distance: it lowers no smallest distance, and is no contact. `apart`: its
-  /// separation [m].
+  /// Returns whether a pair within r needs no distance: it lowers no smallest distance and is no contact. `apart` is a
+  /// lower bound of its distance [m].
   OGC_HD bool is_idle(const Search& search, const Offer& offer, float apart) const {
     const float own = atomic_load(&d_min_edge[search.owner]), theirs = atomic_load(&d_min_edge[offer.primitive]);
     const float lowering = larger(smaller(search.reach, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
@@ -61,7 +61,7 @@ struct DetectEdgeEdge {
                                           : is_none(offer.primitive, search.owner);
   }
 
-  /// Takes the distance for both partners; returns the search's new limit.
+  /// Computes the distance for both partners; returns the search's new limit.
   OGC_HD float meet(const Search& search, int other, float gap) const {
     const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
     return gap_limit(larger(contact_radius, measure(low, high, gap)));
@@ -74,7 +74,8 @@ struct DetectEdgeEdge {
     return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
 
-  /// Takes the pair's distance for both partners, and notes the pair if it may be a contact; low < high.
+  /// Lowers the smallest distances of both partners to the pair's, and notes the pair if it may be a contact; low <
+  /// high.
   OGC_HD float measure(int low, int high, float gap) const {
     const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));
     const float below = larger(d.below(), gap_below(gap));
@@ -85,7 +86,7 @@ struct DetectEdgeEdge {
     return below;
   }
 
-  /// Returns whether the pair is no contact for certain; low < high.
+  /// Returns whether the pair is certainly no contact; low < high.
   OGC_HD bool is_none(int low, int high) const {
     return is_surely_no_contact(surface.edges[low], surface.edges[high], surface, positions);
   }
@@ -93,8 +94,8 @@ struct DetectEdgeEdge {
   OGC_HD Ends ends(const EdgeEnds& e) const { return {positions[e.a], positions[e.b]}; }
 };
 
-/// Returns the contact of two edges, low < high; its bucket is −1 if there is none. `certain`: they are surely nearer
-/// than r.
+/// Returns the contact of two edges, low < high; its bucket is −1 if there is none. `certain`: they are certainly
+/// nearer than r.
 struct CollectEdgeEdge {
   SurfaceView surface;
   PaddedVecs positions;  ///< of the detection, by vertex [m]
@@ -121,7 +122,7 @@ struct CollectEdgeEdge {
   }
 
  private:
-  /// Returns whether no triangle has the edge.
+  /// Returns whether no triangle contains the edge.
   OGC_HD bool is_loose(int e) const { return surface.opposites.offsets[e] == surface.opposites.offsets[e + 1]; }
 
   /// Returns the vertex of a feature; −1 for the interior.
@@ -129,14 +130,14 @@ struct CollectEdgeEdge {
     return feature == EdgeFeature::interior ? -1 : feature == EdgeFeature::end_0 ? e.a : e.b;
   }
 
-  /// Returns whether both blocks hold the other side's closest point, given that these features hold the closest points
-  /// (Eq. 14, 15). The block of an interior always does.
+  /// Returns whether the block of each side holds the other side's closest point (Eq. 14, 15). `on` are the faces that
+  /// hold these points. The block of an interior always does.
   OGC_HD bool is_hit(const EdgeEnds& p, const EdgeEnds& q, EdgePairFeatures on) const {
     const int v = end_of(p, on.first), w = end_of(q, on.second);
     return (v < 0 || is_end_hit(v, w < 0, w, q)) && (w < 0 || is_end_hit(w, v < 0, v, p));
   }
 
-  /// Applies the same test at every pair of ends, and at every end that lies beside the other edge: for exactly
+  /// Applies the same test to every pair of ends, and to every end that lies beside the other edge. For exactly
   /// parallel edges these include both ends of the overlap. If both blocks hold the other side's point, no points of
   /// the edges are nearer, because each block has a condition for its own edge.
   OGC_HD bool is_hit_beside(const EdgeEnds& p, const EdgeEnds& q) const {
@@ -155,8 +156,8 @@ struct CollectEdgeEdge {
     return exact_sign(End{x, a, b}) > 0 && exact_sign(End{x, b, a}) > 0;
   }
 
-  /// Returns whether the closest point on the other edge, which is inside it or its end w, lies in the block of v (Eq.
-  /// 15).
+  /// Returns whether the closest point of the other edge lies in the block of v (Eq. 15). It is inside the edge or its
+  /// end w.
   OGC_HD bool is_end_hit(int v, bool is_other_inside, int w, const EdgeEnds& other) const {
     return is_other_inside ? in_vertex_block(other, v, surface, positions)
                            : in_vertex_block(positions[w], v, surface, positions);

@@ -1,4 +1,4 @@
-// Runs the first launch of a detection, which prepares all that its searches start from.
+// First launch of a detection: prepares everything that its searches read.
 #pragma once
 
 #include "fast/kernels/bound.hpp"
@@ -9,16 +9,16 @@
 
 namespace ogc::fast {
 
-/// Copies positions to where searches gather them, empties the lists, sets smallest distances to r_q and refits the
-/// boxes of the trees. No part reads what another writes. Index over count(), by whole warps.
+/// Copies positions into aligned vectors, clears the lists, sets smallest distances to r_q and refits the trees. These
+/// parts are independent of each other. Index over count(), in whole warps.
 struct BeginDetection {
   const Vec* positions;  ///< by vertex [m]
-  PaddedVec* padded;     ///< the same positions, aligned, written
+  PaddedVec* padded;     ///< the same positions in aligned vectors, written
   PrepareLists lists;
   ResetDistances distances;
   RefitTrees refit;
 
-  /// Returns the largest of buckets, vertices, primitives and places of the trees.
+  /// Returns the largest number of buckets, vertices, primitives and places of the trees, in whole warps.
   OGC_HD int count() const {
     const int buckets = lists.lists.buckets, triangles = distances.triangle_count;
     const int items = buckets > triangles ? buckets : triangles, places = refit.count();

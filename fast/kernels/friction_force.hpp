@@ -1,6 +1,6 @@
 // Adds the friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex
-// Block Descent (method.md §4.4). λ, n and the weights are those of the positions that the update reads, and constants
-// of the derivatives.
+// Block Descent (method.md §4.4). λ, n and the weights are taken at the positions that the update reads, and are
+// constants of the derivatives.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -10,7 +10,7 @@
 
 namespace ogc::fast {
 
-/// f₁(y)/y [1/m] with ε = ε_v h [m]: (2 − y/ε)/ε for y < ε, 1/y above; 2/ε at y = 0.
+/// Returns f₁(y)/y [1/m] with ε = ε_v h [m]: (2 − y/ε)/ε for y < ε, else 1/y.
 template <class T>
 OGC_HD T friction_slope_over_slip(const T& slip, float limit) {
   return choose(

@@ -1,5 +1,4 @@
-// A proposal held to the region of its vertex (method.md §5): whatever moves a vertex writes the position that this
-// gives.
+// Truncates a proposal to the region of its vertex (method.md §5). Every kernel that moves a vertex writes the result.
 #pragma once
 
 #include "fast/kernels/control.hpp"
@@ -8,8 +7,8 @@
 
 namespace ogc::fast {
 
-/// Returns the proposal of a free vertex, truncated to its region; `cut`: it was changed. All of `lanes` call it
-/// together.
+/// Returns the proposal of a free vertex, truncated to its region; `cut`: it was changed. All `lanes` of a team call
+/// this together.
 template <class Metric, class Lanes = OneLane>
 OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
                       const Lanes& lanes = {}) {

@@ -1,4 +1,4 @@
-// Adds inertia, m/(2h²) ‖x − y‖², and computes its target y.
+// Computes inertia's target y, and adds force and block of its energy m/(2h²) ‖x − y‖².
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"

@@ -13,8 +13,8 @@
 
 namespace ogc::fast {
 
-/// Sets x = xᵗ and y, and takes the largest move. The target of a prescribed vertex is the step's, that of a fixed one
-/// its position. Index over all vertices.
+/// Sets x = xᵗ and y, and finds the largest move. y of a prescribed vertex is its target of the step, y of a fixed
+/// vertex its position. Index over all vertices.
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
@@ -25,9 +25,9 @@ struct BeginVertex {
   float step;                     ///< h [s]
   Vec* position;                  ///< x by vertex [m], written
   Vec* target;                    ///< y by vertex [m], written
-  Vec* taken;                     ///< by vertex, set to 0 as the first round of the guess loop reads it
-  StepControl* control;           ///< on the backend; largest_move is raised, moves that are not finite are counted
-  /// by vertex, not 0 on driven volumes, which are put at their targets here; null if there are none
+  Vec* taken;                     ///< by vertex, set to 0: the first round of the guess loop reads it
+  StepControl* control;           ///< on the backend; largest_move is raised, infinite and NaN moves are counted
+  /// by vertex, not 0 on driven volumes, which move to their targets here; null if there are none
   const std::uint8_t* is_driven_volume = nullptr;
 
   OGC_HD void operator()(int v) const {
@@ -49,8 +49,9 @@ struct BeginVertex {
   }
 };
 
-/// for_each over all vertices, before a detection: the certificate of the regions that end here, in double on stored
-/// positions, then X_prev ← x. Before the first detection of a step they are an earlier step's, and certified.
+/// Checks the certificate of the ending regions, in double on stored positions, then sets X_prev ← x. Before the first
+/// detection of a step nothing is checked: those regions are of an earlier step, which was certified. Index over all
+/// vertices, before a detection.
 struct BeginRegions {
   const Vec* position;          ///< x by vertex [m]
   FeasibleRegions ended;        ///< left by the last detection
@@ -67,8 +68,8 @@ struct BeginRegions {
   }
 };
 
-/// Sets x ← y truncated about X_prev; a free vertex goes only as far as its contacts leave of that move. It slides
-/// along half-spaces as inertia alone would have it. A prescribed vertex that touches stays from the second round on:
+/// Sets x ← y truncated about X_prev. Contacts may first shorten the move of a free vertex, and the truncation slides
+/// it along half-spaces with the metric of inertia. A touching prescribed vertex stays from the second round on: the
 /// sweeps move what is in its way. Index over all vertices.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
@@ -96,7 +97,7 @@ struct GuessVertex {
   }
 
  private:
-  /// Returns where the vertex goes if nothing truncates it: y itself, to the bit, if no contact holds it.
+  /// Returns the position before truncation: y itself, to the bit, if no contact holds the vertex.
   OGC_HD Vec proposal(int v, const Vec& stay) const {
     const bool is_odd = control->rounds % 2 != 0;
     GuessContacts here = contacts;
@@ -112,13 +113,13 @@ struct GuessVertex {
   }
 };
 
-/// Copies xᵗ and x after the guess to where the sweep gathers them; x goes to both of its buffers, because the sweep
-/// writes no fixed vertex. Index over all vertices.
+/// Copies xᵗ and x after the guess to the buffers of the sweep. Both buffers get x, because the sweep writes no fixed
+/// vertex. Index over all vertices.
 struct BeginSweep {
   const Vec* start;         ///< xᵗ by vertex [m]
   const Vec* position;      ///< x by vertex [m]
   PaddedVec* padded_start;  ///< xᵗ by vertex [m], written
-  PaddedVec* padded;        ///< x by vertex in both buffers, the second behind the first, written
+  PaddedVec* padded;        ///< x by vertex in both buffers, the fresh one behind the old one, written
   int vertex_count;         ///< length of one buffer
 
   OGC_HD void operator()(int v) const {

@@ -1,5 +1,5 @@
-// What the formulas of a kind read of its elements. They are written once, over what stands for the elements: one of
-// them here, several side by side on a CPU (fast/cpu/packed_items.hpp), to the same bits.
+// Reads the element data of a kind's formulas. The formulas are written once, for one element (here) or for several
+// side by side on a CPU (fast/cpu/packed_items.hpp), with the same bits.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -7,10 +7,10 @@
 
 namespace ogc::fast {
 
-/// One element.
+/// A single element.
 template <class Item>
 struct OneItem {
-  using Number = float;  ///< of the formulas
+  using Number = float;  ///< number type of the formulas
   const Item& item;
 
   /// Return number(item) and condition(item).
@@ -22,7 +22,7 @@ struct OneItem {
   OGC_HD bool which(F condition) const {
     return condition(item);
   }
-  /// Returns the position of the vertex with the encoded index index(item), as the update of a vertex reads it [m].
+  /// Returns the position [m] of the vertex with the encoded index index(item), from the buffer that the update reads.
   template <class F>
   OGC_HD Vec position(const SweepShared& view, F index) const {
     return view.read(index(item));

@@ -1,16 +1,17 @@
-// Turns the pairs that the searches note into records in canonical order and into each vertex's incidences. A contact's
-// bucket is its first face. Only one pair generates a contact of two interiors; the thread that decides the pair takes
-// a place in the list for it. Several pairs may generate any other contact: threads enter it in a hash table, and the
-// first of them takes the place. Inside a bucket each contact then counts those before it, which costs far less than
-// sorting all, and no thread waits for the longest bucket.
+// Turns the pairs that the searches noted into records in canonical order and into each vertex's incidences. A
+// contact's bucket is its first face. Only one pair generates a contact of a vertex and a triangle's interior, or of
+// two edge interiors: the thread that decides this pair takes a place in the list. Several pairs may generate any other
+// contact: their threads enter it in a hash table, and the first of them takes the place. Then each contact counts the
+// contacts before it in its bucket. This costs far less than sorting all contacts, and no thread waits for the longest
+// bucket.
 //
-// Buckets: v holds the vertex–facet contacts of vertex v, V + p the edge–edge contacts whose first face is p. In this
-// order the buckets, and the sorted second faces in each bucket, have the canonical order of compare/stages. The
-// searches note pairs that may be contacts: half as many again as there are contacts if r is shorter than the edges,
-// more if r is longer. block.hpp keeps the number of noted edge pairs small then, too.
+// Bucket v < V holds the vertex–facet contacts of vertex v; bucket V + p holds the edge–edge contacts whose first face
+// is p. The buckets in this order, each sorted by second face, have the canonical order of compare/stages. If r is
+// shorter than the edges, there are about 1.5 times as many noted pairs as contacts. If r is longer there are more,
+// although block.hpp rejects most edge pairs.
 //
-// If a list has no room the detection goes on counting, so that the host learns how much room it needs, and all later
-// kernels stop at the overflow flag.
+// If a list is full, counting continues, so that the host learns how much room the detection needs. All later kernels
+// stop at the overflow flag.
 #pragma once
 
 #include "fast/contact_view.hpp"
@@ -19,50 +20,52 @@
 
 namespace ogc::fast {
 
-/// A pair of edges first < second, or of vertex ~first and facet `second`.
+/// Two edges first < second, or vertex ~first and facet `second`.
 struct alignas(8) NotedPair {
   int first, second;
 };
 
-/// A contact as one pair generates it. `second` is the other face (SurfaceView's numbers). low < high are the edges
-/// that generate an edge–edge contact; they mean nothing for vertex–facet contacts.
+/// One contact, as a pair generates it. `second` is the other face (SurfaceView's numbers). low < high are the edges
+/// that generate an edge–edge contact; vertex–facet contacts do not use them.
 struct alignas(16) RawContact {
   int bucket, second, low, high;
 };
 
-/// Holds a contact in the hash table. An empty slot is all zeros, so an empty table needs no values of its own.
+/// Holds a contact in the hash table; an empty slot is all zeros.
 struct alignas(16) ContactSlot {
   std::uint64_t key;  ///< bucket + 1 in the upper half, second in the lower
-  /// ~(low in the upper half, high in the lower): the largest value has the lowest-numbered edges, and −1, −1 is 0
+  /// complement of the packed edges, low in the upper half: the lowest-numbered edges have the largest value, and edges
+  /// −1, −1 give 0
   std::uint64_t edges;
 };
 
-/// Holds a contact at its place in the list, and where the table has it.
+/// One contact of the list, with its slot of the hash table.
 struct alignas(16) EnteredContact {
   static constexpr std::uint32_t nowhere = 0xffffffffU;  ///< slot of a contact that a single pair generates
   int bucket, second;                                    ///< as in RawContact
   std::uint32_t slot;                                    ///< slot of the table, or `nowhere`
 };
 
-/// Holds an incidence that has no order yet, and its vertex.
+/// An incidence before its row is sorted.
 struct alignas(8) LooseIncidence {
   std::uint32_t code;  ///< as in Incidence
   int vertex;
 };
 
-/// Holds the vertices of a contact by role (contact_view.hpp); −1: the contact lacks this role.
+/// Holds the vertices of a contact by role: a vertex and facet corners, or the ends of both edges. −1: no such vertex.
 struct RoleVertices {
   int role[4] = {-1, -1, -1, -1};
 };
 
-/// Finds the faces and vertices that a contact stands for.
+/// Finds the faces and vertices of a contact from its bucket and second face.
 struct ContactFaces {
   SurfaceView surface;
 
-  /// Returns whether the bucket is one of a vertex; those come first, buckets of edge–edge contacts behind them.
+  /// Returns whether the bucket holds vertex–facet contacts. These buckets come first.
   OGC_HD bool is_vertex_facet(int bucket) const { return bucket < surface.vertex_count; }
 
-  /// Returns whether only one pair generates the contact: the pair of its two interiors, which a search notes once.
+  /// Returns whether only one pair generates the contact: it joins a vertex and a triangle's interior, or two edge
+  /// interiors.
   OGC_HD bool is_of_one_pair(int bucket, int second) const {
     return is_vertex_facet(bucket) ? second >= surface.vertex_count + surface.edge_count
                                    : bucket >= 2 * surface.vertex_count;
@@ -97,61 +100,59 @@ struct ContactFaces {
   }
 };
 
-/// Counts of a detection, on the backend. Counting goes on if a list has no room: the host learns how much room the
-/// same detection needs.
+/// Holds the counts of a detection on the backend. Counting continues if a list is full, so that the host learns how
+/// much room the detection needs.
 struct ListStatus {
-  int contacts = 0;      ///< contacts entered, also those that found no room
-  int overflow = 0;      ///< not 0 once a list was too small; sticky
+  int contacts = 0;      ///< contacts entered, including those without room
+  int overflow = 0;      ///< not 0 once a list was too small; kernels never clear it
   int edge_edge = 0;     ///< edge–edge records
-  int noted = 0;         ///< pairs noted, also those that found no room
-  int without_slot = 0;  ///< contacts that found no slot of the table; each counts as often as it was generated
+  int noted = 0;         ///< pairs noted, including those without room
+  int without_slot = 0;  ///< attempts to enter a contact that found no slot of the table
 };
 
-/// Holds the lists on the backend; `contact_count`, `without_slot`, `overflow`, `noted_count` and `edge_edge_count`
-/// point into their ListStatus.
+/// Holds the lists on the backend. The pointers to single counts point into a ListStatus.
 struct ListsView {
-  /// Largest number of slots that the search for a contact visits. The table is at most half full while all contacts
-  /// have room. Then k slots in a row are the homes of k keys or more with a probability of at most (√e / 2)ᵏ
-  /// (Chernoff's bound for a Poisson number of mean k / 2), 4·10⁻²² for these; if it happens all the same, the lists
-  /// grow.
+  /// Largest number of slots that the search for a contact visits. While all contacts have room, the table is at most
+  /// half full. Then k consecutive slots are the homes of k or more keys with probability at most (√e / 2)ᵏ (Chernoff's
+  /// bound, Poisson with mean k / 2): 4·10⁻²² for this k. If that happens, the lists grow.
   static constexpr int longest_search = 256;
 
   NotedPair* noted = nullptr;         ///< in any order; pairs surely nearer than r have their second number inverted
   int noted_capacity = 0;             ///< pairs beyond it are counted in noted_count and lost
-  int* noted_count = nullptr;         ///< pairs noted, also those that found no room
+  int* noted_count = nullptr;         ///< as in ListStatus
   ContactSlot* table = nullptr;       ///< empty before a detection, and after one that does not overflow
   std::uint32_t slot_mask = 0;        ///< slots − 1; the number of slots is a power of two, at least 2 · capacity
   EnteredContact* entered = nullptr;  ///< in any order, each contact once
   RawContact* bucketed = nullptr;     ///< bucket by bucket
-  /// room of entered, bucketed and both record arrays; incidences have four times as much
+  /// size of `entered`, `bucketed` and both record arrays; a quarter of the size of `incidences`
   int capacity = 0;
-  int* contact_count = nullptr;  ///< contacts entered, also those that found no room
-  int* without_slot = nullptr;   ///< contacts that found no slot; each counts as often as it was generated
-  int* overflow = nullptr;       ///< sticky
+  int* contact_count = nullptr;  ///< as in ListStatus
+  int* without_slot = nullptr;   ///< as in ListStatus
+  int* overflow = nullptr;       ///< as in ListStatus
   int buckets = 0;
-  int* record_counts = nullptr;   ///< by bucket, of contacts that found room
-  int* record_offsets = nullptr;  ///< buckets + 1
-  int* record_filled = nullptr;   ///< by bucket
+  int* record_counts = nullptr;   ///< by bucket: records, without those that had no room
+  int* record_offsets = nullptr;  ///< buckets + 1 entries
+  int* record_filled = nullptr;   ///< by bucket: contacts moved there so far
   int* edge_edge_count = nullptr;
   VertexFacetRecord* vertex_facet = nullptr;
   int* vertex_facet_face = nullptr;  ///< the second face of each record
   EdgeEdgeRecord* edge_edge = nullptr;
-  int* incidence_counts = nullptr;   ///< by vertex, of contacts that found room
-  int* incidence_offsets = nullptr;  ///< vertices + 1
-  int* incidence_filled = nullptr;   ///< by vertex
+  int* incidence_counts = nullptr;   ///< by vertex: incidences, without those that had no room
+  int* incidence_offsets = nullptr;  ///< vertices + 1 entries
+  int* incidence_filled = nullptr;   ///< by vertex: incidences written so far
   LooseIncidence* loose = nullptr;   ///< row by row, in any order within a row
   Incidence* incidences = nullptr;   ///< row by row, ascending
 
-  /// Notes a pair that is nearer than r, or, if not `certain`, so near to it that a rounded distance can't tell. The
-  /// second number of a certain pair is stored inverted.
+  /// Notes a pair that is nearer than r (`certain`), or whose rounded distance is too near to r to decide. The second
+  /// number of a certain pair is stored inverted.
   OGC_HD void note(NotedPair pair, bool certain) const {
     if (certain) pair.second = ~pair.second;
     const int place = atomic_add(noted_count, 1);
     if (place < noted_capacity) noted[place] = pair;
   }
 
-  /// Enters a contact, each time that it is generated; the table keeps the lowest-numbered edges of all times. A
-  /// contact that only one pair generates needs no table.
+  /// Enters a contact, once for each pair that generates it. The table keeps the lowest-numbered edges of these pairs.
+  /// A contact of only one pair needs no table.
   OGC_HD void enter(const RawContact& contact, const ContactFaces& faces) const {
     if (faces.is_of_one_pair(contact.bucket, contact.second)) return place(contact, EnteredContact::nowhere, faces);
     const std::uint64_t key = pack(contact.bucket + 1, contact.second), edges = ~pack(contact.low, contact.high);
@@ -159,7 +160,7 @@ struct ListsView {
     for (int looks = 0; looks < longest_search; ++looks, at = (at + 1) & slot_mask) {
       ContactSlot& slot = table[at];
       std::uint64_t found = atomic_load(&slot.key);
-      // Read beside the key: one after the other would cost two latencies.
+      // Loaded together with the key: a later load would cost a second latency.
       const std::uint64_t found_edges = atomic_load(&slot.edges);
       if (found == 0) found = atomic_compare_exchange(&slot.key, 0, key);
       if (found != 0 && found != key) continue;
@@ -170,7 +171,7 @@ struct ListsView {
     atomic_add(without_slot, 1);
   }
 
-  /// Counts the record of a contact and its incidences; `amount` is 1, or −1 to take them back.
+  /// Adds `amount`, 1 or −1, to the counts of a contact's record and incidences.
   OGC_HD void count(int bucket, const RoleVertices& vertices, int amount) const {
     atomic_add(&record_counts[bucket], amount);
     for (const int v : vertices.role) {
@@ -183,8 +184,8 @@ struct ListsView {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(above)) << 32 | static_cast<std::uint32_t>(below);
   }
 
-  /// Returns the slot at which the search for a key begins. Faces and buckets that are near each other on the surface
-  /// have consecutive keys; the hash keeps their slots apart.
+  /// Returns the slot at which the search for a key begins. Neighbouring faces and buckets have consecutive keys; the
+  /// hash spreads their slots.
   OGC_HD std::uint32_t home(std::uint64_t key) const {
     constexpr std::uint64_t spread = 0x9e3779b97f4a7c15U;  // 2⁶⁴ times the golden ratio
     key *= spread;
@@ -193,7 +194,8 @@ struct ListsView {
 
   OGC_HD void place(const RawContact& contact, std::uint32_t slot, const ContactFaces& faces) const {
     const RoleVertices vertices = faces.vertices(contact.bucket,
-                                                 contact.second);  // read while atomic_add is under way
+                                                 // loaded before atomic_add, so that latencies overlap
+                                                 contact.second);
     const int place = atomic_add(contact_count, 1);
     if (place >= capacity) return;
     entered[place] = {contact.bucket, contact.second, slot};
@@ -201,7 +203,7 @@ struct ListsView {
   }
 };
 
-/// Empties the contacts; noted pairs stay. Index over the larger of buckets and vertices.
+/// Clears the contacts but not the noted pairs. Index over buckets or vertices, whichever are more.
 struct ForgetContacts {
   ListsView lists;
   int vertices;
@@ -214,7 +216,7 @@ struct ForgetContacts {
   }
 };
 
-/// Empties the noted pairs. One item.
+/// Clears the noted pairs. One item.
 struct ForgetNoted {
   ListsView lists;
 
@@ -223,7 +225,7 @@ struct ForgetNoted {
   }
 };
 
-/// Empties all lists at the start of a detection. Index over the largest of buckets, vertices and primitives.
+/// Clears all lists at the start of a detection. Index over buckets or vertices, whichever are more.
 struct PrepareLists {
   ListsView lists;
   int vertices;
@@ -234,8 +236,8 @@ struct PrepareLists {
   }
 };
 
-/// Sets the overflow flag if a list was too small, after the contacts are collected. Pairs that found no room may be
-/// contacts, too, so a second try may need still more room.
+/// Sets the overflow flag if a list was too small; runs after the contacts are collected. Lost pairs may be contacts,
+/// so a second try may need still more room.
 struct CheckCapacity {
   ListsView lists;
 
@@ -246,9 +248,9 @@ struct CheckCapacity {
   }
 };
 
-/// Moves each contact to its bucket, with the edges that the table has by now, and clears its slot. The edges of a
-/// contact of two interiors are its faces. Runs beside CheckCapacity, so it may not see that there was no room; nothing
-/// reads its output then, and it stays within the buckets as counted. Index over all contacts.
+/// Moves each contact to its bucket, with its edges from the table, and clears its slot. A contact of two edge
+/// interiors has its faces as edges. This kernel runs beside CheckCapacity and may miss a new overflow flag: then
+/// nothing reads its output, and it writes only within the counted buckets. Index over all contacts.
 struct FillBuckets {
   ListsView lists;
   int vertex_count;
@@ -268,7 +270,7 @@ struct FillBuckets {
   }
 };
 
-/// Adds the incidences of record `number` of its kind to the rows of its vertices.
+/// Adds the incidences of a record to the rows of its vertices; `number` counts the records of its kind.
 OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& vertices, bool edge_edge, int number) {
   const std::uint32_t code = (edge_edge ? 0x80000000U : 0U) | static_cast<std::uint32_t>(number) << 2;
   int place[4] = {0, 0, 0, 0};
@@ -276,7 +278,7 @@ OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& ve
     const int v = vertices.role[k];
     if (v >= 0) place[k] = lists.incidence_offsets[v] + atomic_add(&lists.incidence_filled[v], 1);
   }
-  for (int k = 0; k < 4; ++k) {  // a loop of its own, so that one latency covers all four atomics
+  for (int k = 0; k < 4; ++k) {  // a second loop, so that the latencies of the four atomics overlap
     const int v = vertices.role[k];
     if (v >= 0) lists.loose[place[k]] = {code | static_cast<std::uint32_t>(k), v};
   }
@@ -309,15 +311,16 @@ struct WriteRecords {
   }
 
  private:
-  /// Returns the number of contacts in all buckets before its own, and of those in its own with a smaller second face.
+  /// Returns the place of a contact: the number of contacts in earlier buckets and of those in its own bucket with a
+  /// smaller second face.
   OGC_HD int rank(const RawContact& own) const {
     const int begin = lists.record_offsets[own.bucket], end = lists.record_offsets[own.bucket + 1];
     int before = begin;
     for (int k = begin; k < end; ++k) before += lists.bucketed[k].second < own.second ? 1 : 0;
     return before;
   }
-  /// Returns whether the edge is the face or ends at it. Of the two generating edges, `first_edge` is the one that
-  /// holds the first face; the edges share no vertex, so only one does.
+  /// Returns whether the face is the edge's interior or one of its ends. A record's `first_edge` is the generating edge
+  /// that holds the first face. The other generating edge does not: the two share no vertex.
   OGC_HD bool holds(int face, int edge) const {
     const EdgeEnds& ends = faces.surface.edges[edge];
     return face < faces.surface.vertex_count ? (ends.a == face || ends.b == face)
@@ -325,7 +328,7 @@ struct WriteRecords {
   }
 };
 
-/// Adds the incidences of records that exist already. Index over all records, vertex–facet ones first.
+/// Adds the incidences of existing records. Index over all records, vertex–facet ones first.
 struct FillIncidences {
   ListsView lists;
   int vertex_facet_count;  ///< vertex–facet records; edge–edge ones follow in the index
@@ -342,8 +345,8 @@ struct FillIncidences {
   }
 };
 
-/// Sorts each row of loose incidences in ascending order. Index over all incidences. Each counts those of its row that
-/// come before it: rows are short, and no thread waits for the longest of them.
+/// Sorts each row of loose incidences in ascending order. Index over all incidences: each counts the smaller ones of
+/// its row. Rows are short, and no thread waits for the longest row.
 struct RankIncidences {
   ListsView lists;
 

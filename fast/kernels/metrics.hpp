@@ -1,5 +1,5 @@
-// Ends a step: last certificate, commit, and the terms of the row that reports it. Terms are in double and only
-// reported; nothing here feeds a position.
+// Kernels that end a step: the last certificate, the commit, and the terms of the row that reports the step. Terms are
+// in double; no position depends on them.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace ogc::fast {
 
-/// One row of the device's ring; the host makes a compare::StepMetrics of it.
+/// One row of the device's reports, one for each step of a frame; the host converts it to a compare::StepMetrics.
 struct StepRow {
   int status = 0;                                         ///< compare::StepStatus bits; 0: the step was committed
   int vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< records of the last detection
@@ -58,7 +58,7 @@ struct CheckVertex {
   }
 };
 
-/// Stops the step after the certificate if it failed; nothing of it is committed.
+/// Stops the step before its commit if the certificate failed.
 struct EndCheck {
   StepControl* control;  ///< on the backend
 
@@ -89,8 +89,7 @@ struct CopyBound {
   OGC_HD void operator()(int v) const { to[v] = from[v]; }
 };
 
-/// Adds the term of a vertex: momentum lost so far, and at the end kinetic and gravity energy (of a step that is not
-/// yet committed).
+/// Adds the terms of a vertex, before the commit: momentum lost so far, and at the end kinetic and gravity energy.
 struct VertexTerm {
   const Vec* position;           ///< x by vertex [m]
   const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null if there was none
@@ -125,7 +124,7 @@ struct VertexTerm {
   }
 };
 
-/// ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖; 0 where nothing was to move.
+/// Returns ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖; 0 if the denominator is 0.
 OGC_HD inline double momentum_lost(const double* sums) {
   const double lost = sums[sum_lost] * sums[sum_lost] + sums[sum_lost + 1] * sums[sum_lost + 1] +
                       sums[sum_lost + 2] * sums[sum_lost + 2];
@@ -137,8 +136,8 @@ OGC_HD inline double momentum_lost(const double* sums) {
 /// Returns the quotient of two sums; 0 if `whole` is 0.
 OGC_HD inline double share_of(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
 
-/// Writes the row of a step in its last kernel, also if the step failed. A step that a full list stopped has no row: it
-/// is repeated.
+/// Writes the row of a step, also if the step failed; the last kernel of each step. A step that a full list stopped is
+/// repeated and has no row.
 struct FinishStep {
   StepControl* control;  ///< on the backend
   ContactView contacts;  ///< their counts are reported
@@ -188,7 +187,8 @@ struct FinishStep {
   }
 
  private:
-  /// Writes the means of Eq. 29: of f over vertices that no bound holds, of f* over all free ones.
+  /// Writes the residual of Eq. 29: the mean of f over the vertices that no bound holds, over the mean of f* of all
+  /// free ones.
   OGC_HD void add_left(StepRow& row) const {
     const double reference = share_of(left[left_reference], free_vertices), unheld = free_vertices - left[left_held];
     row.left_residual = share_of(share_of(left[left_force], unheld), reference);

@@ -1,5 +1,5 @@
-// Searches for a detection whose pairs get planes. Every pair within r_q is noted, whatever else is near its two
-// partners, because only then is it known which pairs of a vertex have no plane.
+// Searches for a detection whose pairs get planes. Every pair within r_q is noted, even if its partners have nearer
+// neighbours, because a vertex's pairs without planes are only known if all its pairs are.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -18,7 +18,8 @@ struct NearVertexFacet : DetectVertexFacet {
     return {{x, x}, v, 0, gap_limit(*query_radius)};
   }
 
-  /// Returns the squared limit of r_q; negative if the boxes are farther apart, or the pair is none (method.md §2.3).
+  /// Returns the limit of r_q; negative if the boxes are farther apart, or if vertex and facet form no pair (method.md
+  /// §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     if (offer.gap > search.limit) return -1.0F;
     const int v = search.owner;
@@ -28,13 +29,13 @@ struct NearVertexFacet : DetectVertexFacet {
     return search.limit;
   }
 
-  /// Returns whether a lower bound of the distance leaves the pair within r_q.
+  /// Returns whether the pair may be within r_q, by a lower bound of its distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     if (candidate_limit(search, offer) < 0) return false;
     return !is_beyond(separation(search.box.lower, corners(surface.facets[offer.primitive])), search.limit);
   }
 
-  /// Notes the pair if it may be nearer than r_q, as certain if it surely is nearer than r.
+  /// Notes the pair if it may be nearer than r_q; it is `certain` if it is certainly nearer than r.
   OGC_HD float meet(const Search& search, int t, float) const {
     const Distance d = point_triangle_distance(search.box.lower, corners(surface.facets[t]));
     if (d.may_be_within(*query_radius)) lists.note({~search.owner, t}, d.is_surely_within(contact_radius));
@@ -46,7 +47,7 @@ struct NearVertexFacet : DetectVertexFacet {
 struct NearEdgeEdge : DetectEdgeEdge {
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// Returns the search of the edge at place i of the tree, from the place behind it; its limit never falls.
+  /// Returns the search of the edge at place i of the tree; it covers the places behind i. Its limit never falls.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {child.box(), child.primitive, i + 1, gap_limit(*query_radius)};
@@ -67,7 +68,7 @@ struct NearEdgeEdge : DetectEdgeEdge {
                       search.limit);
   }
 
-  /// Returns false: each pair is noted, whatever it is.
+  /// Returns false: every pair is noted.
   OGC_HD bool is_idle(const Search&, const Offer&, float) const { return false; }
 
   /// Notes the pair as NearVertexFacet::meet does.

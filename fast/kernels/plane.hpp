@@ -1,8 +1,8 @@
-// Planes between pairs (method.md §5.6): where a ball takes from a vertex the freedom to slide along a neighbour and to
-// leave it, a half-space takes the approach alone. A pair has one normal n and two offsets: all vertices of its first
-// side keep n·x ≤ o₁, all of its second n·x ≥ o₂, with o₁ < o₂. So do the convex hulls of both sides, at every instant
-// of a straight motion between two positions that keep it: the pair cannot meet. n may be any vector, as long as all
-// vertices of the pair read the same bits.
+// Planes between pairs (method.md §5.6). A ball prevents a vertex from sliding along a neighbour and from leaving it; a
+// half-space prevents the approach alone. A pair has one normal n and two offsets o₁ < o₂: all vertices of its first
+// side keep n·x ≤ o₁, all vertices of its second side n·x ≥ o₂. If two positions keep these inequalities, so do the
+// convex hulls of both sides at every instant of a straight motion between them: the pair cannot meet. n may be any
+// vector, if all vertices of the pair read the same bits.
 #pragma once
 
 #include "fast/kernels/arithmetic/solve3.hpp"
@@ -13,27 +13,26 @@
 
 namespace ogc::fast {
 
-/// The plane of a pair, or the smallest distance that is known of one that has none.
+/// Holds the plane of a pair, or only a lower bound of the pair's distance if it has no plane.
 struct alignas(8) PairPlane {
   Vec normal;                    ///< from the first side to the second; 0: there is no plane
-  float below = 0;               ///< not above the pair's distance [m]
+  float below = 0;               ///< lower bound of the pair's distance [m]
   double first = 0, second = 0;  ///< offsets o₁ < o₂ [m]
 
-  /// Whether there is a plane; where there is, the half-spaces that vertices of either side keep.
+  /// Returns whether there is a plane; of_first() and of_second() return the half-spaces for the vertices of each side.
   OGC_HD bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
   OGC_HD HalfSpace of_first() const { return {normal, first}; }
   OGC_HD HalfSpace of_second() const { return {-normal, -second}; }
 };
 
-/// The points of both sides of a pair, and which sides do not move.
+/// Holds the points of both sides of a pair, and which sides are fixed.
 template <int first_count, int second_count>
 struct PairPoints {
   Vec first[first_count], second[second_count];  ///< by vertex of the side [m]
   bool is_first_fixed, is_second_fixed;
 };
 
-/// Returns the gap between the shadows of both sides on `direction`, divided by its length. Points are relative to one
-/// of them.
+/// Returns the gap between the projections of both sides onto `direction` [m]. All points are relative to one of them.
 template <int m, int n>
 OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Real (&second)[n]) {
   double top = dot(direction, first[0]).value, bottom = dot(direction, second[0]).value;
@@ -42,8 +41,9 @@ OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Re
   return divide(sub(bottom, top), square_root(squared(direction)));
 }
 
-/// Keeps the better of two directions. Two convex sets are no nearer than the gap of their shadows, and along the line
-/// of their closest points that gap is their distance. So it is not necessary to know which faces hold these points.
+/// Replaces the best direction if the new one has a larger gap. The gap between the projections of two convex sets is
+/// at most their distance, and equal to it along the line of their closest points. So it is not necessary to know which
+/// faces hold these points.
 template <int m, int n>
 OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction, const Real (&first)[m],
                             const Real (&second)[n]) {
@@ -53,11 +53,11 @@ OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction,
   best_gap = gap;
 }
 
-/// Returns the vector from the origin, where the point lies, to the segment from a along e.
+/// Returns the vector from the origin to the closest point of the segment from a along e.
 OGC_HD inline Real to_segment(const Real& a, const Real& e) { return a + Rounded{segment_parameter(-a, e)} * e; }
 
-/// Returns the direction from the closest point of the first side, a vertex, to that of the second, a triangle; 0 where
-/// they touch.
+/// Returns the direction from a vertex, the first side, to the closest point of a triangle, the second side; 0 if they
+/// touch.
 OGC_HD inline Real separating_direction(const PairPoints<1, 3>& pair) {
   const Real first[1] = {};
   const Real second[3] = {difference<Rounded>(pair.second[0], pair.first[0]),
@@ -76,7 +76,7 @@ OGC_HD inline Real separating_direction(const PairPoints<1, 3>& pair) {
   return best;
 }
 
-/// Returns the same direction for two edges.
+/// Returns the direction from the first edge's closest point to that of the second edge; 0 if they touch.
 OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
   const Real e = difference<Rounded>(pair.first[1], pair.first[0]),
              f = difference<Rounded>(pair.second[1], pair.second[0]),
@@ -94,8 +94,7 @@ OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
   return best;
 }
 
-/// Returns the distance of the closed faces, with its slack, and nothing else: no exact sign decides which faces hold
-/// the closest points.
+/// Returns the distance of the closed faces, with its slack. No exact sign decides which faces hold the closest points.
 OGC_HD inline Distance distance_of(const PairPoints<1, 3>& pair) {
   return point_triangle_distance(pair.first[0], {pair.second[0], pair.second[1], pair.second[2]});
 }
@@ -103,13 +102,14 @@ OGC_HD inline Distance distance_of(const PairPoints<2, 2>& pair) {
   return edge_edge_distance({pair.first[0], pair.first[1]}, {pair.second[0], pair.second[1]});
 }
 
-/// The first side's share of 2γ_p of the gap where both can move: one half.
+/// Returns the first side's share of the approach 2γ_p g if both sides can move: one half.
 struct Halved {
   OGC_HD double operator()(const Vec&) const { return 0.5; }
 };
 
-/// The same in proportion to how fast the sides approach along n (method.md §5.6, dat): the largest n·w of the first
-/// over its sum with the largest −n·w of the second, what leaves being slow. Within least_division of 0 and 1.
+/// Returns this share in proportion to both sides' speeds along n (method.md §5.6, `bounds=dat`). The first side's
+/// speed is its largest n·w, the second side's its largest −n·w; the speed of a side that moves away is 0. The share
+/// lies between least_division and 1 − least_division.
 template <int first_count, int second_count>
 struct ByApproach {
   Vec first[first_count], second[second_count];  ///< w by vertex of the side [m]
@@ -126,10 +126,11 @@ struct ByApproach {
   }
 };
 
-/// The plane of a pair at its positions, which is not nearer than `below`, with γ_p = `share`: both sides together may
-/// approach by 2γ_p of the gap, of which the first has division(n); where a side is fixed the other has all. Offsets
-/// are taken from the points themselves, so n need not be exact; whether every point keeps its own is tested as it will
-/// be tested later, and a pair that fails has no plane. A fixed side has its offset half way from it to the other's.
+/// Returns the plane of a pair at its positions, with γ_p = `share` and `below` a lower bound of its distance. Together
+/// both sides may approach by 2γ_p of the gap; the first side has the share division(n) of this. If one side is fixed
+/// the other side has all of it, and the fixed side's offset is half way between the side and the other offset. Offsets
+/// are computed from the points themselves, so n need not be exact. Each point is tested with the test that truncation
+/// uses; a pair with a point that fails has no plane.
 template <int m, int n, class Division = Halved>
 OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share, const Division& division = {}) {
   PairPlane plane;
@@ -143,7 +144,7 @@ OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share
   for (int k = 1; k < m; ++k) top = larger(top, excess(normal, 0, pair.first[k]).value);
   for (int k = 1; k < n; ++k) bottom = smaller(bottom, excess(normal, 0, pair.second[k]).value);
   const double gap = sub(bottom, top), own = static_cast<double>(share);
-  const double both = add(own, own), part = division(normal);  // of two halves each is γ_p, to the bit
+  const double both = add(own, own), part = division(normal);  // half of `both` is exactly γ_p
   const auto approach = [own, both](bool is_fixed, bool is_other_fixed, double own_part) {
     return is_fixed ? sub(0.5, own) : (is_other_fixed ? both : mul(both, own_part));
   };
@@ -155,27 +156,27 @@ OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share
   return separates ? placed : plane;
 }
 
-/// The first half-space from number `from` on that x does not keep for certain; region.count where there is none. Team
-/// lanes share them out: one after the other they are the longest chain of a colour.
+/// Returns the first half-space, from number `from` on, that x does not certainly keep; region.count if there is none.
+/// Team lanes share the tests, because in sequence they would be the slowest part of a colour.
 template <class Lanes>
 OGC_HD int first_left(const FeasibleRegion& region, const Vec& x, const Lanes& lanes, int from = 0) {
   return lanes.first(region.count, from, [&](int k) { return !is_behind(region.planes[k], x); });
 }
 
-/// Checks whether x is in the region for certain; decides on the stored numbers.
+/// Returns whether the stored x is certainly in the region.
 template <class Lanes = OneLane>
 OGC_HD bool is_within(const FeasibleRegion& region, const Vec& x, const Lanes& lanes = {}) {
   return first_left(region, x, lanes) == region.count && is_within(region.ball, x);
 }
 
-/// The direction in which a vertex leaves a half-space with the least increase of its energy: H⁻¹ n.
+/// Returns H⁻¹ n, the direction in which a vertex leaves a half-space with the least increase of its energy.
 struct BlockMetric {
   Symmetric3 block;    ///< H of the update, inertia included [N/m]
-  float fallback = 0;  ///< as of solve_symmetric
+  float fallback = 0;  ///< as in solve_symmetric
 
   OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }
 };
-/// The direction for a vertex that only inertia holds: n itself.
+/// Returns n, which is this direction if the energy is inertia alone.
 struct InertiaMetric {
   OGC_HD Vec operator()(const Vec& n) const { return n; }
 };
@@ -183,7 +184,7 @@ struct InertiaMetric {
 namespace slide {
 
 using Point = Vector<double>;
-inline constexpr int passes = 4, nudges = 3;  ///< over the half-spaces; of a stored position, at most
+inline constexpr int passes = 4, nudges = 3;  ///< at most: passes over the half-spaces, nudges of a stored position
 
 /// Convert to double without loss, and back with one rounding.
 OGC_HD inline Point wide(const Vec& a) { return {a.x, a.y, a.z}; }
@@ -191,22 +192,22 @@ OGC_HD inline Vec stored(const Point& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// Returns how far across the plane y can move when it is stored in single precision (2⁻²⁴ of each coordinate) and
-/// moved by `steps` of `nudged` (at most 2⁻²³ of one coordinate each).
+/// Returns how far across the plane y can move if it is stored in single precision (2⁻²⁴ of each coordinate) and nudged
+/// `steps` times (2⁻²³ of one coordinate each).
 OGC_HD inline double room_to_store(const HalfSpace& plane, const Point& y, int steps) {
   const Point n = wide(plane.normal);
   return (1 + 2 * steps) * 0x1p-24 * (modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z));
 }
 
-/// Returns how far y lies beyond the plane, plus the distance that storing it can add. It guides the search for a
-/// position; `is_within` decides whether the position is taken.
+/// Returns how far y lies beyond the plane, plus the distance that storing can add. The value only guides the search
+/// for a position; `is_within` decides whether the position is accepted.
 OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
   return dot(wide(plane.normal), y) - plane.offset + room_to_store(plane, y, 0);
 }
 
-/// Returns the radius within which a position may be stored, and moved by `steps`, anywhere. Storing moves each
-/// coordinate by at most 2⁻²⁴ of ‖X_prev‖_∞ + b, and so the point by √3 times that; twice that leaves room for the
-/// arithmetic here.
+/// Returns the radius about the centre within which storing and `steps` nudges leave no position outside the ball.
+/// Storing moves each coordinate by at most 2⁻²⁴ (‖X_prev‖_∞ + b), so the point by √3 times that. The code uses twice
+/// that, because the arithmetic here is rounded, too.
 OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
   const Point centre = wide(region.ball.centre);
   const double radius = static_cast<double>(region.ball.radius);
@@ -214,7 +215,7 @@ OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
   return larger(0.0, radius - (2 + 2 * steps) * 0x1p-24 * size);
 }
 
-/// Moves y along the violated half-spaces in their order, then into the ball.
+/// Moves y into the violated half-spaces, one after the other, then into the ball.
 template <class Metric, class Lanes>
 OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric, const Lanes& lanes) {
   const Point centre = wide(region.ball.centre);
@@ -239,10 +240,9 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
   return y;
 }
 
-/// Moves one coordinate of x by one float towards the inside of the first plane or ball that x violates: the coordinate
-/// that leads farthest inside. Storing takes a point out of a half-space by at most half a spacing of each coordinate
-/// times |n_k|, so two steps of the best coordinate take it back; steps of a small coordinate, whose spacing is small,
-/// would lead nowhere.
+/// Moves one coordinate of x by one float into the first half-space, or the ball, that x violates. It is the coordinate
+/// that leads farthest inside: steps of a small coordinate, whose spacing is small, would be too short. Storing moves a
+/// point out of a half-space by at most half a spacing of each coordinate times |n_k|, so two steps suffice.
 template <class Lanes>
 OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   const int left = first_left(region, x, lanes);
@@ -255,8 +255,8 @@ OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   return x;
 }
 
-/// Returns the stored position, nudged if storing took it out of the region; the caller checks with `is_within` whether
-/// that was enough.
+/// Returns the stored position, nudged if storing moved it out of the region. The caller checks with `is_within`
+/// whether the nudges sufficed.
 template <class Lanes>
 OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lanes& lanes) {
   Vec x = stored(y);
@@ -264,7 +264,8 @@ OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lan
   return x;
 }
 
-/// The share of the way from `from`, which is in the region, to y that stays in it, with room for `steps` at its end.
+/// Returns the share of the way from `from`, which is in the region, to y that stays in the region. Room for storing
+/// and `steps` nudges remains at the end.
 template <class Lanes>
 OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, const Point& y, int steps,
                            const Lanes& lanes) {
@@ -276,16 +277,16 @@ OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, cons
                  out = dot(n, y) - plane.offset + room, rise = dot(n, step);
     return out > 0 && rise > 0 ? larger(0.0, 1 - out / rise) : 1.0;
   });
-  // ‖a + s b‖ = R; where a lies beyond the safe radius, too, as long as the way leads inward first
+  // Solves ‖away + s step‖ = radius for s. `from` may lie beyond the safe radius if the way first leads inward.
   const double radius = safe_radius(region, steps), bb = dot(step, step), ab = dot(away, step),
                left = radius * radius - dot(away, away), root = ab * ab + bb * left;
   if (bb > 0 && ab + ab + bb > left) share = smaller(share, root > 0 ? larger(0.0, (std::sqrt(root) - ab) / bb) : 0.0);
   return share;
 }
 
-/// The farthest stored position of the region on the way to y, or just short of it; `from` where there is none. Where
-/// the way leads along one half-space and ends at another, or at the ball, a step out of one may lead out of the other:
-/// then it ends so much earlier that it does not.
+/// Returns the farthest stored position on the way to y that is in the region, or one just short of it; `from` if none
+/// is found. Where a way along one half-space ends at another or at the ball, nudging x into one may move it out of the
+/// other. Then the way is shortened until this does not happen.
 template <class Lanes>
 OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y, const Lanes& lanes) {
   const Point start = wide(from);
@@ -300,8 +301,9 @@ OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y,
 
 }  // namespace slide
 
-/// A position of the region near a finite proposal outside it: along the half-spaces, nudged where storing took it out,
-/// scaled towards `current` where it is still outside; in the worst case `current`, which the region holds.
+/// Returns a position of the region near a finite proposal outside it. The proposal slides along the half-spaces, and
+/// is nudged if storing moved it out. If it is still outside, it is scaled towards `current`, which is in the region.
+/// In the worst case the result is `current`.
 template <class Metric, class Lanes>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric,
                                             Lanes lanes) {
@@ -310,7 +312,7 @@ OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, 
   return {is_within(region, x, lanes) ? x : slide::scaled(region, current, y, lanes), true};
 }
 
-/// Truncates along the straight line from `current`: for prescribed vertices, whose groups must stay rigid.
+/// Truncates along the straight line from `current`. This is for prescribed vertices, whose groups must stay rigid.
 template <class Lanes>
 OGC_HD OGC_OUT_OF_LINE Truncated scale_into(FeasibleRegion region, Vec current, Vec proposal, Lanes lanes) {
   return {slide::scaled(region, current, slide::wide(proposal), lanes), true};

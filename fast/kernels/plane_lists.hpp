@@ -4,11 +4,11 @@
 //   (scan of the rows' lengths)
 //   FillPairRows     by pair    its distance into these rows
 //   ChooseThreshold  by row     δ_v, the (N+1)-th smallest distance
-//   PlacePlanes      by pair    nearer than δ_v of all its vertices it gets a plane; any other limits their balls
-//   SortHalfSpaces   by plane   its place in ascending order of pair; the ball
+//   PlacePlanes      by pair    a plane if nearer than δ_v for all its vertices; else it limits the vertices' balls
+//   SortHalfSpaces   by plane   its place in ascending order of pair; for each vertex the ball
 //
-// Nothing depends on the order in which pairs were noted: planes are sorted, thresholds and balls are minima. Fixed
-// vertices bear no plane and have no row.
+// No result depends on the order in which pairs were noted: planes are sorted, a threshold is the (N+1)-th of sorted
+// distances, a ball is a minimum. Fixed vertices have no planes and no row.
 #pragma once
 
 #include "compare/stages/truncate.hpp"
@@ -24,13 +24,13 @@ struct RowPlaces {
   int at[4];
 };
 
-/// Holds what the kernels of this file share.
+/// Holds the arrays that the kernels of this file share.
 struct PlaneListsView {
   SurfaceView surface;
   PaddedVecs positions;                    ///< of the detection
   const std::uint8_t* is_fixed = nullptr;  ///< by vertex
   float share = 0;                         ///< γ_p
-  const Vec* displacement = nullptr;       ///< w by vertex [m], which divides gaps; null: gaps are halved
+  const Vec* displacement = nullptr;       ///< w by vertex [m], for ByApproach; null: gaps are halved
   const float* query_radius = nullptr;     ///< r_q [m]
   const NotedPair* noted = nullptr;        ///< pairs within r_q in any order, numbered by their place
   float* distance = nullptr;               ///< by noted pair, rounded down [m]
@@ -39,18 +39,18 @@ struct PlaneListsView {
   int* pair_offsets = nullptr;             ///< vertices + 1
   float* pair_rows = nullptr;              ///< distances of vertex v's pairs [m] from pair_offsets[v] on, in any order
   float* threshold = nullptr;              ///< δ_v [m]
-  float* nearest = nullptr;                ///< by vertex: at most the distance of its nearest pair, and at most r_q [m]
-  float* unplaned = nullptr;               ///< by vertex: the same for its nearest pair without a plane
-  HalfSpace* placed = nullptr;             ///< n·x ≤ o of vertex v from v · most_planes on, in any order
-  NotedPair* placed_pairs = nullptr;       ///< the pair of each of them
-  HalfSpace* rows = nullptr;               ///< the half-spaces in ascending order of pair; `pairs`: the pair of each
+  float* nearest = nullptr;           ///< by vertex: lower bound of the distance of its nearest pair, at most r_q [m]
+  float* unplaned = nullptr;          ///< by vertex: the same bound for its nearest pair without a plane
+  HalfSpace* placed = nullptr;        ///< half-spaces of vertex v from v · most_planes on, in any order
+  NotedPair* placed_pairs = nullptr;  ///< the pair of each half-space in `placed`
+  HalfSpace* rows = nullptr;  ///< half-spaces of each vertex in ascending order of pair; `pairs` holds their pairs
   NotedPair* pairs = nullptr;
   int* counts = nullptr;   ///< half-spaces by vertex, at most most_planes
   float* bound = nullptr;  ///< b_v by vertex [m]: γ_p times `unplaned`
 
   /// Returns whether the pair is stored as ~vertex and facet.
   OGC_HD bool is_vertex_facet(const NotedPair& pair) const { return pair.first < 0; }
-  /// Returns noted pair i; a search stores its second number inverted if it is surely within r.
+  /// Returns noted pair i. A search stores its second number inverted if the pair is surely nearer than r.
   OGC_HD NotedPair pair(int i) const {
     const NotedPair raw = noted[i];
     return {raw.first, raw.second < 0 ? ~raw.second : raw.second};
@@ -67,7 +67,7 @@ struct PlaneListsView {
     const EdgeEnds p = surface.edges[pair.first], q = surface.edges[pair.second];
     return {{p.a, p.b, q.a, q.b}, 2};
   }
-  /// Returns f of the PairPoints of a pair.
+  /// Returns f(points) for the PairPoints of a pair.
   template <class F>
   OGC_HD auto at_points(const NotedPair& pair, F f) const {
     const Vertices of = vertices(pair);
@@ -89,7 +89,7 @@ struct PlaneListsView {
     const Vec* w = displacement;
     return {{w[of.at[0]], w[of.at[1]]}, {w[of.at[2]], w[of.at[3]]}};
   }
-  /// Returns the plane of a pair that is not nearer than `below`.
+  /// Returns the plane of a pair whose distance is at least `below`.
   OGC_HD PairPlane plane(const NotedPair& pair, float below) const {
     return at_points(pair, [this, &pair, below](const auto& points) {
       if (displacement == nullptr) return plane_of(points, below, share);
@@ -116,18 +116,18 @@ struct MeasurePairs {
   OGC_HD void operator()(int i) const {
     const NotedPair pair = lists.pair(i);
     const PlaneListsView::Vertices of = lists.vertices(pair);
-    RowPlaces places;  // taken before the distance, which hides the latency of the atomics
+    RowPlaces places;  // computed before the distance, which hides the latency of the atomics
     for (int k = 0; k < 4; ++k)
       places.at[k] = lists.is_fixed[of.at[k]] != 0 ? nowhere : atomic_add(&lists.pair_counts[of.at[k]], 1);
     lists.places[i] = places;
     lists.distance[i] = lists.at_points(pair, [](const auto& points) { return distance_of(points).below(); });
   }
 
-  /// The place of a vertex that never moves: it has no row.
+  /// Place of a fixed vertex, which has no row.
   static constexpr int nowhere = -1;
 };
 
-/// Enters each pair in the rows of its vertices. Index over noted pairs.
+/// Enters the distance of each pair in the rows of its vertices. Index over noted pairs.
 struct FillPairRows {
   PlaneListsView lists;
 
@@ -140,7 +140,7 @@ struct FillPairRows {
   }
 };
 
-/// Writes δ_v, infinite if v has at most N pairs. Called for each row of distances of a vertex's pairs.
+/// Writes δ_v, the (N+1)-th smallest distance of a vertex's row or infinity, and the smallest one. Called for each row.
 struct ChooseThreshold {
   static constexpr int rank = most_planes;
   PlaneListsView lists;
@@ -151,8 +151,8 @@ struct ChooseThreshold {
   }
 };
 
-/// Places the plane of a pair that is nearer than δ_v of all vertices that can move, and whose points pass the plane's
-/// test; the distance of any other pair lowers `unplaned` of its vertices. Index over noted pairs.
+/// Places the plane of a pair that is nearer than δ_v for all its vertices that can move, if its points pass the
+/// plane's test. The distance of any other pair lowers `unplaned` of its vertices. Index over noted pairs.
 struct PlacePlanes {
   PlaneListsView lists;
 
@@ -173,7 +173,7 @@ struct PlacePlanes {
         lower(&lists.unplaned[v], below);
         continue;
       }
-      // at most N pairs are nearer than δ_v
+      // in the row: at most N pairs are nearer than δ_v
       const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(v) * most_planes + atomic_add(&lists.counts[v], 1);
       lists.placed[at] = k < of.second_from ? plane.of_first() : plane.of_second();
       lists.placed_pairs[at] = pair;

@@ -1,6 +1,6 @@
-// Defines the polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. Each boundary is one
-// polynomial, used for classification and for membership alike, so that no point falls between two faces (method.md
-// §3.1). Degrees stay under 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing over- or underflows.
+// Defines the polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. One polynomial for each
+// boundary serves both classification and membership, so no point falls between two faces (method.md §3.1). Degrees are
+// below 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing overflows or underflows.
 #pragma once
 
 #include "fast/kernels/arithmetic/exact_sign.hpp"
@@ -13,15 +13,15 @@ OGC_HD N perpendicular_product(const Vector<N>& u, const Vector<N>& w, const Vec
   return dot(u, w) * dot(e, e) - dot(u, e) * dot(w, e);
 }
 
-/// Returns the same from cross products, in which the parts along e cancel term by term. If the parts across e are
-/// 2⁻¹⁰⁰ of those along it, as for small coordinates beside an edge on an axis, the sums of the form above keep nothing
-/// even in double-double.
+/// Returns the same from cross products, in which the parts along e cancel term by term. The sums of the general form
+/// lose all digits, even in double-double, if the parts across e are 2⁻¹⁰⁰ of those along e. Small coordinates beside
+/// an edge on an axis cause this.
 OGC_HD inline Wide perpendicular_product(const Vector<Wide>& u, const Vector<Wide>& w, const Vector<Wide>& e) {
   return dot(cross(u, e), cross(w, e));
 }
 
-/// Is positive if x lies before the end a of the edge ab, seen along the edge; x is beyond it iff ≤ 0. Always ≤ 0 for
-/// an edge of zero length.
+/// Is positive if x, projected on the line ab, lies before the end a: on b's side of it. Otherwise x is beyond a. Never
+/// positive for an edge of zero length.
 struct End {
   /// (x − a)·(b − a) [m²].
   static constexpr int degree = 2;
@@ -44,8 +44,8 @@ struct Side {
   }
 };
 
-/// Is negative if the distance to the line ab falls from v towards w. If the closest point c of edge e to v is inside
-/// ab, this is the plane of Eq. 15 at v: c lies in U_v if and only if the value is ≥ 0 for all w.
+/// Is negative if the distance to the line ab falls from v towards w. If the point c of the edge ab closest to v is
+/// inside ab, this is the plane of Eq. 15 at v: c lies in U_v if and only if the value is ≥ 0 for all neighbours w.
 struct Receding {
   /// ((v − a) × (b − a))·((w − v) × (b − a)) [m⁴].
   static constexpr int degree = 4;
@@ -56,7 +56,8 @@ struct Receding {
   }
 };
 
-/// Is positive if ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1.4): nearly parallel. Never for an edge of zero length.
+/// Is positive if the edges are nearly parallel: ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1.4). Never for an edge of zero
+/// length.
 struct NearlyParallel {
   /// ‖e‖² ‖f‖² − 10⁶ ‖e × f‖² [m⁴], e = b − a, f = d − c.
   static constexpr int degree = 4;
@@ -94,8 +95,8 @@ struct LineReach {
   }
 };
 
-/// Is negative if x is nearer than r to the plane through a spanned by b − a and d − c. This is a triangle's plane with
-/// c = a, and decides the distance of two lines ab and cd with x = c.
+/// Is negative if x is nearer than r to the plane through a that b − a and d − c span. With c = a this is a triangle's
+/// plane. With x = c it decides the distance of the lines ab and cd.
 struct PlaneReach {
   /// ((x − a)·n)² − r² ‖n‖² [m⁶], n = (b − a) × (d − c).
   static constexpr int degree = 6;

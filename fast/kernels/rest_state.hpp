@@ -1,5 +1,5 @@
-// Computes the rest data of one triangle, one hinge and one tetrahedron in double: once, stored in single, so that what
-// the sweep reads is the correctly rounded value.
+// Computes the rest data of one triangle, one hinge and one tetrahedron. They are computed in double and stored in
+// single precision, so that the sweep reads correctly rounded values.
 #pragma once
 
 #include <cmath>
@@ -8,12 +8,12 @@
 
 namespace ogc::fast {
 
-/// A vector of the rest shape, in double; lives only while rest data are computed.
+/// A vector of the rest shape, in double.
 struct RestVector {
   double x, y, z;  ///< [m]
 };
 
-/// Returns a − b; the functions below return dot product, length and cross product.
+/// Returns a − b.
 inline RestVector rest_difference(const compare::Vec3& a, const compare::Vec3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
@@ -45,12 +45,11 @@ inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& 
   return rest;
 }
 
-/// Holds the volume, the gradients ∇N_k of the four linear shape functions, and V ∇N_k·∇N_l of the pairs 01, 02, 03,
-/// 12, 13, 23.
+/// Holds the volume, and what is derived from the four linear shape functions N_k of a tetrahedron.
 struct RestTetrahedron {
   double volume = 0;            ///< V [m³]
   RestVector gradient[4] = {};  ///< ∇N_k by corner [1/m]
-  double weight[6] = {};        ///< V ∇N_k·∇N_l by pair of corners [m]
+  double weight[6] = {};        ///< V ∇N_k·∇N_l of the pairs 01, 02, 03, 12, 13, 23 [m]
 };
 
 /// Returns the rest data of a tetrahedron, whose volume must be positive (validate refuses it otherwise). ∇N_k =
@@ -70,9 +69,9 @@ inline RestTetrahedron rest_tetrahedron(const compare::Vec3& p0, const compare::
   return rest;
 }
 
-/// Holds the angle θ₀ between the triangles (x0, x1, o0) and (x1, x0, o1), 0 where flat, in [−π, π], and 3‖e‖²/(A₀ +
-/// A₁), e = x1 − x0. The weights of x1, o0 and o1 in the isometric model are sums of the cotangents of the angles at x0
-/// and x1 over ‖e‖.
+/// Holds the rest data of a hinge. θ₀ is the angle between the triangles (x0, x1, o0) and (x1, x0, o1) in [−π, π], 0 if
+/// they are flat. e = x1 − x0. The weights of x1, o0 and o1 in the isometric model are sums of the cotangents of the
+/// angles at x0 and x1 over ‖e‖.
 struct RestHinge {
   double angle = 0, factor = 0;  ///< θ₀ [rad], 3‖e‖²/(A₀ + A₁) [1]
   double weight[3] = {};         ///< of x1, o0, o1 [1/m]

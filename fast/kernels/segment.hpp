@@ -1,4 +1,4 @@
-// Computes the distance of a point and a closed segment in rounded double, which both pair distances share.
+// Computes the distance of a point and a closed segment in rounded double, for both pair distances.
 #pragma once
 
 #include "fast/kernels/arithmetic/exact_sign.hpp"
@@ -8,14 +8,14 @@ namespace ogc::fast {
 /// A vector in rounded double.
 using Real = Vector<Rounded>;
 
-/// Holds a distance [m] and how far it can be from the exact one.
+/// Holds a distance and the largest error of it.
 struct Distance {
   double value = 0, slack = 0;  ///< [m]: the exact distance lies within value ± slack
 
-  /// Return whether the exact distance may be below r, if the slack leaves it open, and whether it surely is.
+  /// Return whether the exact distance may be below r, and whether it certainly is.
   OGC_HD bool may_be_within(float r) const { return sub(value, slack) < static_cast<double>(r); }
   OGC_HD bool is_surely_within(float r) const { return add(value, slack) < static_cast<double>(r); }
-  /// Returns a float that is never above the exact distance.
+  /// Returns a lower bound of the exact distance.
   OGC_HD float below() const {
     const double low = sub(value, slack);
     return low > 0 ? round_down(low) : 0.0F;
@@ -27,7 +27,7 @@ OGC_HD inline double norm_1(const Real& a) {
   return add(add(modulus(a.x.value), modulus(a.y.value)), modulus(a.z.value));
 }
 
-/// Returns ‖a‖², rounded operation by operation.
+/// Returns ‖a‖²; each operation is rounded.
 OGC_HD inline double squared(const Real& a) { return dot(a, a).value; }
 
 /// Returns the parameter of the point of the line nearest to x, clamped to [0, 1]; u = x − a, e = b − a. 0 if the edge

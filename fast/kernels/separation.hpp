@@ -1,10 +1,10 @@
-// Computes lower bounds of distances in single precision: they prove most pairs that a search meets to be too far apart
-// without the double-precision distance.
+// Computes lower bounds of distances in single precision. They prove for most pairs of a search that the pair is too
+// far apart, without the distance in double precision.
 //
-// Along any direction d, two convex sets are no nearer than the gap of their projections on d, and with d between the
-// closest points that gap is the distance. So d is computed roughly (an error of it makes the bound lower, never
-// wrong), and only the projections on it count as errors: the difference of two points, the product, two sums, and two
-// more sums where three projections meet are 6 u ‖d‖₂ S, S the sum of the 1-norms of the differences.
+// For any direction d, the gap between the projections of two convex sets on d is at most their distance; it is equal
+// if d joins the closest points. So d may be rough: its error only makes the bound lower, never wrong. Only the
+// projections on d contribute errors. The difference of two points, the product, two sums, and two more sums where
+// three projections meet err by 6 u ‖d‖₂ S together, with S the sum of the 1-norms of the differences.
 #pragma once
 
 #include "fast/kernels/arithmetic/scalar.hpp"
@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Returns a/b roughly: any direction d will do, so the quotient need not be right.
+/// Returns a/b roughly. It only serves to compute d, which may be rough.
 OGC_HD inline float rough_quotient(float a, float b) {
 #if defined(__CUDA_ARCH__)
   return __fdividef(a, b);
@@ -43,16 +43,17 @@ OGC_HD T clamped(const T& s) {
   return smaller(larger(s, T{}), T{1.0F});
 }
 
-/// Returns the bound, given the gap of the projections on d (times ‖d‖), d·d and an error of the distance. The root and
-/// products err by 8 u. Returns 0, which is no bound, if d·d is so small that it may have lost bits.
+/// Returns the lower bound, given the gap of the projections on d (times ‖d‖), d·d, and the error of the projections as
+/// a length. The root and products err by 8 u. Returns 0, which proves nothing, if d·d is so small that it may have
+/// lost bits.
 template <class T>
 OGC_HD T separation(const T& gap, const T& dd, const T& error) {
   return select(dd > 0x1p-100F, gap * rough_inverse_root(dd) * (1 - 0x1p-20F) - error, T{});
 }
 
-/// Returns a length, possibly negative or not a number, that does not exceed what `edge_edge_distance(p, q).below()`
-/// gives. Apart from the 6 u S above, that value lies under the exact distance by two slacks of at most 2 u S and by
-/// one rounding of at most 2 u S: 12 u S. The code takes 16 u S.
+/// Returns a lower bound of `edge_edge_distance(p, q).below()`, possibly negative or NaN. Beside the error of 6 u S
+/// above, that value may be below the exact distance by two slacks and one rounding of at most 2 u S each: 12 u S in
+/// all. The code uses 16 u S.
 template <class T>
 OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
   const Vector<T> e = p.b - p.a, f = q.b - q.a, w = q.a - p.a;
@@ -64,9 +65,9 @@ OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
   return separation<T>(gap, dot(d, d), 0x1p-20F * (norm_1(w) + norm_1(e) + norm_1(f)));
 }
 
-/// Returns the same for `point_triangle_distance(x, corners).below()`, from two directions: the normal, and the
-/// direction to the nearest point of the outline. Here the projections take x − corner, with S' the sum of their
-/// 1-norms: S ≤ 3 S', so two slacks of 2 u S and the rest are under 20 u S'. The code takes 32 u S'.
+/// Returns a lower bound of `point_triangle_distance(x, corners).below()`, from two directions: the normal, and the
+/// direction to the nearest point of the outline. The projected vectors are x − corner, and S' is the sum of their
+/// 1-norms. S ≤ 3 S', so two slacks of 2 u S and the rest are under 20 u S'. The code uses 32 u S'.
 template <class T>
 OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
   const Vector<T> u = x - t.a, v = x - t.b, w = x - t.c, e = t.b - t.a, f = t.c - t.b, g = t.a - t.c, n = cross(e, f);
@@ -84,7 +85,7 @@ OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
   return larger(outline, separation<T>(larger(low, -high), dot(n, n), error));
 }
 
-/// Returns whether a lower bound of a distance lies beyond a limit of gap_limit.
+/// Returns whether a lower bound of a distance exceeds a limit of gap_limit.
 OGC_HD inline bool is_beyond(float separation, float limit) {
   return separation > 0 && separation * separation > limit;
 }

@@ -1,5 +1,5 @@
-// Runs the launches of a detection within a step, each together with work of the step that is due there: a launch of
-// its own would cost a device more than the work. Nothing here reads what its neighbour in the same launch writes.
+// Launches of a detection within a step. Each launch also does work of the step that is due at the same time, because a
+// separate launch would cost a device more than the work. The two parts of a launch are independent of each other.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -8,7 +8,8 @@
 
 namespace ogc::fast {
 
-/// First launch: certifies the regions that end, sets X_prev ← x, and begins the detection. Index as in BeginDetection.
+/// First launch: checks the certificate of the ending regions, sets X_prev ← x, and begins the detection. Index as in
+/// BeginDetection.
 struct BeginStepDetection {
   BeginRegions regions;
   BeginDetection detection;
@@ -20,8 +21,8 @@ struct BeginStepDetection {
   }
 };
 
-/// Beside the last launch: counts the detection, and gives each slot its row of the contact stream. Index over slots,
-/// at least one.
+/// First part of the last launch: counts the detection, and writes each slot's row of the contact stream. Index over
+/// slots, at least one.
 struct EndStepDetection {
   EndDetection end;
   CopyContactRows<LooseIncidence> rows;
@@ -33,7 +34,7 @@ struct EndStepDetection {
   }
 };
 
-/// Last launch: writes each incidence at its place, and its contact into the stream of the sweep. Index over all
+/// Second part of the last launch: sorts the incidences, and writes each one's contact into the stream. Index over all
 /// incidences.
 struct RankAndResolve {
   RankIncidences rank;

@@ -1,9 +1,9 @@
-// The columns of what a step sums up for its row.
+// Names the columns of a step's sums.
 #pragma once
 
 namespace ogc::fast {
 
-/// Sums over the mesh that a row needs, in this order.
+/// Sums over the mesh for the row of a step, in this order.
 enum SumColumn : int {
   sum_kinetic = 0,        ///< Σ m/2 ‖v‖² [J]
   sum_gravity = 1,        ///< −Σ m a·x [J]
@@ -21,15 +21,15 @@ enum SumColumn : int {
   sum_stretch = 17,       ///< Σ ‖D‖/l − 1 over segments [1]
   sum_columns = 18
 };
-/// After the guess loop: the columns of vertices alone.
+/// The sums after the guess loop: only columns of vertices.
 inline constexpr int guess_columns = sum_membrane;
 
-/// Sums over free vertices of what a step leaves of forces, in this order.
+/// Sums over free vertices of the forces that a step leaves, in this order.
 enum LeftColumn : int {
   left_reference = 0,  ///< Σ ‖f*‖ [N]
-  left_force = 1,      ///< Σ ‖f‖ over those that no bound holds [N]
-  left_rounding = 2,   ///< how much of that rounded positions may make [N]
-  left_held = 3,       ///< those that a bound holds
+  left_force = 1,      ///< Σ ‖f‖ over vertices that no bound holds [N]
+  left_rounding = 2,   ///< largest part of left_force that rounded positions may cause [N]
+  left_held = 3,       ///< number of vertices that a bound holds
   left_columns = 4
 };
 

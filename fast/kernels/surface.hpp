@@ -7,9 +7,8 @@
 
 namespace ogc::fast {
 
-/// A triangle with its corners in the order of the mesh and the numbers of its edges 01, 12, 20. Bit k of `descending`
-/// is set if edge k starts at its higher-numbered vertex, so that every triangle at an edge can give the edge's
-/// predicate the same operands.
+/// A triangle with its edges. Bit k of `descending` is set if edge k starts at its higher-numbered vertex. With it all
+/// triangles at an edge evaluate the edge's predicate with the same operands.
 struct alignas(16) Facet {
   int corner[3];  ///< vertices in the order of the mesh
   int edge[3];    ///< 01, 12 and 20, as numbers of SurfaceView::edges
@@ -33,10 +32,10 @@ struct Rows {
   const int* items = nullptr;    ///< row by row
 };
 
-/// Seeds of an edge. Seeds name pairs that are known to take part in the smallest distances, so that a query need not
-/// search farther (fast/kernels/bvh.hpp); −1: none.
+/// Seeds of an edge. A seed names a pair that certainly takes part in the smallest distances. So a query need not
+/// search beyond the pair's distance (fast/kernels/bvh.hpp). −1: no seed.
 struct EdgeSeeds {
-  int vertex[2];  ///< each has an edge that forms a pair with this one
+  int vertex[2];  ///< each has an edge that forms a pair with this edge
 };
 /// Seeds of a facet.
 struct FacetSeeds {
@@ -56,29 +55,27 @@ struct SurfaceView {
   Rows opposites;                             ///< V_e of Eq. 9
   Rows vertex_edges, vertex_triangles;        ///< by vertex: numbers of its edges and of its triangles
   const std::uint8_t* off_surface = nullptr;  ///< by vertex; null if all are on the surface (compare::Topology)
-  const int* groups = nullptr;                ///< by vertex; pairs whose vertices all have one group ≥ 0 are left out
-  const EdgeSeeds* edge_seeds = nullptr;      ///< by edge
+  const int* groups = nullptr;            ///< by vertex; pairs whose vertices all have the same group ≥ 0 are omitted
+  const EdgeSeeds* edge_seeds = nullptr;  ///< by edge
   const FacetSeeds* facet_seeds = nullptr;    ///< by triangle
   const VertexSeeds* vertex_seeds = nullptr;  ///< by vertex
-  /// a pair is left out if a vertex of one side stands in the row of a vertex of the other; without offsets if there
-  /// are no such pairs
+  /// a pair is omitted if a vertex of one side is in the row of a vertex of the other side; no offsets: no such pairs
   Rows partners;
-  /// Primitives that take part in searches: numbers of vertices, then of edges, then of facets, without those of
-  /// volumes; null: all of them, in order.
+  /// Primitives that take part in searches: vertices, then edges, then facets, without those of volumes. Null: all, in
+  /// order.
   const int* searched = nullptr;
-  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< numbers of each
+  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< how many of each
 
-  /// Returns whether no detection looks at the vertex: it is inside a solid, on no boundary triangle (method.md §8.3),
-  /// or belongs to a volume, which other kernels query (volume_depth.hpp).
+  /// Returns whether detections omit the vertex: it is inside a solid, on no boundary triangle (method.md §8.3), or a
+  /// vertex of a volume, which volume_depth.hpp treats.
   OGC_HD bool is_off_surface(int v) const { return off_surface != nullptr && off_surface[v] != 0; }
 
-  /// Returns a face as one number: vertices come first, then edges, then triangles, so that numbers have the order of
-  /// compare::Face.
+  /// Return a face as one number. Vertices come first, then edges, then triangles, in the order of compare::Face.
   OGC_HD int vertex_face(int v) const { return v; }
   OGC_HD int edge_face(int e) const { return vertex_count + e; }
   OGC_HD int triangle_face(int t) const { return vertex_count + edge_count + t; }
 
-  /// Returns whether method.md §2.3 leaves out a pair that shares no vertex.
+  /// Returns whether method.md §2.3 omits the pair. The pair shares no vertex.
   OGC_HD bool left_out(int v, const Facet& t) const {
     const int g = groups[v];
     if (g >= 0 && groups[t.corner[0]] == g && groups[t.corner[1]] == g && groups[t.corner[2]] == g) return true;
@@ -93,7 +90,7 @@ struct SurfaceView {
   }
 
  private:
-  /// Returns whether `of` stands in v's row. Rows are short, nearly all of them empty.
+  /// Returns whether `of` is in v's row. Rows are short, and nearly all of them are empty.
   OGC_HD bool is_partner(int v, int of) const {
     for (int i = partners.offsets[v]; i < partners.offsets[v + 1]; ++i) {
       if (partners.items[i] == of) return true;

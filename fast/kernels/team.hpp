@@ -1,7 +1,7 @@
 // Defines the sum of a team of W team lanes, run by one thread. A sum has parts, one for each kind of term. Item k of a
-// part belongs to team lane k mod W; a team lane adds its items of one part in their order, then its parts in theirs; a
-// fixed tree adds the team lanes. A team of any size, on any backend, that keeps this rule gives the same bits, whether
-// one thread or several warps run the parts; only W can change one.
+// part goes to team lane k mod W. A team lane adds its items of one part in order, then its parts in order; a fixed
+// tree adds the team lanes. Every team that follows this rule gives the same bits, on any backend and with any number
+// of threads; only W can change a bit.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
@@ -9,9 +9,8 @@
 
 namespace ogc::fast {
 
-/// Terms k of a sum, 0 ≤ k < count: load(k) reads what the launch before this one does not write, add(loaded, acc)
-/// reads the rest and adds. They are apart so that a device can load while that launch still runs (programmatic
-/// dependent launch).
+/// Terms k of a sum, 0 ≤ k < count. load(k) reads only what the preceding launch does not write; add(loaded, acc) reads
+/// the rest and adds. So a device can load while the preceding launch still runs (programmatic dependent launch).
 template <class Load, class Add>
 struct Part {
   int count;  ///< items
@@ -19,13 +18,13 @@ struct Part {
   Add add;
 };
 
-/// Returns a Part of these.
+/// Returns a Part with these members.
 template <class Load, class Add>
 OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
   return {count, load, add};
 }
 
-/// The `load` of a Part whose item k is the k-th of a row.
+/// The `load` of a Part that reads item k of a row.
 template <class Item>
 struct LoadFrom {
   const Item* first;  ///< first item of the row
@@ -33,8 +32,8 @@ struct LoadFrom {
   OGC_HD Item operator()(int k) const { return first[k]; }
 };
 
-/// Terms of items begin + k that read nothing of the team's vertex, so that a block's threads may share out the terms
-/// of all its teams: term(load(item)) is an Accumulator.
+/// Terms of items begin + k that read nothing of the team's vertex. So the threads of a block may share the terms of
+/// all its teams. term(load(item)) is an Accumulator.
 template <class Load, class Term>
 struct PooledPart {
   int begin, count;  ///< first item, and how many
@@ -42,13 +41,13 @@ struct PooledPart {
   Term term;
 };
 
-/// Returns a PooledPart of these.
+/// Returns a PooledPart with these members.
 template <class Load, class Term>
 OGC_HD PooledPart<Load, Term> pooled_part(int begin, int count, Load load, Term term) {
   return {begin, count, load, term};
 }
 
-/// Reads item k of either kind of part, and adds what was read, so that a team has one loop for both.
+/// Read item k of either kind of part, and add it, so that a team has one loop for both.
 template <class Load, class Add>
 OGC_HD auto load_item(const Part<Load, Add>& part, int k) {
   return part.load(k);
@@ -66,8 +65,8 @@ OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, A
   sum += part.term(loaded);
 }
 
-/// Searches and minima over items k < count, for a team of one lane. A team of several lanes shares the items out; its
-/// lanes hold the same numbers, call together, and get the same answer as one lane.
+/// Searches and minima over items k < count, for a team of one lane. A team of several lanes shares the items: its
+/// lanes hold the same numbers, call together, and get the answer of one lane.
 struct OneLane {
   /// Returns the smallest k ≥ from for which is(k) holds; count if there is none.
   template <class Is>
@@ -85,19 +84,19 @@ struct OneLane {
 };
 
 /// Runs W team lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded
-/// sum is -0 only for two -0, so leaving out the empty lanes of a part changes no bit.
+/// sum is −0 only if both terms are −0. So omitting the empty lanes of a part changes no bit.
 template <int W>
 struct SerialTeam : OneLane {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
 
-  /// Fetches `bytes` from `rows` on into a cache, if that helps: the team is going to read them.
+  /// Prefetches `bytes` from `rows` on into a cache, if that helps; does nothing here.
   OGC_HD static void prefetch(const void*, int) {}
 
-  /// Takes the place of `sum`; all teams of a launch call one of the two.
+  /// Replaces `sum` for a team without a vertex: all teams of a launch call `sum` or `leave`.
   OGC_HD static void leave() {}
 
-  /// Returns Σ over all terms of all parts to the threads that hold the total.
+  /// Returns Σ over all terms of all parts; in a team of threads only those with holds_total() get it.
   template <class Accumulator, class... Parts>
   OGC_HD Accumulator sum(const Parts&... parts) const {
     Accumulator lanes[W] = {};
@@ -110,7 +109,7 @@ struct SerialTeam : OneLane {
 
   /// Returns whether this thread has the total; such threads may call `first` and `smallest` together.
   OGC_HD bool holds_total() const { return true; }
-  /// Returns whether this thread, one of them, writes the team's result.
+  /// Returns whether this thread writes the team's result; it also holds the total.
   OGC_HD bool leader() const { return true; }
 
  private:

@@ -1,5 +1,5 @@
-// Truncates to the conservative bound (Eq. 27, 28) so that the *stored* position obeys it: the cut is made in double,
-// each coordinate rounded towards x_prev, and the stored result tested exactly.
+// Truncates to the conservative bound (Eq. 27, 28) so that the *stored* position obeys it. The cut is computed in
+// double, each coordinate is rounded towards x_prev, and the stored result is tested exactly.
 #pragma once
 
 #include "fast/kernels/arithmetic/vector.hpp"
@@ -8,24 +8,24 @@
 
 namespace ogc::fast {
 
-/// Holds a position inside its region, and whether the proposal was changed for it.
+/// Holds a position inside its region, and whether the proposal was changed.
 struct Truncated {
   Vec position;  ///< [m]
   bool cut = false;
 };
 
-/// Returns whether ‖x − x_prev‖ < b for certain, seen in single precision. With u = 2⁻²⁴ a difference is right to u, so
-/// the sum of three squares is at least (1 − u)⁵ of the exact one, and b² (1 − 16 u) in two roundings at most (1 + u)²
-/// (1 − 16 u) b² < (1 − u)⁵ b². Squares that underflow are off by 2⁻¹⁵⁰ each, nothing beside 16 u b² if b² ≥ 2⁻¹⁰⁰.
-/// Contraction leaves roundings out and so cannot change what is certain. False if x is not finite.
+/// Returns whether ‖x − x_prev‖ < b is certain in single precision. With u = 2⁻²⁴ a difference errs by u, so the sum of
+/// three squares is at least (1 − u)⁵ of the exact one. b² (1 − 16 u) in two roundings is at most (1 + u)² (1 − 16 u)
+/// b² < (1 − u)⁵ b². Squares that underflow err by 2⁻¹⁵⁰ each, far less than 16 u b² if b² ≥ 2⁻¹⁰⁰. Contraction only
+/// omits roundings, so it does not change what is certain. False if x is not finite.
 OGC_HD inline bool is_certainly_within(const Ball& ball, const Vec& x) {
   const Vec step = x - ball.centre;
   const float squared = ball.radius * ball.radius;
   return squared >= 0x1p-100f && squared <= 0x1p100f && dot(step, step) < (1.0f - 16 * 0x1p-24f) * squared;
 }
 
-/// Holds a sum of doubles without rounding (Shewchuk's growing expansion): components of growing size that do not
-/// overlap.
+/// Holds a sum of doubles without rounding (Shewchuk's growing expansion): its components do not overlap and grow in
+/// size.
 struct ExactTotal {
   double part[8] = {};  ///< the first `count` are in use
   int count = 0;        ///< at most 8: each square adds two
@@ -52,9 +52,9 @@ struct ExactTotal {
   }
 };
 
-/// Returns whether ‖x − x_prev‖ ≤ b, without rounding, if two doubles cannot tell the distance from the bound: true
-/// ties, and a coordinate of 10⁻²¹ beside one at the bound, which must not pass. A difference that does not fit into a
-/// double counts as beyond.
+/// Returns whether ‖x − x_prev‖ ≤ b, without rounding. It decides if double-double cannot tell distance and bound
+/// apart: ties, and coordinates of 10⁻²¹ beside one at the bound, which must not pass. A difference that does not fit
+/// into a double counts as beyond.
 OGC_HD inline bool is_exactly_within(const Ball& ball, const Vec& x) {
   const Vector<Wide> step = difference<Wide>(x, ball.centre);
   if (step.x.low != 0 || step.y.low != 0 || step.z.low != 0) return false;
@@ -64,8 +64,7 @@ OGC_HD inline bool is_exactly_within(const Ball& ball, const Vec& x) {
   return !margin.is_positive();
 }
 
-/// Returns whether ‖x − x_prev‖ ≤ b, decided on the stored single-precision numbers without error. False if x is not
-/// finite.
+/// Returns whether ‖x − x_prev‖ ≤ b, decided exactly on the stored single-precision numbers. False if x is not finite.
 OGC_HD inline bool is_within(const Ball& ball, const Vec& x) {
   if (is_certainly_within(ball, x)) return true;
   const PointReach reach{x, ball.centre, ball.radius};
@@ -84,14 +83,14 @@ OGC_HD inline float towards(float p, float x, double s) {
   return step > 0 ? round_down(place) : round_up(place);
 }
 
-/// Does the work of `truncate` if single precision does not see x within the bound.
+/// Completes `truncate` if single precision does not prove that x is within the bound.
 OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Ball ball, Vec x) {
   if (is_within(ball, x)) return {x, false};
   const Vec& previous = ball.centre;
   const Vector<Rounded> step = difference<Rounded>(x, previous);
   double s = divide(static_cast<double>(ball.radius), square_root(dot(step, step).value));
-  // The second and third tries are for a step whose rounding in double crossed a float, with coordinates far larger
-  // than the bound.
+  // The second and third attempt serve coordinates far larger than the bound, where rounding of the step in double
+  // crossed a float.
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Vec cut{towards(previous.x, x.x, s), towards(previous.y, x.y, s), towards(previous.z, x.z, s)};
     if (is_within(ball, cut)) return {cut, true};
@@ -100,8 +99,8 @@ OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Ball ball, Vec x) {
   return {previous, true};
 }
 
-/// Returns x, bit for bit, if the ball holds it; otherwise the point of the segment from x_prev at distance b, or just
-/// short of it. Returns x_prev if x is not finite.
+/// Returns x, bit for bit, if the ball holds it. Otherwise returns the point of the segment from x_prev towards x at
+/// distance b, or just short of it; x_prev if x is not finite.
 OGC_HD inline Truncated truncate(const Ball& ball, const Vec& x) {
   if (is_certainly_within(ball, x)) return {x, false};
   return truncate_in_double(ball, x);

@@ -1,31 +1,30 @@
 // Finds whether a point is inside a volume, or nearer to it than r (§3.9, method.md §9). Each part of the volume's
-// surface answers by itself, by the side of its face that is nearest to the point. The search of the nearest face
-// begins at the distance of a facet of the part, so that a point may lie at any depth, and shrinks from there.
+// surface is tested separately, by the side of the part's face that is nearest to the point. The search for this face
+// starts with the distance to one facet of the part and shrinks from there, so a point may lie at any depth.
 //
 // The side of x at a face, all in rounded double:
 //
 //   triangle   the side of its normal
-//   edge       the side of the sum of its triangles' unit normals: it halves the outside of a ridge, and the inside of
-//              a valley, where x's closest point is on the edge
-//   vertex     that of the edge whose direction from the vertex is nearest to x's: on the sphere about the vertex the
-//              way from x to that direction crosses no triangle, as a crossing would be nearer
-//   rim        outside: an edge of one triangle, and a vertex of such an edge, have no inner side
+//   edge       the side of the sum of its triangles' unit normals. Points whose closest point is on the edge are all
+//              outside at a ridge and all inside at a valley; the sum's line halves their region
+//   vertex     the side of one of its edges, whose direction from the vertex is nearest to x's direction. On the sphere
+//              about the vertex, the arc from x to that direction crosses no triangle: a crossing would be nearer
+//   rim        outside: an edge of only one triangle, and a vertex of such an edge, have no inner side
 //
-// No point beyond the box of a part is inside it, so most points need no search of most parts.
+// A point beyond the box of a part is not inside it, so most points need no search of most parts.
 //
-// A driven volume stands still between two detections of a step, and most points that were far from it have moved
-// little since. So a search that finds a point p far, inside the box, also finds a radius ρ within which every point is
-// far. Let D be the distance of p, c the closest point; let each facet t be at least d_t away from p, and p at the
-// height h_t over its plane. A point x, at most ρ < D − r from p, is at least D − ρ > r and at most D + ρ from the
-// part. So the facets around its nearest face are at most D + 2 ρ from p. If each facet has (d_t − D)/2 > ρ or h_t > ρ,
-// x lies on the outer side of all of those. Then it lies on the outer side of a face of any kind: the sum of their
-// normals is on that side, too, unless two of them are nearly opposite. Therefore no facet counts by its height whose
-// normal does not lean towards p − c, by 2⁻⁸.
+// A driven volume stands still between two detections of a step, and most points far from it move little. So a search
+// that finds a point p far, but inside the box, also finds a radius ρ: all points within ρ of p are far. Let D be the
+// distance of p, c its closest point, d_t a lower bound of its distance to facet t, and h_t its height over the plane
+// of t. A point x at most ρ < D − r from p is farther than r from the part, and at most D + ρ. So the facets around the
+// nearest face of x are at most D + 2 ρ from p. If (d_t − D)/2 > ρ or h_t > ρ for every facet t, x lies on the outer
+// side of all these facets. Then x also lies on the outer side of an edge or vertex among them, unless two normals are
+// nearly opposite. To exclude such normals, h_t is used only if the normal of t leans towards p − c by at least 2⁻⁸.
 //
-// Rounding: the face that the search takes for the nearest may be two slacks farther than the nearest, each at most 2 u
-// S (point_triangle_distance), and S is at most six times the 1-norm L of the box' extent, for p and x alike: 2⁻¹⁹ L.
-// Heights are over the planes that is_outside takes, whose normals err by 2⁻³⁰ if the facet is no sliver, and squares
-// of the ball by 2⁻²² of ρ ≤ L. All of it is taken as 2⁻¹⁸ L.
+// Rounding: the face that the search finds may be farther than the nearest one by two slacks, each at most 2 u S
+// (point_triangle_distance). For p and for x, S is at most six times the 1-norm L of the box' extent, so this is 2⁻¹⁹
+// L. Heights refer to the planes of is_outside, whose normals err by 2⁻³⁰ unless the facet is a sliver. Squares in the
+// test of the ball err by 2⁻²² of ρ ≤ L. 2⁻¹⁸ L covers all of this.
 #pragma once
 
 #include "fast/kernels/block.hpp"
@@ -35,17 +34,17 @@
 
 namespace ogc::fast {
 
-/// Holds a tree with what a refit needs beside it.
+/// Holds a tree and the other data of its refit.
 struct PartTree {
   TreeView tree;            ///< refitted at these positions
   int* arrivals = nullptr;  ///< as in RefitTrees
-  int first_item = 0;       ///< number of its first place among those of all trees, each filled up to whole warps
+  int first_item = 0;       ///< number of its first place in a refit of all trees, each padded to whole warps
 };
 
-/// A part of a volume with trees of its own, so that the search of one part meets no facet of others.
+/// Holds the trees of one part of a volume, so that a search of one part meets no facet of another.
 struct VolumePart {
-  PartTree facets;      ///< of its facets
-  PartTree tetrahedra;  ///< of its tetrahedra, if it has any
+  PartTree facets;
+  PartTree tetrahedra;  ///< empty if the part is a surface
 
   OGC_HD bool is_solid() const { return tetrahedra.tree.count > 0; }
 };
@@ -53,7 +52,7 @@ struct VolumePart {
 /// Holds the tetrahedra of volumes on the backend.
 struct SolidView {
   const SolidElement* elements = nullptr;  ///< by tetrahedron
-  std::uint8_t* is_positive = nullptr;     ///< by tetrahedron: whether it has positive volume; the refit finds it
+  std::uint8_t* is_positive = nullptr;     ///< by tetrahedron: whether its volume is positive; written by the refit
   Rows vertex_elements;                    ///< by vertex: tetrahedra that contain it, ascending
   const int* owner = nullptr;              ///< by facet: the tetrahedron whose boundary it is
 };
@@ -68,10 +67,10 @@ struct VolumeView {
   SolidView solids{};        ///< for parts of tetrahedra
 };
 
-/// Where a point lies as seen from a part.
+/// The position of a point relative to a part.
 enum class VolumeSide : int { far, inside, near };
 
-/// The facet of a part that is nearest to a point, or one of those with the nearest face.
+/// The facet of a part that is nearest to a point; if the nearest face is an edge or a vertex, one of its facets.
 struct NearestFacet {
   int facet = -1;
   VolumeSide side = VolumeSide::far;  ///< far: outside, and not nearer than r
@@ -82,15 +81,15 @@ struct FoundVolumeContact {
   /// the lowest-numbered facet that contains the face; the face, as SurfaceView numbers it
   int triangle = -1, face = -1;
   bool inside = false;
-  float weights[3] = {};  ///< of c, by corner of the triangle [1]
+  float weights[3] = {};  ///< of c, by corner of `triangle` [1]
   Vec direction;          ///< n, out of the part [1]
   float depth = 0;        ///< [m]
 };
 
-/// Within this ball every point is far from a part, as long as the volume stands still.
+/// A ball about a point that was far from a part. All its points are far while the volume stands still.
 struct alignas(16) ClearBall {
-  /// Values in place of a radius: the point has not been tested since the volume moved; it was tested, and no ball is
-  /// known; a ball was sought, and there is none.
+  /// Values in place of a radius. `unasked`: the point was not tested since the volume moved. `asked`: it was tested,
+  /// and no ball is known. `refused`: a ball was sought, and there is none.
   static constexpr float unasked = -1, asked = -2, refused = -3;
 
   Vec centre;              ///< [m]
@@ -102,19 +101,19 @@ struct alignas(16) ClearBall {
   }
 };
 
-/// Radius of a clear ball, as a share of the point's distance, at most.
+/// Largest radius of a clear ball, as a share of its centre's distance beyond r.
 inline constexpr float clear_share = 0.125F;
 
 class SolidQuestion;
 
-/// Answers where a point lies relative to a volume.
+/// Finds where a point lies relative to a volume, and its contacts with it.
 class VolumeQuestion {
  public:
   OGC_HD VolumeQuestion(const VolumeView& volume, const Vec& point) : volume_(volume), x_(point) {}
 
-  /// Returns the nearest facet and the side of the point. The search begins at the distance of `first`, one of the
-  /// part's facets, which changes the time alone. `clear`, if not null, receives a ball within which the answer stays
-  /// `far`.
+  /// Returns the nearest facet and the side of the point. The search starts at `first`, any facet of the part: a near
+  /// one saves time. If the point is far but in the box of the part, `*clear` becomes a ball of far points, unless
+  /// `clear` is null.
   OGC_HD NearestFacet nearest_of(int part, int first, ClearBall* clear = nullptr) const {
     const Box box = box_of(part);
     if (squared_gap(box, {x_, x_}) > gap_limit(volume_.contact_radius)) return {first, VolumeSide::far};
@@ -126,8 +125,8 @@ class VolumeQuestion {
     return {nearest.facet, VolumeSide::far};
   }
 
-  /// Calls visit(contact) for each contact with a part, given its `nearest`: for a point inside, one at the nearest
-  /// face; else one for each face in whose outward block the point lies nearer than r.
+  /// Calls visit(contact) for each contact with a part, given its `nearest`. A point inside has one contact, at the
+  /// nearest face. A near point has one with each face in whose outward block it lies nearer than r.
   template <class Visit>
   OGC_HD void visit_contacts(int part, const NearestFacet& nearest, Visit visit) const {
     if (nearest.side == VolumeSide::far) return;
@@ -136,8 +135,8 @@ class VolumeQuestion {
       visit(contact_at(nearest_face, true));
       return;
     }
-    // x lies in the block of the nearest face, whatever rounding makes of it: a near point has a contact there, unless
-    // it is beyond the box of a part that would hold it
+    // A near point has a contact with the nearest face, even if rounding puts it outside the face's block. The
+    // exception is a point beyond the box of the part, on the inner side of this face.
     if (is_outside(nearest_face)) visit(contact_at(nearest_face, false));
     const float limit = gap_limit(volume_.contact_radius);
     for_each_near(volume_.parts[part].facets.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
@@ -147,7 +146,7 @@ class VolumeQuestion {
   }
 
  private:
-  friend class SolidQuestion;  ///< uses the same tests of faces (fast/kernels/volumes/solids.hpp)
+  friend class SolidQuestion;  ///< uses the same tests of faces
 
   struct Nearest {
     Distance distance;
@@ -159,7 +158,7 @@ class VolumeQuestion {
     return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
   }
 
-  /// Returns the face of a facet whose interior holds the facet's point closest to x.
+  /// Returns the vertex, edge or triangle that holds the point of facet t closest to x.
   OGC_HD int face_of(int t) const {
     const Facet& facet = volume_.surface.facets[t];
     const TriangleFeature feature = closest_feature(x_, corners(t), facet.descending);
@@ -169,8 +168,8 @@ class VolumeQuestion {
     return volume_.surface.triangle_face(t);
   }
 
-  /// Returns the nearest face; among faces at one distance the lowest-numbered, as numbers have the order of
-  /// dimensions. Faces are decided only at equal distances and at the end, because their predicates are exact.
+  /// Returns the nearest face; among equally near faces the lowest-numbered one, which also has the lowest dimension.
+  /// face_of is called only at equal distances and at the end, because its predicates are exact and slow.
   OGC_HD Nearest search(int part, int first) const {
     Nearest nearest;
     nearest.distance.value = infinity;
@@ -196,7 +195,7 @@ class VolumeQuestion {
     return nearest;
   }
 
-  /// Returns the ball about x, which is far, in the box, and on the outer side of the nearest face.
+  /// Returns the ball about x. x must be far, in the box, and on the outer side of the nearest face.
   OGC_HD ClearBall clear_ball(int part, const Nearest& nearest, const Box& box) const {
     const float doubt = mul(0x1p-18F, norm_1(box.upper - box.lower));
     const Corners at = corners(nearest.facet);
@@ -222,8 +221,8 @@ class VolumeQuestion {
     return {x_, radius > doubt ? radius : ClearBall::refused};
   }
 
-  /// Returns the height of x over the plane of a facet whose normal is known well and leans towards `away`; −∞ for
-  /// other facets.
+  /// Returns the height of x over the plane of a facet; −∞ if the facet's normal is inaccurate or does not lean towards
+  /// `away`.
   OGC_HD float height_over(int t, const Real& away) const {
     const Corners at = corners(t);
     const Real e = difference<Rounded>(at.b, at.a), f = difference<Rounded>(at.c, at.a), n = cross(e, f);
@@ -233,7 +232,7 @@ class VolumeQuestion {
     return round_down(divide(dot(difference<Rounded>(x_, at.a), n).value, size));
   }
 
-  /// Returns the box of a part, which no rounding moves.
+  /// Returns the box of a part; it is exact.
   OGC_HD Box box_of(int part) const {
     const TreeView& tree = volume_.parts[part].facets.tree;
     return tree.node(tree.levels - 1, 0).whole();
@@ -243,14 +242,14 @@ class VolumeQuestion {
            box.lower.z <= x_.z && x_.z <= box.upper.z;
   }
 
-  /// Returns whether x is nearer than r to a facet at this distance; decides exactly if the slack leaves that open.
+  /// Returns whether x is nearer than r to a facet at distance d; decides exactly if the slack does not.
   OGC_HD bool is_near(int t, const Distance& d) const {
     const Corners at = corners(t);
     return is_within(x_, at, closest_feature(x_, at, volume_.surface.facets[t].descending), d, volume_.contact_radius);
   }
 
-  /// Returns the face of a facet in whose block x lies nearer than r, if the facet is the lowest-numbered one that
-  /// contains it; else −1.
+  /// Returns the face of facet t in whose block x lies nearer than r; −1 if there is none, or if a lower-numbered facet
+  /// contains the face.
   OGC_HD int touched_face(int t) const {
     const SurfaceView& surface = volume_.surface;
     const Corners at = corners(t);
@@ -267,7 +266,6 @@ class VolumeQuestion {
     return face;
   }
 
-  /// Return the kind of a face, by its number.
   OGC_HD bool is_vertex(int face) const { return face < volume_.surface.vertex_count; }
   OGC_HD bool is_edge(int face) const {
     return !is_vertex(face) && face < volume_.surface.vertex_count + volume_.surface.edge_count;
@@ -301,9 +299,9 @@ class VolumeQuestion {
     return cross(difference<Rounded>(at.b, at.a), difference<Rounded>(at.c, at.a));
   }
 
-  /// Returns whether w, from a point of the edge, points outward or along the surface; an edge of one facet has no
-  /// inner side. If the sum of normals is below 2⁻¹⁰ they are nearly opposite, and rounding may decide its direction:
-  /// then all is outside at a knife's edge, and inside in a crevice.
+  /// Returns whether w, the vector from a point of the edge to x, points outward or along the surface. An edge of one
+  /// facet has no inner side. If the sum of the normals is shorter than 2⁻¹⁰, they are nearly opposite and rounding may
+  /// decide the sum's direction. Then every w points outward at a convex edge and inward at a concave one.
   OGC_HD bool is_outside_of_edge(int e, const Real& w) const {
     Real sum;
     int count = 0, facet[2] = {};
@@ -351,8 +349,9 @@ class VolumeQuestion {
     return dot(difference<Rounded>(x_, corners(t).a), normal(t)).value >= 0;
   }
 
-  /// Returns the contact with its weights, direction and depth. On the interior of a facet the direction is its normal,
-  /// and also if x − c is below 2⁻⁴⁸ of the coordinates that it comes from: their rounding.
+  /// Returns the contact with its weights, direction and depth. The direction is along x − c, outward. It is the
+  /// facet's normal if c is in the facet's interior, or if x − c is below 2⁻⁴⁸ of the coordinates and so only their
+  /// rounding.
   OGC_HD FoundVolumeContact contact_at(int face, bool inside) const {
     const SurfaceView& surface = volume_.surface;
     FoundVolumeContact contact;
@@ -388,7 +387,7 @@ class VolumeQuestion {
     return contact;
   }
 
-  /// Returns x − c for a corner or an edge.
+  /// Returns x − c if c is a corner or on an edge.
   OGC_HD Real from_foot(const Corners& at, TriangleFeature feature) const {
     const int f = static_cast<int>(feature);
     if (f < 3) return difference<Rounded>(x_, at[f]);

@@ -1,25 +1,25 @@
-// Adds a contact with a volume, which keeps what its detection froze: weights of the point c of a triangle and the unit
-// direction n out of the volume (§3.9, method.md §9). With φ = n·(x₀ − c) the energy is E = k/2 max(0, r − φ)², always
-// quadratic, and its block k w² n nᵀ is exact. No sign can flip between two detections, inside or outside.
+// Adds a contact with a volume. Its detection froze the weights of the point c of a triangle and the unit direction n
+// out of the volume (§3.9, method.md §9). With φ = n·(x₀ − c) the energy E = k/2 max(0, r − φ)² is always quadratic,
+// and its block k w² n nᵀ is exact. Inside and outside do not change between two detections.
 #pragma once
 
 #include "fast/kernels/friction_force.hpp"
 
 namespace ogc::fast {
 
-/// Holds what a detection froze of one contact.
+/// Holds the frozen data of one contact.
 struct VolumeContact {
-  float weights[3] = {};              ///< w of c, by corner [1]
+  float weights[3] = {};              ///< weights of c, by corner [1]
   Vec normal;                         ///< n [1]
   float stiffness = 0, friction = 0;  ///< k [N/m], μ [1]
 
-  /// Returns the w with which a vertex acts: 1 for the point (role 0), −wᵢ for the corners (roles 1, 2, 3).
+  /// Returns the weight w of a vertex: 1 for the point (role 0), −wᵢ for the corners (roles 1, 2, 3).
   OGC_HD float weight(int role) const {
     return role == 0 ? 1.0f : role == 1 ? -weights[0] : role == 2 ? -weights[1] : -weights[2];
   }
 };
 
-/// Returns Σ wᵢ (x₀ − xᵢ) [m] of the point x[0] and the corners x[1], x[2], x[3].
+/// Returns x₀ − c = Σ wᵢ (x₀ − xᵢ) [m] of the point x[0] and the corners x[1], x[2], x[3].
 OGC_HD inline Vec volume_separation(const VolumeContact& contact, const Vec* x) {
   return contact.weights[0] * (x[0] - x[1]) + contact.weights[1] * (x[0] - x[2]) + contact.weights[2] * (x[0] - x[3]);
 }
@@ -30,9 +30,9 @@ OGC_HD inline Vec volume_motion(const VolumeContact& contact, const Vec* x, cons
          contact.weights[2] * (x[3] - start[3]);
 }
 
-/// Adds normal force, friction and block of the vertex of this role; nothing if φ ≥ r. `slip_limit` is ε_v h [m]. Bit k
-/// of `together` is set if the vertex of role k, other than the own one, is solved at the same time; blocks then have
-/// |w| Σ |w_u| in place of w² (method.md §7.4). Returns λ = k (r − φ), 0 if the contact does not act [N].
+/// Adds normal force, friction and block of the vertex with this role; nothing if φ ≥ r. `slip_limit` is ε_v h [m]. Bit
+/// k of `together` is set if another vertex, of role k, is solved at the same time: blocks then have |w| Σ |w_u| in
+/// place of w² (method.md §7.4). Returns λ = k (r − φ), 0 if the contact does not act [N].
 OGC_HD inline float add_volume_contact(const VolumeContact& contact, const Vec* x, const Vec* start, int role,
                                        float contact_radius, float slip_limit, ForceAndBlock& sum, int together = 0) {
   const float depth = contact_radius - dot(contact.normal, volume_separation(contact, x));

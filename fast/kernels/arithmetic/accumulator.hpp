@@ -1,5 +1,5 @@
-// Holds the force and the symmetric 3×3 block of one vertex (Alg. 4), to which every energy adds; a team sums up one
-// for each team lane.
+// Holds the force and the symmetric 3×3 block of one vertex (Alg. 4), to which every energy adds. Each team lane sums
+// up one.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
@@ -42,8 +42,8 @@ struct ForceAndBlockOf {
     block.zz = block.zz + scale;
   }
 
-  /// Adds another sum. Each addition is rounded by itself: contracted with a product of the other's computation, the
-  /// bits would depend on where that is computed.
+  /// Adds another sum. Each addition is rounded by itself. If it were contracted with a product of the other sum, the
+  /// bits would depend on where that product is computed.
   OGC_HD ForceAndBlockOf& operator+=(const ForceAndBlockOf& other) {
     force = {add(force.x, other.force.x), add(force.y, other.force.y), add(force.z, other.force.z)};
     block.xx = add(block.xx, other.block.xx);

@@ -1,4 +1,4 @@
-// Computes atan2 itself, because library versions differ between host and device and an angle feeds positions
+// Computes atan2 without a library: library versions differ between host and device, and positions depend on the angle
 // (method.md §7.5).
 #pragma once
 
@@ -8,8 +8,8 @@
 namespace ogc::fast {
 
 /// Returns the angle of (x, y) in [−π, π]; 0 if both are 0. The relative error is at most 4 u
-/// (tests/fast/kernels/arithmetic/arctangent.cpp): the polynomial, a minimax fit of (atan t − t)/t³ in t² on |t| ≤
-/// tan(π/8), is off by 0.02 u; the rest is one division, one or two sums and the rounded π/4, π/2 or π.
+/// (tests/fast/kernels/arithmetic/arctangent.cpp). The polynomial is a minimax fit of (atan t − t)/t³ in t² on |t| ≤
+/// tan(π/8), with an error of 0.02 u. The rest comes from one division, one or two sums and the rounded π/4, π/2 or π.
 template <class T>
 OGC_HD T arctangent2(const T& y, const T& x) {
   constexpr float tan_eighth = 0.41421357f, quarter = 0.78539819f, half = 1.57079637f, whole = 3.14159274f;

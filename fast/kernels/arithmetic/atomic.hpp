@@ -1,6 +1,6 @@
-// Defines atomics whose result no order of execution can change: integer sums and maxima, and minima of non-negative
-// floats, whose order is that of their bits. Which thread wins a compare-and-exchange does depend on the order: it may
-// decide which thread does a piece of work, not the result.
+// Defines atomics whose results do not depend on the order of execution: integer sums and maxima, and minima of
+// non-negative floats, whose bits have the same order. Which thread wins a compare-and-exchange does depend on the
+// order, so it may only decide which thread does a piece of work.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Adds, and returns the value before.
+/// Adds, and returns the value before the addition.
 OGC_HD inline int atomic_add(int* target, int value) {
 #if defined(__CUDA_ARCH__)
   return atomicAdd(target, value);
@@ -33,8 +33,8 @@ OGC_HD inline void atomic_max(int* target, int value) {
 #endif
 }
 
-/// Raises the target as atomic_max does, for a launch whose threads all raise one target: the threads of a warp that
-/// are here together make one access.
+/// Raises the target as atomic_max does, for a launch whose threads all raise one target. The active threads of a warp
+/// make one access together.
 OGC_HD inline void raise_together(int* target, int value) {
 #if defined(__CUDA_ARCH__)
   const unsigned here = __activemask();
@@ -56,7 +56,7 @@ OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #endif
 }
 
-/// Writes `value` if the target is `expected`, and returns the value before.
+/// Writes `value` if the target is `expected`, and returns the previous value.
 OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected,
                                                     std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
@@ -68,9 +68,9 @@ OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::
 #endif
 }
 
-/// Returns whether this thread is the last of `count` to arrive at a counter, which is 0 before the first and after the
-/// last. It then sees what the others wrote before they came. Only the last acquires: an acquire, as in __threadfence,
-/// empties the first-level cache.
+/// Returns whether this thread is the last of `count` to arrive at a counter. The counter is 0 before the first and
+/// after the last. The last thread sees what the others wrote before they arrived. Only it acquires: an acquire, as in
+/// __threadfence, empties the first-level cache.
 OGC_HD inline bool arrives_last(int* counter, int count) {
 #if defined(__CUDA_ARCH__)
   int before;
@@ -113,8 +113,7 @@ OGC_HD inline float atomic_load(const float* source) {
 #endif
 }
 
-/// Lowers the target to the value. Floats must not be negative or NaN: the bits of the others, as integers, have their
-/// order.
+/// Lowers the target to the value. Floats must not be negative or NaN: then their bits, as integers, have their order.
 OGC_HD inline void atomic_min(float* target, float value) {
 #if defined(__CUDA_ARCH__)
   atomicMin(reinterpret_cast<int*>(target), __float_as_int(value));
@@ -125,7 +124,7 @@ OGC_HD inline void atomic_min(float* target, float value) {
 #endif
 }
 
-/// Lowers the target as raise_together raises it; floats must not be negative.
+/// Lowers the target as raise_together raises it. Floats must not be negative or NaN.
 OGC_HD inline void lower_together(float* target, float value) {
 #if defined(__CUDA_ARCH__)
   const unsigned here = __activemask();
@@ -137,7 +136,7 @@ OGC_HD inline void lower_together(float* target, float value) {
 #endif
 }
 
-/// Lowers the target as atomic_min does, for values that seldom do: compares first.
+/// Lowers the target as atomic_min does, but compares first: most values lower nothing.
 OGC_HD inline void lower(float* target, float value) {
   if (value < atomic_load(target)) atomic_min(target, value);
 }

@@ -1,13 +1,13 @@
-// Decides signs of polynomials in the coordinates exactly. A polynomial is a functor over a number type. `exact_sign`
-// evaluates it in double beside the sum of the moduli of its terms (Filtered), and only if the rounding errors could
-// reach the value, a second time in double-double (Wide). Polynomials of degree up to 4 are first tried in single
-// precision (Single), which decides nearly all of generic input. The rest is out of line, so that code that nearly
-// never runs takes neither registers nor room in the instruction cache from code that always does.
+// Decides signs of polynomials in the coordinates exactly. A polynomial is a functor over a number type. Up to degree
+// 4, `exact_sign` first evaluates it in single precision (Single), which decides nearly all generic input. Then it
+// evaluates in double, together with the sum of the moduli of the terms (Filtered). Only if rounding errors could reach
+// the value, it evaluates in double-double (Wide). All but Single is out of line, so that rare code takes neither
+// registers nor instruction cache from code that always runs.
 //
-// Why double at all: the difference of two single-precision coordinates of similar size is exact in it, so a predicate
-// of degree 2 or 4 loses nothing but a few roundings of 2⁻⁵³, and doubtful cases are rare enough to be paid for.
-// Double-double carries 106 bits; a value under 2⁻⁹⁸ of its terms there counts as zero, so exact degeneracies
-// (lattices, coplanar layers, collinear triangles) are recognised.
+// Double suffices for nearly all predicates, because the difference of two single-precision coordinates of similar size
+// is exact in it. A predicate of degree 2 or 4 then only has a few roundings of 2⁻⁵³. Double-double has 106 bits. A
+// value under 2⁻⁹⁸ of its terms counts as zero there, so that exact degeneracies (lattices, coplanar layers, collinear
+// triangles) are recognised.
 #pragma once
 
 #include <cmath>
@@ -17,12 +17,11 @@
 
 namespace ogc::fast {
 
-/// A double whose operations are each rounded by themselves.
+/// A double; each of its operations is rounded by itself.
 struct Rounded {
   double value = 0;
 
-  /// Returns the difference of two coordinates, rounded once; `exact` returns a constant. Polynomials are built of
-  /// both.
+  /// Return the difference of two coordinates, rounded once, and a constant. Polynomials consist of both.
   OGC_HD static Rounded difference(float a, float b) { return {sub(static_cast<double>(a), static_cast<double>(b))}; }
   OGC_HD static Rounded exact(double a) { return {a}; }
   friend OGC_HD Rounded operator+(Rounded a, Rounded b) { return {add(a.value, b.value)}; }
@@ -32,7 +31,7 @@ struct Rounded {
   friend OGC_HD Rounded operator/(Rounded a, Rounded b) { return {divide(a.value, b.value)}; }
 };
 
-/// Holds a sign, and whether rounding errors cannot have changed it.
+/// Holds a sign, and whether it is certain despite rounding errors.
 struct Sign {
   int value = 0;  ///< −1, 0 or 1
   bool certain = true;
@@ -41,14 +40,14 @@ struct Sign {
 /// Returns −1, 0 or 1; 0 for NaN.
 OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
 
-/// Evaluates in single precision: the value and the sum of the moduli of its terms, for degrees up to 4. How its
-/// operations are contracted changes no sign that it is certain of, as contraction only leaves roundings out.
+/// Holds a value in single precision with the sum of the moduli of its terms, for degrees up to 4. Contraction changes
+/// no certain sign, because it only omits roundings.
 struct Single {
   float value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 
   /// Returns a difference of floats, which has one relative error of u = 2⁻²⁴, however small it is. Its modulus counts
-  /// as 2⁻³⁰ at least: then no scale of degree 4 is below 2⁻¹²⁰, and what products of values lose by underflow, 2⁻¹⁵⁰
-  /// each, is nothing beside u · scale.
+  /// as at least 2⁻³⁰, so no scale of degree 4 is below 2⁻¹²⁰. Underflow of products then loses 2⁻¹⁵⁰ each, far less
+  /// than u · scale.
   OGC_HD static Single difference(float a, float b) {
     const float d = a - b;
     return {d, larger(fabsf(d), 0x1p-30F)};
@@ -59,8 +58,8 @@ struct Single {
   friend OGC_HD Single operator-(Single a, Single b) { return {a.value - b.value, a.scale + b.scale}; }
   friend OGC_HD Single operator*(Single a, Single b) { return {a.value * b.value, a.scale * b.scale}; }
 
-  /// Returns the sign as Filtered::sign does, with u = 2⁻²⁴. If something overflowed nothing is certain: an infinite
-  /// scale is above all values.
+  /// Returns the sign as Filtered::sign does, with u = 2⁻²⁴. After an overflow nothing is certain, because no value
+  /// exceeds an infinite scale.
   OGC_HD Sign sign() const { return {(value > 0) - (value < 0), fabsf(value) > scale * 0x1p-18F}; }
 };
 
@@ -80,8 +79,8 @@ struct Filtered {
   friend OGC_HD Filtered operator*(Filtered a, Filtered b) { return {mul(a.value, b.value), mul(a.scale, b.scale)}; }
 
   /// Returns the sign. Each term of a polynomial of degree d with nested sums passes at most d differences, d − 1
-  /// products and, by degree, 2, 5, 8 … sums: under 32 roundings of 2⁻⁵³ up to degree 6. The scale, rounded the same
-  /// way, is short of the exact one by no more. 2⁻⁴⁷ is twice their sum.
+  /// products and, by degree, 2, 5, 8 … sums: under 32 roundings of 2⁻⁵³ up to degree 6. The scale has the same
+  /// rounding error. 2⁻⁴⁷ is twice the sum of both.
   OGC_HD Sign sign() const { return {sign_of(value), modulus(value) > mul(scale, 0x1p-47)}; }
 };
 
@@ -89,7 +88,7 @@ struct Filtered {
 struct Wide {
   double high = 0, low = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of high + low
 
-  /// Returns a difference or a constant without an error: two doubles hold the difference of any two floats.
+  /// Return a difference and a constant, both exact: two doubles hold the difference of any two floats.
   OGC_HD static Wide difference(float a, float b) { return sum_of(static_cast<double>(a), -static_cast<double>(b)); }
   OGC_HD static Wide exact(double a) { return {a, 0, modulus(a)}; }
   friend OGC_HD Wide operator+(const Wide& a, const Wide& b) {
@@ -117,15 +116,14 @@ struct Wide {
   }
 };
 
-/// Returns p − q without a loss that matters: exact in double if the coordinates are of similar size, exact in Wide
-/// always.
+/// Returns p − q: exact in double if the coordinates are of similar size, always exact in Wide.
 template <class N>
 OGC_HD Vector<N> difference(const Vec& p, const Vec& q) {
   return {N::difference(p.x, q.x), N::difference(p.y, q.y), N::difference(p.z, q.z)};
 }
 
-/// Decides the sign beyond single precision. The polynomial is passed by value: a reference would force the coordinates
-/// into memory.
+/// Decides the sign in double and, if necessary, double-double. The polynomial is passed by value: a reference would
+/// force the coordinates into memory.
 template <class Polynomial>
 OGC_HD OGC_OUT_OF_LINE int exact_sign_in_double(Polynomial polynomial) {
   const Sign quick = polynomial.template value<Filtered>().sign();

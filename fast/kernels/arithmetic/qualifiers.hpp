@@ -1,4 +1,4 @@
-// Defines the qualifiers of kernels, which are mathematics in plain headers: g++ and nvcc compile the same lines.
+// Defines qualifiers that let g++ and nvcc compile the same kernels.
 #pragma once
 
 #if defined(__CUDACC__)
@@ -7,13 +7,13 @@
 #define OGC_HD
 #endif
 
-/// Marks a function that is called and not inlined.
+/// Marks a function that is never inlined.
 #define OGC_OUT_OF_LINE __attribute__((noinline))
 
 namespace ogc::fast {
 
-/// Returns f(), called and not inlined: code that seldom runs takes neither registers nor room in the instruction cache
-/// from code that always does. `f` is passed by value: a reference would force what it reads into memory.
+/// Returns f() without inlining it, so that rare code takes neither registers nor instruction cache from code that
+/// always runs. `f` is passed by value: a reference would force what it reads into memory.
 template <class F>
 OGC_HD OGC_OUT_OF_LINE auto called(F f) {
   return f();

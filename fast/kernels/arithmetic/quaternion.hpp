@@ -1,5 +1,5 @@
-// Defines quaternions, in single precision with the layout of compare::Quaternion. Products are added from the left, as
-// in vector.hpp.
+// Defines quaternions, in single precision with the layout of compare::Quaternion. Sums of products are evaluated from
+// the left, as in vector.hpp.
 #pragma once
 
 #include "fast/kernels/arithmetic/scalar.hpp"
@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// The quaternion u + w. Four floats are sixteen bytes, which a device reads at once.
+/// The quaternion x i + y j + z k + w. Its alignment lets a device read four floats at once.
 template <class T>
 struct alignas(4 * sizeof(T)) QuatOf {
   T x = 0, y = 0, z = 0, w = 1;  ///< factors of i, j, k, and the real part
@@ -26,13 +26,13 @@ template <class T>
 OGC_HD QuatOf<T> operator*(T s, const QuatOf<T>& a) {
   return {s * a.x, s * a.y, s * a.z, s * a.w};
 }
-/// a where the condition holds, else b, component by component.
+/// Returns a if the condition holds, else b, component by component.
 template <class T, class M>
 OGC_HD QuatOf<T> select(const M& condition, const QuatOf<T>& a, const QuatOf<T>& b) {
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z),
           select(condition, a.w, b.w)};
 }
-/// a b, the product of quaternions.
+/// Returns the product of quaternions a b.
 template <class T>
 OGC_HD QuatOf<T> operator*(const QuatOf<T>& a, const QuatOf<T>& b) {
   return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
@@ -62,8 +62,8 @@ OGC_HD inline Vec turned_back(const Quat& q, const Vec& v) { return turned(conju
 /// Returns R(q) e₃, the direction of a segment of this orientation.
 OGC_HD inline Vec director(const Quat& q) { return turned(q, {0.0f, 0.0f, 1.0f}); }
 
-/// Returns q/‖q‖ of a q that is not 0. The second factor removes the rounding of root and quotient, which a device need
-/// not round correctly: the result's norm is 1 within 4 u.
+/// Returns q/‖q‖; q is not 0. The second factor corrects the rounding of root and quotient, which may be inexact on a
+/// device. The norm of the result is 1 within 4 u.
 template <class T>
 OGC_HD QuatOf<T> unit(const QuatOf<T>& q) {
   const QuatOf<T> near = T(1.0f / root(dot(q, q))) * q;

@@ -1,6 +1,6 @@
-// Defines arithmetic whose every operation is rounded by itself. The host never contracts (-ffp-contract=off); nvcc
-// does unless told otherwise, operation by operation. These intrinsics tell it, so that detection gives the same bits
-// on both sides in every build, not in `strict` alone.
+// Defines arithmetic whose every operation is rounded by itself. The host never contracts operations
+// (-ffp-contract=off), but nvcc does, except with these intrinsics. So detection gives the same bits on both sides in
+// every build, not only in `strict`.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ namespace ogc::fast {
 #define OGC_ROUNDED(on_device, on_host) return on_host
 #endif
 
-/// Each computes one IEEE operation, rounded to nearest and never contracted with another one.
+/// Each computes one IEEE operation, rounded to nearest and never contracted.
 OGC_HD inline double add(double a, double b) { OGC_ROUNDED(__dadd_rn(a, b), a + b); }
 OGC_HD inline double sub(double a, double b) { OGC_ROUNDED(__dsub_rn(a, b), a - b); }
 OGC_HD inline double mul(double a, double b) { OGC_ROUNDED(__dmul_rn(a, b), a * b); }

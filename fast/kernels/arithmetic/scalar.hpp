@@ -1,5 +1,5 @@
-// Defines what a formula needs of its number type beyond + − × ÷, so that it can be written once for a float and for
-// several at a time (fast/cpu/pack.hpp).
+// Defines what a formula needs of its number type beyond + − × ÷. So a formula is written once, for one float and for
+// several side by side (fast/cpu/pack.hpp).
 #pragma once
 
 #include <cmath>
@@ -24,14 +24,15 @@ template <class T, class M>
 OGC_HD Vector<T> select(const M& condition, const Vector<T>& a, const Vector<T>& b) {
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
-/// Returns a() where the condition holds, else b(). One number computes one of both; several side by side compute both.
+/// Returns a() if the condition holds, else b(). A single number computes one of them; several side by side compute
+/// both.
 template <class A, class B>
 OGC_HD float choose(bool condition, const A& a, const B& b) {
   return condition ? a() : b();
 }
 OGC_HD inline float absolute(float a) { return fabsf(a); }
 OGC_HD inline float root(float a) { return sqrtf(a); }
-/// Returns whether the condition is true for no number, so that a formula may end early.
+/// Returns whether the condition holds for no number, so that a formula may end early.
 OGC_HD inline bool is_false(bool condition) { return !condition; }
 
 }  // namespace ogc::fast

@@ -6,7 +6,6 @@
 
 namespace ogc::fast {
 
-/// Three numbers.
 template <class T>
 struct Vector {
   T x{}, y{}, z{};
@@ -21,10 +20,10 @@ struct Vector {
   }
 };
 
-/// A point or vector in single precision [unit given where it is used].
+/// A point or vector in single precision; its unit is given at each use.
 using Vec = Vector<float>;
 
-/// A position that is gathered again and again: sixteen bytes are one read on a device, and one register on a CPU.
+/// A position that is read often. Its 16 bytes are one read on a device and one register on a CPU.
 struct alignas(16) PaddedVec {
   float x = 0, y = 0, z = 0, unused = 0;  ///< `unused` fills it up to 16 B
 
@@ -63,7 +62,7 @@ template <class T>
 OGC_HD Vector<T> operator*(const Vector<T>& a, const T& s) {
   return {a.x * s, a.y * s, a.z * s};
 }
-/// Returns a·b. Products are added from the left: if operations are rounded by themselves the order decides the bits.
+/// Returns a·b. Products are added from the left: the order of rounded sums decides bits.
 template <class T>
 OGC_HD T dot(const Vector<T>& a, const Vector<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -8,18 +8,18 @@
 
 namespace ogc::fast {
 
-/// A hinge seen from one of its vertices. At an end of the edge `index` is the other end, o0, o1 (with the own vertex
-/// as x0); at an opposite vertex it is x0, x1, o1 (with the own vertex as o0).
+/// A hinge as one of its vertices sees it. An end of the edge is x0 itself, and `index` holds x1, o0, o1. An opposite
+/// vertex is o0 itself, and `index` holds x0, x1, o1.
 struct alignas(8) HingeIncidence {
   int index[3] = {0, 0, 0};  ///< encoded
   int hinge = -1;            ///< number in RestState::hinges; ~number at an opposite vertex
   HingeStencil stencil{};    ///< c and θ₀
 };
 
-/// Energy of hinge i, given the functor of its model.
+/// Returns the energy of hinge i, for the functor of its model.
 struct HingeEnergy {
   const HingeRest& rest;
-  const HingeWeights* weights;  ///< by hinge; read where the model reads them
+  const HingeWeights* weights;  ///< by hinge; read only if the model `reads_weights`
   int i;
   const Vec* to;  ///< from x0 to x1, o0 and o1 [m]
 
@@ -31,19 +31,20 @@ struct HingeEnergy {
   }
 };
 
-/// The kind. Roles 0 and 1 are the ends of the edge, 2 and 3 the opposite vertices.
+/// Describes hinges as a kind of element (kind.hpp). Roles 0 and 1 are the ends of the edge, 2 and 3 the opposite
+/// vertices.
 struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   using Beside = IsometricStencil;
   using RestBeside = HingeWeights;
-  using Start = float;  ///< θᵗ [rad]; 0 where the hinge has collapsed
+  using Start = float;  ///< θᵗ [rad]; 0 for a collapsed hinge
   /// The kind's part of SweepView.
   struct View {
     StreamView<HingeIncidence, IsometricStencil, float, NoData, false> hinges;
   };
   static constexpr unsigned asked = asks_hinges;
   static constexpr int row_in_vertex = 1;
-  /// The other vertices as a vertex of each role lists them. Exchanging both pairs at once keeps the angle
-  /// (fast/kernels/models/discrete_hinge.hpp).
+  /// The roles of the other vertices, in the order in which a vertex of each role lists them. Exchanging x0 with x1 and
+  /// o0 with o1 keeps the angle (fast/kernels/models/discrete_hinge.hpp).
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
   /// fast/kernels/models/discrete_hinge.hpp: differences 9, normals 18, squares 25, their limits 4, length 1,
   /// projections 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block
@@ -63,7 +64,8 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
     incidence.stencil = {rest.stiffness, rest.angle};
     return incidence;
   }
-  /// Weights in the order of the incidence. That of x0 is made of the stored ones and rounded once.
+  /// Returns the weights in the order of the incidence. The weight of x0 is computed from the stored ones and rounded
+  /// once.
   static IsometricStencil beside(const HingeRest&, const HingeWeights& rest, int role) {
     const float* w = rest.weight;
     const float all[4] = {
@@ -87,7 +89,7 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   }
 };
 
-/// Reads hinges. `angle_start`: θᵗ by hinge.
+/// Reads the data of hinges. `angle_start` is θᵗ by hinge.
 template <class Items>
 OGC_HD HingeReadsOf<typename Items::Number> read_hinges(const SweepShared& view, const float* angle_start,
                                                         const Items& items, const SurfaceMaterial& material) {
@@ -103,7 +105,7 @@ OGC_HD HingeReadsOf<typename Items::Number> read_hinges(const SweepShared& view,
   return reads;
 }
 
-// Branches as in triangle.hpp.
+// The order of branches decides bits, as in triangle.hpp.
 
 /// Adds a hinge, given the functor of its model; `damping` is k_d/h.
 struct AddHinge {
@@ -118,7 +120,7 @@ struct AddHinge {
     Model::add(hinge, damping, sum);
   }
 };
-/// Adds what `add` of the model leaves out of the damping, with the same arguments.
+/// Adds the part of the damping that the model's `add` omits; the arguments are the same.
 struct AddHingeDamper {
   const HingeSeen& hinge;
   float damping;
@@ -142,15 +144,15 @@ struct AddDiscreteHinge {
                        material.bending_damping, own, sum);
   }
 };
-/// A hinge with its weights, where it has any.
+/// A hinge with its isometric weights.
 struct AnyHinge {
   HingeIncidence hinge;
-  IsometricStencil isometric;  ///< 0 where no body bends isometrically
+  IsometricStencil isometric;  ///< 0 if no body bends isometrically
 };
 /// Loads hinge k of a vertex with its weights.
 struct LoadAnyHinge {
-  const HingeIncidence* first;        ///< of the vertex's row
-  const IsometricStencil* isometric;  ///< of the same row; null where no body bends isometrically
+  const HingeIncidence* first;        ///< row of the vertex
+  const IsometricStencil* isometric;  ///< the same row; null if no body bends isometrically
 
   OGC_HD AnyHinge operator()(int k) const {
     AnyHinge any{first[k], {}};
@@ -158,7 +160,7 @@ struct LoadAnyHinge {
     return any;
   }
 };
-/// Adds a hinge of any model with whatever damping.
+/// Adds a hinge of any model with any form of damping.
 struct AddAnyHinge {
   const SweepShared& view;
   const float* angle_start;  ///< θᵗ by hinge [rad]
@@ -182,7 +184,7 @@ struct AddAnyHinge {
   }
 };
 
-/// Discrete hinges with damping of strains.
+/// Gives the part of a sum for discrete hinges with damping of strains.
 struct UsualHinges {
   static constexpr unsigned gives = asks_hinges;
 
@@ -196,7 +198,7 @@ struct UsualHinges {
             {view, view.hinges.start, view.materials[vertex.body], own.position}};
   }
 };
-/// Hinges of any model with whatever damping.
+/// Gives the part of a sum for hinges of any model with any form of damping.
 struct Hinges {
   static constexpr unsigned gives = asks_hinges | asks_any_model;
 
@@ -210,12 +212,12 @@ struct Hinges {
             {view, view.hinges.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Whether packs can add the hinges of a vertex.
+  /// Returns whether packs can add the hinges of a vertex.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_bending(view.models[vertex.body]);
   }
-  /// Adds them in packs.
+  /// Adds the hinges of a vertex in packs.
   template <class View, class Lanes>
   static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
                         Lanes& lanes) {

@@ -1,18 +1,18 @@
-// What all kinds of elements have in common. A kind is a struct in a file of its own beside this one; kinds.hpp lists
-// them. It has
+// Defines what all kinds of elements have in common. Each kind is a struct in a file of this folder; kinds.hpp lists
+// them. A kind has
 //
-//   Rest, Incidence   an element at rest; what one of its vertices sees of it
+//   Rest, Incidence   an element at rest; the element as one of its vertices sees it
 //   Beside, Start, ByBody, RestBeside
-//                     further data, `NoData` where there are none: StreamView says what; `RestBeside` belongs to Rest
-//   stream(view)      its stream in a SweepView, and `View`, the part of SweepView that holds it
-//   asked             its bit among what a scene asks of a sum
-//   row_in_vertex     its place in SweepVertex::rows; −1: its rows are an array of their own
-//   is_curve          whether vertices have few elements, so that a narrow team serves them
-//   count, vertices   how many vertices an element has, and which
-//   seen, beside      the incidence of a vertex by its role, that is by its place among the vertices
+//                     further data (see StreamView), `NoData` if there are none; RestBeside extends Rest
+//   stream(view)      its stream in a SweepView; `View` is the part of SweepView that holds the stream
+//   asked             its bit among the features that a scene requires of a sum
+//   row_in_vertex     index of its row in SweepVertex::rows; −1: its rows are a separate array
+//   is_curve          whether vertices have few elements, so that a narrow team suffices
+//   count, vertices   number of an element's vertices, and these vertices
+//   seen, beside      the incidence of a vertex, by the vertex's role: its place among the element's vertices
 //   begin             Start of an element, from xᵗ
-//   add_energy        an element's energy
-//   flop, damping_flop  operations of an incidence, and what damping adds (fast/work.cpp)
+//   add_energy        adds an element's energy
+//   flop, damping_flop  operations of an incidence, and those that damping adds (fast/work.cpp)
 #pragma once
 
 #include "fast/kernels/models/damping.hpp"
@@ -21,7 +21,7 @@
 
 namespace ogc::fast {
 
-/// What a kind has if it does not say otherwise.
+/// Holds the defaults of a kind.
 template <class RestOfKind, class IncidenceOfKind>
 struct ElementKind {
   using Rest = RestOfKind;
@@ -32,11 +32,12 @@ struct ElementKind {
   using RestBeside = NoData;
   static constexpr int row_in_vertex = -1;
   static constexpr bool is_curve = false;
-  static constexpr bool reports_state = false;  ///< whether each step reports its `add_energy`, or only some do
+  /// whether `add_energy` runs in each step, and not only in steps that report energies
+  static constexpr bool reports_state = false;
   static constexpr double damping_flop = 0;
 };
 
-/// The row of a vertex in the stream of a kind. `is_there`: the scene surely has such elements.
+/// Returns the row of a vertex in the stream of a kind. `is_there`: the scene certainly has such elements.
 template <class Kind, bool is_there, class View>
 OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
   if constexpr (Kind::row_in_vertex >= 0)
@@ -47,7 +48,7 @@ OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
     return {};
 }
 
-/// for_each over the elements of a kind at the start of a step: computes what their damping counts from.
+/// Computes the values at the start of a step that damping refers to. Index over the elements of a kind.
 template <class Kind>
 struct BeginElement {
   const typename Kind::Rest* rest;       ///< by element
@@ -57,11 +58,11 @@ struct BeginElement {
   OGC_HD void operator()(int i) const { value_at_start[i] = Kind::begin(rest[i], start); }
 };
 
-/// The elements of a kind, and what their energy reads.
+/// Holds the elements of a kind and the data that their energy reads.
 template <class Kind>
 struct ElementsView {
   const typename Kind::Rest* rest = nullptr;          ///< by element
-  const typename Kind::RestBeside* beside = nullptr;  ///< by element; null where no model of the scene reads it
+  const typename Kind::RestBeside* beside = nullptr;  ///< by element; null if no model of the scene reads it
   const typename Kind::ByBody* by_body = nullptr;     ///< by body
   const SurfaceMaterial* materials = nullptr;         ///< by body
   const SurfaceModels* models = nullptr;              ///< by body

@@ -1,4 +1,4 @@
-// The list of the kinds of elements. Whatever treats all kinds alike runs over it.
+// Lists the kinds of elements. Code that treats all kinds alike runs over this list.
 #pragma once
 
 #include "fast/kernels/kinds/hinge.hpp"
@@ -12,10 +12,10 @@ namespace ogc::fast {
 /// A list of kinds.
 template <class... Kinds>
 struct KindList {
-  /// The streams of all.
+  /// The streams of all kinds.
   struct Views : Kinds::View... {};
 
-  /// use(kind) for each, in order.
+  /// Calls use(kind) for each kind, in order.
   template <class Use>
   static void for_each(const Use& use) {
     (use(Kinds{}), ...);
@@ -25,7 +25,7 @@ struct KindList {
 /// All kinds, in the order in which a sum adds their parts.
 using Kinds = KindList<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
 
-/// What the updates of a sweep read and write.
+/// Holds what the updates of a sweep read and write.
 struct SweepView : SweepShared, Kinds::Views {};
 
 }  // namespace ogc::fast

@@ -6,18 +6,18 @@
 
 namespace ogc::fast {
 
-/// What the sweep reads and writes of rods: the stream of segments by vertex, and the quaternions that segments have
-/// beside the vertices.
+/// Holds what the sweep reads and writes of rods: the stream of segments by vertex, and the segments' quaternions.
 struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // by body: k_d/h [1]
   const SegmentSlot* slots = nullptr;                                       ///< by slot of the segments
-  const Vec* direction = nullptr;           ///< by segment: c, as rod_rest_direction; null where none damps strains
+  const Vec* direction = nullptr;           ///< by segment: c of rod_rest_direction; null if no segment damps strains
   const Quat* orientation_start = nullptr;  ///< by segment: qᵗ
   Quat* orientation = nullptr;              ///< by segment: q
   bool is_damped_by_vertex = false;         ///< DampingForm::per_vertex
   bool as_published = false;                ///< μ = σ + ‖b‖ in place of the root
 };
 
-/// The kind. A segment's energy is summed up beside the extremes of rods (fast/kernels/sums/rod_sums.hpp).
+/// Describes segments as a kind of element (kind.hpp). Their energy is summed in fast/kernels/sums/rod_sums.hpp,
+/// together with the extremes of rods.
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   using ByBody = float;
   /// The kind's part of SweepView.
@@ -41,7 +41,7 @@ struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   }
 };
 
-/// c of a segment: e₃ where no strain is damped.
+/// Returns c of a segment; e₃ if no strain is damped.
 OGC_HD inline Vec segment_direction(const RodStream& rods, int segment) {
   return rods.direction != nullptr ? rods.direction[segment] : Vec{0.0f, 0.0f, 1.0f};
 }
@@ -66,7 +66,7 @@ struct AddRod {
   }
 };
 
-/// Segments with whatever damping. `is_there`: the scene surely has some.
+/// Gives the part of a sum for segments with any form of damping. `is_there`: the scene certainly has segments.
 template <bool is_there>
 struct AnySegments {
   static constexpr unsigned gives = asks_segments | asks_any_model;

@@ -7,14 +7,14 @@
 
 namespace ogc::fast {
 
-/// A spring as its end `own` sees it. `index` names all ends, encoded as sweep_view.hpp says.
+/// A spring as its end `own` sees it. `index` holds all ends, encoded as in sweep_view.hpp.
 struct SpringIncidence {
   int index[3] = {0, 0, 0};
   int own = 0;          ///< number of the end, 0 … 2
   SpringRest spring{};  ///< rest data, the same at each end
 };
 
-/// The kind.
+/// Describes springs as a kind of element (kind.hpp).
 struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
   /// The kind's part of SweepView.
   struct View {
@@ -42,7 +42,7 @@ struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
   }
 };
 
-/// Adds a spring with whatever damping.
+/// Adds a spring with any form of damping.
 struct AddSpring {
   const SweepShared& view;
   SurfaceModels models;
@@ -72,7 +72,7 @@ struct AddSpring {
   }
 };
 
-/// Springs with whatever damping, of a scene that may have none.
+/// Gives the part of a sum for springs with any form of damping. The scene may have no springs.
 struct Springs {
   static constexpr unsigned gives = asks_springs | asks_any_model;
 

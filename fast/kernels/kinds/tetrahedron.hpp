@@ -8,15 +8,15 @@
 
 namespace ogc::fast {
 
-/// A tetrahedron as one of its corners sees it. `index` names the other three in the order in which they make a
-/// positive volume at rest, encoded as sweep_view.hpp says.
+/// A tetrahedron as one of its corners sees it. `index` holds the other three, encoded as in sweep_view.hpp. The corner
+/// itself and then these three, in this order, have a positive volume at rest.
 struct alignas(16) TetrahedronIncidence {
   int index[3] = {0, 0, 0};      ///< a, b, c of models/tetrahedron.hpp
   int tetrahedron = -1;          ///< number in RestState::tetrahedra
   TetrahedronStencil stencil{};  ///< w and i
 };
 
-/// The kind.
+/// Describes tetrahedra as a kind of element (kind.hpp).
 struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   using Beside = TetrahedronGradients;
   using Start = SolidStrain;  ///< Gᵗ
@@ -26,10 +26,10 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
     StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial, true> tetrahedra;
   };
   static constexpr unsigned asked = asks_tetrahedra;
-  static constexpr bool reports_state = true;  ///< how many are inverted
-  /// The other corners as each corner lists them: those of the opposite face, in the order of a positive volume.
+  static constexpr bool reports_state = true;  ///< the number of inverted tetrahedra
+  /// The other corners in the order in which each corner lists them.
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  /// The number of a pair of corners among the weights.
+  /// The index of each pair of corners among the weights.
   static constexpr int pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
   /// fast/kernels/models/tetrahedron.hpp: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces
   /// 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
@@ -56,7 +56,7 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
     incidence.tetrahedron = tetrahedron;
     return incidence;
   }
-  /// ∇N₀ is made of the stored gradients and rounded once.
+  /// Returns the gradients in the order of the incidence. ∇N₀ is computed from the stored gradients and rounded once.
   static TetrahedronGradients beside(const TetrahedronRest& rest, const NoData&, int corner) {
     float gradient[4][3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -89,14 +89,14 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   }
 };
 
-/// Tetrahedra as one of their corners sees them.
+/// Holds what tetrahedra read of one of their corners.
 template <class N>
 struct TetrahedronReadsOf {
   TetrahedronStencilOf<N> stencil;
   Vector<N> a, b, c;  ///< from the own corner to the others [m]
 };
 
-/// Reads them.
+/// Reads the data of tetrahedra; `own` is the position of the corner.
 template <class Items>
 OGC_HD TetrahedronReadsOf<typename Items::Number> read_tetrahedra(const SweepShared& view, const Items& items,
                                                                   const Vector<typename Items::Number>& own) {
@@ -109,21 +109,21 @@ OGC_HD TetrahedronReadsOf<typename Items::Number> read_tetrahedra(const SweepSha
           items.position(view, [](const Seen& i) { return i.index[1]; }) - own,
           items.position(view, [](const Seen& i) { return i.index[2]; }) - own};
 }
-/// Adds them without damping.
+/// Adds tetrahedra without damping.
 template <class N>
 OGC_HD void add_tetrahedra(const TetrahedronReadsOf<N>& reads, const SolidMaterial& material, ForceAndBlockOf<N>& sum) {
   add_tetrahedron(reads.stencil, material, reads.a, reads.b, reads.c, sum);
 }
 
-/// What a tetrahedron of a vertex reads beside its incidence: place in the stream, for the damping.
+/// A tetrahedron of a vertex, with its place in the stream.
 struct LoadedTetrahedron {
   TetrahedronIncidence incidence;
-  int place;  ///< where view.tetrahedra.beside has what the damping needs
+  int place;  ///< index of its gradients in view.tetrahedra.beside
 };
 /// Loads tetrahedron k of a vertex.
 struct LoadTetrahedron {
-  const TetrahedronIncidence* first;  ///< of the vertex's row
-  int begin;                          ///< its place in the stream
+  const TetrahedronIncidence* first;  ///< row of the vertex
+  int begin;                          ///< place of the row in the stream
 
   OGC_HD LoadedTetrahedron operator()(int k) const { return {first[k], begin + k}; }
 };
@@ -131,7 +131,7 @@ struct LoadTetrahedron {
 /// Adds a tetrahedron with damping of strains.
 struct AddTetrahedron {
   const SweepShared& view;
-  const TetrahedronGradients* gradients;  ///< by incidence; read where the body damps
+  const TetrahedronGradients* gradients;  ///< by incidence; read if the body is damped
   const SolidStrain* strain_start;        ///< Gᵗ by tetrahedron
   SolidMaterial material;
   Vec own;  ///< x of the vertex [m]
@@ -144,7 +144,7 @@ struct AddTetrahedron {
                         strain_start[loaded.incidence.tetrahedron], sum);
   }
 };
-/// Adds a tetrahedron with whatever damping.
+/// Adds a tetrahedron with any form of damping.
 struct AddAnyTetrahedron {
   AddTetrahedron add;
   compare::DampingForm form;
@@ -164,7 +164,7 @@ struct AddAnyTetrahedron {
   }
 };
 
-/// Tetrahedra with damping of strains, of a scene that has some.
+/// Gives the part of a sum for tetrahedra with damping of strains. The scene must have tetrahedra.
 struct UsualTetrahedra {
   static constexpr unsigned gives = asks_tetrahedra;
 
@@ -178,7 +178,7 @@ struct UsualTetrahedra {
             {view, stream.beside, stream.start, stream.by_body[vertex.body], own.position}};
   }
 };
-/// Tetrahedra with whatever damping, of a scene that may have none.
+/// Gives the part of a sum for tetrahedra with any form of damping. The scene may have no tetrahedra.
 struct Tetrahedra {
   static constexpr unsigned gives = asks_tetrahedra | asks_any_model;
 
@@ -194,13 +194,13 @@ struct Tetrahedra {
              own.moved}};
   }
 
-  /// Whether packs can add the tetrahedra of a vertex.
+  /// Returns whether packs can add the tetrahedra of a vertex.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return view.tetrahedra.rows == nullptr ||
            (!(view.tetrahedra.by_body[vertex.body].damping > 0) && damps_strain(view.models[vertex.body].damping));
   }
-  /// Adds them in packs.
+  /// Adds the tetrahedra of a vertex in packs.
   template <class View, class Lanes>
   static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
                         Lanes& lanes) {

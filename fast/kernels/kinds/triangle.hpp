@@ -8,15 +8,15 @@
 
 namespace ogc::fast {
 
-/// A triangle as one of its corners sees it. `index` names the other two in the triangle's order, encoded as
-/// sweep_view.hpp says.
+/// A triangle as one of its corners sees it. `index` holds the other two in the triangle's order, encoded as in
+/// sweep_view.hpp.
 struct alignas(16) MembraneIncidence {
   int index[2] = {0, 0};      ///< x_b, x_c
   int triangle = -1;          ///< number in RestState::triangles
   MembraneStencil stencil{};  ///< gradients and area
 };
 
-/// Energy of a triangle, given the functor of its model.
+/// Returns the energy of a triangle, for the functor of its model.
 struct MembraneEnergy {
   const TriangleRest& rest;
   const SurfaceMaterial& material;
@@ -28,7 +28,7 @@ struct MembraneEnergy {
   }
 };
 
-/// The kind.
+/// Describes triangles as a kind of element (kind.hpp).
 struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
   using Start = Symmetric2;  ///< Gᵗ
   /// The kind's part of SweepView.
@@ -66,7 +66,7 @@ struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
   }
 };
 
-/// What triangles read: the other corners, and Gᵗ where they are damped. They read all at once: on a device a vertex
+/// Holds what triangles read: the other corners, and Gᵗ if they are damped. All reads come first: on a device a vertex
 /// waits for reads, not for arithmetic.
 template <class N>
 struct MembraneReadsOf {
@@ -75,7 +75,7 @@ struct MembraneReadsOf {
   Symmetric2Of<N> strain_start{};  ///< Gᵗ; 0 without damping
 };
 
-/// Reads it. `strain_start`: Gᵗ by triangle.
+/// Reads the data of triangles. `strain_start` is Gᵗ by triangle.
 template <class Items>
 OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared& view, const Symmetric2* strain_start,
                                                               const Items& items, const SurfaceMaterial& material) {
@@ -94,7 +94,7 @@ OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared&
   return reads;
 }
 
-/// Adds triangles of any model whose strain is damped.
+/// Adds triangles of any model with damping of strains.
 template <class N>
 OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial& material,
                           compare::MembraneModel model, const Vector<N>& own, ForceAndBlockOf<N>& sum) {
@@ -102,8 +102,8 @@ OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial
   with_membrane(model, AddDampedMembrane<N>{reads.stencil, material, to_b, to_c, reads.strain_start, sum});
 }
 
-// Models are chosen inside of the form of damping, and what a model shares with others stands outside of its choice:
-// a device contracts products and sums within a branch, so where a branch ends decides a bit.
+// The choice of the model is nested in the choice of the form of damping, and code that models share is outside of both
+// branches. This decides bits: a device contracts products and sums only within a branch.
 
 /// Adds a triangle without damping, given the functor of its model.
 struct AddElasticMembrane {
@@ -132,7 +132,7 @@ struct AddTriangle {
                   own, sum);
   }
 };
-/// Adds a triangle of any model with any damping.
+/// Adds a triangle of any model with any form of damping.
 struct AddAnyTriangle {
   const SweepShared& view;
   const Symmetric2* strain_start;  ///< Gᵗ by triangle
@@ -154,7 +154,7 @@ struct AddAnyTriangle {
   }
 };
 
-/// Triangles of any membrane, with damping of strains.
+/// Gives the part of a sum for triangles of any model with damping of strains.
 struct UsualTriangles {
   static constexpr unsigned gives = asks_triangles;
 
@@ -168,7 +168,7 @@ struct UsualTriangles {
             {view, view.triangles.start, view.materials[vertex.body], view.models[vertex.body].membrane, own.position}};
   }
 };
-/// Triangles of any membrane with whatever damping.
+/// Gives the part of a sum for triangles of any model with any form of damping.
 struct Triangles {
   static constexpr unsigned gives = asks_triangles | asks_any_model;
 
@@ -182,12 +182,12 @@ struct Triangles {
             {view, view.triangles.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Whether packs can add the triangles of a vertex.
+  /// Returns whether packs can add the triangles of a vertex.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_membrane(view.models[vertex.body]);
   }
-  /// Adds them in packs.
+  /// Adds the triangles of a vertex in packs.
   template <class View, class Lanes>
   static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
                         Lanes& lanes) {

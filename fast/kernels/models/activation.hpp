@@ -1,5 +1,6 @@
-// Defines the activations (method.md §4.2), one functor each: two stages (Eq. 18, 20; Eq. 19 corrected to k'_c = τ k_c
-// (r − τ), method.md §1.1, with τ = r/2: k'_c = k_c r²/4) and the variants of the ablation.
+// Defines the activations (method.md §4.2), one functor each. The default has two stages: Eq. 18 and Eq. 20, with Eq.
+// 19 corrected to k'_c = τ k_c (r − τ) (method.md §1.1), which for τ = r/2 is k_c r²/4. The others are variants for the
+// ablation.
 #pragma once
 
 #include <cmath>
@@ -13,15 +14,15 @@ namespace ogc::fast {
 
 using compare::ContactActivation;
 
-/// Holds g' [N] and g'' [N/m] at a distance, which a position needs; no library function is in them.
+/// Holds g' [N] and g'' [N/m] at a distance. Positions depend on them, so they use no library function.
 template <class T>
 struct ActivationSlopeOf {
   T slope{}, curvature{};
 };
 using ActivationSlope = ActivationSlopeOf<float>;
 
-/// Extends the formulas within the radius: nothing acts for d ≥ r. Distances d > 0 and radii r [m], stiffness k_c
-/// [N/m].
+/// Extends formulas for 0 < d < r to all distances: nothing acts for d ≥ r. Distances d > 0 and radii r [m], stiffness
+/// k_c [N/m].
 template <class Formulas>
 struct ActivationOf {
   /// Returns g' and g''.
@@ -32,11 +33,11 @@ struct ActivationOf {
   OGC_HD static float energy(float d, float r, float k) { return d < r ? Formulas::energy_within(d, r, k) : 0.0F; }
 };
 
-/// Is quadratic from τ = r/2 on (at d = τ, too), logarithmic below with the stiffness k'_c of `Stage`. b of Eq. 20 is
-/// folded in: g = k'_c (log τ − log d) + k_c/2 (r − τ)².
+/// Is quadratic for d ≥ τ = r/2, and logarithmic below with the stiffness k'_c of `Stage`. The constant b of Eq. 20 is
+/// included: g = k'_c (log τ − log d) + k_c/2 (r − τ)².
 template <class Stage>
 struct TwoStages : ActivationOf<TwoStages<Stage>> {
-  /// g' and g'' for 0 < d ≤ r.
+  /// Returns g' and g'' for 0 < d ≤ r.
   template <class T>
   OGC_HD static ActivationSlopeOf<T> slope_within(const T& d, float r, const T& k) {
     const Mask<T> is_logarithmic = d < T(0.5F * r);
@@ -54,7 +55,7 @@ struct TwoStages : ActivationOf<TwoStages<Stage>> {
   }
 };
 
-/// Is ContactActivation::ogc, the default.
+/// Computes ContactActivation::ogc, the default.
 struct OgcActivation : TwoStages<OgcActivation> {
   /// Returns k'_c [J].
   template <class T>
@@ -63,16 +64,16 @@ struct OgcActivation : TwoStages<OgcActivation> {
   }
 };
 
-/// Is ContactActivation::ogc_as_printed: k'_c of Eq. 19 as it is printed, k_c r³/8.
+/// Computes ContactActivation::ogc_as_printed, with k'_c of Eq. 19 as printed, k_c r³/8.
 struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
-  /// Returns k'_c as Eq. 19 prints it: its unit is J m, not J (method.md §1.1).
+  /// Returns k'_c as printed in Eq. 19: its unit is J m, not J (method.md §1.1).
   OGC_HD static float logarithmic_stiffness(float r, float k) {
     const float stiffness = 0.25F * k * r * r;
     return 0.5F * r * stiffness;
   }
 };
 
-/// Is ContactActivation::quadratic: k_c/2 (r − d)².
+/// Computes ContactActivation::quadratic: k_c/2 (r − d)².
 struct QuadraticActivation : ActivationOf<QuadraticActivation> {
   /// Returns g' = −k_c (r − d), g'' = k_c; energy_within returns g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) { return {-k * (r - d), k}; }
@@ -82,7 +83,7 @@ struct QuadraticActivation : ActivationOf<QuadraticActivation> {
   }
 };
 
-/// Is ContactActivation::ipc_log: k_c (r − d)² log(r/d).
+/// Computes ContactActivation::ipc_log: k_c (r − d)² log(r/d).
 struct IpcLogActivation : ActivationOf<IpcLogActivation> {
   /// Returns, with s = (r − d)/d, g' = −k_c (r − d) (2 ln(r/d) + s) and g'' = k_c (2 ln(r/d) + s (4 + s));
   /// energy_within returns g.
@@ -96,7 +97,7 @@ struct IpcLogActivation : ActivationOf<IpcLogActivation> {
   }
 };
 
-/// Is ContactActivation::cubic: 2 k_c/(3 r) (r − d)³.
+/// Computes ContactActivation::cubic: 2 k_c/(3 r) (r − d)³.
 struct CubicActivation : ActivationOf<CubicActivation> {
   /// Returns g' = −2 k_c/r (r − d)², g'' = 4 k_c/r (r − d); energy_within returns g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
@@ -109,8 +110,8 @@ struct CubicActivation : ActivationOf<CubicActivation> {
   }
 };
 
-/// Returns use(functor of the activation). The `switch` has no `default`: a new activation does not compile until it
-/// stands here.
+/// Returns use(functor of the activation). The `switch` has no `default`, so a new activation does not compile until it
+/// is added here.
 template <class Use>
 OGC_HD auto with_activation(ContactActivation activation, const Use& use) {
   switch (activation) {
@@ -123,7 +124,7 @@ OGC_HD auto with_activation(ContactActivation activation, const Use& use) {
   __builtin_unreachable();
 }
 
-/// An activation that is known at run time only.
+/// An activation that is only known at run time.
 struct AnyActivation {
   ContactActivation activation = ContactActivation::ogc;  ///< its functor computes `slope` and `energy`
 
@@ -131,8 +132,8 @@ struct AnyActivation {
   OGC_HD ActivationSlope slope(float d, float r, float k) const {
     return d < r ? slope_within(d, r, k) : ActivationSlope{};
   }
-  /// Returns g' and g'' for 0 < d ≤ r. At r they are the limits from below, with which a contact beyond r majorises
-  /// itself.
+  /// Returns g' and g'' for 0 < d ≤ r. At r they are the limits from below, which a contact beyond r uses as its
+  /// majorant.
   OGC_HD ActivationSlope slope_within(float d, float r, float k) const {
     return with_activation(activation, SlopeWithin{d, r, k});
   }

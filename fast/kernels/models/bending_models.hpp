@@ -1,4 +1,4 @@
-// Selects a bending model by its name. The `switch` has no `default`: a new model does not compile until it stands
+// Selects a bending model by its name. The `switch` has no `default`, so a new model does not compile until it is added
 // here.
 #pragma once
 
@@ -7,9 +7,9 @@
 
 namespace ogc::fast {
 
-/// Is BendingModel::none: hinges without energy; no rest state holds such hinges.
+/// Computes BendingModel::none: hinges without energy. No rest state holds such hinges.
 struct NoBending {
-  /// There is no stencil to add, so UsualHinges serve, and nothing is read.
+  /// UsualHinges serve, because such hinges add nothing; no weights are read.
   static constexpr bool is_default = true, reads_weights = false;
   OGC_HD static void add(const HingeSeen&, float, ForceAndBlock&) {}
   OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
@@ -27,7 +27,7 @@ OGC_HD auto with_bending(compare::BendingModel model, const Use& use) {
   __builtin_unreachable();
 }
 
-/// Returns whether UsualHinges have this bending and its damping.
+/// Returns whether UsualHinges compute this bending and its damping.
 OGC_HD inline bool has_default_bending(const SurfaceModels& models) {
   const auto is_default = [](auto model) { return decltype(model)::is_default; };
   return damps_strain(models.damping) && with_bending(models.bending, is_default);

@@ -1,5 +1,5 @@
-// Adds damping by vertex (method.md §4.9): k_d/h times a stencil's own block, on the motion of the vertex since the
-// start of the step. The other form, of strains, is in each model.
+// Adds damping by vertex (method.md §4.9): k_d/h times a stencil's own block, applied to the vertex's motion since the
+// start of the step. Each model contains the other form, damping of strains.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"

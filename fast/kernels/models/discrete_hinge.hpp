@@ -1,18 +1,18 @@
-// Adds a discrete hinge, c/2 (θ − θ₀)² with c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md §4.7) and damping c k_d/(2h) (θ − θᵗ)²,
-// seen from one vertex. The block is Gauss–Newton's.
+// Adds a discrete hinge as one vertex sees it: c/2 (θ − θ₀)² with c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md §4.7), and damping
+// c k_d/(2h) (θ − θᵗ)². The block is Gauss–Newton's.
 #pragma once
 
 #include "fast/kernels/models/hinge.hpp"
 
 namespace ogc::fast {
 
-/// Is BendingModel::discrete_hinge.
+/// Computes BendingModel::discrete_hinge.
 struct DiscreteHinge {
-  static constexpr bool is_default = true;      ///< UsualHinges and the packs of the CPU have it
+  static constexpr bool is_default = true;      ///< UsualHinges and the packs of the CPU compute it
   static constexpr bool reads_weights = false;  ///< whether it needs HingeWeights
 
-  /// Adds −∂/∂x of energy and damping and c (1 + k_d/h) ∇θ ∇θᵀ, for a vertex whose ∂θ/∂x is `gradient`. `angle_start`
-  /// is θᵗ; `damping` k_d/h.
+  /// Adds −∂/∂x of energy and damping, and the block c (1 + k_d/h) ∇θ ∇θᵀ. `gradient` is ∂θ/∂x of the vertex,
+  /// `angle_start` θᵗ, `damping` k_d/h.
   template <class T>
   OGC_HD static void add(const HingeStencilOf<T>& stencil, float damping, const T& angle, const T& angle_start,
                          const Vector<T>& gradient, ForceAndBlockOf<T>& sum) {
@@ -21,7 +21,7 @@ struct DiscreteHinge {
     sum.add_outer(stencil.stiffness * (1.0f + damping), gradient);
   }
 
-  /// Adds hinges whose shape is not known yet, seen from a vertex at `own`; nothing where it is not defined.
+  /// Adds hinges as a vertex at `own` sees them; nothing if a hinge's shape is undefined.
   template <class T>
   OGC_HD static void add(const HingeReadsOf<T>& hinge, float damping, const Vector<T>& own, ForceAndBlockOf<T>& sum) {
     const HingeShapeOf<T> shape = hinge_shape_seen<T>(hinge.opposite, hinge.p, own);
@@ -33,7 +33,7 @@ struct DiscreteHinge {
     add(hinge, damping, hinge.own, sum);
   }
 
-  /// Adds nothing: `add` has all of it.
+  /// Adds nothing: `add` includes all damping.
   OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
 
   /// Returns the energy [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.

@@ -1,14 +1,15 @@
 // Defines what all bending models share: a hinge's rest data, its angle θ and the angle's gradients. With e = x1 − x0,
 // a = o0 − x0, b = o1 − x0, n_a = e × a, n_b = b × e:
 //
-//          o0         θ = atan2(−‖e‖ n_a·b⊥, n_a·n_b): the sine as a volume, because the cross product of two nearly
-//         /  \        equal normals cancels, and of b's component across e alone: along e the errors of two needles
-//       x0 ── x1      multiply
+//          o0         θ = atan2(−‖e‖ n_a·b⊥, n_a·n_b). The sine is a volume, because the cross product of two nearly
+//         /  \        equal normals cancels. It uses only b's component across e, because along e the errors of two
+//       x0 ── x1      needles multiply
 //         \  /        ∂θ/∂o0 = −‖e‖ n_a/‖n_a‖²,  ∂θ/∂o1 = −‖e‖ n_b/‖n_b‖²
-//          o1         ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1,  s_a = a·e/‖e‖² (where o0's foot lies on the
-//                     edge); ∂θ/∂x1 with s instead of 1 − s
+//          o1         ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1,  s_a = a·e/‖e‖² (place of o0's foot on the edge);
+//                     ∂θ/∂x1 with s instead of 1 − s
 //
-// Exchanging x0 with x1 and o0 with o1 at once keeps θ, so the two roles below serve all four vertices.
+// Exchanging x0 with x1 and o0 with o1 at once keeps θ, so two roles, end of the edge and opposite vertex, serve all
+// four vertices.
 #pragma once
 
 #include <cmath>
@@ -30,12 +31,12 @@ struct HingeRest {
   float stiffness = 0;  ///< c [J]
 };
 
-/// Weights w of the isometric model [1/m]; that of x0 is minus their sum.
+/// Weights w of the isometric model [1/m]; the weight of x0 is minus their sum.
 struct HingeWeights {
   float weight[3] = {};  ///< of x1, o0, o1
 };
 
-/// Holds the angle of a hinge and what its gradients need of the present shape.
+/// Holds the angle of a hinge and the quantities of the present shape that its gradients need.
 template <class T>
 struct HingeShapeOf {
   Vector<T> normal_a, normal_b;  ///< n_a, n_b
@@ -43,15 +44,15 @@ struct HingeShapeOf {
   T beyond_a{}, beyond_b{};      ///< (1 − s) ‖e‖²: how far the feet lie from x1, times ‖e‖
   T divisor_a{}, divisor_b{};    ///< ‖e‖ ‖n‖²
   T angle{};                     ///< θ
-  /// false if a triangle or the edge collapsed: then nothing below ‖e‖² has a meaning
+  /// false if a triangle or the edge collapsed: then the members after length_squared are undefined
   Mask<T> defined{};
 };
 using HingeShape = HingeShapeOf<float>;
 
 /// Returns whether a triangle has collapsed. The cross product of two rounded differences has an error of up to 4 u
-/// ‖e‖‖a‖ (two differences, two products). A triangle has collapsed if its doubled area is below eight times that: its
-/// normal is known to no better than an eighth, and its square, by which gradients are divided, to no better than a
-/// quarter. The hinge then exerts no force, and the membrane alone opens it again.
+/// ‖e‖‖a‖ (two differences, two products). A triangle counts as collapsed if its doubled area is below eight times
+/// that: its normal may then err by more than an eighth, and the normal's square, a divisor of gradients, by more than
+/// a quarter. The hinge exerts no force then, and the membrane alone opens it again.
 template <class T>
 OGC_HD Mask<T> hinge_side_collapsed(const T& normal_squared, const T& length_squared, const T& side_squared) {
   constexpr float relative = 1024 * 0x1p-48f;  // (8 · 4 u)²
@@ -80,15 +81,15 @@ OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, co
 }
 
 /// Returns ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators serves both, because the
-/// threads of a warp hold both roles at once.
+/// threads of a warp hold both roles at the same time.
 template <class T>
 OGC_HD Vector<T> hinge_gradient(const HingeShapeOf<T>& shape, const Mask<T>& opposite) {
   const T a = select(opposite, -shape.length_squared, shape.beyond_a), b = select(opposite, T{}, shape.beyond_b);
   return (a / shape.divisor_a) * shape.normal_a + (b / shape.divisor_b) * shape.normal_b;
 }
 
-/// Returns the shape of a hinge as one of its vertices sees it. `p`: for an end of the edge, taken as x0: x1, o0, o1;
-/// for an opposite vertex, taken as o0: x0, x1, o1.
+/// Returns the shape of a hinge as one of its vertices sees it. An end of the edge is x0 itself, and `p` holds x1, o0,
+/// o1. An opposite vertex is o0 itself, and `p` holds x0, x1, o1.
 template <class T>
 OGC_HD HingeShapeOf<T> hinge_shape_seen(const Mask<T>& opposite, const Vector<T>* p, const Vector<T>& own) {
   const Vector<T> base = select(opposite, p[0], own), end = select(opposite, p[1], p[0]),
@@ -103,25 +104,25 @@ struct HingeStencilOf {
 };
 using HingeStencil = HingeStencilOf<float>;
 
-/// Holds the weights in the isometric model: of the vertex itself and of the others in the order of its hinge incidence
+/// Holds the weights in the isometric model: of the vertex itself, and of the others in the order of HingeIncidence
 /// [1/m].
 struct IsometricStencil {
   float own = 0, other[3] = {};
 };
 
-/// What the discrete model reads of hinges, seen from the vertex that is solved.
+/// Holds what the discrete model reads of hinges as one vertex sees them.
 template <class N>
 struct HingeReadsOf {
   HingeStencilOf<N> stencil;  ///< c and θ₀
-  Mask<N> opposite;           ///< the vertex is none of the edge
+  Mask<N> opposite;           ///< the vertex is not on the edge
   Vector<N> p[3];             ///< positions of the others, as in hinge_shape_seen [m]
   N angle_start{};            ///< θᵗ [rad]; 0 without damping
 };
 
-/// All that a bending model reads of a hinge.
+/// Holds all that a bending model reads of a hinge.
 struct HingeSeen : HingeReadsOf<float> {
   Vec own;                     ///< position of the vertex that is solved [m]
-  IsometricStencil isometric;  ///< where the body bends so
+  IsometricStencil isometric;  ///< read by the isometric model
 };
 
 }  // namespace ogc::fast

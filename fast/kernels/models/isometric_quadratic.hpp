@@ -1,15 +1,15 @@
-// Adds isometric quadratic bending of a flat rest shape, c/2 ‖ℓ‖² with ℓ = Σ w_i x_i (compare/stages/bending.hpp), seen
-// from one vertex. The weights add up to 0, so ℓ is formed from differences to that vertex. Damping is the discrete
-// hinge's, with θᵗ for a rest angle.
+// Adds isometric quadratic bending of a flat rest shape as one vertex sees it: c/2 ‖ℓ‖² with ℓ = Σ w_i x_i
+// (compare/stages/bending.hpp). The weights add up to 0, so ℓ is computed from differences to that vertex. Damping is
+// the discrete hinge's, with θᵗ as the rest angle.
 #pragma once
 
 #include "fast/kernels/models/discrete_hinge.hpp"
 
 namespace ogc::fast {
 
-/// Is BendingModel::isometric_quadratic.
+/// Computes BendingModel::isometric_quadratic.
 struct IsometricQuadratic {
-  /// UsualHinges and the packs of the CPU lack it, and it reads HingeWeights.
+  /// UsualHinges and the packs of the CPU do not compute it, and it reads HingeWeights.
   static constexpr bool is_default = false;
   static constexpr bool reads_weights = true;
 

@@ -1,4 +1,4 @@
-// Holds what a surface is made of: constants and models by body.
+// Holds constants and models of surfaces, by body.
 #pragma once
 
 #include "compare/problem/scene.hpp"
@@ -11,7 +11,7 @@ struct alignas(16) SurfaceMaterial {
   float membrane_damping = 0, bending_damping = 0;  ///< k_d/h [1] of membranes and of hinges
 };
 
-/// Models of a body; read only if a scene has other models than the default ones.
+/// Models of a body; only read if a scene has other models than the default ones.
 struct SurfaceModels {
   compare::MembraneModel membrane = compare::MembraneModel::st_venant_kirchhoff;  ///< method.md §4.6
   compare::BendingModel bending = compare::BendingModel::discrete_hinge;          ///< method.md §4.7

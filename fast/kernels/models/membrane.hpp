@@ -1,6 +1,6 @@
 // Defines what all membrane models share: a triangle's rest data, F = Σ x_k ∇N_kᵀ (3×2), Green's strain G = (FᵀF −
-// I)/2, and the damping (k_d/h) ψ(G − Gᵗ) with the quadratic ψ (method.md §4.6, §4.9). Everything is written in
-// differences to the corner that is solved, so that only relative coordinates are rounded.
+// I)/2, and the damping (k_d/h) ψ(G − Gᵗ) with the quadratic ψ (method.md §4.6, §4.9). All formulas use differences to
+// the corner that is solved, so that only relative coordinates are rounded.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -40,8 +40,8 @@ OGC_HD DeformationGradientOf<T> deformation_gradient(const Vector<T>& to_b, cons
   return {gradient_b[0] * to_b + gradient_c[0] * to_c, gradient_b[1] * to_b + gradient_c[1] * to_c};
 }
 
-/// Returns G = (FᵀF − I)/2. The diagonal as (‖f‖ − 1)(‖f‖ + 1)/2 would need a root; the plain form loses u, in the
-/// stress u times the stiffness λ.
+/// Returns G = (FᵀF − I)/2. Its error is u, and that of the stress u times the stiffness λ. (‖f‖ − 1)(‖f‖ + 1)/2 would
+/// be more accurate but needs a root.
 template <class T>
 OGC_HD Symmetric2Of<T> green_strain(const DeformationGradientOf<T>& f) {
   return {0.5f * (dot(f.first, f.first) - 1.0f), 0.5f * dot(f.first, f.second),
@@ -56,7 +56,7 @@ OGC_HD Symmetric2Of<T> membrane_stress(const SurfaceMaterial& material, const Sy
           trace + 2 * material.lame_mu * strain.yy};
 }
 
-/// One triangle seen from its corner a; b and c follow in the triangle's order.
+/// A triangle as its corner a sees it; b and c follow in the triangle's order.
 template <class T>
 struct MembraneStencilOf {
   T gradient_b[2], gradient_c[2];  ///< ∇N_b, ∇N_c [1/m]; ∇N_a = −∇N_b − ∇N_c

@@ -1,5 +1,5 @@
-// Selects a membrane model by its name. The `switch` has no `default`: a new model does not compile until it stands
-// here.
+// Selects a membrane model by its name. The `switch` has no `default`, so a new model does not compile until it is
+// added here.
 #pragma once
 
 #include "fast/kernels/models/st_venant_kirchhoff.hpp"
@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// Is MembraneModel::none: triangles without energy; no rest state holds such triangles.
+/// Computes MembraneModel::none: triangles without energy. No rest state holds such triangles.
 struct NoMembrane {
   template <class T>
   OGC_HD static void add(const MembraneStencilOf<T>&, const SurfaceMaterial&, const Vector<T>&, const Vector<T>&,
@@ -28,7 +28,7 @@ OGC_HD auto with_membrane(compare::MembraneModel model, const Use& use) {
   __builtin_unreachable();
 }
 
-/// Adds a triangle with damping of strains, given the functor of its model.
+/// Adds a triangle with damping of strains, for the functor of its model.
 template <class T>
 struct AddDampedMembrane {
   /// Arguments of a model's `add`.
@@ -44,7 +44,7 @@ struct AddDampedMembrane {
   }
 };
 
-/// Returns whether UsualTriangles have the body's damping, and with it its membrane, whatever model it is.
+/// Returns whether UsualTriangles compute the body's membrane, which may be any model, and its damping.
 OGC_HD inline bool has_default_membrane(const SurfaceModels& models) { return damps_strain(models.damping); }
 
 }  // namespace ogc::fast

@@ -1,5 +1,5 @@
-// Computes the exact update of a segment's quaternion between its neighbours (compare/rods.md). Its root is sought as ν
-// = μ − σ: beside a stiff stretch rounding of μ would lose the neighbours' part.
+// Computes the exact update of a segment's quaternion, given its neighbours (compare/rods.md). The unknown is ν = μ −
+// σ: with a stiff stretch, rounding of μ would lose the neighbours' part.
 #pragma once
 
 #include <cmath>
@@ -10,12 +10,12 @@ namespace ogc::fast {
 
 /// A neighbour across one end.
 struct NeighbourRest {
-  float weight = 0;  ///< w = 4 k_b/l̄ [N m]; 0: there is none
-  Quat rest;         ///< p° = q̄° q°_f for a neighbour ahead, q̄°_f q° for one behind
+  float weight = 0;  ///< w = 4 k_b/l̄ [N m]; 0: no neighbour
+  Quat rest;         ///< p° = q̄° q°_f for a neighbour ahead, q̄°_f q° for a neighbour behind
 };
 
-/// Returns the orientation t towards which a neighbour with `q` pulls, given the relative rotation p: q p̄ ahead, q p
-/// behind.
+/// Returns the orientation t towards which a neighbour with quaternion `q` pulls, given the relative rotation p: q p̄
+/// if it is ahead, q p if behind.
 template <class T>
 OGC_HD QuatOf<T> asked_orientation(bool is_ahead, const QuatOf<T>& q, const QuatOf<T>& relative) {
   return q * (is_ahead ? conjugate(relative) : relative);
@@ -36,7 +36,7 @@ OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<
   b = select(is_there, b + pull_towards(weight, asked_orientation(is_ahead, now, relative), old), b);
 }
 
-/// Adds w (s t + k sᵗ tᵗ) to b. `now`, `start` of the neighbour; `own_start` of the segment.
+/// Adds w (s t + k sᵗ tᵗ) to b. `now` and `start` are the neighbour's, `own_start` is the segment's.
 OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, float damping, const Quat& now,
                                  const Quat& start, const Quat& own_start, const Quat& old, Quat& b) {
   add_undamped_neighbour(neighbour.weight, is_ahead, now, neighbour.rest, old, b);
@@ -45,12 +45,12 @@ OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, 
   b = b + pull_towards(damping * neighbour.weight, asked_orientation(is_ahead, now, relative), old);
 }
 
-/// The larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1, β₊ > 0: Newton's method on one over the left side's root rises to
-/// it from below. Mostly one step; where β₋ is about 2 σ and β₊ vanishes, up to twenty.
+/// Returns the larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1, β₊ > 0. Newton's method on 1/√(left side) rises to it
+/// from below. Mostly it takes one step; up to twenty if β₋ is about 2 σ and β₊ vanishes.
 template <class T>
 OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   constexpr int most_steps = 32;
-  constexpr float enough = 0x3p-23f;  // the left side is known to no better
+  constexpr float enough = 0x3p-23f;  // rounding error of the left side
   const T twice = 2.0f * sigma;
   T nu = select(upper > lower - twice, upper, lower - twice);
   for (int step = 0; step < most_steps; ++step) {
@@ -64,14 +64,14 @@ OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   return nu;
 }
 
-/// Applies M/σ: q ↦ −D q c of unit vectors, its own inverse.
+/// Applies M/σ to q: −D q c with unit vectors, which is its own inverse.
 template <class T>
 struct ReflectedFrameOf {
   QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
 
   OGC_HD QuatOf<T> operator()(const QuatOf<T>& q) const { return T(-1.0f) * (apart * q * direction); }
-  /// Returns the part of q in the eigenspace of 1, whose directors are along D. Projected twice: once leaves a rounding
-  /// of all of q outside, which would spoil a small part.
+  /// Returns the part of q in the eigenspace of 1, whose directors are along D. It projects twice: after one projection
+  /// a rounding error of the whole q is left outside, which would spoil a small part.
   OGC_HD QuatOf<T> upper(const QuatOf<T>& q) const {
     const QuatOf<T> once = T(0.5f) * (q + (*this)(q));
     return T(0.5f) * (once + (*this)(once));
@@ -79,8 +79,8 @@ struct ReflectedFrameOf {
 };
 using ReflectedFrame = ReflectedFrameOf<float>;
 
-/// A part in the upper eigenspace that is no larger than this share of the whole is rounding: two products of
-/// quaternions and half a sum err by 17 u (compare/stages/orientation.hpp), and twice that leaves room.
+/// Largest share of the whole that counts as rounding for the part in the upper eigenspace. Two products of quaternions
+/// and half a sum err by 17 u (compare/stages/orientation.hpp); twice that leaves room.
 inline constexpr float lost_part = 0x1p-19f;
 
 /// Returns the unit vector of the upper eigenspace nearest to the old q; if the old q has no part in it, nearest to 1,
@@ -94,8 +94,8 @@ OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   return unit(part);
 }
 
-/// The minimiser of rod_orientation where `is_usual`: neighbours and stretch pull, and the neighbours do not ask for a
-/// reversed director.
+/// Returns the minimiser of rod_orientation if `is_usual`: neighbours and stretch pull, and the neighbours do not pull
+/// towards a reversed director.
 template <class T>
 OGC_HD QuatOf<T> usual_orientation(const T& stretch, const Vector<T>& apart, const Vector<T>& direction,
                                    const QuatOf<T>& b, Mask<T>& is_usual) {
@@ -109,8 +109,8 @@ OGC_HD QuatOf<T> usual_orientation(const T& stretch, const Vector<T>& apart, con
   return unit(T(1.0f / nu) * upper + T(1.0f / (nu + 2.0f * sigma)) * lower);
 }
 
-/// The minimiser of −½ qᵀMq − b·q on the unit sphere, M q = −2 k_s D q c; of several the nearest to the old q. `apart`:
-/// D [m], `direction`: c, as rod_rest_direction.
+/// Returns the minimiser of −½ qᵀMq − b·q on the unit sphere, M q = −2 k_s D q c; of several the one nearest to the old
+/// q. `apart` is D [m], `direction` is c of rod_rest_direction.
 OGC_HD inline Quat rod_orientation(float stretch, const Vec& apart, const Vec& direction, const Quat& b,
                                    const Quat& old) {
   bool is_usual = false;
@@ -121,7 +121,7 @@ OGC_HD inline Quat rod_orientation(float stretch, const Vec& apart, const Vec& d
   if (!(sigma > 0)) return pull > 0 ? unit((1.0f / pull) * b) : old;
   const ReflectedFrame frame{pure((1.0f / length) * apart), pure((1.0f / size) * direction)};
   if (!(pull > 0)) return nearest_upper(frame, old);
-  // the neighbours ask for a reversed director
+  // the neighbours pull towards a reversed director
   const Quat lower = b - frame.upper(b);
   const float beta_lower = sqrtf(dot(lower, lower));
   if (beta_lower > 2.0f * sigma) return unit((1.0f / beta_lower) * lower);

@@ -1,4 +1,4 @@
-// Adds a segment of a rod, k_s l/2 ‖D/l − R(q) e₃‖² of stretch and shear, seen from one of its ends (compare/rods.md).
+// Adds a segment of a rod as one of its ends sees it: k_s l/2 ‖D/l − R(q) e₃‖² of stretch and shear (compare/rods.md).
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -13,8 +13,8 @@ struct SegmentRest {
   float stretch = 0, damping = 0;  ///< k_s [N], k_d/h [1]
 };
 
-/// Returns c = e₃ + k R(qᵗ)ᵀ Dᵗ/l: the value of (1 + k) D/l, in the segment's frame, at which the segment is free of
-/// force. `apart`: Dᵗ [m].
+/// Returns c = e₃ + k R(qᵗ)ᵀ Dᵗ/l. The segment has no force if (1 + k) D/l in the segment's frame is c. `apart`: Dᵗ
+/// [m].
 OGC_HD inline Vec rod_rest_direction(const SegmentRest& segment, float damping, const Quat& start, const Vec& apart) {
   const Vec axis{0.0f, 0.0f, 1.0f};
   return damping > 0 ? axis + (damping / segment.length) * turned_back(start, apart) : axis;

@@ -1,5 +1,5 @@
-// Adds a spring seen from one of its ends: k_s/2 (l − l₀)², damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ − s
-// x₂‖ (compare/stages/spring.hpp).
+// Adds a spring as one of its ends sees it: k_s/2 (l − l₀)² and damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ −
+// s x₂‖ (compare/stages/spring.hpp).
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct SpringRest {
   float ratio = 0;                       ///< s [1]
 };
 
-/// Returns the number of ends that feel the spring.
+/// Returns the number of ends: 2 for a spring, 3 for a stitch.
 inline int end_count(const SpringRest& spring) { return spring.ratio > 0 ? 3 : 2; }
 
 /// Returns x₀ − (1 − s) x₁ − s x₂.
@@ -27,7 +27,7 @@ OGC_HD inline Vec spring_apart(const SpringRest& spring, const Vec* end) {
   return spring.ratio > 0 ? apart - spring.ratio * (end[2] - end[1]) : apart;
 }
 
-/// Returns w of an end: 1, s − 1, −s.
+/// Returns the weight w of an end: 1, s − 1 or −s.
 OGC_HD inline float spring_weight(const SpringRest& spring, int end) {
   return end == 0 ? 1.0f : end == 1 ? spring.ratio - 1.0f : -spring.ratio;
 }
@@ -42,8 +42,8 @@ OGC_HD inline float spring_length(const Vec& apart) {
 OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart,
                               float length_start, ForceAndBlock& sum) {
   const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;
-  // no direction: w² k_s I majorises the energy for every l₀; for a stitch, a length that was lost to rounding may
-  // exceed l₀ = 0
+  // There is no direction. w² k_s I majorises the energy for every l₀. For a stitch, a length that rounding lost may
+  // exceed l₀ = 0.
   if (!(length > 0)) {
     sum.add_identity(stiffness);
     return;

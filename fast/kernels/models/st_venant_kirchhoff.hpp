@@ -1,12 +1,12 @@
-// Adds a St. Venant–Kirchhoff membrane, plane stress, ψ = A (λ/2 tr(G)² + μ ‖G‖²) (method.md §4.6), seen from one
-// corner.
+// Adds a St. Venant–Kirchhoff membrane as one corner sees it, in plane stress: ψ = A (λ/2 tr(G)² + μ ‖G‖²) (method.md
+// §4.6).
 #pragma once
 
 #include "fast/kernels/models/membrane.hpp"
 
 namespace ogc::fast {
 
-/// Is MembraneModel::st_venant_kirchhoff.
+/// Computes MembraneModel::st_venant_kirchhoff.
 struct StVenantKirchhoff {
   /// Adds −∂ψ/∂x_a with damping and the 3×3 block: A (1 + k_d/h) ((λ+μ) (F∇N_a)(F∇N_a)ᵀ + μ ‖∇N_a‖² F Fᵀ) + A max(0,
   /// ∇N_aᵀ S ∇N_a) I. `strain_start` is Gᵗ.

@@ -1,11 +1,11 @@
-// Adds a stable Neo-Hookean membrane on F (3×2): ψ = A (μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)²), J = ‖f₁ × f₂‖
-// (compare/stages/membrane.hpp), seen from one corner. With the edges b, c to the other corners, q = |∇N_b × ∇N_c| and
+// Adds a stable Neo-Hookean membrane on F (3×2) as one corner sees it: ψ = A (μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J
+// − 1)²), J = ‖f₁ × f₂‖ (compare/stages/membrane.hpp). With the edges b, c to the other corners, q = |∇N_b × ∇N_c| and
 // the normal n of b × c:
 //
 //   J = q ‖b × c‖,   ∂J/∂x = g = q (b − c) × n,   ∂²J/∂x² = ‖g‖²/J n nᵀ
 //
-// F itself would cancel if a triangle is thin. The block μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) ‖g‖²/J n nᵀ
-// has n for an eigenvector, and only along n can it be negative.
+// These forms avoid F, where terms cancel in a thin triangle. The block μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ)
+// ‖g‖²/J n nᵀ has n as an eigenvector, and only along n can it be negative.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace ogc::fast {
 
-/// Holds J, n and q; `ratio` is 0 if the triangle has collapsed as far as single precision can tell.
+/// Holds J, n and q; `ratio` is 0 if the triangle has collapsed in single precision.
 template <class T>
 struct AreaRatioOf {
   Vector<T> normal;      ///< n, a unit vector; 0 if the triangle has collapsed
@@ -28,7 +28,7 @@ OGC_HD AreaRatioOf<T> area_ratio(const Vector<T>& to_b, const Vector<T>& to_c, c
   Vector<T> normal = cross(to_b, to_c);
   T scale = absolute(gradient_b[0] * gradient_c[1] - gradient_b[1] * gradient_c[0]);
   const T density = scale;
-  // If edges are a millionth as long the square of the area underflows.
+  // If edges are a millionth as long, the square of the area underflows.
   const Mask<T> is_tiny = dot(normal, normal) < 0x1p-90f;
   if (!is_false(is_tiny)) {
     const T large = T{} + 0x1p40f;
@@ -41,10 +41,10 @@ OGC_HD AreaRatioOf<T> area_ratio(const Vector<T>& to_b, const Vector<T>& to_c, c
   return {select(is_flat, Vector<T>{}, (1.0f / length) * normal), select(is_flat, zero, scale * length), density};
 }
 
-/// Is MembraneModel::stable_neo_hookean.
+/// Computes MembraneModel::stable_neo_hookean.
 struct StableNeoHookean {
-  /// Adds −∂ψ/∂x_a and the block, with max(0, ·) of its eigenvalue along the normal. A collapsed triangle has no J: its
-  /// normal is 0, and so is all that J adds.
+  /// Adds −∂ψ/∂x_a and the block, whose eigenvalue along the normal is replaced by 0 if it is negative. A collapsed
+  /// triangle has no J: its normal is 0, so the terms of J vanish.
   template <class T>
   OGC_HD static void add_elastic(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material,
                                  const Vector<T>& to_b, const Vector<T>& to_c, ForceAndBlockOf<T>& sum) {

@@ -1,6 +1,6 @@
-// Adds a stable Neo-Hookean tetrahedron seen from one corner (compare/stages/tetrahedron.hpp). With a, b, c the vectors
-// to the other corners, in the order in which det(a, b, c) is positive at rest, n = (b − a) × (c − a), w_k = V ∇N_k·∇N
-// and i = 1/(6V):
+// Adds a stable Neo-Hookean tetrahedron as one corner sees it (compare/stages/tetrahedron.hpp). a, b, c are the vectors
+// to the other corners, in an order with det(a, b, c) > 0 at rest. With n = (b − a) × (c − a), w_k = V ∇N_k·∇N and i =
+// 1/(6V):
 //
 //   J = i n·a,   V ∂J/∂x = −n/6,   force −μ (w₁ a + w₂ b + w₃ c) + ((λ + μ)(J − 1) − μ) n/6,
 //   block −μ (w₁ + w₂ + w₃) I + (λ + μ) i/6 n nᵀ
@@ -31,7 +31,7 @@ struct TetrahedronRest {
   float volume = 0;           ///< V [m³], for the damping
 };
 
-/// One tetrahedron seen from one corner.
+/// A tetrahedron as one corner sees it.
 template <class T>
 struct TetrahedronStencilOf {
   T weight[3];  ///< w_k of the other corners [m]
@@ -42,7 +42,8 @@ using TetrahedronStencil = TetrahedronStencilOf<float>;
 /// A symmetric 3×3 strain [1] or stress [Pa].
 using SolidStrain = Symmetric3;
 
-/// Holds what damping of strain reads besides: ∇N of the other corners (that of the own one is minus their sum), and V.
+/// Holds the further data for damping of strains: ∇N of the other corners, and V. ∇N of the corner itself is minus
+/// their sum.
 struct TetrahedronGradients {
   Vec other[3];      ///< ∇N [1/m]
   float volume = 0;  ///< V [m³]
@@ -107,14 +108,14 @@ OGC_HD inline void add_solid_damping(const TetrahedronGradients& gradients, cons
   for (const Vec& column : f.column) sum.add_outer(around, column);
 }
 
-/// Returns J = i det(a, b, c), in double: it and the energy are only reported.
+/// Returns J = i det(a, b, c), in double: J and the energy are only reported.
 OGC_HD inline double volume_ratio(const TetrahedronRest& rest, const Vec& a, const Vec& b, const Vec& c) {
   const Vector<double> p{a.x, a.y, a.z}, q{b.x, b.y, b.z}, r{c.x, c.y, c.z};
   return rest.inverse * dot(p, cross(q, r));
 }
 
-/// Returns V ψ [J]. With D = F − I, from displacements against rest, nothing would cancel; from positions V (‖F‖² − 3)
-/// is known to about 2⁻²² V.
+/// Returns V ψ [J]. Computed from positions, V (‖F‖² − 3) errs by about 2⁻²² V. From displacements, D = F − I, nothing
+/// would cancel.
 OGC_HD inline double solid_energy(const TetrahedronRest& rest, const SolidMaterial& material, const Vec& a,
                                   const Vec& b, const Vec& c) {
   const auto squared = [](const Vec& p) {

@@ -1,12 +1,12 @@
-// Computes the smallest distance of contacts that act, which a row of a scene with rods reports: d_min of a segment is
-// mostly the length of the segment between it and the next but one.
+// Computes the smallest distance of contacts that act, for the rows of scenes with rods. d_min would not do: for a
+// segment it is mostly the length of the segment between it and the next but one.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
 
 namespace ogc::fast {
 
-/// Returns the distance of a record's contact if it acts, else a larger number.
+/// Returns the distance of a record's contact if the contact acts, else a larger number.
 template <class Record>
 struct ActiveDistance {
   const Record* records;  ///< of the last detection

@@ -1,4 +1,4 @@
-// Adds what a row reports of rods. Terms are in double and only reported.
+// Adds a row's sums over rods. Terms are in double; no position depends on them.
 #pragma once
 
 #include "fast/kernels/metrics.hpp"
@@ -6,7 +6,7 @@
 
 namespace ogc::fast {
 
-/// Returns q in double: energies of small angles are differences of numbers near 1.
+/// Returns q in double, because energies of small angles are differences of numbers near 1.
 OGC_HD inline QuatOf<double> wide(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
 /// Returns ‖a − s b‖² for the sign s that makes it smaller.
 OGC_HD inline double squared_apart(const QuatOf<double>& a, const QuatOf<double>& b) {
@@ -37,7 +37,7 @@ struct SegmentTerm {
     const SegmentNeighbours& seen = neighbours[e];
     for (int k = 0; k < 2; ++k) {
       if (!(seen.rest[k].weight > 0)) continue;
-      // half of 2 k_b/l̄ ‖…‖² = w/2 ‖…‖²
+      // half of w/2 ‖…‖², w/2 = 2 k_b/l̄
       const QuatOf<double> other = wide(orientation[seen.number[k]]);
       const QuatOf<double> relative = k == 1 ? conjugate(q) * other : conjugate(other) * q;
       sum[sum_rod] += 0.25 * static_cast<double>(seen.rest[k].weight) *

@@ -6,15 +6,15 @@
 
 namespace ogc::fast {
 
-/// Returns q after half a turn about its own first axis: its director is reversed.
+/// Returns q after half a turn about its own first axis, which reverses its director.
 OGC_HD inline Quat turned_round(const Quat& q) { return {q.w, q.z, -q.y, -q.x}; }
 
-/// Returns q after the smallest rotation from one direction to another; for opposite ones half a turn about its first
-/// axis, and q itself if one of them is 0. From half-way vectors: (a × b, 1 + a·b) is that rotation times 2 cos θ/2.
+/// Returns q after the smallest rotation from one direction to another. For opposite directions this is half a turn
+/// about the first axis of q; if a direction is 0, q itself. (a × b, 1 + a·b) is the rotation times 2 cos θ/2.
 OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
   const float first = sqrtf(dot(from, from)), second = sqrtf(dot(to, to));
   if (!(first > 0 && second > 0)) return q;
-  // What rounding of unit vectors leaves of a rotation by π: u of 1 + a·b, squared, with room.
+  // Rounding of unit vectors leaves u in 1 + a·b after a rotation by π; this is its square, with room.
   constexpr float lost = 0x1p-40f;
   const Vec a = (1.0f / first) * from, b = (1.0f / second) * to, axis = cross(a, b);
   const Quat twice{axis.x, axis.y, axis.z, 1.0f + dot(a, b)};
@@ -22,7 +22,7 @@ OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
   return unit(unit(twice) * q);
 }
 
-/// Computes c; launched if strains are damped. Index over segments.
+/// Computes c of rod_rest_direction. Index over segments; only launched if strains are damped.
 struct SetDirection {
   const SegmentRest* segments;    ///< by segment
   const Vec* start;               ///< xᵗ by vertex [m]
@@ -36,11 +36,11 @@ struct SetDirection {
   }
 };
 
-/// Turns each frame after the guess loop, which gives q for the step. Index over segments.
+/// Sets q for the step after the guess loop, by turning each frame with its segment. Index over segments.
 struct TurnSegment {
   const SegmentRest* segments;  ///< by segment
-  const int* motion;            ///< by segment: what holds it, as in segments.hpp
-  /// [step of the frame][motion]: rotation of the motion in the step; w = 2: the motion has none
+  const int* motion;            ///< by segment: motion, as in segments.hpp
+  /// [step of the frame][motion]: rotation of the motion in the step; w = 2: the motion has no rotation
   const Quat* motion_turns;
   int motions;                    ///< motions in a row of turns
   const Vec* start;               ///< xᵗ by vertex [m]

@@ -1,4 +1,4 @@
-// Adds what a step of a scene with rods sums up, and finds the extremes of its row meanwhile.
+// Adds the sums of a step of a scene with rods, and finds the extremes for its row.
 #pragma once
 
 #include "fast/kernels/rods/contact_distance.hpp"
@@ -13,8 +13,8 @@ struct RodSums {
   Others others;
   SegmentTerm segment;
   int segments;
-  ActiveDistance<VertexFacetRecord> vertex_facet;  ///< the number of its records is known on the device only
-  ActiveDistance<EdgeEdgeRecord> edge_edge;        ///< the same for its records
+  ActiveDistance<VertexFacetRecord> vertex_facet;  ///< of each record; only the device knows their number
+  ActiveDistance<EdgeEdgeRecord> edge_edge;        ///< of each record
   const int *vertex_facet_count, *edge_edge_count;
   StepControl* control;  ///< on the backend: extremes are written
 

@@ -1,4 +1,4 @@
-// Adds what a step sums up for its row: one functor for each launch of fast/stages/reduce.hpp, kind after kind.
+// Adds the sums of a step for its row: one functor for each launch of fast/stages/reduce.hpp.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// Adds the chunk's items of one kind: term(i, sums) for every `chunks`-th i below `count`.
+/// Adds term(i, sums) for every `chunks`-th i from `chunk` on.
 template <class Term>
 OGC_HD void add_terms(const Term& term, int count, int chunk, int chunks, double* sums) {
   for (int i = chunk; i < count; i += chunks) term(i, sums);
@@ -40,7 +40,7 @@ struct LeftSums {
   }
 };
 
-/// The elements of all kinds of a list.
+/// Holds the elements of all kinds of a list.
 template <class List>
 struct AllElements;
 template <class... All>
@@ -72,11 +72,11 @@ struct StateSums {
   }
 };
 
-/// Sums the same and the energies of all elements and contacts.
+/// Sums what StateSums sums, and the energies of all elements and contacts.
 struct EnergySums {
   StateSums state;
-  VertexFacetTerm vertex_facet;  ///< as many as its view says, which only the device knows
-  EdgeEdgeTerm edge_edge;        ///< as many as its view says
+  VertexFacetTerm vertex_facet;  ///< its view holds the number of records, which only the device knows
+  EdgeEdgeTerm edge_edge;        ///< its view holds the number of records
 
   /// Adds the terms of one chunk.
   OGC_HD void add(int chunk, int chunks, double* sums) const {

@@ -1,4 +1,4 @@
-// Adds what a step sums up if there are volumes.
+// Adds the sums of a step of a scene with volumes.
 #pragma once
 
 #include "fast/kernels/sums/step_sums.hpp"
@@ -6,7 +6,7 @@
 
 namespace ogc::fast {
 
-/// Sums energies, those of contacts with volumes included.
+/// Sums what EnergySums sums, and the energies of contacts with volumes.
 struct VolumeSums {
   EnergySums energies;
   VolumeTerm volume;

@@ -1,4 +1,4 @@
-// Contacts in the sum of a vertex: read, weighed and added by formulas that serve one contact and several.
+// Contacts in the sum of a vertex. The same formulas read, weigh and add one contact or several side by side.
 #pragma once
 
 #include "fast/kernels/friction_force.hpp"
@@ -16,7 +16,7 @@ OGC_HD ContactWeights closest_weights(const OneItem<ContactIncidence>& one, cons
 OGC_HD inline float own_weight(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   return weights.of(one.item.own);
 }
-/// Returns |w| Σ |w_u| over the vertices u of the own one's colour, itself included; mostly this is w².
+/// Returns |w| Σ |w_u| over the contact's vertices u of the same colour, the vertex itself included. Mostly this is w².
 OGC_HD inline float majorant_of(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   const float own = fabsf(own_weight(one, weights));
   float together = own;
@@ -24,21 +24,21 @@ OGC_HD inline float majorant_of(const OneItem<ContactIncidence>& one, const Cont
   return own * together;
 }
 
-/// Contacts at the positions that an update reads.
+/// Holds contacts at the positions that an update reads.
 template <class N>
 struct ContactAtOf {
-  Vector<N> x[4], start[4];     ///< by slot: x, and xᵗ where it has friction [m]
+  Vector<N> x[4], start[4];     ///< by slot: x, and with friction xᵗ [m]
   N friction{};                 ///< μ
   ContactWeightsOf<N> weights;  ///< w by slot
-  ContactShapeOf<N> shape;      ///< normal and distance
-  N weight{};                   ///< of the vertex itself
-  N majorant{};                 ///< stands for w² in the block
+  ContactShapeOf<N> shape;
+  N weight{};    ///< of the vertex itself
+  N majorant{};  ///< replaces w² in the block
 
-  /// Whether the vertex feels it, if only by its block: the points have not met.
+  /// Returns whether the contact adds to force or block: the points do not coincide, and the vertex has a weight.
   OGC_HD Mask<N> acts() const { return shape.distance > N(0.0f) && (weight > N(0.0f) || weight < N(0.0f)); }
 };
 
-/// Reads contacts where their vertices are now.
+/// Reads contacts at the current positions of their vertices.
 template <PairKind pairs, class Items>
 OGC_HD ContactAtOf<typename Items::Number> contacts_at(const SweepShared& view, const Items& items) {
   using N = typename Items::Number;
@@ -91,15 +91,15 @@ OGC_HD ForceAndBlockOf<typename Items::Number> contact_term(const SweepShared& v
   return term;
 }
 
-/// Both kinds of contacts of a vertex, each as a part of its sum. A vertex may have fifty and its neighbours none, so
-/// teams share the work. `Activation`: a functor of models/activation.hpp.
+/// Makes two parts of a vertex's sum, one for each kind of contacts. A vertex may have fifty contacts and its
+/// neighbours none, so teams share the work. `Activation` is a functor of models/activation.hpp.
 template <class Activation>
 struct ContactParts {
   const SweepShared& view;
   ContactRow row;  ///< contacts of the vertex
   Activation activation;
 
-  /// The first row.vertex_facet of them, and the rest.
+  /// Return the part of the first row.vertex_facet contacts, and the part of the others.
   OGC_HD auto vertex_facet() const { return range<PairKind::vertex_facet>(row.begin, row.vertex_facet); }
   OGC_HD auto edge_edge() const {
     return range<PairKind::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet);

@@ -1,5 +1,5 @@
-// The sum over the stencils of a vertex, inertia left out: one template over kinds of elements. A part that a vertex
-// has no items of changes no bit (team.hpp), so that which of the sums a scene takes is a question of time alone.
+// The sum over the stencils of a vertex without inertia: one template over kinds of elements. A part without items
+// changes no bit (team.hpp), so the choice of a scene's sum only changes the time.
 #pragma once
 
 #include <type_traits>
@@ -10,15 +10,16 @@
 
 namespace ogc::fast {
 
-/// Adds up these parts in this order, then vertex–facet contacts, then edge–edge contacts. `gives` says which kinds of
-/// a scene a part adds, `part_of` makes the part of a vertex.
+/// Adds up these parts in this order, then vertex–facet contacts, then edge–edge contacts. A part's `gives` has the
+/// bits of what it adds; `part_of` makes the part of a vertex.
 template <class Activation, class... Parts>
 struct Gather {
-  static constexpr int parts = sizeof...(Parts) + 2;  ///< warps of a block where teams are spread (fast/cuda/team.cuh)
-  /// All that a scene may ask of this sum. It has other models than the usual ones only where all of its parts do.
+  /// number of parts: warps of a block if teams are spread (fast/cuda/team.cuh)
+  static constexpr int parts = sizeof...(Parts) + 2;
+  /// The features that this sum gives (bits of sweep_view.hpp). It gives `any_model` only if all of its parts do.
   static constexpr unsigned gives = ((Parts::gives | ...) & ~asks_any_model) | (Parts::gives & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);
-  /// Whether a vertex may lie deep inside a volume.
+  /// Whether the sum adds contacts with volumes.
   static constexpr bool has_volumes = (gives & asks_volumes) != 0;
 
   template <class Team>
@@ -38,7 +39,7 @@ struct Gather {
     (prefetch(team, parts), ...);
     return team.template sum<ForceAndBlock>(parts...);
   }
-  /// Brings the row of a vertex near, which its sum is going to read.
+  /// Prefetches the row of a vertex, which the sum reads next.
   template <class Team, class AnyPart>
   OGC_HD static void prefetch(const Team& team, const AnyPart& part) {
     if constexpr (requires { part.load.first; })
@@ -46,7 +47,7 @@ struct Gather {
   }
 };
 
-/// The sum that any scene can take.
+/// The sum that serves any scene.
 using GatherAll = Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts, Segments>;
 
 }  // namespace ogc::fast

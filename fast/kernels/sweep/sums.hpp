@@ -1,4 +1,4 @@
-// Which sums over the stencils of a vertex are compiled, and which of them a scene takes.
+// Lists the compiled sums over the stencils of a vertex, and chooses the sum of a scene.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,21 @@
 
 namespace ogc::fast {
 
-/// Sums from the most special one to one that gives everything.
+/// Lists sums, from the most special one to one that gives everything.
 template <class... Sums>
 struct SumList {
   static constexpr int count = sizeof...(Sums);
-  /// The sum of this number.
+  /// The sum with this number.
   template <std::size_t number>
   using At = std::tuple_element_t<number, std::tuple<Sums...>>;
 
-  /// The first that gives all that is asked.
+  /// Returns the number of the first sum that gives all features in `asked`; `count` if there is none.
   static constexpr int first_that_gives(unsigned asked) {
     int number = 0, found = count;
     ((found = found == count && (asked & ~Sums::gives) == 0 ? number : found, ++number), ...);
     return found;
   }
-  /// use(the sum of this number).
+  /// Calls use(the sum with this number).
   template <class Use>
   static void with(int number, const Use& use) {
     int next = 0;
@@ -30,17 +30,17 @@ struct SumList {
   }
 };
 
-/// The sums of scenes that have surfaces with the usual models alone, or solids alone.
+/// The sums of scenes with only surfaces of default models, and of scenes with only solids.
 using GatherSurfaces = Gather<OgcActivation, UsualTriangles, UsualHinges>;
 using GatherSolids = Gather<OgcActivation, UsualTetrahedra>;
 
-/// The sums of a device. There a part that a scene lacks costs registers and a warp of each block, so that a scene must
-/// gain 5 % by each of them (fast/PERFORMANCE.md, Sums).
+/// The sums of a device. Parts that a scene lacks cost registers and a warp of each block there, so each special sum
+/// makes some scene at least 5 % faster (fast/PERFORMANCE.md, Sums).
 using DeviceSums = SumList<GatherSurfaces, Gather<OgcActivation, UsualTriangles, UsualHinges, Springs, VolumeContacts>,
                            GatherSolids, Gather<OgcActivation, Springs, UsualSegments>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts>, GatherAll>;
-/// The sums of the host, whose packs leave out what a vertex does not have.
+/// The sums of the host, whose packs omit the parts that a vertex lacks.
 using HostSums = SumList<GatherAll>;
 
 }  // namespace ogc::fast

@@ -1,12 +1,12 @@
-// The update of a segment's quaternion. Segments are set colour by colour before the vertices; neighbours never share a
-// colour, so one array is read and written.
+// Updates a segment's quaternion. Segments are updated colour by colour before the vertices. Neighbouring segments
+// never share a colour, so one array is read and written.
 #pragma once
 
 #include "fast/kernels/kinds/kinds.hpp"
 
 namespace ogc::fast {
 
-/// μ = σ + ‖b‖, as Hsu et al. 2025 have it: q ∝ (μ + M) b.
+/// Returns the quaternion as Hsu et al. 2025 compute it: μ = σ + ‖b‖, q ∝ (μ + M) b.
 OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const Vec& direction, const Quat& b,
                                          const Quat& old) {
   const float length = sqrtf(dot(apart, apart)), size = sqrtf(dot(direction, direction)), pull = sqrtf(dot(b, b));
@@ -17,17 +17,17 @@ OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const 
   return dot(q, q) > 0 ? unit(q) : nearest_upper(frame, old);
 }
 
-/// for_each over the free segments of a colour.
+/// Updates the free segments of a colour. Index over them.
 struct UpdateSegment {
-  /// What no launch before this one writes.
+  /// Holds what is read ahead, because the preceding launch does not write it.
   struct Ahead {
     SegmentSlot slot;
-    bool is_off = false;  ///< it is another iteration's turn
+    bool is_off = false;  ///< whether it is another iteration's turn
   };
 
   SweepView view;
-  int first_slot = 0;      ///< of the colour
-  bool asks_late = false;  ///< the launch before may decide whose turn it is
+  int first_slot = 0;      ///< first slot of the colour
+  bool asks_late = false;  ///< true: the preceding launch may decide whose turn it is
 
   OGC_HD Ahead ahead(int i) const { return {view.rods.slots[first_slot + i], !asks_late && view.is_off()}; }
   OGC_HD void operator()(int i) const { (*this)(i, ahead(i)); }

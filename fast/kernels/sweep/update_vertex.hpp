@@ -1,5 +1,5 @@
-// The updates of an iteration (Alg. 4): a vertex gathers its energies (gather.hpp), solves a 3×3 system, is truncated
-// and written; a prescribed vertex goes to its target, a segment of a rod to its quaternion of least energy
+// Updates of an iteration (Alg. 4). A free vertex gathers its energies (gather.hpp), solves a 3×3 system, and is
+// truncated and written. A prescribed vertex moves to its target; a rod's segment gets its quaternion of least energy
 // (update_segment.hpp).
 #pragma once
 
@@ -13,8 +13,8 @@
 namespace ogc::fast {
 
 /// Truncates the proposal to the vertex's region. The leader writes the position, counts a cut and returns the
-/// position; other threads return `stay`. A proposal that is not finite is not written: the vertex stays, and the step
-/// fails. All threads that hold the team's total call it together.
+/// position; other threads return `stay`. If the proposal is not finite, the vertex stays and the step fails. All
+/// threads that hold the team's total call this together.
 template <class Metric, class Team>
 OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
                       const Metric& metric, const Team& team) {
@@ -27,13 +27,14 @@ OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const V
   return kept.position;
 }
 
-/// for_each_team over the slots of one colour.
+/// Updates the vertices of a colour. One team for each slot.
 template <class Gather>
 struct UpdateVertex {
-  static constexpr int parts = Gather::parts;  ///< of its sum
+  static constexpr int parts = Gather::parts;  ///< number of parts of its sum
   SweepView view;
-  int first_slot = 0;  ///< of the colour
-  bool asks_late;      ///< it overlaps the launch that decides whose turn it is, and looks only after its sum
+  int first_slot = 0;  ///< first slot of the colour
+  /// true: runs while the preceding launch may decide whose turn it is, so it checks the turn only after its sum
+  bool asks_late;
 
   template <class Team>
   OGC_HD void operator()(int i, const Team& team) const {
@@ -54,7 +55,7 @@ struct UpdateVertex {
   }
 };
 
-/// for_each over the prescribed vertices, before the first colour of an iteration.
+/// Updates the prescribed vertices before the first colour of an iteration. Index over them.
 struct UpdatePrescribed {
   SweepView view;
   const int* prescribed = nullptr;  ///< numbers of the prescribed vertices
@@ -75,14 +76,14 @@ struct UpdatePrescribed {
   }
 };
 
-/// for_each_team over all slots: the force on each vertex where all of them are. The view reads and writes one buffer,
-/// to_fresh = 0; nothing is written there.
+/// Measures the force on each free vertex at the current positions. One team for each slot. The view has only one
+/// buffer, to_fresh = 0; nothing is written there.
 template <class Gather>
 struct MeasureVertex {
-  static constexpr int parts = Gather::parts;  ///< of its sum
+  static constexpr int parts = Gather::parts;  ///< number of parts of its sum
   SweepView view;
   LeftForce* left;  ///< by slot
-  bool is_end;      ///< of the step; else the reference is written
+  bool is_end;      ///< true: end of the step; false: the reference is written
 
   template <class Team>
   OGC_HD void operator()(int slot, const Team& team) const {
@@ -105,8 +106,9 @@ struct MeasureVertex {
   }
 
  private:
-  /// A stored coordinate is off by u |x| at most, u = 2⁻²⁴, the force by the block times that; neighbours, whose blocks
-  /// add up to about the own one, double it.
+  /// Returns a bound of the force that rounded positions cause. A stored coordinate errs by at most u |x|, u = 2⁻²⁴,
+  /// and the force by the block times that. The blocks of neighbours add up to about the vertex's own, which doubles
+  /// the error.
   OGC_HD static float rounding_of_force(const Symmetric3& block, const Vec& x) {
     const float largest = fmaxf(fmaxf(fabsf(x.x), fabsf(x.y)), fabsf(x.z));
     return 2 * 0x1p-24f * largest * (block.xx + block.yy + block.zz);

@@ -1,13 +1,14 @@
-// Finds contacts with volumes at each detection; they are frozen until the next (§3.9, method.md §9). Each asker has a
-// row: first the slots of the sweep, −1 if they do not ask, then prescribed vertices.
+// Finds contacts with volumes at each detection; they are frozen until the next one (§3.9, method.md §9). An asker is a
+// vertex that is tested against volumes. Each asker has a row: first come the slots of the sweep (−1 if a slot's vertex
+// is not tested), then prescribed vertices.
 //
-//   AskVolumes     each row and each part of triangles: is its vertex inside, nearer than r, or neither? The answer is
-//                  kept with the nearest facet, where the next search begins, and an answer `far` also with a ball
-//                  within which no vertex has to ask again before the volumes move
-//   ListContacts   each row: its contacts, part by part, in a row of fixed length; if that is too short the step is
-//                  repeated with longer rows (fast/stages/lists.hpp)
-//   FillCorners    if volumes are free, each row: its contacts into the rows of their corners, of fixed length, too
-//   SortCorners    each slot: its row of corners in ascending order, whatever the order in which it was filled
+//   AskVolumes          each row and each part of triangles: whether the vertex is inside, nearer than r, or far. The
+//                       answer is stored with the nearest facet, where the next search begins. With an answer `far` a
+//                       ball may be stored: no vertex within it is tested again before the volumes move
+//   ListVolumeContacts  each row: its contacts, part by part, in a row of fixed length. If a row is too short, the step
+//                       is repeated with longer rows (fast/stages/lists.hpp)
+//   FillCorners         free volumes, each row: its contacts into the rows of their corners, also of fixed length
+//   SortCorners         each slot: its row of corners in ascending order, so that the order of filling has no effect
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -17,12 +18,12 @@
 
 namespace ogc::fast {
 
-/// Returns the nearest facet of a part to a vertex and its side, in one number: facet · 4 + VolumeSide.
+/// Packs the nearest facet of a part and the side of a point into one number: facet · 4 + VolumeSide.
 OGC_HD inline int answer_of(const NearestFacet& nearest) { return nearest.facet << 2 | static_cast<int>(nearest.side); }
-/// Returns the facet and the side that the number holds.
+/// Unpacks a number of answer_of.
 OGC_HD inline NearestFacet nearest_in(int answer) { return {answer >> 2, static_cast<VolumeSide>(answer & 3)}; }
 
-/// Copies positions to where kernels query free volumes. Index over vertices.
+/// Copies positions into aligned vectors, for queries of free volumes. Index over vertices.
 struct PlaceVolumes {
   const Vec* position;  ///< of the detection, by vertex [m]
   PaddedVec* padded;    ///< written
@@ -37,22 +38,22 @@ struct ForgetClearBalls {
   OGC_HD void operator()(int i) const { clear[i].radius = ClearBall::unasked; }
 };
 
-/// Finds on which side of each part of triangles each asker lies. Index over rows, part after part: neighbours search
-/// the same tree.
+/// Finds on which side of each part of triangles each asker lies. Index over rows, part after part, so that
+/// neighbouring threads search the same tree.
 struct AskVolumes {
   VolumeView volume;  ///< with refitted trees
   const int* askers;  ///< by row: the vertex, or −1
   int rows;
   const Vec* position;         ///< of the detection, by vertex [m]
   const StepControl* control;  ///< if it is not active nothing is searched
-  int* answers;                ///< by item: answer of the detection before, or any facet of the part; replaced
+  int* answers;                ///< by item: answer of the last detection, or any facet of the part; replaced
   ClearBall* clear;            ///< by item: ball within which the answer `far` holds; null if volumes are free and move
 
   OGC_HD void operator()(int i) const {
     if (control->active == 0) return;
     const int part = i / rows, v = askers[i - part * rows];
     if (v < 0 || volume.parts[part].is_solid()) return;
-    // many steps ask once: a ball is sought at the second search, and not again if there is none
+    // Many steps test a vertex only once. So a ball is sought at the second test, and not again if there is none.
     const ClearBall old = clear != nullptr ? clear[i] : ClearBall{};
     if (old.holds(position[v])) return;
     const bool seeks = old.radius != ClearBall::unasked && old.radius != ClearBall::refused;
@@ -63,9 +64,9 @@ struct AskVolumes {
   }
 };
 
-/// Lists each asker's contacts. A facet without area has no direction and gives no contact. `has_solids`: whether there
-/// are parts of tetrahedra. Their ways are searched here, each without an earlier answer, so that a run that is
-/// continued has the same bits. Index over rows.
+/// Lists each asker's contacts. A facet without area has no direction and gives no contact. `has_solids`: there are
+/// parts of tetrahedra. They are searched here, without an earlier answer, so that a continued run has the same bits.
+/// Index over rows.
 template <bool has_solids>
 struct ListVolumeContacts {
   VolumeView volume;
@@ -78,10 +79,10 @@ struct ListVolumeContacts {
   int capacity;                ///< contacts that fit in a row
   int* counts;                 ///< by row, at most `capacity`, written
   VolumeIncidence* stream;     ///< row by row, written
-  FoundVolumeContact* found;   ///< the same contacts as found, written
+  FoundVolumeContact* found;   ///< the same contacts before conversion, written
   int* unresolved;             ///< by row: sheets without any way, written if there are solids
   int* longest;                ///< raised to the length that a row needs
-  int* overflow;               ///< set if that is too much
+  int* overflow;               ///< set if that exceeds `capacity`
 
   OGC_HD void operator()(int row) const {
     if (control->active == 0) return;
@@ -147,7 +148,7 @@ struct ForgetCorners {
   }
 };
 
-/// Enters each contact in the rows of its free corners; a corner with weight 0 feels nothing. Index over rows.
+/// Enters each contact in the rows of its free corners with a weight other than 0. Index over rows.
 struct FillCorners {
   const StepControl* control;       ///< as in ForgetCorners
   const int* counts;                ///< by row, as ListVolumeContacts leaves them
@@ -174,7 +175,7 @@ struct SortCorners {
   const StepControl* control;  ///< as in ForgetCorners
   CornerRows corners;
   int* longest;   ///< raised to the length that a row needs
-  int* overflow;  ///< set if that is too much
+  int* overflow;  ///< set if that exceeds the capacity
 
   OGC_HD void operator()(int slot) const {
     if (control->active == 0) return;
@@ -194,7 +195,7 @@ struct SortCorners {
   }
 };
 
-/// Adds what the step's row of metrics reports of volumes, at the end of a step. Index over rows.
+/// Adds the counts of contacts with volumes for the row of metrics, at the end of a step. Index over rows.
 struct CountVolumeContacts {
   const int* counts;                ///< by row
   const FoundVolumeContact* found;  ///< row by row

@@ -1,20 +1,20 @@
 // Finds contacts with volumes of tetrahedra (§3.9, method.md §9, after Chen, Diaz and Yuksel 2023, "Shortest Path to
-// Boundary for Self-Intersecting Meshes"): a point may lie in several sheets of one body. The contact of each sheet is
-// at the end of the shortest segment to the closest point c of a boundary triangle along which the tetrahedra can be
-// traversed.
+// Boundary for Self-Intersecting Meshes"). A point x may lie in several sheets of one body. Each sheet has one contact,
+// at the end of its way. A way is a segment from x to the closest point c of a boundary triangle that can be traversed
+// through tetrahedra; the shortest one counts.
 //
-//   sheets   the tree of tetrahedra offers those whose boxes hold x; signs of exact determinants decide which of them
-//            do, and which of their simplices holds it in its interior. The lowest-numbered tetrahedron of a sheet
-//            stands for it
-//   ways     the nearest triangle of all is mostly the right one. If it has no way, the tree of facets offers all that
-//            are nearer than the shortest way so far, and each that is nearer is traversed
-//   passing  from c to x, from tetrahedron to tetrahedron, in rounded double: heights over the sides of a tetrahedron
-//            are affine along the segment, and a height below 2⁻³⁶ of the moduli of its terms counts as zero. That is
-//            far above its rounding and far below what single precision knows of the coordinates. If the segment leaves
-//            by one side, the tetrahedron behind it goes on; if by several at once, that is by an edge or a vertex, all
-//            tetrahedra go on that have this edge or vertex and lie ahead: no ray is lost there
+//   sheets   the tree of tetrahedra offers those whose boxes hold x. Signs of exact determinants decide which of them
+//            hold x, and which of their simplices holds x in its interior. The lowest-numbered tetrahedron of a sheet
+//            represents the sheet
+//   ways     the nearest triangle of all is mostly the right one. If it has no way, the tree of facets offers all
+//            triangles that are nearer than the shortest way so far, and each of them is tried
+//   passing  from c to x, from tetrahedron to tetrahedron, in rounded double. Heights over the sides of a tetrahedron
+//            are affine along the segment. A height below 2⁻³⁶ of the moduli of its terms counts as zero: this is far
+//            above its rounding error, and far below the precision of the coordinates. If the segment leaves by one
+//            side, the tetrahedron behind this side is next. If it leaves by an edge or a vertex, all tetrahedra ahead
+//            that have this edge or vertex are next, so that no ray is lost
 //
-// Tetrahedra without positive volume hold no point, are never traversed, and their sides end no way.
+// Tetrahedra without positive volume hold no point and are never traversed, and no way ends at their sides.
 #pragma once
 
 #include "fast/kernels/volume_depth.hpp"
@@ -38,23 +38,23 @@ OGC_HD inline int side_corner(int k, int i) {
   return sides[k][i];
 }
 
-/// Sums up what a solid part is to a point.
+/// Holds the result of testing a point against a solid part.
 struct SolidAnswer {
-  int facet = -1;  ///< facet at the end of the first sheet's way, where the next search begins; or −1
-  VolumeSide side = VolumeSide::far;  ///< inside: some sheet holds it
+  int facet = -1;  ///< facet at the end of the first sheet's way, or −1; the next search may begin there
+  VolumeSide side = VolumeSide::far;  ///< inside: some sheet holds the point
   int unresolved = 0;                 ///< sheets without any way
 };
 
-/// Answers where a point lies relative to the parts of tetrahedra of a volume.
+/// Finds where a point lies relative to a volume's parts of tetrahedra.
 class SolidQuestion {
  public:
-  /// Takes the volume and the point. `own`: the vertex at the point, if it belongs to the volume; else −1.
+  /// `own` is the vertex at the point if it is a vertex of the volume, else −1.
   OGC_HD SolidQuestion(const VolumeView& volume, const Vec& point, int own)
       : volume_(volume), solids_(volume.solids), faces_(volume, point), x_(point), own_(own) {}
 
-  /// Calls visit(contact) for each contact with a part: one for each sheet that has a way; if there is no sheet, one
-  /// for each face in whose outward block the point lies nearer than r. `first`: facet where the search begins, or −1;
-  /// it changes the time alone.
+  /// Calls visit(contact) for each contact with a part. A point in sheets has one contact for each sheet with a way.
+  /// Any other point has one with each face in whose outward block it lies nearer than r. `first` is a facet where the
+  /// search begins, or −1; it only changes the time.
   template <class Visit>
   OGC_HD SolidAnswer visit_contacts(int part, int first, Visit visit) const {
     SolidAnswer answer;
@@ -84,7 +84,7 @@ class SolidQuestion {
   }
 
  private:
-  /// Number of faces, at most, whose contact is reported once if several sheets have ways to them.
+  /// Number of remembered faces. A remembered face gives one contact, even if several sheets have ways to it.
   static constexpr int most_known = 8;
 
   /// The shortest way of a sheet so far.
@@ -93,13 +93,13 @@ class SolidQuestion {
     int face = -1, facet = -1;
   };
 
-  /// A segment through a tetrahedron: heights over its sides, inward, times twice their areas, at both ends, and the
-  /// size below which they count as zero.
+  /// A segment through a tetrahedron. For each side: the segment's heights over it at both ends, inward and times twice
+  /// the side's area, and the limit below which they count as zero.
   struct Passage {
     double at_foot[4], at_x[4], zero[4];
 
     OGC_HD double at(int k, double s) const { return add(at_foot[k], mul(s, sub(at_x[k], at_foot[k]))); }
-    /// Returns whether the height does not fall on the way to x.
+    /// Returns whether the height over side k does not fall on the way to x.
     OGC_HD bool rises(int k) const { return sub(at_x[k], at_foot[k]) >= -zero[k]; }
   };
 
@@ -110,7 +110,7 @@ class SolidQuestion {
     return corner[0] == v || corner[1] == v || corner[2] == v || corner[3] == v;
   }
 
-  /// Returns whether all corners of `of` whose bits are set are corners of `element`.
+  /// Returns whether `element` has all corners of `of` whose bits are set.
   OGC_HD bool has_all(int element, int of, unsigned corners) const {
     for (int k = 0; k < 4; ++k)
       if ((corners >> k & 1U) != 0 && !has(element, solids_.elements[of].corner[k])) return false;
@@ -178,7 +178,7 @@ class SolidQuestion {
 
   /// Returns the shortest of all ways, or of all segments if `must_pass` is false.
   OGC_HD Way search(int part, int element, Way way, int first, bool must_pass, int failed) const {
-    float limit = 0x1p126F;  // everything; empty children, at infinity, lie beyond it
+    float limit = 0x1p126F;  // no limit, except that empty children, at infinity, lie beyond it
     const auto meet = [&](int t) {
       if (solids_.is_positive[solids_.owner[t]] == 0) return;
       const Distance d = point_triangle_distance(x_, faces_.corners(t));
@@ -226,9 +226,9 @@ class SolidQuestion {
     return passage;
   }
 
-  /// Holds the tetrahedra that a segment has reached and not left yet, and the last ones that it has met.
+  /// Holds the tetrahedra that a segment has reached but not left, and the tetrahedra that it met last.
   struct Front {
-    static constexpr int most = 32;  ///< tetrahedra ahead of one point, and of those that it could come back to
+    static constexpr int most = 32;  ///< capacity: tetrahedra ahead of one point, and remembered ones
     int waiting[most], met[most], waiting_count = 0, met_count = 0;
 
     OGC_HD void reach(int element) {
@@ -240,7 +240,7 @@ class SolidQuestion {
     }
   };
 
-  /// Reaches all tetrahedra that lie ahead and have a simplex, given by `count` vertices.
+  /// Adds all tetrahedra that lie ahead and have all `count` vertices of `vertex` to the front.
   OGC_HD void go_on(const int* vertex, int count, const Real& apart, Front& front) const {
     const Rows& rows = solids_.vertex_elements;
     for (int i = rows.offsets[vertex[0]]; i < rows.offsets[vertex[0] + 1]; ++i) {
@@ -259,14 +259,14 @@ class SolidQuestion {
     }
   }
 
-  /// Returns whether the tetrahedra can be traversed from the closest point of a facet, which lies on `face`, to x in
-  /// the sheet of a tetrahedron.
+  /// Returns whether the segment from the closest point of facet t, which lies on `face`, to x can be traversed through
+  /// tetrahedra and ends in the sheet of a given tetrahedron.
   OGC_HD bool passes(int part, int sheet, int t, int face) const {
     const Real apart = from_facet(t);
     Front front;
     int vertex[4];
     go_on(vertex, vertices_of(face, vertex), apart, front);
-    // no limit where the body has any thickness: each is reached once there
+    // If the body has any thickness, each tetrahedron is met once and this limit is never reached.
     const int most = 4 * volume_.parts[part].tetrahedra.tree.count + Front::most;
     while (front.waiting_count > 0 && front.met_count < most) {
       const int element = front.waiting[--front.waiting_count];
@@ -285,7 +285,7 @@ class SolidQuestion {
           high = smaller(high, root);
       }
       if (!(low <= high)) continue;
-      unsigned left_by = 0;  // sides on which the segment leaves, or x lies, by their opposite corners
+      unsigned left_by = 0;  // sides by which the segment leaves, or on which x lies, as bits of their opposite corners
       for (int k = 0; k < 4; ++k)
         if (own.at(k, high) <= own.zero[k]) left_by |= 1U << k;
       const unsigned stays = ~left_by & 15U;

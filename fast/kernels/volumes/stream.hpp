@@ -1,5 +1,5 @@
-// Adds contacts with volumes to the sum over the stencils of a vertex: as the point, and, if volumes are free, as a
-// corner of a triangle that others press. A driven volume stands still while a step is solved.
+// Adds contacts with volumes to the sum over the stencils of a vertex: as the point, and, if volumes are free, also as
+// a corner of a triangle that other vertices touch. A driven volume stands still while a step is solved.
 #pragma once
 
 #include "compare/stages/volume_depth.hpp"
@@ -28,8 +28,8 @@ struct SeenVolumeContact {
   int together;  ///< as in add_volume_contact
 };
 
-/// Returns a contact as the vertex of role `own` sees it. If all volumes are driven `colour` is null: corners have no
-/// colour then.
+/// Returns a contact as the vertex of role `own` sees it. `colour` is null if all volumes are driven: then corners
+/// count as colour −1.
 OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int own, const int* colour) {
   SeenVolumeContact seen;
   seen.contact = incidence.contact;
@@ -44,10 +44,10 @@ OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int 
   return seen;
 }
 
-/// Loads contact k of a vertex: first those in which it is the point, then those in which it is a corner.
+/// Loads contact k of a vertex. The vertex is the point of the first `points` contacts, and a corner in the others.
 struct LoadVolumeContact {
   VolumeStream volumes;
-  int slot, points;  ///< `points`: number of the former
+  int slot, points;
 
   OGC_HD SeenVolumeContact operator()(int k) const {
     if (k < points) return seen_from(volumes.contacts[slot * volumes.capacity + k], 0, volumes.colour);
@@ -55,7 +55,6 @@ struct LoadVolumeContact {
     return seen_from(volumes.contacts[code >> 2], code & 3, volumes.colour);
   }
 };
-/// Adds a contact.
 struct AddVolumeContact {
   const SweepShared& view;
   Vec own, own_start;  ///< x and xᵗ of the vertex [m]
@@ -70,7 +69,7 @@ struct AddVolumeContact {
   }
 };
 
-/// The contacts with volumes of a scene, which may have none.
+/// Gives the part of a sum for contacts with volumes. The scene may have no volumes.
 struct VolumeContacts {
   static constexpr unsigned gives = asks_volumes | asks_any_model;
 
@@ -83,16 +82,16 @@ struct VolumeContacts {
   }
 };
 
-/// A vertex is deep inside a volume from this share of r on (compare/volumes.md, The step).
+/// A vertex is deep inside a volume if its depth exceeds this share of r (compare/volumes.md, The step).
 inline constexpr float deep_share = 0.5F;
 
-/// Returns whether a contact's point lies deep inside a volume by what the contact froze: φ < −r/2. `x`: by role [m].
+/// Returns whether the point of a frozen contact lies deep inside a volume: φ < −r/2. `x`: by role [m].
 OGC_HD inline bool is_deep(const VolumeContact& contact, const Vec* x, float contact_radius) {
   return dot(contact.normal, volume_separation(contact, x)) < -deep_share * contact_radius;
 }
 
-/// Whether x, of the vertex of a slot, lies deep inside a driven volume, whose corners stand still while others are
-/// solved. Where volumes are free, CountDeepInside asks after the iteration.
+/// Returns whether x, the position of a slot's vertex, lies deep inside a driven volume, whose corners stand still.
+/// Returns false if volumes are free: CountDeepInside tests them after the iteration.
 OGC_HD inline bool lies_deep_in_volume(const SweepShared& view, int slot, const Vec& x) {
   const VolumeStream& volumes = view.volumes;
   if (volumes.counts == nullptr || volumes.colour != nullptr) return false;

@@ -1,13 +1,13 @@
-// Refits the trees of the parts of volumes. Their order stays: neighbours on a body remain neighbours, however it
-// moves.
+// Refits the trees of the parts of volumes. The order of primitives in a tree is never changed: neighbours on a body
+// remain neighbours while it moves.
 #pragma once
 
 #include "fast/kernels/volumes/solids.hpp"
 
 namespace ogc::fast {
 
-/// Computes the boxes of all facets and tetrahedra and of the nodes above them, and which tetrahedra have positive
-/// volume. Index over count() items, which a warp of 32 must call together (RefitTrees).
+/// Computes the boxes of all facets, tetrahedra and nodes, and which tetrahedra have positive volume. Index over
+/// count() items; the 32 threads of a warp must call this together (RefitTrees).
 struct RefitVolumes {
   SurfaceView surface;
   SolidView solids;                        ///< signs are written
@@ -18,7 +18,7 @@ struct RefitVolumes {
   OGC_HD int count() const { return items; }
 
   OGC_HD void operator()(int i) const {
-    int tree = 0;  // the last one that begins at i or before
+    int tree = 0;  // the last tree whose first item is not behind i
     for (int end = count_of_trees; end - tree > 1;) {
       const int middle = (tree + end) / 2;
       if (trees[middle].first_item <= i)
