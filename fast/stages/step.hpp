@@ -59,8 +59,8 @@ struct StepState {
   Buffer<Vec> prescribed_targets;          ///< [step of the frame][number]
   Buffer<StepControl> control;             ///< one item
   Buffer<StepRow> rows;                    ///< by step of the frame
-  Buffer<Vec> taken;    ///< by vertex, two buffers: moves that contacts took in the guess loop [m]
-  Buffer<double> sums;  ///< in the order in which FinishStep reads them
+  Buffer<Vec> taken;                       ///< by vertex, two buffers: moves that contacts took in the guess loop [m]
+  Buffer<double> sums;                     ///< in the order in which FinishStep reads them
 };
 
 /// Follows a step on the host, event by event (fast/probes/trace.hpp, fast/stages/way.hpp). Observed steps are not
