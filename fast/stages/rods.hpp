@@ -77,7 +77,7 @@ class Rods {
             .control = control};
   }
 
-  /// Computes the reference of damping at the start of a step.
+  /// Computes c of each segment (rod_rest_direction) at the start of a step, if strains are damped.
   void begin_strains(Backend& backend, const Vec* start) {
     if (direction_.size() == 0) return;
     backend.for_each(count_, SetDirection{segments_.data(), start, orientation_start_.data(), direction_.data()});

@@ -57,7 +57,7 @@ void put_rows(const HostStream<Kind>& stream, std::vector<SweepVertex>& vertices
   }
 }
 
-/// Returns the free vertices by slot. Each vertex has its rows of the kinds whose rows are kept in vertices.
+/// Returns the free vertices by slot. A vertex stores its rows of the kinds with row_in_vertex ≥ 0.
 template <class... All>
 std::vector<SweepVertex> sweep_vertices(KindList<All...>, const RestState& rest, const Colouring& colouring,
                                         double time_step, const HostStream<All>&... streams) {
@@ -92,7 +92,8 @@ class Stream {
 
   int count() const { return static_cast<int>(rest_.size()); }  ///< elements
 
-  /// Computes the reference of damping at the start of a step, if any element is damped. `start`: xᵗ, on the backend.
+  /// Computes the elements' state at xᵗ (Kind::Start), which damping reads, if any element is damped. `start`: xᵗ, on
+  /// the backend.
   void begin(Backend& backend, const Vec* start) {
     if constexpr (has_start) {
       if (start_.size() > 0) backend.for_each(count(), BeginElement<Kind>{rest_.data(), start, start_.data()});

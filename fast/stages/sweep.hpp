@@ -140,7 +140,7 @@ class Sweep {
                       resolve_contact(view, previous));
   }
 
-  /// Computes the reference of damping at the start of a step. `start`: xᵗ, on the backend.
+  /// Computes the elements' state at xᵗ (Kind::Start), which damping reads. `start`: xᵗ, on the backend.
   void begin(const Vec* start) { streams_.begin(backend_, start); }
   /// Returns the elements at `position` (on the backend).
   AllElements<Kinds> elements(const Vec* position) const {
