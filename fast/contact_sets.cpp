@@ -1,4 +1,4 @@
-// Implements the public way to contact sets: checks the input, then calls the engine of the backend.
+// Implements the public interface to contact sets: checks the input, then calls the backend's engine.
 #include "fast/contact_sets.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Holds what a detection leaves on the device for the sweep: plain pointers, valid until the lists grow.
+// Holds the results of a detection that the sweep reads: plain pointers, valid until the lists grow.
 #pragma once
 
 #include <cstdint>
@@ -8,33 +8,33 @@ namespace ogc::fast {
 /// A contact (v, a): corner[1] = corner[2] = -1 if a is a vertex, corner[2] = -1 if it is an edge.
 struct alignas(16) VertexFacetRecord {
   int vertex;     ///< v
-  int corner[3];  ///< vertices of a, those of a triangle in the order of the mesh
+  int corner[3];  ///< vertices of a; a triangle's are in the order of the mesh
 };
 
-/// A contact {p, q}: first[1] = -1 if p is a vertex, second[1] = -1 if q is. `first_edge`, `second_edge`: see
-/// compare/stages/detect_edge_edge.hpp; if both faces are interiors they are p and q themselves (rest lengths for the
-/// mollifier).
+/// A contact {p, q}: first[1] = −1 if p is a vertex, second[1] = −1 if q is. `first_edge`, `second_edge`: see
+/// compare/stages/detect_edge_edge.hpp. If both faces are interiors of edges, these are p and q themselves; the
+/// mollifier needs their rest lengths.
 struct alignas(8) EdgeEdgeRecord {
-  int first[2];   ///< vertices of p, those of an edge smaller first
-  int second[2];  ///< vertices of q, those of an edge smaller first
-  /// the edges that generate the contact: one that is p or ends at p, one that is q or ends at q
+  int first[2];   ///< vertices of p; of an edge, the smaller first
+  int second[2];  ///< vertices of q; of an edge, the smaller first
+  /// the edges that generate the contact: the first is p or ends at p, the second is q or ends at q
   int first_edge, second_edge;
 };
 
-/// One contact seen from one of its vertices. Codes ascend within a vertex's row, so that sums have a fixed order.
-/// Vertex–facet: role 0 is the vertex, roles 1 … 3 are the corners. Edge–edge: roles 0, 1 are the vertices of p, 2, 3
-/// those of q.
+/// A contact as one of its vertices sees it. Codes ascend within a vertex's row, so that sums have a fixed order.
+/// Vertex–facet: role 0 is the vertex, roles 1 … 3 are the corners. Edge–edge: roles 0, 1 are the vertices of p, roles
+/// 2, 3 those of q.
 struct Incidence {
   std::uint32_t code;  ///< bit 31: edge–edge; bits 2 … 30: number of the record; bits 0, 1: role
 };
 
-/// Holds the contacts of a detection. Records stand in canonical order (compare/stages), so numbers and sums do not
+/// Holds the contacts of a detection. Records are in canonical order (compare/stages), so numbers and sums do not
 /// depend on the order of atomics.
 struct ContactView {
-  /// All pointers are to the backend. After a detection that overflowed nothing here is of use.
+  /// All pointers are to the backend. After a detection that overflowed, their contents must not be used.
   const VertexFacetRecord* vertex_facet = nullptr;
   const EdgeEdgeRecord* edge_edge = nullptr;
-  const int* vertex_facet_count = nullptr;  ///< number of records; the host does not know it
+  const int* vertex_facet_count = nullptr;  ///< number of records, unknown to the host
   const int* edge_edge_count = nullptr;     ///< number of records
   const int* incidence_offsets = nullptr;   ///< vertex_count + 1
   const Incidence* incidences = nullptr;    ///< row of vertex v: from incidence_offsets[v]

@@ -1,8 +1,8 @@
 // Counts the work of an iteration from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path of
-// default models counts one; comparisons, negations and the additions that join team lanes count none; of several
-// branches the longest one that generic input takes is counted. Bytes: the sizes of the structs that are read, each
-// once an iteration, however often a cache serves them: no order of work can avoid these. Searches of the trees depend
-// on the state: their nodes, candidates and distances are counted while a detection runs.
+// the default models counts one. Comparisons, negations and the additions that join team lanes do not count. Of several
+// branches the longest one that generic input takes counts. Bytes: the sizes of the structs that are read, each once an
+// iteration, even if a cache serves them, because no order of work can avoid these. The searches' work depends on the
+// state, so their nodes, candidates and distances are counted during a detection.
 #include "fast/contestant.hpp"
 
 #include <algorithm>
@@ -19,16 +19,17 @@ namespace ogc::fast {
 
 namespace {
 
-// Recurring parts: a difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3, add_outer 15.
+// Operations of recurring parts: difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3,
+// add_outer 15.
 
 /// fast/kernels/models/orientation.hpp: difference 3, two neighbours 2 · (28 + 7 + 4 + 4), lengths 12, σ 3, ‖b‖ 8,
 /// frame 8, parts of b 128 + 4, their lengths 16, one step to the root 26, sum 16, unit 26.
 constexpr double orientation_flop = 336;
 /// fast/kernels/models/orientation.hpp, damping: two neighbours 2 · (28 + 1 + 43).
 constexpr double orientation_damping_flop = 144;
-/// fast/kernels/contact_force.hpp and friction_force.hpp, the part that all kinds share: separation 24, normal and
-/// distance 10, activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11, force 7,
-/// blocks 22.
+/// The terms that all kinds of contacts share (fast/kernels/contact_force.hpp, friction_force.hpp): separation 24,
+/// normal and distance 10, activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11,
+/// force 7, blocks 22.
 constexpr double contact_flop = 145;
 /// closest_on_triangle, inside: differences 9, normal 9, its square 5, two weights 28, the third 2, quotients 3.
 constexpr double on_triangle_flop = 56;
@@ -38,7 +39,7 @@ constexpr double on_segments_flop = 70;
 /// Inertia 12, its inverse 1, solve 28, new position 3, truncation that changes nothing 10.
 constexpr double vertex_flop = 54;
 
-/// Vertices of a contact of each kind whose points lie inside the faces: each updates itself from it.
+/// Vertices of a contact whose closest points are inside the faces. The update of each of them computes the contact.
 constexpr double contact_vertices = 4;
 
 /// squared_gaps of four children: six differences, three products and two sums for each.
@@ -49,7 +50,7 @@ constexpr double edge_distance_flop = 96 + 161 + 6;
 /// Separation of point and triangle 158; their distance: differences 15, normal 9, squares 21, size 8, limits 3, sides
 /// 69, from three edges 67; is_pair and meet add 6.
 constexpr double facet_distance_flop = 158 + 192 + 6;
-/// Bytes read of a candidate edge: its ends, and its two positions if the distance is taken; the same for a facet.
+/// Bytes of a candidate edge: its ends, and its two positions if the distance is computed. The next line has a facet's.
 constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(PaddedVec);
 constexpr double facet_bytes = sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(PaddedVec);
 
@@ -57,7 +58,7 @@ struct SearchCount {
   std::int64_t nodes = 0, candidates = 0, distances = 0;
 };
 
-/// A tree for for_each_near, which calls node() once for each node that it opens.
+/// A tree that counts its opened nodes: for_each_near calls node() once for each.
 struct CountedTree {
   const TreeView& tree;
   std::int64_t& opened;
@@ -85,7 +86,8 @@ SearchCount count_searches(const Searches<Query>& searches) {
   return count;
 }
 
-/// The CPU's backend with counted searches; if a detection is repeated because a list grew the last one counts.
+/// The CPU's backend, which also counts the work of searches. If a detection is repeated because a list grew, only its
+/// last run is counted.
 class CountingBackend : public CpuBackend {
  public:
   SearchCount edges, facets;
@@ -105,7 +107,7 @@ SearchWork work_of(const SearchCount& count, double distance_flop, double candid
   return work;
 }
 
-/// Adds what the elements of a kind cost, each for every free vertex of it.
+/// Adds the work of a kind's elements: each element counts for each of its free vertices.
 template <class Kind>
 void add_elements(const RestState& rest, SweepWork& work) {
   const AtRest<Kind>& all = at_rest<Kind>(rest);
@@ -133,7 +135,7 @@ void add_elements(const RestState& rest, SweepWork& work) {
   }
 }
 
-/// Adds what the quaternions of segments cost: each of them once, and a launch for each of their colours.
+/// Adds the work of segments' quaternions: each is updated once, and each of their colours is a launch.
 void add_quaternions(const RestState& rest, SweepWork& work) {
   const Colouring colouring = colour_segments(rest.rods);
   double damped = 0;
@@ -157,7 +159,7 @@ SweepWork sweep_work(const compare::Scene& scene) {
   work.colours = colour_vertices(rest).count;
   const double vertices = work.vertices;
   work.flop = vertices * vertex_flop;
-  // x padded, y, X_prev, b_v read; x written padded, and tight.
+  // x padded, y, X_prev, b_v read; x written padded and unpadded
   work.bytes = vertices *
                (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(PaddedVec) + 3 * sizeof(Vec) + sizeof(float));
   Kinds::for_each([&]<class Kind>(Kind) { add_elements<Kind>(rest, work); });

@@ -1,6 +1,6 @@
-// The backend of fast/stages/backend.hpp on the host's threads. Work is done when a call returns, so `synchronize` has
-// nothing to wait for; loops of fewer items than a grain stay in the calling thread. All but `replay` may be called by
-// several threads.
+// Implements the backend of fast/stages/backend.hpp on the host's threads. Work is done when a call returns, so
+// `synchronize` has nothing to wait for. Short loops stay in the calling thread. Several threads may call all functions
+// except `replay`.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class CpuBuffer {
   CpuBuffer(CpuBuffer&&) noexcept = default;
   CpuBuffer& operator=(CpuBuffer&&) noexcept = default;
 
-  /// Items on the host, size() of them; null until there was one.
+  /// Returns the items, size() of them; null before the first allocation.
   T* data() { return items_.get(); }
   const T* data() const { return items_.get(); }
   std::size_t size() const { return size_; }
@@ -67,21 +67,22 @@ class CpuBuffer {
   std::size_t size_ = 0, capacity_ = 0;
 };
 
-/// The functor of a team loop as the host runs it.
+/// Returns the functor that the host runs for a team loop.
 template <class F>
 F on_packs(const F& f) {
   return f;
 }
-/// Sums of any scene run in packs.
+/// If the functor sums any scene, the host's functor sums in packs.
 inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherAll>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
 inline MeasureVertex<GatherPacked> on_packs(const MeasureVertex<GatherAll>& f) { return {f.view, f.left, f.is_end}; }
 
-/// Prefetches what f(i, team) is going to read where hardware does not predict it.
+/// Prefetches the data of f(i, team) that the hardware does not predict.
 template <class F>
 void look_ahead(const F&, int) {}
-/// Contacts lie vertex by vertex, and a colour takes every fourth to eighth of them.
+/// Prefetches a vertex's contacts. Contacts are stored vertex by vertex, and a colour has every fourth to eighth
+/// vertex.
 template <class Gather>
 void look_ahead(const UpdateVertex<Gather>& f, int i) {
   constexpr std::size_t line = 64;
@@ -91,20 +92,20 @@ void look_ahead(const UpdateVertex<Gather>& f, int i) {
   for (const char* at = begin; at < end; at += line) __builtin_prefetch(at);
 }
 
-/// Loops on the threads of oneTBB, each member as fast/stages/backend.hpp says.
+/// Runs loops on the threads of oneTBB; fast/stages/backend.hpp describes each member.
 class CpuBackend {
  public:
   template <class T>
   using Buffer = CpuBuffer<T>;
   using Sums = HostSums;
 
-  /// Ranges of items as tasks; up to 64 items stay in the calling thread.
+  /// Runs ranges of items as tasks; up to 64 items stay in the calling thread.
   template <class F>
   void for_each(int n, F f) {
     for_each_range(n, [&f](int begin, int end) { run_range(f, begin, end); });
   }
 
-  /// The count is read at once: all work enqueued before is done.
+  /// Reads the count on the host, because all work enqueued before is done.
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
     for_each(std::min(*n, capacity), f);
@@ -117,8 +118,8 @@ class CpuBackend {
     for_each_counted(n, capacity, g);
   }
 
-  /// A thread runs a whole team as SerialTeam<W>, in packs where `on_packs` knows how. Start has no meaning here: each
-  /// loop has ended before the next begins.
+  /// Runs each team in one thread as SerialTeam<W>, in packs if `on_packs` has such a functor. Start has no effect:
+  /// each loop ends before the next begins.
   template <int W, class F>
   void for_each_team(int n, F f, Start) {
     constexpr int ahead = 2;
@@ -130,7 +131,7 @@ class CpuBackend {
     });
   }
 
-  /// A thread goes through a row and keeps its smallest numbers in order.
+  /// Runs each row in one thread, which keeps the row's smallest numbers in order.
   template <class F>
   void for_each_row(int n, const int* offsets, const float* values, F f) {
     for_each(n, [f, offsets, values](int i) {
@@ -162,7 +163,7 @@ class CpuBackend {
     exclusive_scan(second);
   }
 
-  /// The original number breaks ties: that makes an unstable parallel sort stable.
+  /// Sorts in parallel. Ties are ordered by the original number, so the result is that of a stable sort.
   void sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {}) {
     std::vector<Item> items(static_cast<std::size_t>(n));
     for_each(n, [&](int i) { items[static_cast<std::size_t>(i)] = {keys[i], i, values[i]}; });
@@ -177,32 +178,30 @@ class CpuBackend {
     });
   }
 
-  /// The flag is read at once.
   template <class F, class Body>
   void when(F decide, const int* flag, Body body) {
     decide(0);
     if (*flag != 0) body();
   }
 
-  /// The flag is read before each round.
   template <class F, class Body, class G>
   void repeat(F decide, const int* flag, Body body, G decide_again) {
     for (decide(0); *flag != 0; decide_again(0)) body();
   }
 
-  /// Runs one after the other.
+  /// Runs aside(), then body().
   template <class Aside, class Body>
   void at_once(Aside aside, Body body) {
     aside();
     body();
   }
 
-  /// The host has nothing to record.
+  /// Nothing is recorded on the host.
   struct Recording {
     void clear() {}
   };
 
-  /// Runs the body and measures it each time.
+  /// Runs the body and measures its time, `times` times.
   template <class Body>
   void replay(Recording&, int times, Body body) {
     for (int k = 0; k < times; ++k) {
@@ -233,7 +232,7 @@ class CpuBackend {
     scan.out[scan.count] = total;
   }
 
-  /// Calls run(begin, end) for ranges that make up 0 … n.
+  /// Calls run(begin, end) for ranges that together cover 0 … n.
   template <class Run>
   static void for_each_range(int n, const Run& run) {
     constexpr int grain = 64;

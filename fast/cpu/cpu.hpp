@@ -1,4 +1,4 @@
-// The CPU side as the rest of `fast` sees it.
+// Declares the CPU side of `fast` for its other parts.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@ namespace ogc::fast {
 /// Returns the number of threads.
 BackendInfo cpu_info();
 
-/// Returns a contestant with all stages on the host's threads.
+/// Returns a contestant that runs all stages on the host's threads.
 compare::Contestant cpu_contestant();
 
-/// Returns an engine for ContactFinder; `topology` must outlive it.
+/// Returns the engine of a ContactFinder; `topology` must outlive it.
 std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,
                                                   const compare::ExclusionView& exclusions);
 

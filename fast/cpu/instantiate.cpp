@@ -1,5 +1,5 @@
-// The stages, the resident simulation and the detection of ContactFinder instantiated for the host's threads: in one
-// source, because they run the same kernels. Updates of vertices stand in update_vertices.cpp.
+// Instantiates the stages, the resident simulation and the detection of ContactFinder for the host's threads. They
+// share one source, because they run the same kernels. update_vertices.cpp has the updates of vertices.
 #include <string>
 #include <utility>
 

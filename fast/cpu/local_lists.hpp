@@ -1,5 +1,6 @@
-// A thread keeps what it finds in a list of its own and moves it to the common one many at a time: all threads would
-// wait for one counter that each of them raises for each thing found, and beside it lie flags that all of them read.
+// Lists of one thread. A thread collects what it finds in its own list and moves many items at once to the common list.
+// Otherwise all threads would wait for the common counter, which each found item raises, and for the flags beside it in
+// memory, which all of them read.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +9,15 @@
 
 namespace ogc::fast {
 
-/// A list of one thread, with `room` items, that takes the place of a common one.
+/// A list of one thread with room for `room` items, used in place of a common list.
 template <class Item, int room>
 class LocalList {
  public:
-  /// Return items and counter in place of the common ones, for functors that add to these.
+  /// Return items and counter, for functors that add to the common ones.
   Item* items() { return items_; }
   int* count() { return &count_; }
-  /// Checks whether `more` further items fit. Call it before they are added: beyond its room a list only counts.
+  /// Checks whether `more` further items fit. Call it before adding them: without room, items are counted but not
+  /// stored.
   bool has_room_for(int more) const { return count_ + more <= room; }
 
   /// Moves all items to a common list. The common count includes items that find no room there; these are passed to
@@ -34,7 +36,7 @@ class LocalList {
   int count_ = 0;
 };
 
-/// Holds the pairs that the searches of one thread note. Pairs without room in the common list are dropped: that
+/// Holds the pairs that one thread's searches note. Pairs without room in the common list are dropped, because their
 /// detection has overflowed and is repeated.
 class LocalNotes {
  public:
@@ -43,7 +45,7 @@ class LocalNotes {
   LocalNotes& operator=(const LocalNotes&) = delete;
   ~LocalNotes() { flush(); }
 
-  /// Returns the common lists, with this list in place of their notes.
+  /// Returns the common lists, but with this list in place of their notes.
   ListsView view() {
     ListsView lists = common_;
     lists.noted = list_.items(), lists.noted_count = list_.count(), lists.noted_capacity = room;
@@ -71,8 +73,8 @@ void run_range(const F& f, int begin, int end) {
   for (int i = begin; i < end; ++i) f(i);
 }
 
-/// Collects contacts, at most one for each pair. A contact without room is not counted in its bucket and at its
-/// vertices, because FillBuckets would look for it there.
+/// Collects contacts, at most one for each pair. A contact without room is taken out of the counts of its bucket and
+/// its vertices, because FillBuckets would look for it there.
 inline void run_range(const CollectContacts& f, int begin, int end) {
   constexpr int room = 256;  // 4 KiB
   const ListsView& common = f.lists;

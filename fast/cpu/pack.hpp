@@ -1,9 +1,9 @@
-// Several floats at a time in one register, as a number type of the kernels' formulas: the same operations in the same
-// order as on one float, each rounded alike, so that the same bits come out. g++'s vector types; a few operations have
-// better instructions where there is SSE2 or AVX2.
+// A number type for the kernels' formulas that holds several floats in one register. It does the same operations in the
+// same order as one float, and rounds each result in the same way, so all bits are the same. It uses g++'s vector
+// types, and SSE2 or AVX2 instructions where these are better.
 //
-// Files that use packs are compiled for several machines, each in a namespace of its own, so that the linker never
-// merges code with AVX2 into what runs without.
+// Files that use packs are compiled for several machines, each in its own namespace. So the linker never merges code
+// with AVX2 into code without it.
 #pragma once
 
 #include <bit>
@@ -28,33 +28,33 @@
 namespace ogc::fast {
 inline namespace OGC_PACKS {
 
-/// g++'s vector types of N numbers.
+/// Names g++'s vector types of N numbers.
 template <int N>
 struct Register;
-/// 16 B: a register of SSE2.
+/// 16 B: a register of SSE2
 template <>
 struct Register<4> {
   using Numbers __attribute__((vector_size(16))) = float;
   using Bits __attribute__((vector_size(16))) = std::int32_t;
 };
-/// 32 B: a register of AVX2.
+/// 32 B: a register of AVX2
 template <>
 struct Register<8> {
   using Numbers __attribute__((vector_size(32))) = float;
   using Bits __attribute__((vector_size(32))) = std::int32_t;
 };
 
-/// True or false N times.
+/// Holds N truth values.
 template <int N>
 struct PackMaskOf {
-  using Bits = typename Register<N>::Bits;  ///< all ones or none
+  using Bits = typename Register<N>::Bits;  ///< all bits set if true, none if false
   Bits bits{};                              ///< by lane
 
   friend PackMaskOf operator!(PackMaskOf a) { return {~a.bits}; }
   friend PackMaskOf operator&&(PackMaskOf a, PackMaskOf b) { return {a.bits & b.bits}; }
   friend PackMaskOf operator||(PackMaskOf a, PackMaskOf b) { return {a.bits | b.bits}; }
 
-  /// A bit for each lane that is true, the first one's lowest.
+  /// Returns a bit for each lane that is true; the lowest bit is that of lane 0.
   friend unsigned true_lanes(PackMaskOf condition) {
 #if defined(__AVX2__)
     if constexpr (N == 8) return static_cast<unsigned>(_mm256_movemask_ps(std::bit_cast<__m256>(condition.bits)));
@@ -69,7 +69,7 @@ struct PackMaskOf {
   friend bool is_false(PackMaskOf condition) { return true_lanes(condition) == 0; }
 };
 
-/// N floats in one register, each in a lane.
+/// Holds N floats in one register, one in each lane.
 template <int N>
 struct PackOf {
   static constexpr int width = N;  ///< lanes
@@ -144,7 +144,7 @@ PackOf<N> choose(PackMaskOf<N> condition, const A& a, const B& b) {
   return select(condition, a(), b());
 }
 
-/// The pack that nodes and searches use.
+/// The pack for nodes and searches.
 using Pack = PackOf<4>;
 
 /// The widest pack that fits a register.
@@ -162,7 +162,8 @@ typename P::Mask first_of(int count) {
   (std::make_integer_sequence<int, P::width>());
 }
 
-/// Returns a pack whose 16 B blocks hold numbers p, q, r and s of the same block of a; from N on they are numbers of b.
+/// Returns a mixture of each block of 16 B of a and b. Its numbers are those at p, q, r and s of the block; from N on
+/// an index means b.
 template <int p, int q, int r, int s, int N>
 PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   return [&]<int... k>(std::integer_sequence<int, k...>) {
@@ -172,10 +173,11 @@ PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   (std::make_integer_sequence<int, N>());
 }
 
-/// The columns of four rows a, b, c and d, in each block of 16 B by itself.
+/// The columns of four rows a, b, c and d, for each block of 16 B separately.
 template <int N>
 struct ColumnsOf {
-  PackOf<N> x, y, z, w;  ///< x: number 0 of each 16 B of a, b, c and d in this order; y, z and w: numbers 1, 2 and 3
+  /// by block: x has number 0 of a, b, c and d in this order; y, z and w have numbers 1, 2 and 3
+  PackOf<N> x, y, z, w;
 };
 /// Returns the columns of four rows.
 template <int N>
@@ -187,14 +189,13 @@ ColumnsOf<N> transposed(const PackOf<N>& a, const PackOf<N>& b, const PackOf<N>&
 }
 using Columns = ColumnsOf<4>;
 
-/// Joins two halves. They stay in registers: a pack that is read back from two halves in memory waits for both to
-/// arrive there.
+/// Joins two halves in registers. A pack that is read from two halves in memory would wait until both have been stored.
 #if defined(__AVX2__)
 /// Returns `low` in lanes 0 … 3 and `high` in lanes 4 … 7.
 inline PackOf<8> halves(Pack low, Pack high) { return PackOf<8>::Numbers(_mm256_set_m128(high.value, low.value)); }
 #endif
 
-/// Returns x, y and z of P::width positions, each of which is read whole.
+/// Returns x, y and z of P::width positions; each position is read as a whole.
 template <class P>
 [[gnu::always_inline]] inline Vector<P> transposed(const PaddedVec* const* position) {
   const auto whole = [position](int k) { return Pack(std::bit_cast<Pack::Numbers>(*position[k])); };
@@ -210,7 +211,7 @@ template <class P>
 
 }  // namespace OGC_PACKS
 
-/// Packs are compared lane by lane.
+/// Makes packs compare lane by lane.
 template <int N>
 struct MaskOf<PackOf<N>> {
   using type = PackMaskOf<N>;

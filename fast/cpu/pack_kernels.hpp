@@ -1,5 +1,5 @@
-// Declares the sum of a vertex in packs. It is compiled for several machines and chosen at run time; all give the same
-// bits.
+// Declares the sum over a vertex's stencils in packs. It is compiled for several machines and chosen at run time; all
+// versions give the same bits.
 #pragma once
 
 #include <cstddef>
@@ -10,26 +10,28 @@
 
 namespace ogc::fast {
 
-/// The sums of a part that was computed item by item, one for each team lane; null if there are none.
+/// The sums of a part that was computed item by item, one sum for each team lane; null if there are none.
 struct TeamLaneSums {
   const ForceAndBlock* sums = nullptr;  ///< by team lane, W of them
-  int count = 0;                        ///< items of the part; where they are fewer than W the last sums are 0
+  int count = 0;                        ///< items of the part; if there are fewer than W, the last sums are 0
 };
 
-/// Whether packs can compute a part of a sum (fast/kernels/kinds), at vertices where its `is_packed` returns true.
+/// Tells whether packs can compute a part of a sum (fast/kernels/kinds), at vertices where the part's `is_packed`
+/// returns true.
 template <class Part>
 inline constexpr bool has_packs = requires(const SweepView& view, const SweepVertex& vertex) {
   Part::is_packed(view, vertex);
 };
 
-/// Computes the sum of GatherAll with a SerialTeam and the activation `ogc`. `alone`: by part, the sums of parts that
-/// are not computed in packs; null sums for other parts, and for parts that the vertex does not have.
+/// Computes the sum of GatherAll with a SerialTeam and the activation `ogc`. `alone` has, by part, the sums of parts
+/// that packs do not compute. The sums are null for parts that packs compute, and for parts that the vertex does not
+/// have.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const TeamLaneSums* alone);
-/// Sums of vertices, and segments of rods.
+/// The kernels that run in packs: sums of vertices, and updates of rods' segments.
 struct PackKernels {
   GatherInPacks gather_4, gather_8, gather_16;  ///< for W = 4, 8, 16 team lanes
-  /// Updates segments begin … end − 1 as f does.
+  /// Updates segments begin … end − 1 as f(i) would.
   void (*update_segments)(const UpdateSegment& f, int begin, int end);
 
   /// Returns the kernel for W team lanes.
@@ -40,7 +42,7 @@ struct PackKernels {
   }
 };
 
-/// The kernels compiled without and with AVX2. Where has_avx2() is false the latter must not be called.
+/// The kernels compiled without and with AVX2. pack_kernels_avx2 must not be called if has_avx2() is false.
 extern const PackKernels pack_kernels_baseline, pack_kernels_avx2;
 
 /// Returns whether this machine can run pack_kernels_avx2.
@@ -51,16 +53,16 @@ const PackKernels& pack_kernels();
 /// Updates segments begin … end − 1 of a loop in this thread.
 inline void run_range(const UpdateSegment& f, int begin, int end) { pack_kernels().update_segments(f, begin, end); }
 
-/// Computes the same sum as a Gather: in packs the parts that have packs for their models, the other parts item by
-/// item. With another activation than `ogc`, or fewer than 4 team lanes, it computes all of them item by item.
+/// Computes the same sum as a Gather. Parts with packs for their models are computed in packs, other parts item by
+/// item. With an activation other than `ogc`, or fewer than 4 team lanes, all parts are computed item by item.
 template <class All>
 struct PackedGather;
 template <class... Parts>
 struct PackedGather<Gather<AnyActivation, Parts...>> {
   using All = Gather<AnyActivation, Parts...>;
-  static constexpr int parts = All::parts;  ///< of the sum; devices alone read it
+  static constexpr int parts = All::parts;  ///< parts of the sum; only devices read it
   static constexpr bool has_volumes = All::has_volumes;
-  const PackKernels& kernels = pack_kernels();  ///< those of this machine
+  const PackKernels& kernels = pack_kernels();  ///< kernels of this machine
 
   template <int W>
   ForceAndBlock operator()(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
@@ -72,12 +74,12 @@ struct PackedGather<Gather<AnyActivation, Parts...>> {
   }
 
  private:
-  /// Room for the sums of a part, none of which is there before it is needed.
+  /// Memory for the sums of a part; the sums are constructed only if the part is computed item by item.
   template <int W>
   struct Room {
     alignas(ForceAndBlock) std::byte bytes[W * sizeof(ForceAndBlock)];
 
-    /// Sums of all team lanes of a part that is computed item by item.
+    /// Computes a part item by item. Returns the sums of all team lanes.
     template <class AnyPart>
     TeamLaneSums one_by_one(const AnyPart& part) {
       if (part.count == 0) return {};
@@ -105,7 +107,7 @@ struct PackedGather<Gather<AnyActivation, Parts...>> {
     return kernels.gather<W>()(view, slot, vertex, own, sums);
   }
 };
-/// The sum of any scene in packs.
+/// The sum of any scene, in packs.
 using GatherPacked = PackedGather<GatherAll>;
 
 }  // namespace ogc::fast

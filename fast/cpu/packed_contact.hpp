@@ -1,5 +1,5 @@
-// What a pack of contacts gives the formulas of fast/kernels/sweep/contacts.hpp. It computes the closest points of two
-// segments in general position and of a point over a triangle together, those of anything else one by one.
+// Implements the functions of fast/kernels/sweep/contacts.hpp for a pack of contacts. Closest points of two segments in
+// general position, and of a point over a triangle, are computed in packs. All other cases are computed one by one.
 #pragma once
 
 #include <bit>
@@ -11,14 +11,15 @@
 
 namespace ogc::fast {
 
-/// The weights of one contact, compiled once for all machines.
+/// Returns the weights of one contact. It is compiled once for all machines.
 ContactWeights weights_of_one(ContactKind kind, const Vec* x);
 
 inline namespace OGC_PACKS {
 
 namespace packed {
 
-/// Weights of two segments, and of a point and a triangle. `usual`: lanes where the formula of the usual case holds.
+/// Return the weights of two segments, and of a point and a triangle. `usual`: lanes in which the formula of the usual
+/// case is valid.
 template <class P>
 ContactWeightsOf<P> segment_weights(const Vector<P>* x, typename P::Mask& usual) {
   const TwoSegments<P> at(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
@@ -32,8 +33,8 @@ ContactWeightsOf<P> triangle_weights(const Vector<P>* x, typename P::Mask& usual
   return weights_of(at.weights());
 }
 
-/// Weights of the closest points of the items that are counted, by slot. Those that are not `usual` are computed one by
-/// one.
+/// Returns the weights of the closest points of the counted items, by slot. Items that are not `usual` are computed one
+/// by one.
 template <class P>
 ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vector<P>* x) {
   bool segments = false;
@@ -63,7 +64,7 @@ ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vecto
 
 }  // namespace packed
 
-/// What formulas of contacts (fast/kernels/sweep/contacts.hpp) take from a pack of them.
+/// Return the closest points' weights, the vertex's own weight, and the majorant of a pack of contacts.
 template <PairKind, class P>
 ContactWeightsOf<P> closest_weights(const packed::Items<ContactIncidence, P>& items, const Vector<P>* x) {
   return packed::weights(items, x);

@@ -1,5 +1,5 @@
-// The gaps of a node's four children at once: g++ leaves a loop over them scalar, which doubles the time of a whole
-// detection. Same operations, same bits.
+// Computes the gaps of a node's four children at once. g++ does not vectorise a loop over them, which doubles the time
+// of a whole detection. The operations and the bits are the same.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace ogc::fast {
 
-/// The bits of the squared_gap of each child; a child without a box is infinitely far.
+/// Returns squared_gap of each child, with the same bits. A child without a box is infinitely far away.
 inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
   const Pack box_lower(Pack::Numbers{box.lower.x, box.lower.y, box.lower.z, 0}),
       box_upper(Pack::Numbers{box.upper.x, box.upper.y, box.upper.z, 0});
-  // gaps along the axes, and the reach: the other number there is 0 minus the bits of a primitive's, which is not above
-  // it or no number
+  // Lanes 0 … 2 get the gaps along the axes, lane 3 gets the reach. In lane 3 the other operand is 0 minus a primitive
+  // number read as a float, which is at most 0 or NaN.
   Pack of[4];
   for (int k = 0; k < 4; ++k) {
     const auto [lower, upper] = std::bit_cast<std::array<Pack::Numbers, 2>>(quad.child[k]);

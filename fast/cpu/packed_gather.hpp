@@ -1,5 +1,5 @@
-// The sum over the stencils of a vertex, a pack of team lanes at a time. Team lanes, their items and the order of every
-// addition are those of SerialTeam, so the bits are, too (tests/fast/stages/sweep.cpp).
+// Sums over a vertex's stencils, a pack of team lanes at a time. Team lanes, their items and the order of all additions
+// are those of SerialTeam, so the bits are the same (tests/fast/stages/sweep.cpp).
 #pragma once
 
 #include "fast/cpu/pack_kernels.hpp"
@@ -10,7 +10,7 @@ namespace ogc::fast {
 inline namespace OGC_PACKS {
 namespace packed {
 
-/// Returns P::width sums as a sum of packs, sum k in lane k.
+/// Returns P::width sums as one sum of packs, with sum k in lane k.
 template <class P>
 ForceAndBlockOf<P> together(const ForceAndBlock* a) {
   const auto each = [a](auto number) { return P::of_each([&](int k) { return number(a[k]); }); };
@@ -22,11 +22,11 @@ ForceAndBlockOf<P> together(const ForceAndBlock* a) {
            each([](Sum s) { return s.block.yz; }), each([](Sum s) { return s.block.zz; })}};
 }
 
-/// The W lanes of a team, P::width in a pack.
+/// Holds the W lanes of a team, P::width of them in a pack.
 template <int W, class P>
 struct TeamLanes {
   static_assert(W >= P::width);
-  using Position = Vector<P>;              ///< of the vertex, the same in each lane
+  using Position = Vector<P>;              ///< of the vertex, the same in every lane
   ForceAndBlockOf<P> packs[W / P::width];  ///< team lane l in lane l mod P::width of pack l / P::width
 
   /// Adds a part of `count` items; add(items, sum) adds P::width of them at a time.
@@ -42,7 +42,7 @@ struct TeamLanes {
     }
   }
 
-  /// Adds a part that was computed one by one.
+  /// Adds a part that was computed item by item.
   void add_part(const TeamLaneSums& part) {
     for (int first = 0; first < W && first < part.count; first += P::width)
       packs[first / P::width] += together<P>(part.sums + first);
@@ -68,7 +68,7 @@ struct TeamLanes {
   }
 };
 
-/// Adds the contacts of a slot, vertex–facet ones first.
+/// Adds the contacts of a slot, vertex–facet contacts first.
 template <int W, class P>
 void add_contact_parts(const SweepView& view, int slot, TeamLanes<W, P>& lanes) {
   const ContactRow row = view.contact_rows[slot];
@@ -80,7 +80,7 @@ void add_contact_parts(const SweepView& view, int slot, TeamLanes<W, P>& lanes) 
   lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
 }
 
-/// The sum of a vertex: of each part the sums that are there already, else in packs.
+/// Returns the sum of a vertex. A part with given sums (`alone`) adds these; other parts are computed in packs.
 template <int W, class Activation, class... Parts>
 [[gnu::flatten]] ForceAndBlock gather(Gather<Activation, Parts...>, const SweepView& view, int slot,
                                       const SweepVertex& vertex, const Vec& own, const TeamLaneSums* alone) {
@@ -98,7 +98,7 @@ template <int W, class Activation, class... Parts>
   return lanes.total();
 }
 
-/// A GatherInPacks.
+/// Implements GatherInPacks.
 template <int W>
 ForceAndBlock gather_all(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                          const TeamLaneSums* alone) {

@@ -1,4 +1,4 @@
-// Items of a part of a vertex' sum, a pack of them at a time, and sums of packs. A number of a pack stands in a lane.
+// Reads items of a part of a vertex's sum, a pack at a time, and adds packs of sums.
 #pragma once
 
 #include "fast/cpu/pack.hpp"
@@ -8,7 +8,7 @@ namespace ogc::fast {
 inline namespace OGC_PACKS {
 namespace packed {
 
-/// The items that as many team lanes take next of a part; lanes beyond it repeat its last item, and are not counted.
+/// The next items of a part, one for each lane. Lanes beyond the last item repeat that item and are not counted.
 template <class Item, class P>
 struct Items {
   const Item* at[P::width];  ///< by lane
@@ -17,9 +17,9 @@ struct Items {
   Items(const Item* first, int count) : counted(first_of<P>(count)) {
     for (int k = 0; k < P::width; ++k) at[k] = first + (k < count ? k : count - 1);
   }
-  using Number = P;  ///< of the formulas
+  using Number = P;  ///< number type of the formulas
 
-  /// Return number(item) of each item, and where condition(item) holds.
+  /// Return number(item) of each item, and a mask of the items for which condition(item) holds.
   template <class F>
   P each(F number) const {
     return P::of_each([&](int k) { return number(*at[k]); });
@@ -28,20 +28,20 @@ struct Items {
   typename P::Mask which(F condition) const {
     return each([&](const Item& item) { return condition(item) ? 1.0F : 0.0F; }) > P{};
   }
-  /// Returns the positions of the vertices with the encoded indices index(item), as the update of a vertex reads them
-  /// [m].
+  /// Returns the positions of vertices as the update of a vertex reads them [m]. index(item): encoded index of the
+  /// vertex.
   template <class F>
   Vector<P> position(const SweepShared& view, F index) const {
     return each_position([&](const Item& item) -> const PaddedVec& { return view.old[view.number(index(item))]; });
   }
-  /// Returns xᵗ of those vertices [m].
+  /// Returns xᵗ of vertices [m]. index(item): encoded index of the vertex.
   template <class F>
   Vector<P> start(const SweepShared& view, F index) const {
     return each_position([&](const Item& item) -> const PaddedVec& { return view.start.at[decoded(index(item))]; });
   }
 
  private:
-  /// Returns the positions of all items; position(item) refers to one.
+  /// Returns the positions of all items. position(item) refers to the position of an item.
   template <class F>
   Vector<P> each_position(F position) const {
     const PaddedVec* padded[P::width];
@@ -67,7 +67,8 @@ ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>
            select(condition, p.yy, q.yy), select(condition, p.yz, q.yz), select(condition, p.zz, q.zz)}};
 }
 
-/// Adds where the condition holds: add(sum) computes all lanes, and the others keep their sums, bit for bit.
+/// Adds to `sum` in the lanes where the condition holds. add(sum) computes all lanes; the others keep the bits of their
+/// sums.
 template <int N, class Add>
 void add_where(PackMaskOf<N> condition, ForceAndBlockOf<PackOf<N>>& sum, Add add) {
   if (is_false(condition)) return;

@@ -1,5 +1,5 @@
-// Searches of one thread that collect candidates and compute the lower bounds of their distances four at a time. Which
-// pairs a search rejects changes no answer, and these are the same bounds (tests/fast/cpu/pack.cpp).
+// Runs searches of one thread that collect candidates and compute lower bounds of four distances at a time. The bounds
+// are those of `separation` (tests/fast/cpu/pack.cpp). Which pairs a search rejects changes no result.
 #pragma once
 
 #include "fast/cpu/local_lists.hpp"
@@ -10,13 +10,13 @@
 
 namespace ogc::fast::packed {
 
-/// Vertices of four primitives, one of each.
+/// Returns four positions, one in each lane.
 inline Vector<Pack> gathered(PaddedVecs positions, int a, int b, int c, int d) {
   const PaddedVec* const vertex[4] = {&positions.at[a], &positions.at[b], &positions.at[c], &positions.at[d]};
   return transposed<Pack>(vertex);
 }
 
-/// Returns lower bounds of the distances of an edge from four others, as `separation` gives them [m].
+/// Returns lower bounds of the distances of an edge from four others, equal to those of `separation` [m].
 inline Pack separations(const DetectEdgeEdge& query, const Search& search, const int* primitive) {
   const EdgeEnds own = query.surface.edges[search.owner];
   EdgeEnds other[Pack::width];
@@ -37,17 +37,17 @@ inline Pack separations(const DetectVertexFacet& query, const Search& search, co
   return separation(everywhere<Pack>(search.box.lower), CornersOf<Pack>{at(0), at(1), at(2)});
 }
 
-/// Candidates that wait for three others.
+/// Collects candidates of a search until there are four.
 template <class Query>
 struct Waiting {
-  const Query& query;                     ///< notes pairs in `notes`
-  LocalNotes& notes;                      ///< of the thread
-  Search& search;                         ///< that they belong to; its limit falls as distances are taken
-  int primitive[Pack::width], count = 0;  ///< the first `count` wait
-  /// squared gaps of boxes, gap limits of reaches, and what candidate_limit says [m²]
+  const Query& query;                     ///< writes pairs to `notes`
+  LocalNotes& notes;                      ///< notes of the thread
+  Search& search;                         ///< search of the candidates; distances lower its limit
+  int primitive[Pack::width], count = 0;  ///< the first `count` are used
+  /// squared gaps of boxes, gap limits of reaches, and results of candidate_limit [m²]
   float gap[Pack::width], reach[Pack::width], within[Pack::width];
 
-  /// Adds a candidate; looks at all when a pack is full.
+  /// Adds a candidate. Tests all candidates when there are four.
   void take(const Offer& offer) {
     const float limit = query.candidate_limit(search, offer);
     if (limit < 0) return;
@@ -55,7 +55,7 @@ struct Waiting {
     if (++count == Pack::width) look();
   }
 
-  /// Looks at all that wait.
+  /// Tests all candidates that have been collected.
   void look() {
     if (count == 0) return;
     notes.expect(count);

@@ -1,6 +1,6 @@
-// Updates the segments of a colour, a pack at a time, with the same bits as one by one
-// (tests/fast/cpu/packed_segments.cpp). Packs treat the usual case of UpdateSegment; segments in any other case, and
-// all segments of rods with damping, are updated one by one.
+// Updates the segments of a colour, a pack at a time, with the bits of single updates
+// (tests/fast/cpu/packed_segments.cpp). Packs treat the usual case of UpdateSegment. All other segments, and all
+// segments of rods with damping, are updated one by one.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@ namespace ogc::fast {
 inline namespace OGC_PACKS {
 namespace packed {
 
-/// Returns P::width quaternions, each of which is read whole.
+/// Returns P::width quaternions; each is read as a whole.
 template <class P>
 [[gnu::always_inline]] inline QuatOf<P> transposed_quats(const Quat* const* at) {
   const auto column = [at](int k) {  // quaternions k, k + 4, …
@@ -26,7 +26,7 @@ template <class P>
   return {all.x, all.y, all.z, all.w};
 }
 
-/// Adds to b the undamped terms of the neighbours at one side of each segment.
+/// Adds to b the undamped terms of each segment's neighbour at one side.
 template <class P>
 void add_neighbours(const UpdateSegment& f, const SegmentSlot* slots, int side, const QuatOf<P>& old, QuatOf<P>& b) {
   const Quat *now[P::width], *rest[P::width];
@@ -38,7 +38,7 @@ void add_neighbours(const UpdateSegment& f, const SegmentSlot* slots, int side, 
   add_undamped_neighbour(weight, side == 1, transposed_quats<P>(now), transposed_quats<P>(rest), old, b);
 }
 
-/// Updates P::width segments, from number `first` of the colour on.
+/// Updates P::width segments, the first of which has number `first` in the colour.
 template <class P>
 void update_pack(const UpdateSegment& f, int first) {
   const SweepView& view = f.view;
@@ -67,7 +67,7 @@ void update_pack(const UpdateSegment& f, int first) {
   }
 }
 
-/// Updates segments begin … end − 1 of a colour as UpdateSegment does.
+/// Updates segments begin … end − 1 of a colour, with the results of UpdateSegment.
 [[gnu::flatten]] inline void update_segments(const UpdateSegment& f, int begin, int end) {
   if (f.view.is_off()) return;
   const RodStream& rods = f.view.rods;

@@ -1,4 +1,4 @@
-// Compiled once for any machine and once for those with AVX2.
+// Is compiled once for any machine and once for machines with AVX2.
 #include "fast/cpu/packed_gather.hpp"
 #include "fast/cpu/packed_segments.hpp"
 

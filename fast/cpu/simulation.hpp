@@ -1,4 +1,4 @@
-// The resident simulation on the host's threads.
+// Declares the resident simulation on the host's threads.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,9 @@
 
 namespace ogc::fast {
 
-/// A simulation of the scene, at its start. Throws compare::InputError for a scene without energies for what moves
-/// (fast/stages/rest_state.hpp). `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists grow by
-/// themselves; the setting serves tests of that.
+/// Starts a simulation of the scene. Throws compare::InputError if build_rest_state does (fast/stages/rest_state.hpp).
+/// `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists grow by themselves; tests set it to
+/// make them grow.
 std::unique_ptr<compare::Simulation> start_cpu(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                int list_capacity = 0);
 

@@ -50,7 +50,8 @@ bool CudaBackend::read_flag(const int* flag) {
   return value != 0;
 }
 
-// Capture is relaxed: scratch memory may grow and kernels may be loaded while the body is recorded.
+// Starts to record. The capture mode is relaxed, so that scratch memory may grow and kernels may be loaded while the
+// body is recorded.
 void CudaBackend::begin_recording() {
   OGC_CUDA_CHECK(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeRelaxed));
   recording_ = true;
@@ -73,7 +74,7 @@ void CudaBackend::abandon_recording() noexcept {
   recording_ = false;
   cudaGraph_t graph = nullptr;
   if (current_ != stream_) {
-    cudaStreamEndCapture(current_, &graph);  // the body belongs to its node: not destroyed here
+    cudaStreamEndCapture(current_, &graph);  // the body belongs to its node and must not be destroyed here
     cudaStreamDestroy(current_);
     graph = nullptr;
   }
@@ -84,8 +85,8 @@ void CudaBackend::abandon_recording() noexcept {
   cudaGetLastError();
 }
 
-// Makes one stream wait for the other; the event carries the capture, too. Streams and events live as long as the
-// recording, because those of a branch are part of it.
+// Makes one stream wait for another. The event also makes the waiting stream part of the capture. Streams and events of
+// branches are part of the recording, so they live until it ends.
 void CudaBackend::wait_for(cudaStream_t waiting, cudaStream_t other) {
   cudaEvent_t crossing = nullptr;
   OGC_CUDA_CHECK(cudaEventCreateWithFlags(&crossing, cudaEventDisableTiming));
@@ -94,7 +95,7 @@ void CudaBackend::wait_for(cudaStream_t waiting, cudaStream_t other) {
   OGC_CUDA_CHECK(cudaStreamWaitEvent(waiting, crossing, 0));
 }
 
-// Makes a new stream current, which begins after all that `current_` has captured so far.
+// Makes a new stream current. It begins after all work that `current_` has captured so far.
 cudaStream_t CudaBackend::begin_branch() {
   cudaStream_t branch = nullptr;
   OGC_CUDA_CHECK(cudaStreamCreateWithFlags(&branch, cudaStreamNonBlocking));
@@ -130,8 +131,8 @@ cudaGraphConditionalHandle CudaBackend::new_condition() {
   return handle;
 }
 
-// Adds a node after all that `current_` has captured so far, and makes a new stream current, which captures into the
-// node's body.
+// Adds a conditional node after all work that `current_` has captured so far. Makes a new stream current, which
+// captures the node's body.
 cudaStream_t CudaBackend::begin_condition(cudaGraphConditionalHandle handle, cudaGraphConditionalNodeType type) {
   cudaStreamCaptureStatus status = cudaStreamCaptureStatusNone;
   cudaGraph_t graph = nullptr;

@@ -1,16 +1,18 @@
 // Implements the backend of fast/stages/backend.hpp on one CUDA device.
 //
-//   stream_        a blocking stream: Buffer copies (legacy stream) order themselves with it, nothing else waits
-//   current_       the stream that takes work: stream_, or the body of a node while `when` or `repeat` records it
-//   scratch_       temporary memory that scan and sort share: they run one after the other
-//   follows_       whether the last thing enqueued there is a kernel, which the next may follow (fast/cuda/follow.cuh)
+//   stream_        a blocking stream: ordered with Buffer copies (legacy stream); nothing else waits
+//   current_       the stream that takes work: stream_, or another one while a node's body or a branch is recorded
+//   scratch_       temporary memory that scan and sort share, since they run one after the other
+//   follows_       whether the last work in current_ is a kernel, which the next one may follow (fast/cuda/follow.cuh)
 //
-// A step is thousands of small kernels; enqueued one by one each costs 3.2 µs of host time, inside a CUDA graph 0.5 µs.
-// So `replay` records once what a body enqueues into a graph, and launches the graph for each repetition. It records
-// again after a Buffer has moved, since a graph holds pointers. In a graph `when` becomes a conditional IF node (4.1 to
-// 4.9 µs skipped, 8.5 µs taken, against 0.5 µs for each guarded kernel), `repeat` a WHILE node, `at_once` two branches
-// that part and meet. Outside a recording (probes, --profile) flags are read on the host, and branches run one after
-// the other. Conditional nodes need a driver of CUDA 12.4; this runtime (13) needs a newer one.
+// A step has thousands of small kernels. Enqueued one by one each costs 3.2 µs of host time; inside a CUDA graph it
+// costs 0.5 µs. So `replay` records the body's work once in a graph and launches the graph for each repetition. It
+// records again after a Buffer has moved, since a graph holds pointers.
+//
+// In a graph `when` becomes a conditional IF node (skipped 4.1 to 4.9 µs, taken 8.5 µs; a guarded kernel costs 0.5 µs),
+// `repeat` a WHILE node, and `at_once` two branches. Outside a recording (probes, --profile) flags are read on the
+// host, and branches run one after the other. Conditional nodes need a driver of CUDA 12.4; this runtime (13) needs a
+// newer one.
 #pragma once
 
 #include <algorithm>
@@ -35,30 +37,30 @@
 
 namespace ogc::fast {
 
-/// Threads of a block; tests take fewer (LaunchShape).
+/// Threads of a block. Tests use fewer (LaunchShape).
 inline constexpr int cuda_block_size = 128;
-/// Threads of a launch for each multiprocessor: twice what it can hold at once. That keeps it busy, and a long
-/// count-limited loop costs little.
+/// Threads of a launch for each multiprocessor: twice as many as run at once, which keeps the multiprocessor busy.
+/// Loops over a counted number of items cost little even if the capacity is large.
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
-/// From this number of team lanes on the teams of a launch are SerialLaneTeams (measured: fast/PERFORMANCE.md). Terms
-/// and the order of their sums are the same; a build that contracts may contract the two kernels differently.
+/// From this number of team lanes on, teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Both kinds of teams
+/// have the same terms and the same order of sums. If the compiler contracts operations, it may do so differently in
+/// the two kernels.
 inline constexpr int serial_lanes_per_multiprocessor = 350;
 
-/// Up to this number of blocks of SerialLaneTeams, which the device holds at once, their warps are strided. If blocks
-/// come one after the other anyway, neighbours in one block share more of what they read (measured:
-/// fast/PERFORMANCE.md).
+/// Up to this number of blocks of SerialLaneTeams, which run at once, warps are strided. Beyond it blocks run one after
+/// the other anyway, and neighbours in one block share more of their reads (measured: fast/PERFORMANCE.md).
 inline constexpr int strided_blocks_per_multiprocessor = 5;
 
-/// Returns F::resident_blocks, the blocks of a loop's launch that a multiprocessor shall hold at once: the compiler
-/// limits registers accordingly. 0: registers are not limited.
+/// Returns F::resident_blocks, the number of blocks that a multiprocessor should run at once; the compiler limits
+/// registers accordingly. 0: registers are not limited.
 template <class F>
 constexpr int resident_blocks() {
   if constexpr (requires { F::resident_blocks; }) return F::resident_blocks;
   return 0;
 }
 
-/// Runs f(i) for i < n; a thread takes every k-th item, k the number of threads of the launch.
+/// Runs f(i) for i < n. A thread takes every k-th item, with k threads in the launch.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   follow_launch();
@@ -66,13 +68,13 @@ __global__ void __launch_bounds__(cuda_block_size) run_each(int n, F f) {
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n; i += stride) f(i);
 }
 
-/// Requires ahead(i), which reads what f(i) needs and neither this launch nor the one before writes.
+/// Requires ahead(i): it reads data of f(i) that neither this launch nor the previous one writes.
 template <class F>
 concept ReadsAhead = requires(const F& f) {
   f.ahead(0);
 };
 
-/// Does the same; the launch before may still run while a thread reads what its first item needs.
+/// Runs f(i) for i < n. A thread reads ahead for its first item while the previous launch may still run.
 template <ReadsAhead F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_ahead(int n, F f) {
   const int stride = static_cast<int>(gridDim.x * blockDim.x);
@@ -86,7 +88,7 @@ __global__ void __launch_bounds__(cuda_block_size) run_each_ahead(int n, F f) {
   }
 }
 
-/// Does the same for i < *n, which the device reads, and no more than `capacity`.
+/// Runs f(i) for i < *n, at most `capacity`. The device reads *n.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
     run_each_counted(const int* n, int capacity, F f) {
@@ -96,8 +98,7 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < count; i += stride) f(i);
 }
 
-/// Runs f(i) for i < m, then g(i) for i < *n and no more than `capacity`; all items are shared out to the threads as
-/// one row.
+/// Runs f(i) for i < m, and g(i) for i < *n, at most `capacity`. The items of both are dealt to the threads in turn.
 template <class F, class G>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
     run_both(int m, F f, const int* n, int capacity, G g) {
@@ -109,7 +110,7 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
   for (i -= m; i < count; i += stride) g(i);
 }
 
-/// Runs f of each row, a warp a row (fast/cuda/least.cuh).
+/// Runs f for each row, with one warp a row (fast/cuda/least.cuh).
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_row(int n, const int* offsets, const float* values, F f) {
   follow_launch();
@@ -121,7 +122,7 @@ __global__ void __launch_bounds__(cuda_block_size) run_each_row(int n, const int
   }
 }
 
-/// Runs one thread, which decides what a conditional node does.
+/// Runs one thread that decides whether a conditional node runs its body.
 template <class F>
 __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const int* flag) {
   follow_launch();
@@ -129,15 +130,15 @@ __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const 
   cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u);
 }
 
-/// Runs blocks of 32/W teams; a team beyond the last works on the last item and writes nothing.
+/// Runs blocks of 32/W teams. Teams beyond the last item compute the last item and write nothing.
 template <int W, class F>
 __global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
   const int i = static_cast<int>(blockIdx.x) * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
   f(min(i, n - 1), SpreadTeam<W>(i < n));
 }
 
-/// Does the same with blocks of serial_block_size/W teams. `strided`: teams of a warp are neighbours, warps of a block
-/// are far apart, so that items which take long and lie side by side are shared out.
+/// Runs blocks of serial_block_size/W teams. `strided`: the teams of a warp are neighbours, but the warps of a block
+/// are far apart. So slow items that are neighbours are spread over several blocks.
 template <int W, class F>
 __global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f, bool strided) {
   const int warp = static_cast<int>(threadIdx.x) / 32, block = static_cast<int>(blockIdx.x);
@@ -146,14 +147,14 @@ __global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f
   f(min(i, n - 1), SerialLaneTeam<W>(i < n));
 }
 
-/// A body recorded as a graph. Empty at first; `CudaBackend::replay` fills and renews it.
+/// A body recorded as a graph, empty at first. `CudaBackend::replay` records it, and records again if it is stale.
 class CudaRecording {
  public:
   CudaRecording() = default;
   CudaRecording(const CudaRecording&) = delete;
   CudaRecording& operator=(const CudaRecording&) = delete;
   ~CudaRecording() { clear(); }
-  /// Makes the next replay record again, after constants of the body have changed.
+  /// Makes the next replay record again; needed after constants of the body have changed.
   void clear() noexcept;
 
  private:
@@ -162,7 +163,7 @@ class CudaRecording {
   std::uint64_t generation_ = 0;
 };
 
-/// One stream of one device; fast/stages/backend.hpp describes each member.
+/// Runs work in order on one device; fast/stages/backend.hpp describes each member.
 class CudaBackend {
  public:
   template <class T>
@@ -170,14 +171,14 @@ class CudaBackend {
   using Sums = DeviceSums;
   using Recording = CudaRecording;
 
-  /// Throws compare::ResourceError if there is no usable device, with cuda_info's reason, and compare::InputError if
-  /// the threads of `shape` are no multiple of 32 up to cuda_block_size.
+  /// Throws compare::ResourceError with the reason of cuda_info if there is no usable device. Throws
+  /// compare::InputError if `shape` has a number of threads that is not a multiple of 32 up to cuda_block_size.
   explicit CudaBackend(const LaunchShape& shape = {});
   CudaBackend(CudaBackend&& other) noexcept;
   CudaBackend& operator=(CudaBackend&&) = delete;
   ~CudaBackend();
 
-  /// Launches a thread an item, as far as the device can hold them; a thread of a larger loop takes several.
+  /// Launches one thread an item. If the device cannot hold so many threads, a thread takes several items.
   template <class F>
   void for_each(int n, F f) {
     if (n <= 0) return;
@@ -187,29 +188,29 @@ class CudaBackend {
       follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
   }
 
-  /// Launches room for `capacity` items; the device reads how many there are.
+  /// Launches threads for `capacity` items; the device reads the number of items.
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
     if (capacity <= 0) return;
     follow(typeid(F), run_each_counted<F>, blocks(capacity), block_threads_, n, capacity, f);
   }
 
-  /// Runs both as for_each and for_each_counted do, in one launch.
+  /// Runs the loops of for_each and for_each_counted in one launch.
   template <class F, class G>
   void for_both(int m, F f, const int* n, int capacity, G g) {
     if (m <= 0) return for_each_counted(n, capacity, g);
     follow(typeid(G), run_both<F, G>, blocks(std::int64_t{m} + capacity), block_threads_, m, f, n, capacity, g);
   }
 
-  /// Launches a warp a row; a warp of a larger loop takes several.
+  /// Launches one warp a row. If the device cannot hold so many warps, a warp takes several rows.
   template <class F>
   void for_each_row(int n, const int* offsets, const float* values, F f) {
     if (n <= 0) return;
     follow(typeid(F), run_each_row<F>, blocks(std::int64_t{32} * n), block_threads_, n, offsets, values, f);
   }
 
-  /// Runs SpreadTeams if there are few team lanes, SerialLaneTeams if they fill the device. Start::overlapping lets the
-  /// launch begin while the one before still runs.
+  /// Runs SpreadTeams if there are few team lanes, and SerialLaneTeams if team lanes fill the device. With
+  /// Start::overlapping the launch may begin while the previous one still runs.
   template <int W, class F>
   void for_each_team(int n, F f, Start start) {
     if (n <= 0) return;
@@ -228,8 +229,8 @@ class CudaBackend {
     follows_ = true;
   }
 
-  /// Searches in one launch by warps (fast/cuda/search.cuh). Throws compare::ResourceError for a tree of more than
-  /// largest_searched_count primitives.
+  /// Runs both kinds of searches in one launch, by warps (fast/cuda/search.cuh). Throws compare::ResourceError for a
+  /// tree of more than largest_searched_count primitives.
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
     require_searchable(first.tree);
@@ -243,7 +244,7 @@ class CudaBackend {
            second, second_groups);
   }
 
-  /// Scans in one launch if both are short, else in two; may allocate temporary memory.
+  /// Runs both scans in one launch if both are short, else in two. May allocate temporary memory.
   void exclusive_scans(const Scan& first, const Scan& second) {
     fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);
     follows_ = true;
@@ -254,7 +255,7 @@ class CudaBackend {
     follows_ = false;  // it may end with a copy
   }
 
-  /// Records a conditional IF node; outside a recording the host waits for the flag.
+  /// Records a conditional IF node. Outside a recording the host waits for the flag.
   template <class F, class Body>
   void when(F decide, const int* flag, Body body) {
     if (!recording_) {
@@ -269,7 +270,7 @@ class CudaBackend {
     end_condition(outer);
   }
 
-  /// Records a conditional WHILE node; outside a recording the host waits for the flag before each round.
+  /// Records a conditional WHILE node. Outside a recording the host waits for the flag before each round.
   template <class F, class Body, class G>
   void repeat(F decide, const int* flag, Body body, G decide_again) {
     if (!recording_) {
@@ -284,7 +285,7 @@ class CudaBackend {
     end_condition(outer);
   }
 
-  /// Records two branches of the graph; outside a recording runs one after the other.
+  /// Records two branches of the graph. Outside a recording they run one after the other.
   template <class Aside, class Body>
   void at_once(Aside aside, Body body) {
     if (!recording_) {
@@ -304,9 +305,9 @@ class CudaBackend {
     join(branch);
   }
 
-  /// Enqueues what `body` enqueues, `times` times over. `body` runs on the host only if `recording` is empty or stale,
-  /// so it must enqueue the same calls with the same arguments every time; what changes from step to step (numbers,
-  /// targets) is counted on the device.
+  /// Runs the body's work `times` times. `body` runs on the host only if `recording` is empty or stale, so it must
+  /// enqueue the same calls with the same arguments every time. Numbers and targets that change from step to step are
+  /// counted on the device.
   template <class Body>
   void replay(Recording& recording, int times, Body body) {
     if (recording.graph_ == nullptr || recording.generation_ != buffer_generation) {
@@ -326,7 +327,7 @@ class CudaBackend {
   /// Returns the device time of each repetition since the last call [ms]. Host only, after synchronize.
   std::vector<double> replay_milliseconds();
 
-  /// Waits for all that was enqueued. Throws if one of its kernels has failed.
+  /// Waits for all enqueued work. Throws if one of its kernels has failed.
   void synchronize() { OGC_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
 
  private:
@@ -338,8 +339,8 @@ class CudaBackend {
     if (tree.count > largest_searched_count)
       throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
   }
-  /// Returns the searches of a warp: few until the device is full (32 warps a multiprocessor), so that each warp is
-  /// short; more spare it rounds that do not fill a warp.
+  /// Returns the number of searches of a warp. Until the device is full (32 warps a multiprocessor) a warp has few, so
+  /// that it is short. With more searches, a warp has fewer rounds that it cannot fill.
   int search_group(int searches) const {
     const std::int64_t warps = std::int64_t{multiprocessors_} * 32;
     return static_cast<int>(std::clamp<std::int64_t>((searches + warps - 1) / warps, 1, largest_group));
@@ -349,8 +350,8 @@ class CudaBackend {
     if (error != cudaSuccess)
       throw_cuda_error(error, ("the launch of " + readable_type(functor.name())).c_str(), __FILE__, __LINE__);
   }
-  /// Launches a kernel that begins with follow_launch. It overlaps only in a recording: elsewhere copies may stand
-  /// between two launches.
+  /// Launches a kernel that begins with follow_launch. The kernel overlaps the previous one only in a recording;
+  /// otherwise a copy may be between them.
   template <class Kernel, class... Arguments>
   void follow(const std::type_info& functor, Kernel kernel, int blocks, int threads, const Arguments&... arguments) {
     launch_kernel(current_, recording_ && follows_, kernel, blocks, threads, arguments...);
@@ -379,10 +380,10 @@ class CudaBackend {
   bool recording_ = false, follows_ = false;
   int block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_;
-  std::vector<cudaStream_t> branches_;  // of the recording under way
-  std::vector<cudaEvent_t> crossings_;  // of the recording under way: where branches part and meet
-  std::vector<cudaEvent_t> events_;     // in the order of time; between two of them lies a repetition, or nothing
-  std::vector<bool> is_end_;            // by event since the last replay_milliseconds: whether it ends a repetition
+  std::vector<cudaStream_t> branches_;  // of the current recording
+  std::vector<cudaEvent_t> crossings_;  // of the current recording: events where branches begin and end
+  std::vector<cudaEvent_t> events_;     // in the order of time; two consecutive events enclose a repetition, or nothing
+  std::vector<bool> is_end_;            // by event since the last replay_milliseconds: whether a repetition ends there
 };
 
 }  // namespace ogc::fast

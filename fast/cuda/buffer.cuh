@@ -1,6 +1,6 @@
-// Holds resident arrays on the device: plain cudaMalloc, never managed memory. Copies go through the legacy default
-// stream. It and a backend's (blocking) stream wait for each other, so a copy sees all work enqueued before it. Inside
-// a capture the runtime refuses such a copy: copies are for outside a step.
+// Holds resident arrays on the device in plain cudaMalloc memory, never managed memory. Copies use the legacy default
+// stream. This stream and a backend's (blocking) stream wait for each other, so a copy sees all work enqueued before
+// it. The runtime refuses these copies inside a capture, so they are made outside a step.
 #pragma once
 
 #include <atomic>
@@ -15,13 +15,13 @@
 
 namespace ogc::fast {
 
-/// Allocates bytes on the device, not initialised; legal while a graph is being recorded. Throws compare::ResourceError
-/// with the requested size, the free size and what to do.
+/// Allocates bytes on the device without initialising them; allowed while a graph is recorded. Throws
+/// compare::ResourceError with the requested size, the free size and a remedy.
 void* device_allocate(std::size_t bytes);
 /// Frees memory; does nothing for null.
 void device_free(void* memory) noexcept;
 
-/// Counts allocations that moved: a recorded graph holds raw pointers and is stale once this number has changed.
+/// Counts allocations that moved. A recorded graph holds raw pointers, so it is stale after this number has changed.
 inline std::atomic<std::uint64_t> buffer_generation{0};
 
 /// A resident array on the device; it can be moved, not copied.
@@ -43,7 +43,7 @@ class CudaBuffer {
   const T* data() const { return items_; }
   std::size_t size() const { return size_; }
 
-  /// Resizes without keeping content; never shrinks. A new allocation starts at zero, as on the host.
+  /// Resizes without keeping content; the allocation never shrinks. A new allocation is zero, as on the host.
   void resize(std::size_t n) {
     if (n > capacity_) {
       device_free(std::exchange(items_, nullptr));

@@ -1,6 +1,5 @@
-// Defines the one macro for CUDA calls. A failed call becomes an exception that names the call, its place, and the
-// runtime's error; an error that an earlier kernel left behind surfaces at the next call that waits, and the text says
-// so.
+// Defines the macro for CUDA calls. A failed call throws an exception with the call, its place and the runtime's error.
+// An error of an earlier kernel appears at the next call that waits; the text says so.
 #pragma once
 
 #include <string>
@@ -9,11 +8,12 @@
 
 namespace ogc::fast {
 
-/// Throws compare::ResourceError if device or memory is missing, std::runtime_error otherwise. `what` is the call or
+/// Throws compare::ResourceError if a device or memory is missing, std::runtime_error otherwise. `what`: the call or
 /// the kernel.
 [[noreturn]] void throw_cuda_error(cudaError_t error, const char* what, const char* file, int line);
 
-/// Returns the readable name of a type: a failed launch names its functor, and with it the stage.
+/// Returns the readable name of a type. The error of a failed launch contains the name of its functor, which identifies
+/// the stage.
 std::string readable_type(const char* mangled);
 
 }  // namespace ogc::fast

@@ -14,17 +14,17 @@
 namespace ogc::fast {
 namespace {
 
-constexpr std::size_t alignment = 256;  // as cudaMalloc gives it, and CUB needs it
+constexpr std::size_t alignment = 256;  // the alignment of cudaMalloc, which CUB needs
 std::size_t aligned(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
 
 constexpr int scan_threads = 512, scan_items = 4, scan_tile = scan_threads * scan_items;
-/// Items of the longest short scan. Its last block reads them all, in 2 µs at what a multiprocessor gets from the
-/// second-level cache (64 B a cycle).
+/// Number of items of the longest short scan. Its last block reads them all in 2 µs, at a multiprocessor's rate from
+/// the second-level cache (64 B a cycle).
 constexpr int longest_short_scan = 1 << 16;
 
-// Scans without communication between blocks: each adds up all that stands before its tile, in a short scan item by
-// item, otherwise from `sums`, the sums of the tiles. CUB's scan takes two launches, neither of which may begin early,
-// and a detection has two scans. The first blocks run the first scan, the others the second.
+// Scans without communication between blocks. Each block adds everything before its tile: in a short scan item by item,
+// otherwise the tiles' sums in `sums`. CUB's scan would take two launches for each scan, and neither could begin early.
+// The first blocks run the first scan, the others the second.
 __global__ void __launch_bounds__(scan_threads)
     scan_tiles(Scan first_scan, int first_blocks, Scan second_scan, const int* sums) {
   follow_launch();
@@ -33,7 +33,7 @@ __global__ void __launch_bounds__(scan_threads)
   const int* in = scan.in;
   int* out = scan.out;
   const int n = scan.count, block = static_cast<int>(blockIdx.x) - (is_first ? 0 : first_blocks);
-  using Sums = unsigned long long;  // high half: sum of what stands before the tile; low half: sum of the tile
+  using Sums = unsigned long long;  // high half: sum of the items before the tile; low half: sum of the tile
   using Scan = cub::BlockScan<Sums, scan_threads, cub::BLOCK_SCAN_WARP_SCANS>;
   __shared__ typename Scan::TempStorage memory;
   const int thread = static_cast<int>(threadIdx.x), tile = block * scan_tile, first = tile + thread * scan_items;

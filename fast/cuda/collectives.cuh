@@ -1,4 +1,5 @@
-// Offers scan and sort as two plain functions, so that CUB is compiled once. Both are deterministic: integers only.
+// Declares scan and sort as two plain functions, so that CUB is compiled once. Both are deterministic, because they use
+// integers only.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +13,9 @@
 
 namespace ogc::fast {
 
-/// Holds the temporary memory of a backend's collectives. A request that is larger than any before adds a block and
-/// keeps the old ones until the backend ends: work already enqueued or recorded goes on using them. Blocks grow by half
-/// at least, so all of them together are at most three times the last.
+/// Holds the temporary memory of a backend's collectives. A request larger than all before adds a block. Old blocks
+/// stay until the backend ends, because work that is enqueued or recorded uses them. Blocks grow by at least half, so
+/// all blocks together are at most three times the last one.
 class Scratch {
  public:
   Scratch() = default;
@@ -22,8 +23,8 @@ class Scratch {
       : blocks_(std::exchange(other.blocks_, {})), largest_(std::exchange(other.largest_, 0)) {}
   Scratch& operator=(Scratch&&) = delete;
   ~Scratch();
-  /// Returns at least `bytes` bytes, aligned to 256, valid until the next call: the calls of one stream take turns.
-  /// Legal while a graph is being recorded.
+  /// Returns at least `bytes` bytes, aligned to 256, valid until the next call; calls of one stream run one after the
+  /// other. Allowed while a graph is recorded.
   void* request(std::size_t bytes);
 
  private:
@@ -31,11 +32,11 @@ class Scratch {
   std::size_t largest_ = 0;
 };
 
-/// Runs two scans, neither of which reads what the other writes: one launch if both are short, else two. `early`: see
-/// launch_kernel.
+/// Runs two scans in one launch if both are short, else in two. Neither scan may read what the other writes. `early`:
+/// see launch_kernel.
 void exclusive_scans(cudaStream_t stream, Scratch& scratch, bool early, const Scan& first, const Scan& second);
 
-/// Sorts in place, stable, ascending by these bits of the keys.
+/// Sorts in place by these bits of the keys: stable, ascending.
 void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n, KeyBits bits);
 
 }  // namespace ogc::fast

@@ -1,22 +1,22 @@
-// Uses programmatic dependent launch. In a graph a launch costs its latency each time, and a detection is nine
-// dependent launches of a few microseconds each. So the device may begin a launch while the one before it still runs:
-// such a kernel calls `follow_launch` first, which waits until the one before has ended and its writes are visible. The
-// kernel lets the next launch in only after this wait, so that the launch two before has ended, too; a kernel that
-// reads ahead of its wait (fast/cuda/team.cuh) relies on that.
+// Uses programmatic dependent launch. In a graph each launch adds its latency, and a detection has nine dependent
+// launches of a few microseconds each. So the device may begin a launch while the previous one still runs. Such a
+// kernel first calls `follow_launch`, which waits until the previous launch has ended and its writes are visible. Only
+// after this wait does the kernel let the next launch begin, so the launch before the previous one has ended, too.
+// Kernels that read before their wait (fast/cuda/team.cuh) rely on this.
 #pragma once
 
 #include <cuda_runtime.h>
 
 namespace ogc::fast {
 
-/// Waits for the launch before, then lets the next one in. It is the first statement of a kernel.
+/// Waits for the previous launch, then lets the next one begin. It is the first statement of a kernel.
 __device__ inline void follow_launch() {
   cudaGridDependencySynchronize();
   cudaTriggerProgrammaticLaunchCompletion();
 }
 
-/// Launches a kernel. `early`: the device may begin it before the launch before it has ended, because the kernel waits
-/// for that itself.
+/// Launches a kernel. `early`: the device may begin it before the previous launch has ended, because the kernel itself
+/// waits for that.
 template <class... Parameters, class... Arguments>
 void launch_kernel(cudaStream_t stream, bool early, void (*kernel)(Parameters...), int blocks, int threads,
                    const Arguments&... arguments) {

@@ -1,6 +1,6 @@
-// Instantiates the stages, the resident simulation and the detection of ContactFinder for the device. They are in one
-// source because they run the same kernels, which two sources would compile twice. Updates of vertices, whose sums take
-// longest to compile, have sources of their own (update_vertices.cu).
+// Instantiates the stages, the resident simulation and the detection of ContactFinder for the device. They share one
+// source, because they run the same kernels, which two sources would compile twice. update_vertices.cu has the updates
+// of vertices, which take longest to compile.
 #include <memory>
 
 #include "fast/cuda/backend.cuh"
@@ -28,7 +28,7 @@ std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, con
 
 namespace {
 
-/// Has a backend of its own, because an outside solver has none.
+/// A contact engine with its own backend, because an outside solver has none.
 class CudaContactEngine : public ContactEngine {
  public:
   CudaContactEngine(const compare::Topology& topology, const compare::ExclusionView& exclusions)

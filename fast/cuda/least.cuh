@@ -1,26 +1,27 @@
-// Finds the smallest numbers of a row, by a warp: lane k holds the k-th smallest, from 0. A chunk of 32 is sorted and
-// merged into them; a chunk without a number below the largest one that is wanted is passed over.
+// Finds the smallest numbers of a row with a warp: lane k holds the k-th smallest, from 0. The row is read in chunks of
+// 32, which are sorted and merged. A chunk is skipped if all its numbers are at least the largest number that is
+// needed.
 #pragma once
 
 #include <cuda_runtime.h>
 
 namespace ogc::fast {
 
-/// Returns the smaller of this lane's number and that of its partner, the lane xor `distance`, in lanes with `low`; the
-/// larger one in others. Numbers are not NaN.
+/// Returns the smaller of this lane's number and its partner's if `low`, else the larger one. The partner is the lane
+/// xor `distance`. Numbers are not NaN.
 __device__ inline float exchanged(float own, int distance, bool low) {
   const float other = __shfl_xor_sync(0xffffffffu, own, distance);
   return low ? fminf(own, other) : fmaxf(own, other);
 }
 
-/// Sorts a bitonic row of 32, a number a lane, in ascending order.
+/// Sorts a bitonic row of 32 numbers, one in each lane, in ascending order.
 __device__ inline float merged(float own, int lane) {
 #pragma unroll
   for (int distance = 16; distance > 0; distance /= 2) own = exchanged(own, distance, (lane & distance) == 0);
   return own;
 }
 
-/// Sorts any row of 32 in ascending order: runs of 2, 4, 8 and 16, every second one descending, then all.
+/// Sorts any row of 32 numbers in ascending order: runs of 2, 4, 8 and 16, every second run descending, then all.
 __device__ inline float sorted(float own, int lane) {
 #pragma unroll
   for (int run = 2; run < 32; run *= 2)
@@ -30,8 +31,8 @@ __device__ inline float sorted(float own, int lane) {
   return merged(own, lane);
 }
 
-/// Returns in lane k, for k ≤ rank < 32, the k-th smallest of values[0] … values[count − 1], from 0; infinite if there
-/// is none. The 32 threads of a warp call it together.
+/// Returns in lane k ≤ rank < 32 the k-th smallest of values[0] … values[count − 1], from 0; infinite if there is none.
+/// All 32 threads of a warp call it together.
 __device__ inline float least_of_row(const float* values, int count, int rank) {
   const int lane = static_cast<int>(threadIdx.x) % 32;
   const float infinite = __int_as_float(0x7f800000);
@@ -39,7 +40,8 @@ __device__ inline float least_of_row(const float* values, int count, int rank) {
   for (int begin = 0; begin < count; begin += 32) {
     const float own = begin + lane < count ? values[begin + lane] : infinite;
     if (!__any_sync(0xffffffffu, own < __shfl_sync(0xffffffffu, least, rank))) continue;
-    // the smaller of an ascending and a descending row, lane by lane, are the 32 least of both, a bitonic row
+    // The lane-by-lane minima of an ascending and a descending row are the 32 smallest numbers of both. They form a
+    // bitonic row.
     const float descending = __shfl_xor_sync(0xffffffffu, sorted(own, lane), 31);
     least = merged(fminf(least, descending), lane);
   }

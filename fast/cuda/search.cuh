@@ -1,15 +1,15 @@
-// Searches trees by whole warps. One thread a search leaves a device idle: a mesh of 5,000 vertices has too few
-// searches to hide the chain node → child → primitive → arithmetic, and the longest of 32 different searches holds up
-// the others. Here a warp takes a few searches and keeps their open ends in lists of its own in shared memory; in each
-// round every lane of the warp takes one item, of any of these searches:
+// Searches trees with whole warps. One thread a search would leave a device idle: a mesh of 5,000 vertices has too few
+// searches to hide the chain node → child → primitive → arithmetic, and the longest of 32 searches delays the others.
+// Here a warp takes a few searches and keeps their open work in three lists in shared memory. In each round every lane
+// takes one item, of any of these searches:
 //
-//   nodes       still to be opened: four lanes open one, a child each
-//   candidates  offered by leaves: a lane calls is_pair
-//   pairs       candidates that passed: a lane does the arithmetic (meet), which may lower the search's limit
+//   nodes       nodes to open: four lanes open one node, one child each
+//   candidates  primitives offered by leaves: a lane calls is_pair
+//   pairs       candidates that passed: a lane computes the distance (meet), which may lower the search's limit
 //
-// The last list that can fill the warp goes first, so lanes idle only when little is left. `nodes` is a stack: a round
-// takes up to 8 from the top, where the lowest level is. So when it pushes nodes of a level (at most 32) no others of
-// that level are left: room for 32 a level is enough.
+// The warp takes the last list that can fill it, so lanes idle only when little is left. `nodes` is a stack. A round
+// takes up to 8 nodes from the top, where the lowest level is. So when it pushes nodes of a level (at most 32), the
+// stack has no other nodes of that level, and room for 32 nodes a level suffices.
 #pragma once
 
 #include <algorithm>
@@ -21,17 +21,18 @@
 
 namespace ogc::fast {
 
-inline constexpr int search_warps = 4;   ///< warps of a block, at most
-inline constexpr int largest_group = 8;  ///< searches of a warp, at most
+inline constexpr int search_warps = 4;   ///< largest number of warps of a block
+inline constexpr int largest_group = 8;  ///< largest number of searches of a warp
 
-/// Largest number of primitives of a tree whose leaf nodes have numbers of 25 bits.
+/// Largest number of primitives of a tree, because numbers of leaf nodes have 25 bits.
 inline constexpr int largest_searched_count = 4 << 25;
 
-/// A node of the stack: level, search of the group, place in the level.
+/// A node of the stack, with its search.
 struct SearchNode {
-  unsigned bits;  ///< from the top: level in 4, slot in 3, place in 25
+  /// from the top: 4 bits of the level, 3 of the search's slot in its group, 25 of the place in the level
+  unsigned bits;
 
-  /// Packs level < max_levels, slot of the search in its group and place < 2²⁵ of the node in its level; the functions
+  /// Packs level < max_levels, slot of the search in its group, and place < 2²⁵ of the node in its level. The functions
   /// below unpack them.
   __device__ static SearchNode of(int level, int slot, int j) {
     return {static_cast<unsigned>(level) << 28 | static_cast<unsigned>(slot) << 25 | static_cast<unsigned>(j)};
@@ -47,15 +48,15 @@ struct alignas(16) SearchItem {
   Offer offer;
 };
 
-/// Holds the open ends of one warp. A list with 32 items gets no more, and no round adds more than 32.
+/// Holds the open work of one warp. A list with 32 items gets no more, and no round adds more than 32.
 struct SearchMemory {
-  /// A round that may add 32 items to a list finds at most 31 there; there is a node for each search, and at most 32 of
-  /// each level.
+  /// A round that adds items to a list finds at most 31 there and adds at most 32. `nodes` has one node for each search
+  /// and at most 32 of each level.
   static constexpr int most_items = 31 + 32, most_nodes = largest_group + 32 * (max_levels - 1);
   Search searches[largest_group];  ///< by slot
-  /// stacks; is_pair moves items from the first to the second
+  /// two stacks; is_pair moves items from the first to the second
   SearchItem candidates[most_items], pairs[most_items];
-  SearchNode nodes[most_nodes];  ///< stack
+  SearchNode nodes[most_nodes];
 };
 
 /// Runs the searches of one warp. Its 32 threads call `run` together.
@@ -89,8 +90,8 @@ class WarpSearch {
  private:
   static constexpr unsigned everyone_ = 0xffffffffU;
 
-  /// Returns the same number, kept in a register: the compiler would compute addresses in shared memory and read thread
-  /// numbers anew wherever they are needed, as it still does in places.
+  /// Returns the number and keeps it in a register. Otherwise the compiler would recompute addresses in shared memory
+  /// and reread thread numbers at each use.
   __device__ static unsigned at_hand(unsigned number) {
     asm volatile("" : "+r"(number));
     return number;
@@ -126,12 +127,12 @@ class WarpSearch {
     pair_count_ += __popc(kept);
   }
 
-  /// Opens nodes. It is the innermost loop of a detection: without branches, and without signed numbers, which would
+  /// Opens nodes. This is the innermost loop of a detection. It has no branches, and no signed numbers, which would
   /// cost divisions by 4 and longer addresses.
   __device__ void open() {
     const unsigned take = min(8U, node_count_), own = lane_ / 4, number = lane_ % 4;
     node_count_ -= take;
-    // lanes beyond the last node read that one and drop the result
+    // lanes beyond the last node read the last node and drop the result
     const SearchNode node = memory_.nodes[node_count_ + min(own, take - 1)];
     const int level = node.level(), slot = node.slot(), j = 4 * node.place() + static_cast<int>(number);
     const Search& search = memory_.searches[slot];
@@ -155,17 +156,17 @@ class WarpSearch {
   unsigned node_count_ = 0, candidate_count_ = 0, pair_count_ = 0;
 };
 
-/// Shares out the searches of a kind to warps, up to `group` a warp. A warp takes every `warps`-th one: long searches
-/// lie side by side, and a warp that got them all would hold up the launch.
+/// Divides the searches of a kind among warps, up to `group` each. A warp takes every `warps`-th search, because long
+/// searches are neighbours: a warp with all of them would delay the launch.
 struct SearchGroups {
-  int group, warps;  ///< searches of a warp, at most; warps that have any
+  int group, warps;  ///< largest number of searches of a warp; number of warps that have any
 
   SearchGroups(int count, int searches) : group(searches), warps((count + searches - 1) / searches) {}
   /// Returns the number of blocks of `block_warps` warps each.
   int blocks(int block_warps) const { return (warps + block_warps - 1) / block_warps; }
 };
 
-/// Runs the searches of warp number `warp` of a kind; none beyond groups.warps, or if the query is off.
+/// Runs the searches of warp number `warp` of a kind. Runs none if `warp` ≥ groups.warps, or if the query is off.
 template <class Query>
 __device__ void run_group(const Searches<Query>& searches, const SearchGroups& groups, int warp, SearchMemory& memory) {
   if (warp >= groups.warps || searches.query.is_off()) return;
@@ -173,7 +174,7 @@ __device__ void run_group(const Searches<Query>& searches, const SearchGroups& g
       .run(warp, groups.warps, min(groups.group, (searches.count - warp + groups.warps - 1) / groups.warps));
 }
 
-/// Runs both kinds of searches, the first kind in the first blocks; a block has at most search_warps warps.
+/// Runs both kinds of searches, the first kind in the first blocks. A block has at most search_warps warps.
 template <class First, class Second>
 __global__ void __launch_bounds__(32 * search_warps, 8)
     run_searches(Searches<First> first, SearchGroups first_groups, int first_blocks, Searches<Second> second,

@@ -1,26 +1,26 @@
-// Defines teams of W team lanes, which are neighbouring threads of a warp, with the bits of SerialTeam<W>, in two
-// forms.
+// Defines teams of W team lanes, which are neighbouring threads of a warp. Their sums have the bits of SerialTeam<W>.
+// There are two kinds.
 //
-// SpreadTeam: a block has as many warps as a sum has parts. Warp p runs part p of 32/W teams, so that no warp waits for
-// another kind of term, and the chain of dependent instructions, which is what a small launch costs, is that of the
-// longest part and not of all. Team lanes leave their parts in shared memory, warp 0 adds the parts in their order and
-// then the team lanes.
+// SpreadTeam: a block has as many warps as a sum has parts. Warp p computes part p of 32/W teams, so no warp waits for
+// other terms than its own. The time of a small launch is its chain of dependent instructions; here this is the chain
+// of the longest part instead of all parts. Team lanes store their parts in shared memory. Warp 0 adds the parts in
+// their order and then the team lanes.
 //
-// SerialLaneTeam: the same team lanes run one part after the other. A launch that fills the device anyway pays for
-// instructions, and here no warp waits for another kind of term. All threads of the block share out the terms of a
-// pooled part of all its teams, a block's worth at a time; each team lane then adds its own from shared memory, in
-// their order. So a team with fifty contacts does not hold up the others, and the chain of dependent reads is as long
-// as the block's average.
+// SerialLaneTeam: the same team lanes compute one part after the other. A launch that fills the device pays for
+// instructions, and here no warp waits for another kind of term. The terms of a pooled part of all teams of a block are
+// computed by all its threads together, a block's worth at a time. Then each team lane adds its own terms from shared
+// memory, in their order. So a team with fifty contacts does not delay the others, and the chain of dependent reads has
+// the block's average length.
 //
-// The tree is a butterfly: at distance s every team lane adds its partner l xor s. By induction all team lanes l with
-// the same l mod s hold the same bits after that round: the two partners add the same two numbers, in opposite order,
-// and IEEE addition is commutative. Team lane l < s adds lanes[l] + lanes[l + s], which is SerialTeam's tree, so every
-// team lane ends with SerialTeam's total. No product feeds these additions (a shuffle stands between), so contraction
-// cannot change them either.
+// The sum of the team lanes is a butterfly: at distance s every team lane adds the number of its partner l xor s. After
+// that round all team lanes with the same l mod s have the same bits: both partners add the same two numbers, in
+// opposite order, and IEEE addition is commutative. Team lane l < s computes lanes[l] + lanes[l + s], as SerialTeam's
+// tree does, so every team lane ends with SerialTeam's total. A shuffle separates these additions from all products, so
+// contraction cannot change them.
 //
-// A launch may overlap the one before it (programmatic dependent launch): a part loads at once, then `sum` waits for
-// that launch to end. The next launch is let in only after this wait, so all launches before the previous one have
-// ended, too.
+// A launch may overlap the previous one (programmatic dependent launch): a part loads its first items at once, then
+// `sum` waits for the previous launch to end. Only after this wait may the next launch begin, so all launches before
+// the previous one have ended, too.
 #pragma once
 
 #include <cstring>
@@ -33,11 +33,11 @@
 
 namespace ogc::fast {
 
-inline constexpr int serial_block_size = 128;  ///< threads of a block of SerialLaneTeams
+inline constexpr int serial_block_size = 128;  ///< threads of a block with SerialLaneTeams
 
 namespace detail {
 
-/// Returns the size of an accumulator in words of 4 B, which shuffles move.
+/// Returns the size of an accumulator in words of 4 B, the unit of shuffles.
 template <class Accumulator>
 __device__ constexpr int words() {
   static_assert(std::is_trivially_copyable_v<Accumulator> && sizeof(Accumulator) % sizeof(unsigned) == 0,
@@ -46,8 +46,8 @@ __device__ constexpr int words() {
   return sizeof(Accumulator) / sizeof(unsigned);
 }
 
-/// Returns the accumulator of the thread whose lane is this one's xor `distance`; all threads of the warp call it
-/// together.
+/// Returns the accumulator of the partner thread, which has this lane's number xor `distance`. All threads of the warp
+/// call it together.
 template <class Accumulator>
 __device__ Accumulator from_partner(const Accumulator& mine, int distance) {
   unsigned word[words<Accumulator>()];
@@ -59,7 +59,7 @@ __device__ Accumulator from_partner(const Accumulator& mine, int distance) {
   return partner;
 }
 
-/// Returns the total of W team lanes, in each of them.
+/// Returns the total of W team lanes, in each team lane.
 template <int W, class Accumulator>
 __device__ Accumulator total_of_lanes(Accumulator total) {
 #pragma unroll
@@ -67,8 +67,8 @@ __device__ Accumulator total_of_lanes(Accumulator total) {
   return total;
 }
 
-/// Adds this team lane's items of a part. With `begins` the first is loaded while the launch before this one may still
-/// run; then the thread waits for that launch and lets the next one in.
+/// Adds this team lane's items of a part. With `begins` the first item is loaded while the previous launch may still
+/// run; then the thread waits for that launch and lets the next one begin.
 template <int W, bool begins, class AnyPart, class Accumulator>
 __device__ void add_part(const AnyPart& part, int lane, Accumulator& own) {
   int k = lane;
@@ -78,22 +78,22 @@ __device__ void add_part(const AnyPart& part, int lane, Accumulator& own) {
     cudaGridDependencySynchronize();
     cudaTriggerProgrammaticLaunchCompletion();
   }
-  while (k < part.count) {  // add_item stands here once: a second copy would cost instruction reads
+  while (k < part.count) {  // one call of add_item only: a second copy would cost instruction reads
     add_item(part, loaded, own);
     k += W;
     if (k < part.count) loaded = load_item(part, k);
   }
 }
 
-/// Holds the shared memory of a block for a pooled part.
+/// The shared memory of a block for a pooled part.
 template <int W, class Accumulator>
 struct Pool {
   static constexpr int teams = serial_block_size / W;  ///< teams in a block
   using Scan = cub::BlockScan<int, serial_block_size>;
   typename Scan::TempStorage scan;
-  /// begin of each team's items in their array; offset of its items in the block
+  /// by team: begin of its items in their array; offset of its items in the block
   int begins[teams], offsets[teams + 1];
-  /// two buffers in turn: threads write the next terms while others still read these
+  /// two buffers in turn, because threads write the next terms while others still read
   unsigned memory[2][serial_block_size][words<Accumulator>()];
 };
 
@@ -104,15 +104,15 @@ __device__ Pool<W, Accumulator>& pool_of_block() {
   return pool;
 }
 
-/// Adds this team lane's items of a pooled part, whose terms all threads of the block compute together. A team that is
-/// not `present` has none.
+/// Adds this team lane's items of a pooled part. All threads of the block compute the part's terms together. A team
+/// that is not `present` has no items.
 template <int W, class Load, class Term, class Accumulator>
 __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Accumulator& own) {
   auto& [scan, begins, offsets, memory] = pool_of_block<W, Accumulator>();
   constexpr int teams = Pool<W, Accumulator>::teams;
   const int thread = static_cast<int>(threadIdx.x), team = thread / W, lane = thread % W;
   int offset = 0, total = 0;
-  // The barrier also waits for threads that still read the terms of the part before.
+  // The barrier also waits for threads that still read the previous part's terms.
   if (__syncthreads_or(present && part.count > 0 ? 1 : 0) == 0) return;
   typename Pool<W, Accumulator>::Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
   if (lane == 0) begins[team] = part.begin, offsets[team] = offset;
@@ -136,7 +136,7 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
 
 }  // namespace detail
 
-/// Implements the searches and minima of OneLane for W neighbouring threads of a warp together.
+/// Implements the searches and minima of OneLane with W neighbouring threads of a warp.
 template <int W>
 class NeighbourLanes {
  public:
@@ -158,18 +158,18 @@ class NeighbourLanes {
   }
 
  protected:
-  /// Return the team lane of this thread, and the lane in its warp of the team's first thread.
+  /// Return this thread's team lane, and the lane in the warp of the team's first thread.
   __device__ static int lane() { return static_cast<int>(threadIdx.x) & (W - 1); }
   __device__ static int begin() { return static_cast<int>(threadIdx.x) & 31 & ~(W - 1); }
 
  private:
-  /// Returns the mask of the team's lanes in the warp; other teams may be elsewhere.
+  /// Returns the mask of the team's lanes in the warp; other teams may be at another instruction.
   __device__ static unsigned everyone() { return (0xffffffffu >> (32 - W)) << begin(); }
 };
 
-/// A team whose warps run one part each (head of this file). In both kinds of teams `present` is false for a team that
-/// only fills a block. Every thread of the block calls `sum`, which does what SerialTeam::sum does, once, or `leave` in
-/// its place: the launch after this one relies on the launch before it having ended.
+/// A team with one warp for each part (head of this file). In both kinds of teams `present` is false for a team that
+/// only fills a block. Every thread of the block must call `sum` once, or `leave` instead. Both wait for the previous
+/// launch, and the next launch relies on this.
 template <int W>
 class SpreadTeam : public NeighbourLanes<W> {
   using NeighbourLanes<W>::lane;
@@ -180,12 +180,12 @@ class SpreadTeam : public NeighbourLanes<W> {
 
   __device__ explicit SpreadTeam(bool present) : present_(present) {}
 
-  /// Waits for the launch before, as `sum` does.
+  /// Waits for the previous launch.
   __device__ static void leave() { cudaGridDependencySynchronize(); }
 
   __device__ static void prefetch(const void*, int) {}
 
-  /// Returns the total in warp 0; there are as many parts as the block has warps.
+  /// Returns the total in warp 0. The block must have as many warps as there are parts.
   template <class Accumulator, class... Parts>
   __device__ Accumulator sum(const Parts&... parts) const {
     constexpr int others = sizeof...(Parts) - 1;
@@ -206,7 +206,7 @@ class SpreadTeam : public NeighbourLanes<W> {
 
   /// Returns whether the thread is in warp 0, whose team lanes have the total.
   __device__ bool holds_total() const { return warp() == 0; }
-  /// Returns whether the thread is team lane 0 of them.
+  /// Returns whether the thread is team lane 0 of warp 0.
   __device__ bool leader() const { return present_ && warp() == 0 && lane() == 0; }
 
  private:
@@ -215,7 +215,7 @@ class SpreadTeam : public NeighbourLanes<W> {
   bool present_;
 };
 
-/// A team whose team lanes run all parts of a sum (head of this file).
+/// A team whose team lanes compute all parts of a sum (head of this file).
 template <int W>
 class SerialLaneTeam : public NeighbourLanes<W> {
   using NeighbourLanes<W>::lane;
@@ -226,19 +226,19 @@ class SerialLaneTeam : public NeighbourLanes<W> {
 
   __device__ explicit SerialLaneTeam(bool present) : present_(present) {}
 
-  /// Waits for the launch before, as `sum` does.
+  /// Waits for the previous launch.
   __device__ static void leave() { cudaGridDependencySynchronize(); }
 
-  /// Fetches rows of a stream into the second-level cache while the team works on others: a launch of SerialLaneTeams
-  /// reads more than it holds.
+  /// Fetches rows of a stream into the second-level cache while the team computes. A launch of SerialLaneTeams reads
+  /// more than the cache holds.
   __device__ static void prefetch(const void* rows, int bytes) {
     constexpr int line = 128;
     for (int at = line * lane(); at < bytes; at += line * W)
       asm volatile("prefetch.global.L2 [%0];" ::"l"(static_cast<const char*>(rows) + at));
   }
 
-  /// Returns the total. The first part must not be a pooled one: what it loads is read while the launch before may
-  /// still run.
+  /// Returns the total. The first part must not be pooled, because its first items are loaded while the previous launch
+  /// may still run.
   template <class Accumulator, class First, class... Others>
   __device__ Accumulator sum(const First& first, const Others&... others) const {
     Accumulator total{};
@@ -247,7 +247,7 @@ class SerialLaneTeam : public NeighbourLanes<W> {
     return detail::total_of_lanes<W>(total);
   }
 
-  /// Returns true: each team lane has the total.
+  /// Returns true, because each team lane has the total.
   __device__ static bool holds_total() { return true; }
   __device__ bool leader() const { return present_ && lane() == 0; }
 

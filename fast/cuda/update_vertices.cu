@@ -1,5 +1,5 @@
-// Instantiates updates of vertices on a device with sum number OGC_SUM of DeviceSums; it is compiled once for each sum
-// (CMakeLists.txt).
+// Instantiates updates of vertices on a device with the sum number OGC_SUM of DeviceSums. It is compiled once for each
+// sum (CMakeLists.txt).
 #include "fast/stages/update_vertices.hpp"
 
 #include "fast/cuda/backend.cuh"

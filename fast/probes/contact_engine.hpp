@@ -1,5 +1,5 @@
-// Runs a detection and grows its lists until nothing is missing, for the judge's probes and ContactFinder. The
-// simulation does the same with whole steps.
+// Runs a detection, and grows its lists until all contacts have room, for the judge's probes and ContactFinder. The
+// simulation repeats whole steps instead.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace ogc::fast {
 
-/// The engine of one surface on one backend.
+/// Runs the detections of one surface on one backend.
 template <class Backend>
 class BackendContactEngine : public ContactEngine {
  public:
@@ -29,7 +29,6 @@ class BackendContactEngine : public ContactEngine {
     return detection_.view();
   }
 
-  /// Returns the detection that it runs.
   const Detection<Backend>& detection() const { return detection_; }
 
  private:

@@ -1,5 +1,5 @@
-// Copies from the backend to the host in the types of the contracts: arrays behind plain pointers, and the sets of a
-// detection. Probes, traces and ContactFinder use it; a step never waits for any of it.
+// Copies from the backend to the host, in the judge's types: arrays behind plain pointers, and the sets of a detection.
+// Probes, traces and ContactFinder use it; a step never waits for such a copy.
 #pragma once
 
 #include <type_traits>
@@ -14,7 +14,7 @@ namespace ogc::fast {
 static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>,
               "positions are copied, not converted");
 
-/// Returns the face of a number of SurfaceView.
+/// Returns the face that SurfaceView gives this number.
 inline compare::Face face_of(int number, const compare::Topology& topology) {
   const int edges = static_cast<int>(topology.edges.size());
   if (number < topology.vertex_count) return {compare::FaceKind::vertex, number};
@@ -36,7 +36,7 @@ inline compare::Face side_of(const int (&vertices)[2], int edge) {
                          : compare::Face{compare::FaceKind::edge, edge};
 }
 
-/// Returns a record as a contact of the contract.
+/// Returns a record as a contact in the judge's type.
 inline compare::EdgeEdgeContact contact_of(const EdgeEdgeRecord& record) {
   return {side_of(record.first, record.first_edge), side_of(record.second, record.second_edge), record.first_edge,
           record.second_edge};
@@ -51,7 +51,7 @@ struct CopyItems {
   OGC_HD void operator()(int i) const { to[i] = from[i]; }
 };
 
-/// Returns n items that lie on the backend; waits for what is enqueued.
+/// Returns n items that are on the backend; waits for all enqueued work.
 template <class T, class Backend>
 std::vector<T> download_items(Backend& backend, const T* from, std::size_t n) {
   typename Backend::template Buffer<T> buffer;
@@ -64,7 +64,7 @@ std::vector<T> download_items(Backend& backend, const T* from, std::size_t n) {
   return items;
 }
 
-/// Returns n positions or velocities that lie on the backend; waits for what is enqueued.
+/// Returns n positions or velocities that are on the backend; waits for all enqueued work.
 template <class Backend>
 std::vector<compare::Vec3f> download_positions(Backend& backend, const Vec* from, std::size_t n) {
   std::vector<compare::Vec3f> positions;
@@ -73,7 +73,7 @@ std::vector<compare::Vec3f> download_positions(Backend& backend, const Vec* from
   return positions;
 }
 
-/// Returns sets, smallest distances and bounds of the last detection.
+/// Returns the contact sets, smallest distances and bounds of the last detection.
 template <class Backend>
 ContactSets download_contacts(Backend& backend, Detection<Backend>& detection, const compare::Topology& topology) {
   const ContactView view = detection.view();

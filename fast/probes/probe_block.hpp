@@ -1,5 +1,5 @@
-// Lets the judge test the blocks: each question is answered by the predicates that the detections call, in the order in
-// which they call them.
+// Lets the judge test the blocks. The predicates that the detections call answer each question, in the order in which
+// detections call them.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace ogc::fast {
 
-/// Answers one question a case.
+/// Answers one question for each case.
 struct ProbeBlock {
   SurfaceView surface;
-  PaddedVecs positions;                     ///< of the question, by vertex [m]
+  PaddedVecs positions;                     ///< by vertex [m]
   const compare::BlockQuestion* questions;  ///< by case
   std::uint8_t* inside;                     ///< by case: 1 if the block holds the point, written
 
@@ -35,7 +35,7 @@ struct ProbeBlock {
     return exact_sign(End{x, e.a, e.b}) > 0 && exact_sign(End{x, e.b, e.a}) > 0;
   }
 
-  /// Decides as CollectVertexFacet does.
+  /// Decides by the same predicates as CollectVertexFacet.
   OGC_HD bool is_vertex_in_surface(int v, const compare::Face& face) const {
     const Vec x = positions[v];
     if (face.kind == compare::FaceKind::vertex) return in_vertex_block(x, face.index, surface, positions);
@@ -46,7 +46,7 @@ struct ProbeBlock {
     return closest_feature(x, corners, facet.descending) == TriangleFeature::interior;
   }
 
-  /// Decides as CollectEdgeEdge does: the lower-numbered edge comes first.
+  /// Decides by the same predicates as CollectEdgeEdge: the lower-numbered edge comes first.
   OGC_HD bool is_edge_in_edges(int e, const compare::Face& face) const {
     if (face.kind == compare::FaceKind::edge) {
       const bool is_first = face.index < e;

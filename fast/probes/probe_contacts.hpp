@@ -1,6 +1,6 @@
-// Lets the judge test contacts: each case becomes one record of a detection, which makes its incidence as the sweep's
-// stream does, mollifier included; the functions that the sweep uses add it. Friction is measured alone: a difference
-// of sums with and without it would hold their rounding.
+// Lets the judge test contacts. Each case becomes one record of a detection, and the sweep's functions make its
+// incidence, including the mollifier, and add it. Friction is computed alone: a difference of sums with and without
+// friction would contain their rounding errors.
 #pragma once
 
 #include <array>
@@ -14,36 +14,36 @@
 
 namespace ogc::fast {
 
-/// Holds cases as records: case i has the vertices 4 i … 4 i + 3, the body i and the edges 2 i and 2 i + 1.
+/// Holds cases as records. Case i has the vertices 4 i … 4 i + 3, body i and the edges 2 i and 2 i + 1.
 struct ContactBatch {
-  /// by case; is_edge_edge selects the record that counts
+  /// by case; is_edge_edge selects which of the two records is used
   std::vector<VertexFacetRecord> vertex_facet;
   std::vector<EdgeEdgeRecord> edge_edge;
   std::vector<ContactMaterial> materials;                       ///< by body: k_c [N/m], μ [1]
   std::vector<compare::Vec3f> positions, previous, start;       ///< by vertex: x, X_prev, xᵗ [m]
   std::vector<float> rest_squared, contact_radius, slip_limit;  ///< by edge [m²]; by case: r, ε_v h [m]
-  std::vector<int> body, role;                                  ///< by vertex; by case, as in contact_view.hpp
-  /// by case; bit k of `together`: the vertex of role k has the own one's colour
+  std::vector<int> body, role;                                  ///< by vertex; by case, see contact_view.hpp
+  /// by case; bit k of `together` is set if the vertex of role k has the colour of the case's own vertex
   std::vector<std::uint8_t> is_edge_edge, together;
   std::vector<AnyActivation> activation;  ///< by case
 };
 
-/// Adds a case and its friction.
+/// Adds a case with its friction.
 void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start,
             float friction, float slip_limit);
 
-/// Adds each contact alone, at its positions.
+/// Adds each contact alone. Index over cases.
 struct ProbeContact {
-  SweepView view;  ///< positions and xᵗ; radius and slip limit are those of the case
+  SweepView view;  ///< positions and xᵗ; radius and slip limit are set for each case
   ContactTables tables;
-  /// The arrays of a ContactBatch on the backend.
+  /// arrays of a ContactBatch, on the backend
   const VertexFacetRecord* vertex_facet;
   const EdgeEdgeRecord* edge_edge;
   const float *contact_radius, *slip_limit;
   const int* role;
   const std::uint8_t *is_edge_edge, *together;
   const AnyActivation* activation;
-  bool friction;    ///< true: friction alone; false: the normal force alone
+  bool friction;    ///< true: friction only; false: the normal force only
   ForceArrays out;  ///< by case, written
 
   OGC_HD void operator()(int i) const {
@@ -72,7 +72,7 @@ struct ProbeContact {
   }
 };
 
-/// Returns the forces of all cases of a batch: their friction alone, or their normal forces alone.
+/// Returns the forces of all cases of a batch: only friction, or only normal forces.
 template <class Backend>
 compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bool friction) {
   ProbeMemory<Backend> memory(backend);
@@ -80,7 +80,7 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   SweepView view;
   view.old = memory.padded(batch.positions);
   view.start = {memory.padded(batch.start)};
-  // With a body count of 0 the material of a pair is that of its second body, here of its case.
+  // With a body count of 0 the material of a pair is that of its second body, which is the case's.
   const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials),
                              0, memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.previous)};
   const std::size_t n = batch.role.size();

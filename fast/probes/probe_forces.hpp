@@ -1,5 +1,5 @@
-// Lets the judge test the energies: each case becomes one incidence of the sweep's streams, made and added by the
-// functions that the sweep uses.
+// Lets the judge test the energies. Each case becomes one incidence of the sweep's streams, which the sweep's functions
+// make and add.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::vector<compare::Vec3f> points_of(const std::vector<Case>& cases, std::array
   return all;
 }
 
-/// Receives force and block of each case, on the backend.
+/// Receives the force and the block of each case, on the backend.
 struct ForceArrays {
   Vec* force;         ///< by case: −∂E/∂x [N]
   Symmetric3* block;  ///< by case [N/m]
@@ -35,13 +35,14 @@ struct ForceArrays {
   }
 };
 
-/// Makes room on the backend for n cases; ProbeMemory::fetch copies it to `out`.
+/// Makes room on the backend for n cases. ProbeMemory::fetch copies them to `out`.
 template <class Backend>
 ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, std::size_t n) {
   return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};
 }
 
-/// Each element alone, as the sum of its vertex adds it: by `Usual` where its models are those, else by `Any`.
+/// Adds each element alone, as the sum of its vertex does: with `Usual` if the element has the default models, else
+/// with `Any`.
 template <class Usual, class Any>
 struct ProbeElement {
   SweepView view;                ///< by case: a vertex with one incidence, and a body
@@ -67,7 +68,7 @@ struct ProbeElement {
   }
 };
 
-/// A batch of cases of a kind. Case i is element i, with a body and vertices of its own.
+/// Holds a batch of cases of a kind. Case i is element i, with its own body and vertices.
 template <class Kind>
 struct ElementBatch {
   std::vector<typename Kind::Rest> rest;
@@ -81,7 +82,7 @@ struct ElementBatch {
   std::vector<Row> rows;
   std::vector<compare::Vec3f> positions, start;  ///< by vertex: x, xᵗ [m]
 
-  /// Adds a case, seen from its vertex of this role; the caller adds its body, and `beside` where the kind has it.
+  /// Adds a case as its vertex of this role sees it. The caller adds its body, and `beside` if the kind has these data.
   void add(const typename Kind::Rest& element, int role, const SurfaceModels& of_body, bool usual = false) {
     const int i = static_cast<int>(rest.size()), v = Kind::vertices(element)[role];
     const std::vector<int> colour(static_cast<std::size_t>(v) + 32, 0);
@@ -97,7 +98,7 @@ struct ElementBatch {
     vertices.push_back(vertex);
   }
 
-  /// Adds up each alone.
+  /// Returns the forces of all cases, each added alone.
   template <class Usual, class Any, class Backend>
   compare::ForceOut ask(Backend& backend) const {
     ProbeMemory<Backend> memory(backend);
@@ -146,7 +147,7 @@ compare::ForceOut probe_membrane(Backend& backend, const compare::MembraneIn& in
   return batch.ask<UsualTriangles, Triangles>(backend);
 }
 
-/// The stage `bending`.
+/// Answers the stage `bending`.
 template <class Backend>
 compare::ForceOut probe_bending(Backend& backend, const compare::BendingIn& in) {
   ElementBatch<HingeKind> batch;
@@ -163,7 +164,7 @@ compare::ForceOut probe_bending(Backend& backend, const compare::BendingIn& in) 
   return batch.ask<UsualHinges, Hinges>(backend);
 }
 
-/// The stage `spring`.
+/// Answers the stage `spring`.
 template <class Backend>
 compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
   ElementBatch<SpringKind> batch;
@@ -177,7 +178,7 @@ compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
   return batch.ask<Springs, Springs>(backend);
 }
 
-/// A tetrahedron at rest with the numbers of a case. Weights that corner 0 does not read stay 0.
+/// Returns a tetrahedron at rest with the numbers of a case. Weights that corner 0 does not read stay 0.
 inline TetrahedronRest tetrahedron_rest(const compare::TetrahedronCase& c, int number) {
   TetrahedronRest rest{
       {4 * number, 4 * number + 1, 4 * number + 2, 4 * number + 3}, number, {}, c.inverse, {}, c.volume};

@@ -1,6 +1,6 @@
-// Lets the judge test the initial guess: the kernels of the guess loop, one vertex a case. Acceleration and step belong
-// to a scene, so each case gets kernels of its own, and a control of its own to count its cut. No contact holds the
-// vertex: the stage `step` tests what contacts leave of a move.
+// Lets the judge test the initial guess: the kernels of the guess loop, one vertex for each case. Acceleration and step
+// are a scene's, so each case gets its own kernels. Each case also gets its own control, which counts its cut. No
+// vertex has a contact: the stage `step` tests how contacts shorten a move.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace ogc::fast {
 
-/// Runs both kernels of a round, one vertex a case.
+/// Runs both kernels of a round, one vertex for each case.
 struct ProbeGuess {
   BeginVertex begin;        ///< with arrays by case
   GuessVertex guess;        ///< without contacts
@@ -45,7 +45,7 @@ std::vector<T> column(const compare::InitialGuessIn& in, T compare::InitialGuess
   return all;
 }
 
-/// Turns each segment alone.
+/// Turns each segment alone. Index over cases.
 struct ProbeTurn {
   const Vec *before, *now;  ///< by case [m]
   const Quat* orientation;  ///< by case
@@ -54,7 +54,6 @@ struct ProbeTurn {
   OGC_HD void operator()(int i) const { out[i] = turned_along(before[i], now[i], orientation[i]); }
 };
 
-/// Returns the turned quaternions of the cases.
 template <class Backend>
 std::vector<compare::Quaternion> probe_turns(Backend& backend, const std::vector<compare::TurnCase>& turns) {
   ProbeMemory<Backend> memory(backend);

@@ -11,13 +11,13 @@
 
 namespace ogc::fast {
 
-/// Holds the arrays of one probe on the backend: cases go in, answers come out.
+/// Holds the arrays of one probe on the backend: cases are uploaded, answers are downloaded.
 template <class Backend>
 class ProbeMemory {
  public:
   explicit ProbeMemory(Backend& backend) : backend_(backend) {}
 
-  /// Uploads items as type To, of the same layout; the result is valid as long as the memory.
+  /// Uploads items as type To, which has the same layout. The result is valid as long as this object.
   template <class To, class From>
   const To* in(const std::vector<From>& items) {
     static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
@@ -27,7 +27,7 @@ class ProbeMemory {
     return buffer->data();
   }
 
-  /// Returns room for n answers on the backend; `to` is resized, and `fetch` fills it.
+  /// Returns room for n answers on the backend. `to` is resized, and `fetch` fills it.
   template <class From, class To>
   From* out(std::vector<To>& to, std::size_t n) {
     static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
@@ -38,7 +38,7 @@ class ProbeMemory {
     return buffer->data();
   }
 
-  /// Uploads positions as a sweep gathers them, `copies` times one after the other.
+  /// Uploads positions as a sweep gathers them, in `copies` copies one after the other.
   PaddedVec* padded(const std::vector<compare::Vec3f>& positions, int copies = 1) {
     std::vector<PaddedVec> all;
     for (int k = 0; k < copies; ++k) {
@@ -50,7 +50,7 @@ class ProbeMemory {
     return buffer->data();
   }
 
-  /// Waits for what is enqueued and fills all answers.
+  /// Waits for all enqueued work and fills all answers.
   void fetch() {
     backend_.synchronize();
     for (const auto& download : fetches_) download();

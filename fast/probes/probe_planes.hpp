@@ -1,4 +1,4 @@
-// Lets the judge test planes: a detection whose bounds are planes, and truncation by ball and half-spaces.
+// Lets the judge test planes: a detection whose bounds are planes, and truncation by balls and half-spaces.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int 
   const float* query_radius = memory.template in<float>(std::vector<float>{in.query_radius});
   detection.rebuild(positions);
   do {
-    // Which of the pairs are contacts does not matter here, so the query radius stands for r.
+    // Which pairs are contacts does not matter here, so r is set to the query radius.
     detection.detect(positions, in.query_radius, query_radius, in.bounds_relaxation);
     backend.synchronize();
   } while (detection.grow());
   return {detection.download_planes(), download_items(backend, detection.view().bound, in.positions.size())};
 }
 
-/// Truncates a proposal by its region, case by case.
+/// Truncates a proposal to its region. Index over cases.
 struct ProbeRegion {
   FeasibleRegions balls;    ///< by case
   const HalfSpace* planes;  ///< of all cases
@@ -46,7 +46,7 @@ struct ProbeRegion {
 
   OGC_HD void operator()(int i) const {
     const FeasibleRegion region{balls.ball(i), planes + offsets[i], offsets[i + 1] - offsets[i]};
-    // H is positive definite; if its pivots are noise the shortest way out serves.
+    // H is positive definite; if rounding spoils its pivots, the shortest way out is taken.
     const Truncated kept = is_prescribed[i] != 0 ? held_on_path(region, current[i], position[i])
                                                  : held(region, current[i], position[i], BlockMetric{block[i], 1.0F});
     result[i] = kept.position;
@@ -54,7 +54,6 @@ struct ProbeRegion {
   }
 };
 
-/// Answers the stage `truncate` for cases with half-spaces.
 template <class Backend>
 compare::TruncateOut probe_regions(Backend& backend, const compare::TruncateIn& in) {
   ProbeMemory<Backend> memory(backend);

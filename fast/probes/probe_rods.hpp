@@ -1,4 +1,4 @@
-// Lets the judge test rods: force and block of an end of one segment, and the orientation of one, each case alone.
+// Lets the judge test rods: force and block of an end of a segment, and the orientation of a segment, each case alone.
 #pragma once
 
 #include <vector>
@@ -13,10 +13,10 @@
 
 namespace ogc::fast {
 
-/// Adds each segment alone, seen from one of its ends.
+/// Adds each segment alone, as one of its ends sees it. Index over cases.
 struct ProbeRod {
   const SegmentRest* segment;                   ///< by case; its ends are 2 i and 2 i + 1
-  const int* own;                               ///< by case: the end to be solved
+  const int* own;                               ///< by case: the end that is solved for
   const compare::DampingForm* form;             ///< by case
   const Vec *vertex, *start;                    ///< by case: two ends [m]
   const Quat *orientation, *orientation_start;  ///< by case
@@ -68,13 +68,13 @@ compare::ForceOut probe_rod(Backend& backend, const compare::RodIn& in) {
   return out;
 }
 
-/// Holds what a segment reads of a neighbour.
+/// Holds the data of a neighbour that a segment's update reads.
 struct SeenNeighbour {
   NeighbourRest rest;
-  Quat now, start;  ///< its quaternion now, and at the start of the step
+  Quat now, start;  ///< quaternion of the neighbour: now, and at the start of the step
 };
 
-/// Orients each segment alone, between its neighbours.
+/// Orients each segment alone, between its neighbours. Index over cases.
 struct ProbeOrientation {
   const SegmentRest* segment;                   ///< by case; its ends are 2 i and 2 i + 1
   const SeenNeighbour* neighbour;               ///< by case: behind, ahead

@@ -1,4 +1,4 @@
-// Lets the judge test a step: a resident simulation of the scene takes one, and a trace records it.
+// Lets the judge test a step: a resident simulation of the scene takes one step, and a trace records it.
 #pragma once
 
 #include <utility>
@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Takes one step of a simulation and returns it event by event; if the step was repeated because a list grew, the last
-/// attempt. Changes no bit.
+/// Takes one step of a simulation and returns its events. If the step was repeated because a list grew, only the last
+/// attempt is returned. Changes no bit.
 template <class Backend>
 compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
   StepState<Backend>& state = simulation.state();
@@ -37,7 +37,7 @@ compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
   return out;
 }
 
-/// Answers the stage `step`. `list_capacity` as in ResidentSimulation.
+/// Answers the stage `step`. `list_capacity`: see ResidentSimulation.
 template <class Backend>
 compare::StepOut probe_step(const compare::StepIn& in, int list_capacity = 0, Backend backend = Backend{}) {
   compare::SimulationOptions options;

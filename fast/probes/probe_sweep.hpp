@@ -1,6 +1,6 @@
-// Lets the judge test the sweep: one iteration of the resident Sweep, with the rest state, colouring and contacts of
-// the question in place of its own. The functors of the detection (FillIncidences, RankIncidences) fill and order the
-// incidences, so the sums have the order that they have in a step.
+// Lets the judge test the sweep: one iteration of the resident Sweep with the rest state, colouring and contacts of the
+// question. FillIncidences and RankIncidences of the detection fill and order the incidences, so the sums have the same
+// order as in a step.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@
 
 namespace ogc::fast {
 
-/// Holds records on the backend with their incidences.
+/// Holds contact records and their incidences on the backend.
 template <class Backend>
 class ProbeContacts {
  public:
@@ -38,12 +38,12 @@ class ProbeContacts {
     fill(facets, edges);
   }
 
-  /// Returns the room that the contacts need: the number of incidences, as each contact has two at least, four at most.
+  /// Returns a sufficient capacity for the contacts: the number of incidences, since each contact has two to four.
   int capacity() const { return count_; }
   /// Returns the number of contacts, on the backend.
   const int* count() const { return counts_.data() + 1; }
 
-  /// Returns the contacts as a detection leaves them.
+  /// Returns the contacts as a detection's ContactView.
   ContactView view() const {
     ContactView view;
     view.vertex_facet = vertex_facet_.data();
@@ -58,7 +58,7 @@ class ProbeContacts {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// Sets only those lists of a detection that its last two kernels read, and runs them.
+  /// Sets only the lists that the last two kernels of a detection read, and runs these kernels.
   void fill(int facets, int edges) {
     ListsView lists;
     lists.overflow = overflow_.data();
@@ -74,14 +74,14 @@ class ProbeContacts {
 
   Backend& backend_;
   int count_;
-  Buffer<int> counts_, overflow_, offsets_, filled_;  ///< `overflow_`: one flag, not set
+  Buffer<int> counts_, overflow_, offsets_, filled_;  ///< `overflow_`: one flag, which is 0
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;
   Buffer<LooseIncidence> loose_;
   Buffer<Incidence> incidences_;
 };
 
-/// Quaternions of a question, and c as the start of a step leaves it.
+/// Holds the quaternions of a question, and c as computed at the start of a step.
 template <class Backend>
 class ProbeRods {
  public:
@@ -101,7 +101,7 @@ class ProbeRods {
     backend.synchronize();
   }
 
-  /// Sets what a sweep reads beside its streams.
+  /// Puts the quaternions and c into the sweep's view.
   void complete(RodStream& rods) {
     rods.orientation = orientation_.data();
     rods.orientation_start = start_.data();

@@ -1,5 +1,5 @@
-// Lets the judge test volumes: contacts of points with a volume, found in its tree, and the force of one contact, each
-// case alone.
+// Lets the judge test volumes: the contacts of points with a volume, found in its tree, and the force of one contact,
+// each case alone.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@
 
 namespace ogc::fast {
 
-/// Adds each contact with a volume alone.
+/// Adds each contact with a volume alone. Index over cases.
 struct ProbeVolumeForce {
   const VolumeContact* contact;              ///< by case
   const Vec *vertex, *start;                 ///< by case: the point and three corners [m]
-  const int* own;                            ///< by case: the role to be solved
+  const int* own;                            ///< by case: the role of the vertex that is solved for
   const float *contact_radius, *slip_limit;  ///< by case: r, ε_v h [m]
   ForceArrays out;                           ///< by case, written
 
@@ -60,20 +60,20 @@ compare::ForceOut probe_volume_force(Backend& backend, const compare::VolumeForc
   return out;
 }
 
-/// A point that asks a volume whether it lies inside.
+/// A point that is tested against a volume.
 struct VolumeAsker {
   Vec position;  ///< [m]
   int own;       ///< the vertex at the point, or −1
 };
 
-/// Counts the contacts of each point, and finds where its next search begins.
+/// Counts the contacts of each point, and stores the nearest facets, where the next search begins.
 struct CountAtPoint {
   VolumeView volume;
   const VolumeAsker* askers;
   const int* first_facet;  ///< by part: any of its facets
-  int* nearest;            ///< by point, part by part, as AskVolumes stores it, written
+  int* nearest;            ///< by point and part, in the form in which AskVolumes stores it, written
   int* count;              ///< by point, written
-  int* unresolved;         ///< by point: sheets without a way, written
+  int* unresolved;         ///< by point: sheets without a path to the boundary, written
 
   OGC_HD void operator()(int i) const {
     const VolumeQuestion question(volume, askers[i].position);
@@ -101,7 +101,7 @@ struct CountAtPoint {
 struct FindAtPoint {
   VolumeView volume;
   const VolumeAsker* askers;
-  const int* nearest;         ///< as CountAtPoint leaves it
+  const int* nearest;         ///< the results of CountAtPoint
   const int* first;           ///< by point: place of its first contact
   FoundVolumeContact* found;  ///< written
 
@@ -120,7 +120,7 @@ struct FindAtPoint {
   }
 };
 
-/// Returns a contact of `point` in the types of the contract.
+/// Returns a contact of `point` in the judge's type.
 inline compare::VolumeContact contact_of(compare::Index point, const FoundVolumeContact& c,
                                          const compare::Topology& topology) {
   return {.point = point,
@@ -132,7 +132,7 @@ inline compare::VolumeContact contact_of(compare::Index point, const FoundVolume
           .depth = c.depth};
 }
 
-/// Sorts contacts into the order of the contract.
+/// Sorts contacts into the judge's order.
 inline void sort_contacts(std::vector<compare::VolumeContact>& contacts) {
   std::ranges::sort(contacts, {},
                     [](const compare::VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
@@ -181,7 +181,7 @@ compare::VolumeDepthOut probe_volume_depth(Backend& backend, const compare::Volu
   return out;
 }
 
-/// Returns the contacts of a simulation's last search; waits for what is enqueued.
+/// Returns the contacts of a simulation's last search; waits for all enqueued work.
 template <class Backend>
 compare::VolumeDepthOut download_volume_contacts(Backend& backend, const Volumes<Backend>& volumes,
                                                  const compare::Topology& topology) {

@@ -1,4 +1,4 @@
-// Lets the judge test each stage: a function from its In to its Out runs the very kernels and launches of the
+// Lets the judge test each stage. A function from the stage's In to its Out runs the kernels and launches of the
 // simulation.
 #pragma once
 
@@ -29,12 +29,12 @@
 
 namespace ogc::fast {
 
-/// Computes the closest face, its weights, the distance and its lower bound, case by case.
+/// Computes the closest face, its weights, the distance and its lower bound. Index over cases.
 struct ProbeClosestFace {
   const Vec* points;                 ///< by case [m]
   const Corners* triangles;          ///< by case [m]
   TriangleFeature* feature;          ///< by case, written
-  Vec* weights;                      ///< barycentric, by case, written
+  Vec* weights;                      ///< by case: barycentric, written
   float *distance, *distance_below;  ///< by case [m], written; the second is never above the exact distance
 
   OGC_HD void operator()(int i) const {
@@ -63,16 +63,17 @@ compare::ClosestFaceOut probe_closest_face(Backend& backend, const compare::Clos
   return out;
 }
 
-/// Parameters as compare::ClosestPointsOut stores them.
+/// Parameters in the form of compare::ClosestPointsOut.
 struct StoredParameters {
   float first, second;
 };
 
-/// Computes the closest features of two edges, their parameters, the distance there and its lower bound, case by case.
+/// Computes the closest features of two edges, their parameters, the distance there and its lower bound. Index over
+/// cases.
 struct ProbeClosestPoints {
   const Ends *first, *second;                   ///< by case [m]
   EdgeFeature *first_feature, *second_feature;  ///< by case, written
-  std::uint8_t* nearly_parallel;                ///< by case: 1 if they are nearly parallel and overlap, written
+  std::uint8_t* nearly_parallel;                ///< by case: 1 if the edges are nearly parallel and overlap, written
   StoredParameters* parameters;                 ///< by case, written
   float *contact_distance, *distance_below;     ///< by case [m], written; the second is never above the exact distance
 
@@ -139,7 +140,7 @@ compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
   return out;
 }
 
-/// Computes energy and derivatives of an activation, case by case.
+/// Computes the energy of an activation and its derivatives. Index over cases.
 struct ProbeActivation {
   const float *distance, *contact_radius, *stiffness;  ///< by case: d, r [m], k_c [N/m]
   const AnyActivation* activation;                     ///< by case
@@ -170,9 +171,9 @@ compare::ActivationOut probe_activation(Backend& backend, const compare::Activat
   return out;
 }
 
-/// Truncates a proposal, case by case.
+/// Truncates a proposal. Index over cases.
 struct ProbeTruncate {
-  FeasibleRegions regions;  ///< balls alone, by case
+  FeasibleRegions regions;  ///< balls only, by case
   const Vec* position;      ///< proposals by case [m]
   Vec* result;              ///< by case [m], written
   std::uint8_t* cut;        ///< by case: 1 if the proposal was changed, written
@@ -199,8 +200,8 @@ compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn&
   return out;
 }
 
-/// Returns a contestant with the stages of this header; the backend's own file sets `start`. Each step gets a backend
-/// of its own, from `fresh`.
+/// Returns a contestant with the stages of this header; the backend's own file sets `start`. Each step gets a new
+/// backend from `fresh`.
 template <class Backend, class Fresh = Backend (*)()>
 compare::Contestant probe_contestant(
     std::string name, std::shared_ptr<Backend> backend, Fresh fresh = [] { return Backend{}; }) {

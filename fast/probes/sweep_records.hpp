@@ -1,4 +1,4 @@
-// Converts the question of a sweep, on the host, to what the resident sweep reads.
+// Converts the judge's question about a sweep to the data that the resident sweep reads, on the host.
 #pragma once
 
 #include <span>
@@ -13,21 +13,21 @@
 
 namespace ogc::fast {
 
-/// Holds the contacts of a question as a detection would leave them.
+/// Holds the contacts of a question in the form of a detection's results.
 struct ContactRecords {
   std::vector<VertexFacetRecord> vertex_facet;  ///< by record
   std::vector<EdgeEdgeRecord> edge_edge;        ///< by record
-  std::vector<int> offsets;                     ///< of the incidences by vertex, vertex_count + 1
+  std::vector<int> offsets;                     ///< by vertex: where its incidences begin; vertex_count + 1 numbers
 };
 
 /// Returns the contacts of a question.
 ContactRecords contact_records(const compare::SweepIn& in);
 
-/// Returns the contacts with volumes of a question by row, with the materials of `rest`.
+/// Returns the contacts of a question with volumes, by row, with the materials of `rest`.
 std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,
                                                       const AskerRows& asked);
 
-/// Returns the order of a sweep whose colours are given; −1: not free.
+/// Returns the colouring with these colours; −1: the vertex is not free.
 Colouring colouring_of(std::span<const compare::Index> colour);
 
 }  // namespace ogc::fast

@@ -1,5 +1,5 @@
-// Shows the judge a step of the resident simulation, event by event. Only what took place becomes an event, as the
-// control's counters tell.
+// Records a step of the resident simulation for the judge, event by event. Only events that the control has counted are
+// recorded.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class StepTrace : public StepObserver {
     turned_ = rods_.now();
   }
 
-  /// Returns the frames after the guess loop.
+  /// Returns the frames of segments after the guess loop.
   std::vector<compare::Quaternion> take_turned() { return std::move(turned_); }
   /// Returns the events of the last step.
   std::vector<compare::StepEvent> take() { return std::move(events_); }
@@ -82,7 +82,7 @@ class StepTrace : public StepObserver {
     }
     const Vec* previous = state_.previous.data();
     event.position = download_positions(backend_, previous, n);
-    // Without an iteration this is a round of the guess loop, which does not search for contacts with volumes.
+    // Before the first iteration this is a round of the guess loop, which does not search for contacts with volumes.
     if (control.iterations == 0) step_.find_in_volumes(previous);
     set_contacts(event);
     return event;
@@ -104,7 +104,7 @@ class StepTrace : public StepObserver {
   const Volumes<Backend>& volumes_;
   const Rods<Backend>& rods_;
   const compare::Topology& topology_;
-  std::array<int, 3> seen_{};  ///< by kind: events counted at the last look
+  std::array<int, 3> seen_{};  ///< by kind: number of events that have been recorded
   std::vector<compare::StepEvent> events_;
   std::vector<compare::Quaternion> turned_;
 };

@@ -1,11 +1,12 @@
-// Runs two loops in one launch: a launch of its own costs a device more than the items of a short one.
+// Runs two loops in one launch, because an extra launch costs a device more than the items of a short loop.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
 
 namespace ogc::fast {
 
-/// Calls f(i) for i < first and g(i) for i < second; index over count(). Neither may read what the other writes.
+/// Calls f(i) for i < first and g(i) for i < second. The launch has count() items. Neither functor may read what the
+/// other writes.
 template <class F, class G>
 struct Beside {
   int first;
@@ -20,7 +21,7 @@ struct Beside {
   }
 };
 
-/// A loop beside which there is none.
+/// An empty loop.
 struct Nothing {
   OGC_HD void operator()(int) const {}
 };

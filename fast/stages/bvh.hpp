@@ -1,6 +1,6 @@
-// The two trees, over facets and over edges, and the order of the vertices. A refit is one launch. A rebuild is a refit
-// in the old order, whose roots give the extent, and one sort of the Hilbert keys of vertices, edges and facets
-// together: on a device a sort's time hardly depends on its length.
+// Holds two trees, over facets and over edges, and an order of the vertices. A refit is one launch. A rebuild refits in
+// the old order, since the roots' boxes give the extent, and then sorts the Hilbert keys of vertices, edges and facets
+// at once: on a device the time of a sort hardly depends on its length.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace ogc::fast {
 
-/// A tree over so many primitives, without memory.
+/// Returns a tree over `count` primitives, without memory.
 inline TreeView shape_of_tree(int count) {
   TreeView tree;
   tree.count = count;
@@ -23,12 +23,12 @@ inline TreeView shape_of_tree(int count) {
   } while (level_size(count, tree.levels++) > 1 || tree.levels < 2);
   return tree;
 }
-/// Nodes of all levels of such a tree.
+/// Returns the number of nodes of all levels of a tree.
 inline int node_count(const TreeView& tree) {
   return tree.start[tree.levels - 1] + level_size(tree.count, tree.levels - 1);
 }
 
-/// The trees of one surface.
+/// Holds the trees of one surface.
 template <class Backend>
 class Bvh {
  public:
@@ -52,15 +52,15 @@ class Bvh {
     facets_ = allocate(surface.searched_facets, facet_nodes_, facet_arrivals_, order_.data() + facets_at());
   }
 
-  /// On the backend; boxes and reaches are those of the last refit.
+  /// Return the trees on the backend; boxes and reaches are those of the last refit.
   const TreeView& facets() const { return facets_; }
   const TreeView& edges() const { return edges_; }
-  /// Vertices in the order of a Hilbert curve.
+  /// Returns the vertices in the order of a Hilbert curve.
   const int* vertex_order() const { return order_.data(); }
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
-  /// Boxes at `positions` and reaches within *query_radius; the order stays. Nothing for vertices that have no facet to
-  /// search. For for_each over its count().
+  /// Returns the functor that sets boxes at `positions` and reaches within *query_radius; the order stays. It is run by
+  /// for_each over its count(). Vertices are left out if there is no facet.
   RefitTrees refit(const Vec* positions, const float* query_radius) {
     return {.reach = {surface_, positions, query_radius},
             .facets = facets_,
@@ -71,7 +71,7 @@ class Bvh {
             .vertex_count = facets_.count > 0 ? surface_.vertex_count : 0};
   }
 
-  /// A new order for `positions`; boxes are stale until the next refit.
+  /// Sorts the primitives anew for `positions`. Boxes are stale until the next refit.
   void rebuild(Backend& backend, const Vec* positions) {
     const RefitTrees boxes = refit(positions, no_radius_.data());
     backend.for_each(boxes.count(), boxes);

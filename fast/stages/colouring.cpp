@@ -1,6 +1,6 @@
-// Host code in a file of its own, compiled by g++ alone: nvcc lays the captures of a lambda out in another order than
-// g++, and of two inline copies of one function the linker keeps one, so an inline function with a capturing lambda
-// must not stand in a header that both compile.
+// This host code has its own file, compiled by g++ alone. nvcc lays out the captures of a lambda in another order than
+// g++. If both compile an inline function, the linker keeps one copy. So an inline function with a capturing lambda
+// must not be in a header that both compile.
 #include "fast/stages/colouring.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace ogc::fast {
 
 namespace {
 
-// Each row ascending, without repetition.
+// Returns the rows, each ascending and without repetition.
 compare::CompressedRows sorted_rows(std::vector<std::vector<int>> neighbours) {
   compare::CompressedRows rows;
   for (auto& row : neighbours) {
@@ -49,7 +49,7 @@ namespace {
 
 constexpr int uncoloured = -1;
 
-// The smallest colour that no neighbour has.
+// Returns the smallest colour that no neighbour has.
 int smallest_free_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, std::size_t v,
                          std::vector<int>& seen, int stamp) {
   for (const int u : graph[v]) {
@@ -63,7 +63,7 @@ int smallest_free_colour(const compare::CompressedRows& graph, const std::vector
   return c;
 }
 
-// Colours greedily in the given order; returns the number of colours.
+// Colours greedily in the given order. Returns the number of colours.
 int colour_in_order(const compare::CompressedRows& graph, const std::vector<int>& order, std::vector<int>& colour) {
   std::fill(colour.begin(), colour.end(), uncoloured);
   std::vector<int> seen;
@@ -76,8 +76,8 @@ int colour_in_order(const compare::CompressedRows& graph, const std::vector<int>
   return count;
 }
 
-// Colours by DSATUR and returns its order: next is the vertex whose neighbours have most colours, then the one with
-// most neighbours, then the lowest number.
+// Colours by DSATUR and returns the order in which it coloured. The next vertex is the one with most colours among its
+// neighbours, then with most neighbours, then with the lowest number.
 std::vector<int> saturation_order(const compare::CompressedRows& graph, const std::vector<int>& vertices,
                                   std::vector<int>& colour) {
   using Entry = std::array<int, 3>;
@@ -104,8 +104,8 @@ std::vector<int> saturation_order(const compare::CompressedRows& graph, const st
   return order;
 }
 
-// Returns the vertices class by class: classes are reversed on even passes, smallest first on odd ones. A greedy
-// colouring in this order never needs more colours.
+// Returns the vertices class by class. Classes are in reverse order on even passes, and smallest first on odd ones. A
+// greedy colouring in this order never needs more colours.
 std::vector<int> order_by_class(const std::vector<int>& vertices, const std::vector<int>& colour, int count, int pass) {
   std::vector<int> size(static_cast<std::size_t>(count)), rank(size.size());
   for (const int v : vertices) ++size[static_cast<std::size_t>(colour[static_cast<std::size_t>(v)])];
@@ -127,7 +127,7 @@ std::vector<int> order_by_class(const std::vector<int>& vertices, const std::vec
   return order;
 }
 
-// A colour other than `own` and `banned` that no neighbour of v has, or -1.
+// Returns a colour that no neighbour of v has, other than `own` and `banned`; −1 if there is none.
 int other_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, int v, int count, int own,
                  int banned) {
   std::uint64_t taken = 0;
@@ -139,7 +139,8 @@ int other_colour(const compare::CompressedRows& graph, const std::vector<int>& c
   return -1;
 }
 
-// Gives v the colour c if each neighbour that has it finds another one; undone where one does not.
+// Gives v the colour c if each neighbour with colour c can change to another colour. Otherwise leaves all colours as
+// they were.
 bool eject(const compare::CompressedRows& graph, std::vector<int>& colour, int v, int c, int count, int banned) {
   std::vector<int> moved;
   for (const int u : graph[static_cast<std::size_t>(v)]) {
@@ -156,8 +157,8 @@ bool eject(const compare::CompressedRows& graph, std::vector<int>& colour, int v
   return true;
 }
 
-// Empties the last class into the others where a move of direct neighbours makes room; true where nothing of it is
-// left, which an only class never is.
+// Moves the vertices of the last class to other classes where this works by moving direct neighbours only. Returns
+// whether the last class is empty now; false if it is the only class.
 bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
                          std::vector<int>& colour) {
   const int last = count - 1;
@@ -171,8 +172,8 @@ bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector
   return empty;
 }
 
-// Moves vertices from classes above the mean to the smallest class that no neighbour has, where that is smaller than
-// their own.
+// Moves each vertex of a class above the mean size to the smallest class that none of its neighbours has, if that class
+// is smaller than its own.
 void balance(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
              std::vector<int>& colour) {
   std::vector<int> size(static_cast<std::size_t>(count));
@@ -194,8 +195,8 @@ void balance(const compare::CompressedRows& graph, const std::vector<int>& verti
   }
 }
 
-// Improves a greedy colouring in `order`. Each pass orders by class and then tries to empty the last class, which the
-// greedy colouring leaves smallest.
+// Colours greedily in `order`, then improves the colouring. Each pass colours class by class and tries to empty the
+// last class, which a greedy colouring leaves smallest.
 int improve(const compare::CompressedRows& graph, std::vector<int> order, int passes, std::vector<int>& colour) {
   int count = colour_in_order(graph, order, colour);
   for (int pass = 0; pass < passes; ++pass) {
@@ -206,7 +207,8 @@ int improve(const compare::CompressedRows& graph, std::vector<int> order, int pa
   return count;
 }
 
-// The connected components of the graph, in the order of their lowest vertices; the vertices of each ascending.
+// Returns the connected components of the graph in the order of their lowest vertices. The vertices of each component
+// ascend.
 std::vector<std::vector<int>> components(const compare::CompressedRows& graph, const std::vector<int>& vertices,
                                          std::size_t vertex_count) {
   std::vector<std::uint8_t> reached(vertex_count, 0);
@@ -224,9 +226,9 @@ std::vector<std::vector<int>> components(const compare::CompressedRows& graph, c
   return found;
 }
 
-// Balances each component by itself, so that equal ones keep equal colours, and turns the colours of the k-th by k:
-// vertices of identical cloths that face each other would otherwise be moved at once, each by the whole overlap of
-// their contact (method.md §7.3).
+// Balances each component by itself, so that equal components keep equal colours. Then rotates the colours of the k-th
+// component by k: otherwise facing vertices of identical cloths would move at once, each by the whole overlap of their
+// contact (method.md §7.3).
 void balance_and_turn(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
                       std::vector<int>& colour) {
   int turn = 0;
@@ -249,7 +251,7 @@ int colouring_passes(std::size_t neighbours) {
 
 namespace {
 
-// Colours `members`, whose rows of the graph are those of members alone.
+// Colours `members`. The rows of the graph must contain members only.
 Colouring coloured(const compare::CompressedRows& graph, const std::vector<int>& members) {
   const int passes = colouring_passes(graph.items.size());
   Colouring result;

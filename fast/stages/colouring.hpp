@@ -1,8 +1,8 @@
-// Colours of the free vertices: no two vertices of one membrane or bending stencil, of a spring, a tetrahedron or a
-// segment share one, nor do two segments of a rod that are neighbours, so that within a colour only contacts are Jacobi
-// (method.md §7.3). Computed once on the host, deterministic. A colour costs a launch and a dependency chain whatever
-// its size, so the number of colours counts first: DSATUR-like greedy, then greedy again class by class (which never
-// adds a colour and often removes some), then balance.
+// Colours the free vertices once on the host; the result is deterministic. No two vertices of a membrane or bending
+// stencil, a spring, a tetrahedron or a segment share a colour, and neither do neighbouring segments of a rod. So only
+// contacts are Jacobi within a colour (method.md §7.3). A colour costs a launch and a dependency chain, whatever its
+// size. So the number of colours is reduced first: greedily (DSATUR), then greedily class by class, which never adds a
+// colour and often removes some. Balancing comes last.
 #pragma once
 
 #include <vector>
@@ -12,27 +12,26 @@
 
 namespace ogc::fast {
 
-/// The free vertices, or segments, colour by colour.
+/// The free vertices, or segments, by colour.
 struct Colouring {
   int count = 0;              ///< number of colours
-  std::vector<int> colour;    ///< of each vertex; -1 where it is not free
-  std::vector<int> order;     ///< free vertices by colour, then number
+  std::vector<int> colour;    ///< by vertex; −1 if it is not free
+  std::vector<int> order;     ///< free vertices, by colour, then by number
   std::vector<int> begin{0};  ///< colour c is order[begin[c] .. begin[c + 1])
 };
 
-/// Returns in row v the free vertices that share a membrane or bending stencil, a spring, a tetrahedron or a segment
-/// with v, ascending; rows of vertices that are not free are empty.
+/// Returns the conflicts: row v has, ascending, the free vertices that share a membrane or bending stencil, a spring, a
+/// tetrahedron or a segment with v. Rows of vertices that are not free are empty.
 compare::CompressedRows conflict_graph(const RestState& rest);
 
-/// Returns the number of passes that reduce the number of colours: as many as visit 2·10⁷ neighbours, which takes about
-/// a second, but at least 4 and at most 100. `neighbours`: all neighbours of all vertices.
+/// Returns the number of passes that reduce the number of colours. They visit 2·10⁷ neighbours, which takes about a
+/// second, but there are at least 4 and at most 100 passes. `neighbours`: sum of all vertices' numbers of neighbours.
 int colouring_passes(std::size_t neighbours);
 
 /// Colours the vertices with Mobility::free.
 Colouring colour_vertices(const RestState& rest);
 
-/// Colours the segments that nothing holds: with two colours on an open chain, three on an odd ring, none if there are
-/// none.
+/// Colours the free segments. An open chain gets two colours, an odd ring three; without segments there are none.
 Colouring colour_segments(const RodsAtRest& rods);
 
 }  // namespace ogc::fast

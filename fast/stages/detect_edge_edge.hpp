@@ -1,11 +1,11 @@
-// Algorithm 2 as searches: one for each edge, in tree order. As in detect_vertex_facet.hpp.
+// Algorithm 2 as searches, one for each edge, in tree order (see detect_vertex_facet.hpp).
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
 
 namespace ogc::fast {
 
-/// One for each edge.
+/// Returns one search for each edge.
 inline Searches<DetectEdgeEdge> searches_of(const DetectEdgeEdge& query) {
   return {query.tree, query.surface.searched_edges, query};
 }

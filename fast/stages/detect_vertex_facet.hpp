@@ -1,5 +1,5 @@
-// Algorithm 1 as searches: one for each vertex, in the order of a Hilbert curve. Launched together with those of
-// Algorithm 2, as neither fills a device; needs refitted trees, prepared lists and reset minima
+// Algorithm 1 as searches, one for each vertex, in the order of a Hilbert curve. They share a launch with the searches
+// of Algorithm 2, since neither algorithm fills a device. They need refitted trees, prepared lists and reset minima
 // (fast/stages/detection.hpp).
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// One for each vertex; none where there is no facet.
+/// Returns one search for each vertex; none if there is no facet.
 inline Searches<DetectVertexFacet> searches_of(const DetectVertexFacet& query) {
   return {query.tree, query.tree.count > 0 ? query.surface.searched_vertices : 0, query};
 }

@@ -1,7 +1,7 @@
-// A whole detection (Alg. 3 lines 4–19): trees at the current positions, both queries, lists, bounds. All of it is
-// enqueued, nothing waits and nothing is allocated, so it may stand inside Backend::when. Once a list has overflowed
-// every launch does nothing until `grow`, so that the needed size stays that of the first detection that had no room,
-// and the contacts of the last complete one are not mixed with others.
+// Runs a whole detection (Alg. 3 lines 4–19): trees at the current positions, both queries, lists, bounds. Everything
+// is enqueued; nothing waits or allocates, so a detection may be inside Backend::when. After a list has overflowed,
+// every launch does nothing until `grow`. So the needed size stays that of the first detection without room, and the
+// contacts of the last complete detection stay as they are.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@
 
 namespace ogc::fast {
 
-/// The first and the last launch of a detection, which nothing else shares here; a step has work of its own in both
+/// Makes the first and the last launch of a detection alone. A step adds its own work to both
 /// (fast/stages/step_detection.hpp).
 struct PlainLaunches {
   /// Runs the first launch.
@@ -39,12 +39,12 @@ struct PlainLaunches {
   }
 };
 
-/// The resident detection of one surface.
+/// Holds the resident detection of one surface.
 template <class Backend>
 class Detection {
  public:
   /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size.
-  /// `is_fixed`: by vertex, read where `bounds` are planes.
+  /// `is_fixed`: by vertex, read only if `bounds` are planes.
   Detection(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
             int capacity = 0, compare::Bounds bounds = compare::Bounds::ball,
             const std::vector<std::uint8_t>& is_fixed = {})
@@ -62,13 +62,13 @@ class Detection {
     d_min_triangle_.resize(static_cast<std::size_t>(surface.triangle_count));
   }
 
-  /// Sorts the trees anew for `positions`; it pays every few steps. It is enqueued like a detection, and no right
-  /// answer depends on it.
+  /// Sorts the trees anew for `positions`, which is worth its time every few steps. It is enqueued like a detection. No
+  /// result depends on the order of the trees.
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
   /// Computes contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q
-  /// = *query_radius ≥ r [m] (on the backend), γ_p = bounds_relaxation. A no-op while *overflow() is set. `launches`:
-  /// the first and the last launch, with the work that the caller adds to them.
+  /// = *query_radius ≥ r [m] (on the backend), γ_p = bounds_relaxation. Does nothing while *overflow() is not 0.
+  /// `launches` makes the first and the last launch, including the caller's work.
   template <class Launches = PlainLaunches>
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
               const Launches& launches = {}) {
@@ -82,7 +82,7 @@ class Detection {
   PaddedVecs positions() { return {padded_.data()}; }
   ListsView lists() { return lists_.view(); }
 
-  /// Returns the contacts of the last complete detection; valid until grow() returns true.
+  /// Returns the contacts of the last complete detection, valid until grow() returns true.
   ContactView view() {
     const ListsView lists = lists_.view();
     return {.vertex_facet = lists.vertex_facet,
@@ -102,27 +102,27 @@ class Detection {
   /// Returns the regions of the last complete detection. `centre`: the positions of that detection, on the backend.
   FeasibleRegions regions(const Vec* centre) const { return planes_.regions(centre, bound_.data()); }
 
-  /// Returns the incidences in the rows of ContactView::incidence_offsets; within a row they have any order.
+  /// Returns the incidences in the rows of ContactView::incidence_offsets, in any order within a row.
   const LooseIncidence* loose_incidences() { return lists_.view().loose; }
 
-  /// Returns a flag on the backend that is not 0 once a list was too small. Work that must not run on incomplete sets
-  /// reads it first; only grow() clears it.
+  /// Returns a flag on the backend that is not 0 if a list was too small. Work that needs complete sets reads the flag
+  /// first. Only grow() clears it.
   const int* overflow() const { return lists_.overflow(); }
 
-  /// Host only: enlarges what was too small and clears the flag. Returns true if something was too small; then the
-  /// detection has to be repeated.
+  /// Host only: enlarges each list that was too small and clears the flag. Returns whether a list was too small, so
+  /// that the detection has to be repeated.
   bool grow() {
     const bool grown = lists_.grow();
     planes_.reserve(lists_.noted_capacity());
     return grown;
   }
 
-  /// Contacts that fit before the lists have to grow.
+  /// Returns the number of contacts for which the lists have room.
   int capacity() const { return lists_.capacity(); }
   /// Returns the capacities of all lists, for `reserve` of another detection over the same surface.
   std::vector<std::int64_t> capacities() const { return {lists_.capacity(), lists_.noted_capacity()}; }
-  /// Host only: gives the lists the capacities that another detection had. Throws std::invalid_argument if they cannot
-  /// be capacities of these lists.
+  /// Host only: sets the capacities of the lists to those of another detection. Throws std::invalid_argument if they
+  /// cannot be capacities of these lists.
   void reserve(const std::vector<std::int64_t>& capacities) {
     const auto possible = [](std::int64_t capacity) {
       return capacity > 0 && capacity <= std::numeric_limits<int>::max();
@@ -136,11 +136,11 @@ class Detection {
   const float* d_min_vertex() const { return d_min_vertex_.data(); }      ///< Eq. 22, rounded down [m]
   const float* d_min_edge() const { return d_min_edge_.data(); }          ///< Eq. 24
   const float* d_min_triangle() const { return d_min_triangle_.data(); }  ///< Eq. 26
-  /// Returns the contact face of each vertex–facet record, as SurfaceView numbers faces.
+  /// Returns the contact face of each vertex–facet record; SurfaceView defines the numbers of faces.
   const int* vertex_facet_faces() { return lists_.view().vertex_facet_face; }
 
  private:
-  /// Does all of a detection that comes before the lists.
+  /// Enqueues the part of a detection that precedes the lists.
   template <class Launches>
   void find(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
             const Launches& launches) {
@@ -192,7 +192,7 @@ class Detection {
             .d_min_edge = d_min_edge_.data()};
   }
 
-  /// Vertices whose bounds a detection makes beside its lists.
+  /// Returns the number of vertices whose bounds are computed beside the lists.
   int bounded() const { return planes_.is_used() ? 0 : surface_.view().vertex_count; }
 
   ConservativeBound bounds(float bounds_relaxation) {

@@ -1,5 +1,5 @@
-// Eq. 29 where the run is (method.md §6): the force on each free vertex after the guess loop and at the end of a step,
-// with the step's own sets, summed up.
+// Measures Eq. 29 during the run (method.md §6): sums the force on each free vertex after the guess loop and at the end
+// of a step, with the step's own contact sets.
 #pragma once
 
 #include "fast/kernels/sums/step_sums.hpp"
@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// The forces that one step leaves.
+/// Measures the forces that one step leaves.
 template <class Backend>
 class LeftForces {
  public:
@@ -17,15 +17,15 @@ class LeftForces {
     left_.resize(static_cast<std::size_t>(slots));
     totals_.resize(left_columns);
   }
-  /// After the guess loop. `view` as an iteration reads it whose buffers are both at x.
+  /// Measures after the guess loop. `view` is that of the first iteration.
   void begin(const Sweep<Backend>& sweep, SweepView view) { measure(sweep, view, false); }
-  /// At the end; `view` as the next iteration would read it.
+  /// Measures at the end of the step. `view` is that of the iteration after the last one.
   void end(const Sweep<Backend>& sweep, SweepView view) {
     measure(sweep, view, true);
     reduction_.template add<0, left_columns>(LeftSums{left_.data(), slots_}, 0, Nothing{});
     reduction_.total(totals_.data(), 0, Nothing{}, 0, Nothing{});
   }
-  /// Returns the totals by LeftColumn, on the backend, for the step that ended last.
+  /// Returns the totals of the last step by LeftColumn, on the backend.
   const double* totals() const { return totals_.data(); }
 
  private:

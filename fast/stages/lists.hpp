@@ -1,6 +1,6 @@
-// Memory and launches of the growing lists. Capacity is a state: a detection that finds no room sets the overflow flag
-// and says how much it needs; the host grows the lists and the step is repeated. Nothing is dropped, and nothing waits
-// for the host in between.
+// Holds the memory of the growing lists and launches their kernels. If a detection finds no room, it sets the overflow
+// flag and stores the size that it needs. The host then grows the lists and repeats the step. So no contact is lost,
+// and nothing waits for the host in between.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 
 namespace ogc::fast {
 
-/// The lists of one surface.
+/// Holds the lists of one surface.
 template <class Backend>
 class Lists {
  public:
-  /// `capacity` > 0: contacts at first.
+  /// `capacity` > 0: contacts that fit at first.
   Lists(const SurfaceView& surface, int capacity)
       : surface_(surface), buckets_(2 * surface.vertex_count + surface.edge_count) {
     const auto buckets = static_cast<std::size_t>(buckets_), vertices = static_cast<std::size_t>(surface.vertex_count);
@@ -67,11 +67,12 @@ class Lists {
   const int* overflow() const { return &status_.data()->overflow; }
   /// Returns the number of contacts for which the lists have room.
   int capacity() const { return capacity_; }
-  /// Noted pairs that the lists have room for.
+  /// Returns the number of noted pairs for which the lists have room.
   int noted_capacity() const { return noted_capacity_; }
 
-  /// After both searches: noted pairs to records and incidences. `bounds`, which need no list, stand beside the first
-  /// launch for `bounded` vertices; `distances`: see CollectContacts; `launches` makes the last (Detection::detect).
+  /// Makes records and incidences of the pairs that both searches noted. The first launch also computes `bounds`, which
+  /// need no list, for `bounded` vertices. `distances`: see CollectContacts. `launches` makes the last launch (see
+  /// Detection::detect).
   template <class Launches>
   void assemble(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
                 const ConservativeBound& bounds, const float* distances, const Launches& launches) {
@@ -86,13 +87,13 @@ class Lists {
     launches.rank(backend, lists, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_);
   }
 
-  /// What decides which noted pairs are contacts.
+  /// Returns the functor that decides which noted pairs are contacts.
   CollectContacts collect(PaddedVecs positions, float contact_radius, const float* distances) {
     return {{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, view(), distances};
   }
 
-  /// Host only: where the flag is set, enlarges each list that was too small to what was needed and half as much again,
-  /// clears the flag and returns true. Sets are empty until the next detection.
+  /// Host only: if the flag is set, enlarges each list that was too small to 1.5 times the needed size, clears the flag
+  /// and returns true. Lists are empty until the next detection.
   bool grow() {
     ListStatus status;
     status_.download(&status, 1);
@@ -105,7 +106,7 @@ class Lists {
     return true;
   }
 
-  /// Host only: these capacities and no other; sets are empty until the next detection.
+  /// Host only: sets the capacities exactly. Lists are empty until the next detection.
   void reserve(int capacity, int noted_capacity) { resize(capacity, noted_capacity); }
 
  private:

@@ -1,5 +1,5 @@
-// Memory and launches of the planes of a detection (fast/kernels/plane_lists.hpp). Where nobody asked for planes there
-// is none of it.
+// Holds the memory of a detection's planes (fast/kernels/plane_lists.hpp) and launches their kernels. If bounds are not
+// planes, there is neither.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,10 @@
 
 namespace ogc::fast {
 
-/// The planes of one surface.
 template <class Backend>
 class Planes {
  public:
-  /// `is_fixed`: by vertex, whether it never moves; read where bounds are planes.
+  /// `is_fixed`: by vertex, whether it never moves; read only if bounds are planes.
   Planes(compare::Bounds bounds, const std::vector<std::uint8_t>& is_fixed) : policy_(traits_of(bounds)) {
     if (!is_used()) return;
     const std::size_t vertices = is_fixed.size();
@@ -34,10 +33,11 @@ class Planes {
 
   /// Whether bounds are planes.
   bool is_used() const { return policy_.has_planes; }
-  /// Gaps are divided by these displacements from now on [m], by vertex, on the backend; null: they are halved.
+  /// Sets the displacements by which gaps are divided from now on [m], by vertex, on the backend; null: gaps are
+  /// halved.
   void divide_by(const Vec* displacement) { displacement_ = displacement; }
 
-  /// Host only: room for so many noted pairs.
+  /// Host only: makes room for this number of noted pairs.
   void reserve(int noted_capacity) {
     if (!is_used()) return;
     distance_.resize(static_cast<std::size_t>(noted_capacity));
@@ -45,19 +45,19 @@ class Planes {
     pair_rows_.resize(4 * static_cast<std::size_t>(noted_capacity));
   }
 
-  /// X_prev and b_v with the half-spaces that stand here.
+  /// Returns the feasible regions: X_prev, b_v and the half-spaces of the last detection.
   FeasibleRegions regions(const Vec* centre, const float* radius) const {
     FeasibleRegions regions{.centre = centre, .radius = radius, .is_off = !policy_.certifies, .slides = policy_.slides};
     if (is_used()) regions.planes = rows_.data(), regions.counts = counts_.data();
     return regions;
   }
-  /// Returns by vertex a lower bound of the distance of its nearest pair, at most r_q [m].
+  /// Returns, by vertex, a lower bound of the distance of its nearest pair, at most r_q [m].
   const float* nearest() const { return nearest_.data(); }
-  /// Returns by noted pair a lower bound of its distance [m]; null if bounds are not planes.
+  /// Returns, by noted pair, a lower bound of its distance [m]; null if bounds are not planes.
   const float* distances() const { return is_used() ? distance_.data() : nullptr; }
 
-  /// After the searches: planes and balls (`bound`) of `vertices` vertices from the pairs that `noted` has. Where there
-  /// was no room for all pairs nobody may use what comes of it.
+  /// Makes planes and balls (`bound`) from the pairs that the searches noted. If some pairs found no room in the list,
+  /// the results must not be used.
   void make(Backend& backend, const SurfaceView& surface, PaddedVecs positions, const ListsView& noted, float share,
             const float* query_radius, float* bound) {
     const PlaneListsView lists{.surface = surface,
@@ -91,7 +91,7 @@ class Planes {
     backend.for_each(vertices * most_planes, SortHalfSpaces{lists});
   }
 
-  /// Host only: what the vertices bear since the last detection; empty where bounds are no planes.
+  /// Host only: returns the planes of each vertex since the last detection; empty if bounds are not planes.
   compare::VertexPlanes download() const {
     compare::VertexPlanes planes;
     if (!is_used()) return planes;

@@ -1,5 +1,5 @@
-// Times by stage, by synchronising where one begins and ends; without `profile` nothing but the call itself. Stages may
-// stand inside each other: the time of the inner one is not the outer one's.
+// Measures the time of each stage by synchronising where it begins and ends. Without `profile` it only calls the stage.
+// Stages may be nested; the time of an inner stage does not count for the outer stage.
 #pragma once
 
 #include <array>
@@ -10,24 +10,22 @@
 
 namespace ogc::fast {
 
-/// What `--profile` tells apart.
+/// The stages that `--profile` measures.
 enum class StepStage : int { begin, detection, initial_guess, sweep, metrics, volumes };
 
-/// Their names, in the order of the enumeration.
+/// Returns the names of the stages, in the order of the enumeration.
 inline std::vector<std::string> step_stage_names() {
   return {"begin", "detection", "initial_guess", "sweep", "metrics", "volumes"};
 }
 
-/// The clock of one simulation.
 template <class Backend>
 class StageClock {
  public:
-  /// `on`: whether it measures anything.
   StageClock(Backend& backend, bool on) : backend_(backend), on_(on) {}
-  /// Whether it measures anything.
+  /// Returns whether the clock measures anything.
   bool on() const { return on_; }
 
-  /// body(), as a part of the stage.
+  /// Runs body() and adds its time to the stage.
   template <class Body>
   void time(StepStage stage, Body body) {
     if (!on_) return body();
@@ -36,7 +34,7 @@ class StageClock {
     change_to(outer);
   }
 
-  /// Times since the last call [ms], in the order of step_stage_names.
+  /// Returns the times since the last call [ms], in the order of step_stage_names, and resets them.
   std::vector<double> take() {
     std::vector<double> result(milliseconds_.begin(), milliseconds_.begin() + none);
     milliseconds_.fill(0);
@@ -44,9 +42,10 @@ class StageClock {
   }
 
  private:
-  static constexpr std::size_t none = 6;  ///< no stage
+  static constexpr std::size_t none = 6;  ///< index of the time outside all stages
 
-  /// Ends what has been measured so far and begins to measure `next`; returns what was measured.
+  /// Adds the time since the last change to the current stage, then measures for `next`. Returns the stage that was
+  /// measured before.
   std::size_t change_to(std::size_t next) {
     backend_.synchronize();
     const auto now = std::chrono::steady_clock::now();

@@ -1,8 +1,11 @@
-// Sums in double over vertices, elements and records, for reports. The order of addition is fixed by the size of the
-// mesh alone: item i goes to chunk i mod C, C = 1024 or, for large meshes, 32768; chunks are added in runs of 32 until
-// 32 rows are left, then those; no backend and no number of threads can change a bit. A chunk is one thread's work. One
-// launch adds items of all kinds, and runs of what was added at different times are added together: a launch for each
-// would take as long as that. For the same reason launches of the caller's that need no sum stand beside these.
+// Sums vertices, elements and records in double, for reports. The order of addition depends on the size of the mesh
+// only: item i is added to chunk i mod C, with C = 1024, or 32768 for large meshes. Then runs of 32 chunks are added
+// until 32 rows are left, and then these. So no backend and no number of threads can change a bit. One thread adds a
+// chunk.
+//
+// Launches are saved, because each would take as long as all the additions: one launch adds items of all kinds, and
+// columns that were added at different times are totalled together. Launches of the caller that need no sum run beside
+// these.
 #pragma once
 
 #include <utility>
@@ -11,20 +14,20 @@
 
 namespace ogc::fast {
 
-/// Rows that a thread adds.
+/// Number of rows that a thread adds.
 inline constexpr int reduce_run = 32;
 
-/// C for a mesh of so many vertices: an item or two a chunk, where there are enough of them to pay for the rows.
+/// Returns C. A chunk has an item or two, if there are enough items to pay for the rows.
 inline int reduce_chunks(int vertices) { return vertices <= 2048 ? 1024 : 32768; }
 
-/// for_each over chunks: part of a row of partial sums each. all.add(chunk, chunks, sums) adds the items of a chunk,
-/// kind by kind.
+/// Adds the items of a chunk, kind by kind, with all.add(chunk, chunks, sums), and writes them to some columns of the
+/// chunk's row of partial sums. Index over chunks.
 template <int count, class All>
 struct AddChunk {
   All all;
   int chunks;       ///< C
-  double* partial;  ///< from the part's first column on
-  int columns;      ///< of a whole row
+  double* partial;  ///< at the first column to write
+  int columns;      ///< number of columns of a whole row
 
   OGC_HD void operator()(int chunk) const {
     double sums[count] = {};
@@ -33,7 +36,7 @@ struct AddChunk {
   }
 };
 
-/// for_each over runs and columns: a row of `to` is the sum of 32 rows of `from`.
+/// Adds 32 rows of `from` to a row of `to`. Index over runs and columns.
 template <int columns>
 struct AddRun {
   const double* from;  ///< [row][column], on the backend
@@ -47,7 +50,7 @@ struct AddRun {
   }
 };
 
-/// The sums of one mesh.
+/// Computes the sums of one mesh.
 template <class Backend, int columns>
 class Reduction {
  public:
@@ -56,15 +59,15 @@ class Reduction {
     partial_.resize(static_cast<std::size_t>(chunks_ * columns));
     runs_.resize(static_cast<std::size_t>(chunks_ / reduce_run * columns));
   }
-  /// Adds all items, into the columns from `first` on; f(i) for i < n beside it.
+  /// Adds all items into the columns from `first` on; calls f(i) for i < n beside it.
   template <int first, int count, class All, class F>
   void add(const All& all, int n, const F& f) {
     static_assert(0 <= first && first + count <= columns);
     for_each_beside(backend_, chunks_, AddChunk<count, All>{all, chunks_, partial_.data() + first, columns}, n, f);
   }
 
-  /// The totals of all columns, each added since the last total. f(i) for i < n beside the first launch, then g(i) for
-  /// i < m beside the last.
+  /// Writes the totals of all columns. Each column must have been added since the last call. Calls f(i) for i < n
+  /// beside the first launch and g(i) for i < m beside the last.
   template <class F, class G>
   void total(double* totals, int n, const F& f, int m, const G& g) {
     double *from = partial_.data(), *to = runs_.data();

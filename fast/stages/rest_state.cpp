@@ -9,7 +9,7 @@
 namespace ogc::fast {
 namespace {
 
-/// What moves how, materials and models by body: nothing that is computed from the rest shape.
+/// Returns mobility, materials and models, which do not depend on the rest shape.
 RestState without_shape(const compare::Scene& scene) {
   RestState rest;
   rest.body = compare::body_of_vertex(scene);

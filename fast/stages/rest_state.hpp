@@ -1,4 +1,4 @@
-// Rest data of a scene: what its bodies and vertices have, and the elements of each kind.
+// Holds the rest data of a scene: of its bodies, its vertices, and its elements by kind.
 #pragma once
 
 #include "fast/stages/kinds/hinge.hpp"
@@ -15,22 +15,23 @@ struct AllAtRest;
 template <class... All>
 struct AllAtRest<KindList<All...>> : AtRest<All>... {};
 
-/// What a step has to know of the rest shape.
+/// The rest data of a scene that a step reads.
 struct RestState : RestShared, AllAtRest<Kinds> {};
 
-/// The elements of one kind.
+/// Returns the elements of one kind.
 template <class Kind>
 const AtRest<Kind>& at_rest(const RestState& rest) {
   return rest;
 }
 
-/// Throws InputError for vertices that move and have no mass, and for free volumes, which are not simulated yet.
+/// Computes the rest data of a scene. Throws InputError for moving vertices without mass.
 RestState build_rest_state(const compare::Scene& scene, const compare::Topology& topology);
 
-/// The simulation's rest state as the judge asks for it.
+/// Returns the simulation's rest state in the form that the judge asks for.
 compare::RestStateOut rest_state_out(const compare::RestStateIn& in);
 
-/// The rest state whose numbers are those of `out`; what `out` does not say (mobility, materials) from the scene.
+/// Returns the rest state with the numbers of `out`; mobility and materials, which `out` does not have, are the
+/// scene's.
 RestState rest_state_of(const compare::RestStateIn& in, const compare::RestStateOut& out);
 
 }  // namespace ogc::fast

@@ -1,5 +1,5 @@
-// Segments in the order of the sweep, made once on the host, and their launches before those of the vertices of an
-// iteration. A scene without rods has none of them.
+// Holds segments in the order of the sweep, made once on the host, and launches their updates, which precede the
+// vertices' updates of an iteration. A scene without rods has neither.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace ogc::fast {
 
-/// Returns the free segments in the order of their colours. Ends that are not free vertices are read where they have
-/// moved to.
+/// Returns the free segments in the order of their colours. Ends that are not free vertices are stored inverted: the
+/// sweep reads them at their new positions.
 inline std::vector<SegmentSlot> segment_slots(const RodsAtRest& rods, const Colouring& vertices,
                                               const Colouring& segments) {
   std::vector<SegmentSlot> slots;
@@ -39,17 +39,17 @@ class RodSweep {
     slots_.upload(slots.data(), slots.size());
   }
 
-  int colours() const { return static_cast<int>(colour_begin_.size()) - 1; }  ///< launches of an iteration
+  int colours() const { return static_cast<int>(colour_begin_.size()) - 1; }  ///< number of launches of an iteration
 
-  /// The free segments in a view; quaternions and directions are the caller's.
+  /// Puts the free segments into a view; the caller sets quaternions and directions.
   void complete(RodStream& rods) const {
     rods.slots = slots_.data();
     rods.is_damped_by_vertex = is_damped_by_vertex_;
     rods.as_published = as_published_;
   }
 
-  /// All free segments, colour by colour; after the prescribed vertices, before the free ones. `is_first`: nothing of
-  /// the iteration stands before them.
+  /// Updates all free segments, colour by colour: after the prescribed vertices, before the free ones. `is_first`: no
+  /// launch of the iteration precedes them.
   void enqueue(Backend& backend, const SweepView& view, bool is_first) const {
     for (std::size_t c = 0; c + 1 < colour_begin_.size(); ++c)
       backend.for_each(colour_begin_[c + 1] - colour_begin_[c],

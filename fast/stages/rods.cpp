@@ -1,4 +1,4 @@
-// Host code in a file of its own (fast/stages/surface.cpp says why).
+// This host code is not in the header for the reason given in fast/stages/surface.cpp.
 #include "fast/stages/rods.hpp"
 
 #include "compare/problem/rods.hpp"

@@ -1,5 +1,5 @@
-// Orientations of a simulation: qᵗ and q, how a step begins and ends them, and what a row reports of rods. A scene
-// without rods has none of it, and launches nothing.
+// Holds the orientations of a simulation, qᵗ and q: how a step begins and ends them, and what a row reports of rods. A
+// scene without rods has none, and launches nothing.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +15,19 @@
 
 namespace ogc::fast {
 
-/// Returns the scene's orientations at the start. If the scene has none: those of the rest shape, each turned from its
-/// segment's direction at rest to its direction at the start.
+/// Returns the scene's orientations at the start. If the scene gives none, these are the orientations at rest, each
+/// turned from its segment's direction at rest to the direction at the start.
 std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods);
 
-/// How each motion turns in `steps` steps from `first` on, counted from 0: [step][motion]; w = 2: it does not say.
+/// Returns the rotation of each motion in `steps` steps from step `first` on, counted from 0: [step][motion]. w = 2:
+/// the motion gives no rotation.
 std::vector<Quat> motion_turns(const compare::Scene& scene, std::int64_t first, int steps);
 
-/// The resident rods of one scene.
+/// Holds the resident rods of one scene.
 template <class Backend>
 class Rods {
  public:
-  /// `longest_frame`: steps for which turns of motions are uploaded ahead.
+  /// `longest_frame`: number of steps for which motions' rotations are uploaded ahead.
   Rods(const compare::Scene& scene, const RestState& rest, int longest_frame)
       : scene_(scene),
         count_(static_cast<int>(rest.rods.segments.size())),
@@ -43,25 +44,26 @@ class Rods {
     put(start_orientations(scene, rest.rods));
   }
 
-  bool is_used() const { return count_ > 0; }  ///< whether there are any
-  int count() const { return count_; }         ///< segments
+  bool is_used() const { return count_ > 0; }  ///< whether the scene has rods
+  int count() const { return count_; }         ///< number of segments
 
-  /// Host only: qᵗ.
+  /// Host only: sets qᵗ.
   void put(const std::vector<Quat>& orientations) {
     if (is_used()) orientation_start_.upload(orientations.data(), orientations.size());
   }
-  /// Host only: qᵗ, or q of the step.
+  /// Host only: return qᵗ, and q of the step.
   std::vector<compare::Quaternion> start() const { return downloaded(orientation_start_); }
   std::vector<compare::Quaternion> now() const { return downloaded(orientation_); }
 
-  /// Host only: how motions turn in `steps` steps from `first` on, counted from 0.
+  /// Host only: uploads the motions' rotations in `steps` steps from step `first` on, counted from 0.
   void upload_turns(std::int64_t first, int steps) {
     if (!is_used() || motions_ == 0) return;
     const std::vector<Quat> turns = motion_turns(scene_, first, steps);
     motion_turns_.upload(turns.data(), turns.size());
   }
 
-  /// After the guess loop, for_each over segments: q turned from qᵗ as segments have turned from xᵗ to x.
+  /// Returns the functor, over segments, that runs after the guess loop: q is qᵗ, turned as the segment has turned from
+  /// xᵗ to x.
   TurnSegment begin(const Vec* start, const Vec* position, const StepControl* control) {
     return {.segments = segments_.data(),
             .motion = motion_.data(),
@@ -75,20 +77,20 @@ class Rods {
             .control = control};
   }
 
-  /// At the start of a step: what damping counts from.
+  /// Computes c of each segment (rod_rest_direction) at the start of a step, if strains are damped.
   void begin_strains(Backend& backend, const Vec* start) {
     if (direction_.size() == 0) return;
     backend.for_each(count_, SetDirection{segments_.data(), start, orientation_start_.data(), direction_.data()});
   }
 
-  /// What the sweep reads beside its streams.
+  /// Puts orientations and directions into the sweep's view.
   void complete(RodStream& rods) {
     rods.orientation = orientation_.data();
     rods.orientation_start = orientation_start_.data();
     rods.direction = direction_.data();
   }
 
-  /// At the end of a step: `others` and what else its row reports.
+  /// Returns the sums of the end of a step: `others`, and those of rods for the step's row.
   template <class Others>
   RodSums<Others> sums(const Others& others, const ContactView& contacts, const ContactTables& tables,
                        const Vec* position, float contact_radius, StepControl* control) {
@@ -102,7 +104,7 @@ class Rods {
             .control = control};
   }
 
-  /// For_each over segments: qᵗ = q, where the step is clean.
+  /// Returns the functor, over segments, that sets qᵗ = q if the step is clean.
   CommitSegment commit(const StepControl* control) { return {orientation_.data(), control, orientation_start_.data()}; }
 
  private:

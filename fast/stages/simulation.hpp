@@ -1,5 +1,5 @@
-// A resident simulation: the state stays on the backend, the host enqueues a frame of steps at once and reads its rows
-// once. The host acts between frames only: it grows the lists where a step found no room and goes on at that step.
+// Keeps a simulation's state on the backend. The host enqueues a frame of steps at once and reads the frame's rows
+// once. It acts between frames only: if a step found a list too small, the host grows the lists and repeats that step.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace ogc::fast {
 template <class Backend>
 class ResidentSimulation : public compare::Simulation, public compare::WayTeller {
  public:
-  /// `device`: what device() answers. `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists
+  /// `device` is the result of device(). `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists
   /// grow by themselves.
   ResidentSimulation(Backend backend, const compare::Scene& scene, const compare::SimulationOptions& options,
                      std::string device, int list_capacity = 0)
@@ -112,18 +112,18 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   }
   std::string device() const override { return device_; }
 
-  /// Made on the host at the start, of the scene rounded to single precision.
+  /// Computed on the host at the start, from the scene rounded to single precision.
   const Colouring& colouring() const { return colouring_; }
   const Colouring& segment_colouring() const { return segment_colouring_; }
   const RestState& rest_state() const { return rest_; }
   /// W, the width of the sweep's sums.
   int lanes() const { return sweep_.lanes(); }
 
-  /// Null ends it; changes no bit. Steps that are looked at are not recorded.
+  /// Sets the observer of the following steps; null removes it. No bit depends on it. An observed step is enqueued
+  /// launch by launch, not replayed from a recording.
   void observe(StepObserver* observer) { step_.observe(observer); }
-  // What an observer looks at.
   float query_radius() const { return query_radius_; }  ///< r_q of the last step [m]
-  /// For the observer alone, between launches: whatever it changes there changes the run.
+  /// For the observer only, between launches. Any change to these objects changes the run.
   Backend& backend() { return backend_; }
   StepState<Backend>& state() { return state_; }
   Detection<Backend>& detection() { return detection_; }
@@ -135,7 +135,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   Step<Backend>& step() { return step_; }
 
  private:
-  static constexpr int longest_frame = 64;  // rows and targets of a frame stay small; a longer one is several
+  static constexpr int longest_frame = 64;  // keeps rows and targets of a frame small; longer requests are split
 
   static compare::Scene rounded(compare::Scene scene) {
     compare::round_to_single(scene);
@@ -215,8 +215,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     rods_.upload_turns(step_number_, count);
   }
 
-  /// Up to `count` steps; adds a row for each that took place, and for the one that failed. Returns the control at the
-  /// end.
+  /// Runs up to `count` steps. Adds a row for each completed step and for a step that failed. Returns the control at
+  /// the end.
   StepControl run(int count, std::int64_t& repeats, std::vector<compare::StepMetrics>& rows) {
     StepControl control;
     control.active = 1;
@@ -251,8 +251,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     return control;
   }
 
-  /// The backend times each step. Where the clock times stages or an observer looks on, nothing is recorded, so that
-  /// the host can act between launches.
+  /// Enqueues steps and times each. If the clock measures stages or an observer is set, steps are not replayed from a
+  /// recording, so that the host can act between launches.
   void enqueue(int count, std::vector<double>& wall_ms, std::vector<std::vector<double>>& stage_ms) {
     if (!clock_.on() && !step_.is_observed()) {
       replay(count);
@@ -271,12 +271,12 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     backend_.synchronize();
   }
 
-  /// Whether the row of a step has the forces that it leaves: a matter of its number, so that a run that goes on has
-  /// the same rows.
+  /// Checks whether the row of a step has the forces that the step leaves. This depends on the step's number alone, so
+  /// a resumed run has the same rows.
   bool is_measured(std::int64_t step) const { return step % steps_between_measures(scene_.settings.iterations) == 0; }
 
-  /// A recording for each kind of step, as it sorts the trees or not and measures forces or not: to ask the device in
-  /// each step would cost it ten launches. Which steps sort BeginStep counts as the host does here.
+  /// Replays steps. Each kind of step (sorts trees or not, measures forces or not) has a recording, because a decision
+  /// on the device would cost each step ten launches. The host counts steps between sorts as BeginStep does.
   void replay(int count) {
     for (int since = since_sort_, done = 0; done < count;) {
       const std::int64_t next = step_number_ + done + 1;
@@ -384,7 +384,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   std::size_t moving_;
   Step<Backend> step_;
   bool energies_;
-  /// of steps that sort and of others, that measure and others, with and without groups of iterations
+  /// by: sorts trees; measures forces; groups iterations
   typename Backend::Recording recordings_[2][2][2];
   typename Backend::template Buffer<float> bounds_;
   std::int64_t step_number_ = 0;

@@ -1,21 +1,21 @@
-// The step of Algorithm 3 with the guess loop of method.md §5.2, as one sequence of calls that is the same for every
-// step: flags on the device decide what happens, so a graph can record the sequence once and nothing in it waits for
-// the host.
+// Enqueues one step: Algorithm 3 with the guess loop of method.md §5.2. The sequence of calls is the same for every
+// step, and flags on the device decide what happens. So a graph can record the sequence once, and nothing in it waits
+// for the host.
 //
-//   begin       where it is its turn trees sorted anew; y, Gᵗ, θᵗ, r_q; driven volumes at y, and their trees
-//   guess loop  repeat(guess): X_prev ← x, detect, x ← y or where contacts let it, truncated; up to guess_rounds times;
-//               then contacts with volumes are found, and xᵗ and x where the sweep gathers them
-//   iterations  prescribed vertices, colours in order; flag from the number of cut vertices; where a detection is due,
-//               X_prev ← x, detect before the next
-//   finish      certificate; commit and sums only if clean; one row
-//   In some steps forces are measured after the guess loop and at the end (Eq. 29).
+//   begin       sorts the trees every 16th step; sets y, Gᵗ, θᵗ, r_q; moves driven volumes to y, refits their trees
+//   guess loop  repeat(guess): X_prev ← x, detect, x ← y as far as contacts allow, truncated; up to guess_rounds times.
+//               Then it finds contacts with volumes and copies xᵗ and x to the buffers that the sweep gathers from
+//   iterations  update prescribed vertices, then colours in order. If the number of cut vertices or of iterations
+//               requires a detection: X_prev ← x, detect
+//   finish      checks the certificate; commits and adds sums only if it holds; writes one row
+//   Some steps also measure forces after the guess loop and at the end (Eq. 29).
 //
-// A list that was too small, a number that is not finite or a broken bound clears `active`: what follows is a no-op or
-// is thrown away, and xᵗ, vᵗ stay. Only detections, sorts and iterations after a detection stand inside `when` and
-// `repeat`, which cost a device as much as ten kernels; all else works on arrays that are whole even then.
+// If a list is too small, a number is not finite or a bound is broken, `active` is cleared: later launches do nothing
+// or their results are discarded, and xᵗ, vᵗ stay. `when` and `repeat` cost a device as much as ten kernels. So only
+// sorts, detections and the iterations after a detection are inside them; everything else runs always, on arrays that
+// are complete even then.
 //
-// There is one order of a step. A clock that is on measures its stages, and an observer looks at it, from between the
-// same calls.
+// A clock that is on, and an observer, are called between these calls; the sequence stays the same.
 #pragma once
 
 #include <algorithm>
@@ -40,49 +40,50 @@
 
 namespace ogc::fast {
 
-/// Resident arrays of a simulation. The sweep gathers from `padded`, its two position buffers one after the other, and
-/// from `padded_start`; detection and all else read `position`, the same numbers closer together.
+/// Holds the resident arrays of a simulation. The sweep gathers from `padded` (its two position buffers, one after the
+/// other) and from `padded_start`. Detection and everything else read `position`, which has the same numbers without
+/// padding.
 template <class Backend>
 struct StepState {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// of the whole mesh; of all motions
+  /// vertices of the mesh; prescribed vertices of all motions
   int vertex_count = 0, prescribed_count = 0;
   Buffer<Vec> start, velocity, target, previous, position;  ///< by vertex: xᵗ [m], vᵗ [m/s], y, X_prev, x [m]
-  Buffer<Vec> displacement;                ///< by vertex: what divides gaps [m]; empty where they are halved
-  Buffer<PaddedVec> padded_start, padded;  ///< by vertex: xᵗ; x, twice as many [m]
+  Buffer<Vec> displacement;  ///< by vertex: displacements by which gaps are divided [m]; empty if gaps are halved
+  Buffer<PaddedVec> padded_start, padded;  ///< by vertex: xᵗ; x, two buffers [m]
   Buffer<float> mass;                      ///< by vertex [kg]
-  Buffer<std::uint8_t> is_driven_volume;   ///< by vertex; empty where there is none
+  Buffer<std::uint8_t> is_driven_volume;   ///< by vertex; empty if there are no volumes
   Buffer<int> prescribed_number;           ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
   Buffer<Vec> prescribed_targets;          ///< [step of the frame][number]
   Buffer<StepControl> control;             ///< one item
   Buffer<StepRow> rows;                    ///< by step of the frame
-  Buffer<Vec> taken;    ///< by vertex, twice as many: what contacts take from moves in the guess loop [m]
-  Buffer<double> sums;  ///< as FinishStep reads them
+  Buffer<Vec> taken;                       ///< by vertex, two buffers: moves that contacts took in the guess loop [m]
+  Buffer<double> sums;                     ///< in the order in which FinishStep reads them
 };
 
-/// Follows a step from the host, event by event, as no recorded step can be followed (fast/probes/trace.hpp,
-/// fast/stages/way.hpp).
+/// Follows a step on the host, event by event (fast/probes/trace.hpp, fast/stages/way.hpp). Observed steps are not
+/// recorded.
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
-  /// A step begins, perhaps once more.
+  /// Called when a step begins; again if the step is repeated.
   virtual void begin() = 0;
-  /// Is called where an event of this kind may have ended; StepControl counts the events that did. `position`: where x
-  /// is now, on the backend.
+  /// Called when an event of this kind may have ended; StepControl counts the events that did. `position`: x at this
+  /// moment, on the backend.
   virtual void after(compare::StepEventKind kind, const Vec* position) = 0;
-  /// Is called when contacts with volumes have been found at the positions of the guess loop's last detection.
+  /// Called when contacts with volumes have been found at the positions of the guess loop's last detection.
   virtual void after_finding() = 0;
-  /// Is called when the guess loop is over and frames of segments are turned.
+  /// Called when the guess loop has ended and the segments' frames have been turned.
   virtual void after_guess() = 0;
 };
 
-/// The order of one step.
+/// Enqueues steps.
 template <class Backend>
 class Step {
  public:
-  /// Takes the number of vertices of the mesh; `state` is filled later.
+  /// `vertices`: number of vertices of the mesh. `state` is filled later.
   Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep,
        Volumes<Backend>& volumes, Rods<Backend>& rods, StageClock<Backend>& clock, StepSettings settings, int vertices)
       : backend_(backend),
@@ -96,16 +97,16 @@ class Step {
         reduction_(backend, vertices),
         left_forces_(backend, vertices, sweep.slots()) {}
 
-  /// Null ends it.
+  /// Sets the observer; null removes it.
   void observe(StepObserver* observer) { observer_ = observer; }
   bool is_observed() const { return observer_ != nullptr; }
 
-  /// r, with the contact margin [m].
+  /// Returns r plus the contact margin [m].
   float detection_radius() const { return settings_.detection_radius; }
 
-  /// Enqueues one step. The same calls with the same arguments each time, until a list or the ring grows. `group`:
-  /// iterations that are asked together whether a detection is due; it changes the time alone, as `sorting` does.
-  /// `measures`: whether its row has the forces that it leaves.
+  /// Enqueues one step. Equal arguments give the same calls each time, until a list grows. `group`: number of
+  /// iterations between two decisions whether a detection is due. `group` and `sorting` change the time only.
+  /// `measures`: whether the step's row has the forces that the step leaves.
   void enqueue(int group, Sorting sorting = Sorting::asked, bool measures = false) {
     if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(sorting); });
@@ -120,8 +121,8 @@ class Step {
     });
   }
 
-  /// Finds the contacts with volumes of the vertices at `position` (on the backend). Driven volumes stay where the step
-  /// placed them at its first detection.
+  /// Finds the contacts of the vertices at `position` (on the backend) with volumes. Driven volumes stay where the
+  /// step's first detection found them.
   void find_in_volumes(const Vec* position) {
     clock_.time(StepStage::volumes, [&] {
       volumes_.find(backend_,
@@ -169,7 +170,8 @@ class Step {
     rods_.begin_strains(backend_, s.start.data());
   }
 
-  /// The regions that end here are certified, then X_prev ← x. `target`: y in the guess loop, later null.
+  /// Returns the functor that certifies the current regions and then sets X_prev ← x. `target`: y in the guess loop,
+  /// later null.
   BeginRegions begin_regions(const Vec* target) {
     return {state_.position.data(),
             regions(),
@@ -179,15 +181,16 @@ class Step {
             target};
   }
 
-  /// body(), which writes nothing that the volumes are asked with, and what they are asked at `position` beside it. A
-  /// row that is too short ends the step with the next of the control's decisions that comes after both.
+  /// Enqueues body() and, at the same time, the search for contacts with volumes at `position`. body() must not write
+  /// what this search reads. If a row of contacts is too short, the control's next decision after both ends the step.
   template <class Body>
   void beside_volumes(const Vec* position, Body body) {
     if (!volumes_.is_used()) return body();
     backend_.at_once([&] { find_in_volumes(position); }, body);
   }
 
-  /// X_prev ← x; contacts, bounds and the stream that the sweep reads. `target`: as in begin_regions.
+  /// Sets X_prev ← x; finds contacts and bounds, and makes the contact stream of the sweep. `target`: see
+  /// begin_regions.
   void detect_surfaces(const Vec* target) {
     const ContactView view = detection_.view();
     const int* overflow = detection_.overflow();
@@ -202,7 +205,7 @@ class Step {
     });
   }
 
-  /// Detects everything anew, contacts with volumes included.
+  /// Detects all contacts, including those with volumes.
   void detect() {
     beside_volumes(state_.position.data(), [&] { detect_surfaces(nullptr); });
     observe(compare::StepEventKind::detection);
@@ -214,7 +217,7 @@ class Step {
     observe(compare::StepEventKind::detection);
   }
 
-  /// x ← y truncated.
+  /// Sets x ← y, truncated.
   void guess() {
     StepState<Backend>& s = state_;
     const GuessContacts contacts{.offsets = detection_.view().incidence_offsets,
@@ -254,17 +257,17 @@ class Step {
     if (observer_ != nullptr) observer_->after_guess();
   }
 
-  /// Iterations `first` to `first` + `count` − 1, each followed by a detection where one is due. To ask costs a device
-  /// ten launches (`when`), an iteration that is not its turn a tenth of one. So all of them are enqueued, and those
-  /// after one that asked for a detection do nothing; then, as long as one is due, it is made and they are enqueued
-  /// again.
+  /// Enqueues iterations `first` to `first` + `count` − 1, with a detection after each one if due. A decision (`when`)
+  /// costs a device ten launches; an iteration that does nothing costs a tenth of a launch. So all iterations are
+  /// enqueued at once, and those after one that requires a detection do nothing. While a detection is due, it is made
+  /// and the iterations are enqueued again.
   void iterate(int first, int count) {
     const int last = first + count - 1, *due = flag(&StepControl::detect);
     const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };
     const auto sweeps_from = [&](int from) {
       for (int i = from; i <= last; ++i) {
         sweep(i, i > first ? flag(&StepControl::turn) : nullptr, i > from ? Start::overlapping : Start::after_previous);
-        if (i == last) break;  // the question whether a detection is due ends it
+        if (i == last) break;  // the decision about a detection ends this iteration
         backend_.for_each(1, end(i));
         observe(compare::StepEventKind::sweep);
       }
@@ -284,7 +287,7 @@ class Step {
     observe(compare::StepEventKind::sweep);
   }
 
-  /// What an iteration reads and writes. An even one finds x in the first buffer, an odd one in the second.
+  /// Returns the data of an iteration. An even iteration reads x from the first buffer, an odd one from the second.
   SweepView view(int iteration) {
     StepState<Backend>& s = state_;
     SweepView view;
@@ -305,7 +308,8 @@ class Step {
     return view;
   }
 
-  /// `turn`: says whether it is this iteration's; null: it is. `start`: as in Sweep::iterate.
+  /// `turn`: number of the iteration whose turn it is, on the backend; null: this iteration always runs. `start`: see
+  /// Sweep::iterate.
   void sweep(int iteration, const int* turn, Start start) {
     SweepView view = this->view(iteration);
     view.turn = turn;
@@ -341,7 +345,7 @@ class Step {
                                     .free_vertices = sweep_.slots()});
   }
 
-  /// The certificate, and `sums` with those of rods.
+  /// Checks the certificate and adds `sums`, with the sums of rods.
   template <class Sums>
   void check_and_add(const Sums& sums) {
     StepState<Backend>& s = state_;

@@ -1,4 +1,4 @@
-// The launches of a detection within a step (PlainLaunches in fast/stages/detection.hpp is a detection's alone).
+// The launches of a detection within a step. PlainLaunches in fast/stages/detection.hpp has those of a detection alone.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// A detection of a step: its first launch, and its last, which lists contacts for the sweep.
+/// Launches a step's detection: its first launch, and its last launch, which also lists contacts for the sweep.
 struct StepLaunches {
   BeginRegions regions;  ///< the certificate, and X_prev ← x
   EndDetection end;

@@ -1,5 +1,4 @@
-// Holds what a step needs to know of its scene, in single precision, and how often work is done that not every step
-// needs.
+// Holds the settings of a step in single precision, and the intervals of work that not every step does.
 #pragma once
 
 #include <algorithm>
@@ -12,37 +11,38 @@
 
 namespace ogc::fast {
 
-/// Numbers of a scene that a step needs, in single precision: all are set by `step_settings`.
+/// Numbers of a scene that a step reads, in single precision; set by `step_settings`.
 struct StepSettings {
   float step = 0, contact_radius = 0, friction_limit = 0, bounds_relaxation = 0;  ///< h [s], r [m], ε_v h [m], γ_p
-  float detection_radius = 0;                                                     ///< r and the margin of contacts [m]
+  float detection_radius = 0;                                                     ///< r plus the contact margin [m]
   Vec acceleration;                                                               ///< [m/s²]
-  int iterations = 0;                                                             ///< of a step
+  int iterations = 0;
   bool divides = false;     ///< whether displacements divide the gaps of pairs (bounds=dat)
   bool energies = false;    ///< whether a row has the energies of elements and contacts
-  ControlSettings control;  ///< what the device decides by
+  ControlSettings control;  ///< settings of the decisions on the device
 };
 
-/// The order of the trees changes no answer, only the time of a detection. A sort is worth two detections, and an order
-/// ages slowly (fast/PERFORMANCE.md).
+/// Steps between two sorts of the trees. Their order changes no result, only the time of a detection. A sort takes as
+/// long as two detections, and an order stays good for many steps (fast/PERFORMANCE.md).
 inline constexpr int steps_between_sorts = 16;
 
-/// Who decides whether a step sorts its trees: the device, or the host when it records the step.
+/// Decides whether a step sorts its trees: `asked`: the device decides; `made`, `left_out`: the host has decided.
 enum class Sorting { asked, made, left_out };
 
-/// Steps from one to the next in which forces are measured. Measuring takes as long as six sweeps at most
-/// (compare/method.md §6), which shall be 2 % of all sweeps.
+/// Returns the number of steps from one measurement of forces to the next. A measurement takes at most as long as six
+/// sweeps (compare/method.md §6); it may take 2 % of all sweeps.
 inline std::int64_t steps_between_measures(std::int64_t iterations) {
   return (300 + iterations - 1) / std::max<std::int64_t>(1, iterations);
 }
 
-/// Iterations that are asked together whether a detection is due, where few are: five where they are fewer than one in
-/// four iterations (counted in fast/PERFORMANCE.md). `redetections` are those of `steps` steps after the guess loop.
+/// Returns the number of iterations between two decisions whether a detection is due: five if fewer than one in four
+/// iterations needed a detection, otherwise one (counted in fast/PERFORMANCE.md). `redetections`: detections of `steps`
+/// steps after the guess loop.
 inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) {
   return 4 * redetections < steps * iterations ? 5 : 1;
 }
 
-/// `moving`: K, as compare::bounded_count.
+/// Returns the settings of a step. `moving`: K (compare::bounded_count).
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
   const compare::Settings& from = scene.settings;
   StepSettings to;

@@ -1,5 +1,5 @@
-// The streams of elements in the order of the sweep, kind by kind: made once on the host, resident on the backend,
-// with what the elements have at the start of a step.
+// Holds the streams of elements in the order of the sweep, by kind, and the elements' data at the start of a step.
+// Streams are made once on the host and stay on the backend.
 #pragma once
 
 #include <type_traits>
@@ -16,13 +16,13 @@ namespace ogc::fast {
 /// The stream of a kind on the host.
 template <class Kind>
 struct HostStream {
-  std::vector<Row> rows;  ///< by slot; empty where there is no element
+  std::vector<Row> rows;  ///< by slot; empty if there is no element
   std::vector<typename Kind::Incidence> incidences;
-  std::vector<typename Kind::Beside> beside;  ///< by incidence; empty where no model of the scene reads it
+  std::vector<typename Kind::Beside> beside;  ///< by incidence; empty if no model of the scene reads it
 };
 
-/// Makes the stream of a kind. The elements of a vertex ascend, and so do the roles of an element that has the vertex
-/// twice.
+/// Makes the stream of a kind. A vertex's elements are in ascending order. If an element contains a vertex twice, the
+/// vertex's roles in it ascend, too.
 template <class Kind>
 HostStream<Kind> host_stream(const RestState& rest, const Colouring& colouring) {
   const AtRest<Kind>& all = at_rest<Kind>(rest);
@@ -48,7 +48,7 @@ HostStream<Kind> host_stream(const RestState& rest, const Colouring& colouring) 
   return stream;
 }
 
-/// Puts the rows of a kind where its row_in_vertex says.
+/// Copies the rows of a kind into the vertices, at the kind's row_in_vertex.
 template <class Kind>
 void put_rows(const HostStream<Kind>& stream, std::vector<SweepVertex>& vertices) {
   if constexpr (Kind::row_in_vertex >= 0) {
@@ -57,7 +57,7 @@ void put_rows(const HostStream<Kind>& stream, std::vector<SweepVertex>& vertices
   }
 }
 
-/// Returns the free vertices by slot, each with its rows in the streams that keep them there.
+/// Returns the free vertices by slot. A vertex stores its rows of the kinds with row_in_vertex ≥ 0.
 template <class... All>
 std::vector<SweepVertex> sweep_vertices(KindList<All...>, const RestState& rest, const Colouring& colouring,
                                         double time_step, const HostStream<All>&... streams) {
@@ -92,7 +92,8 @@ class Stream {
 
   int count() const { return static_cast<int>(rest_.size()); }  ///< elements
 
-  /// Computes, at the start of a step, what damping counts from, if any element is damped. `start`: xᵗ, on the backend.
+  /// Computes the elements' state at xᵗ (Kind::Start), which damping reads, if any element is damped. `start`: xᵗ, on
+  /// the backend.
   void begin(Backend& backend, const Vec* start) {
     if constexpr (has_start) {
       if (start_.size() > 0) backend.for_each(count(), BeginElement<Kind>{rest_.data(), start, start_.data()});
@@ -107,7 +108,7 @@ class Stream {
     if constexpr (has_start) stream.start = start_.data();
     if constexpr (requires { stream.by_body; }) stream.by_body = by_body_.data();
   }
-  /// Fills in what the elements' energy reads, but for materials, models and positions.
+  /// Fills in what the elements' energy reads, except materials, models and positions.
   void complete(ElementsView<Kind>& elements) const {
     elements.rest = rest_.data();
     elements.beside = rest_beside_.data();
@@ -134,7 +135,7 @@ class Stream {
   Buffer<typename Kind::Start> start_;
 };
 
-/// The streams of all kinds, and the vertices in the order of the sweep.
+/// Holds the streams of all kinds, and the vertices in the order of the sweep.
 template <class Backend, class List>
 class Streams;
 template <class Backend, class... All>
@@ -143,7 +144,7 @@ class Streams<Backend, KindList<All...>> : Stream<Backend, All>... {
   Streams(const RestState& rest, const Colouring& colouring, double time_step)
       : Streams(rest, colouring, time_step, host_stream<All>(rest, colouring)...) {}
 
-  /// Free vertices.
+  /// Returns the number of free vertices.
   int slots() const { return static_cast<int>(vertices_.size()); }
   /// Returns the free vertices by slot, on the backend.
   const SweepVertex* vertices() const { return vertices_.data(); }
@@ -155,7 +156,7 @@ class Streams<Backend, KindList<All...>> : Stream<Backend, All>... {
     view.vertices = vertices_.data();
     (Stream<Backend, All>::complete(view), ...);
   }
-  /// Returns the elements of all kinds at these positions, on the backend.
+  /// Returns the elements of all kinds at `position` (on the backend).
   AllElements<KindList<All...>> elements(const SurfaceMaterial* materials, const SurfaceModels* models,
                                          const Vec* position) const {
     AllElements<KindList<All...>> all;

@@ -1,6 +1,6 @@
-// Host code in a file of its own, compiled by g++ alone: nvcc lays the captures of a lambda out in another order than
-// g++, and of two inline copies of one function the linker keeps one, so an inline function with a capturing lambda
-// must not stand in a header that both compile.
+// This host code has its own file, compiled by g++ alone. nvcc lays out the captures of a lambda in another order than
+// g++. If both compile an inline function, the linker keeps one copy. So an inline function with a capturing lambda
+// must not be in a header that both compile.
 #include "fast/stages/surface.hpp"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ class SeedFinder {
     return std::find(std::begin(vertices), std::end(vertices), v) != std::end(vertices);
   }
 
-  /// v and the face do not touch, neither there nor by a stitch.
+  /// Checks that v and the face share no vertex, and that no stitch joins them.
   template <class Vertices>
   bool is_apart(int v, const Vertices& face) const {
     if (contains(face, v)) return false;
@@ -65,7 +65,7 @@ class SeedFinder {
     return std::none_of(row.begin(), row.end(), [&](int partner) { return contains(face, partner); });
   }
 
-  /// All of them are in one group.
+  /// Checks whether v and all vertices of the face are in one group.
   template <class Vertices>
   bool is_rigid(int v, const Vertices& face) const {
     const auto group = [this](int i) { return groups_[static_cast<std::size_t>(i)]; };
@@ -77,7 +77,7 @@ class SeedFinder {
     return is_apart(v, face) && !is_rigid(v, face);
   }
 
-  /// Some edge at v forms a pair with e.
+  /// Checks whether some edge at v forms a pair with e.
   bool has_pair(int e, int v) const {
     const auto& neighbours = topology_.vertex_neighbours[static_cast<std::size_t>(v)];
     return is_apart(v, edge(e)) && std::any_of(neighbours.begin(), neighbours.end(), [&](int w) {
@@ -85,7 +85,7 @@ class SeedFinder {
            });
   }
 
-  /// Some triangle at e forms a pair with v.
+  /// Checks whether some triangle at e forms a pair with v.
   bool has_facet_pair(int v, int e) const {
     const auto triangles = topology_.edge_triangles[static_cast<std::size_t>(e)];
     return std::any_of(triangles.begin(), triangles.end(),
@@ -121,9 +121,9 @@ Searched find_searched(const compare::Topology& topology) {
     searched.edges += take(e, topology.edges[static_cast<std::size_t>(e)]);
   for (int t = 0; t < static_cast<int>(topology.triangles.size()); ++t)
     searched.facets += take(t, topology.triangles[static_cast<std::size_t>(t)]);
-  // vertices inside solids are on no face, and searches leave them out by themselves
+  // searches skip vertices inside solids anyway, since these are on no face
   if (static_cast<std::size_t>(searched.edges) < topology.edges.size()) return searched;
-  // without a facet there is nothing that a vertex could look for
+  // without facets, no vertex searches
   return {{}, topology.triangles.empty() ? 0 : topology.vertex_count, searched.edges, searched.facets};
 }
 

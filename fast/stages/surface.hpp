@@ -1,4 +1,4 @@
-// The complex on the backend: uploaded once, read by every stage of a detection.
+// Uploads the mesh's vertices, edges and triangles once; every stage of a detection reads them.
 #pragma once
 
 #include <algorithm>
@@ -10,31 +10,32 @@
 
 namespace ogc::fast {
 
-/// Corners, edges and directions of a triangle as the kernels read them.
+/// Returns corners, edges and edge directions of triangle t for the kernels.
 Facet facet_of(const compare::Topology& topology, std::size_t t);
 
-/// The seeds of fast/kernels/bvh.hpp: near neighbours in the mesh that are neither adjacent nor left out.
+/// The seeds of fast/kernels/bvh.hpp: near neighbours in the mesh that are neither adjacent nor excluded.
 struct Seeds {
   std::vector<EdgeSeeds> edges;       ///< by edge
   std::vector<FacetSeeds> facets;     ///< by triangle
   std::vector<VertexSeeds> vertices;  ///< by vertex
 };
 
-/// `groups`: one number for each vertex; `partners`: null where there is none (compare/problem/exclusions.hpp).
+/// Returns the seeds. `groups`: one number for each vertex; `partners`: null if there are none
+/// (compare/problem/exclusions.hpp).
 Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,
                  const compare::CompressedRows* partners, const std::vector<Facet>& facets);
 
-/// The primitives that take part in searches (SurfaceView::searched), and the number of each kind; an empty list means
-/// all of them.
+/// The primitives that searches visit (SurfaceView::searched), and the number of each kind. An empty list means all
+/// primitives.
 struct Searched {
-  std::vector<int> numbers;  ///< of vertices, then of edges, then of facets
+  std::vector<int> numbers;  ///< numbers of vertices, then of edges, then of facets
   int vertices = 0, edges = 0, facets = 0;
 };
 
-/// Returns all primitives that are not of volumes.
+/// Returns all primitives that do not belong to volumes.
 Searched find_searched(const compare::Topology& topology);
 
-/// The complex of one mesh.
+/// Holds the vertices, edges and triangles of one mesh on the backend.
 template <class Backend>
 class Surface {
  public:
@@ -65,7 +66,7 @@ class Surface {
     searched_numbers_.upload(searched_.numbers.data(), searched_.numbers.size());
   }
 
-  /// On the host: what searches look at, as SurfaceView has it; empty: all.
+  /// Returns SurfaceView::searched on the host; empty if searches visit all primitives.
   const std::vector<int>& searched() const { return searched_.numbers; }
 
   /// Returns the surface as kernels see it.

@@ -1,6 +1,6 @@
-// The sweep (Alg. 4): the streams of elements (streams.hpp), made once on the host; the contact stream, made after each
-// detection on the device; and the launches of one iteration. Every sum has the width W, the one thing beside the input
-// that may change a bit.
+// The sweep (Alg. 4): holds the streams of elements (streams.hpp), made once on the host, and the contact stream, made
+// after each detection on the device, and launches an iteration. Every sum has the width W, the only setting other than
+// the scene that can change a bit.
 #pragma once
 
 #include <vector>
@@ -19,14 +19,14 @@
 
 namespace ogc::fast {
 
-/// W by number of vertices where Settings::lanes is 0: the same on every backend, because W decides bits. Small meshes
-/// cannot fill a device otherwise. `curves`: nothing but rods, whose vertices have two segments and few contacts each.
+/// Returns W if Settings::lanes is 0. It is the same on every backend, because W changes bits. Small meshes need more
+/// lanes to fill a device. `curves`: the scene has only rods, whose vertices have two segments and few contacts each.
 inline int default_lanes(std::size_t vertices, bool curves = false) {
   if (curves) return 2;
   return vertices <= 20000 ? 16 : (vertices <= 300000 ? 8 : 4);
 }
 
-/// ‖ē‖² by edge, 0 of an edge without triangles.
+/// Returns ‖ē‖² by edge; 0 for an edge without triangles.
 inline std::vector<float> rest_squared_with_triangles(const compare::Topology& topology, const RestState& rest) {
   std::vector<float> squared = rest.edge_length_squared;
   for (std::size_t e = 0; e < squared.size(); ++e) {
@@ -35,18 +35,18 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
   return squared;
 }
 
-/// The kinds of elements that a scene has, one bit each (sweep_view.hpp).
+/// Returns the kinds of elements that a scene has, one bit each (sweep_view.hpp).
 template <class... All>
 unsigned kinds_of(KindList<All...>, const RestState& rest) {
   return ((at_rest<All>(rest).elements().empty() ? 0u : All::asked) | ...);
 }
-/// The kinds whose vertices have few elements.
+/// Returns the kinds whose vertices have few elements.
 template <class... All>
 constexpr unsigned curves(KindList<All...>) {
   return ((All::is_curve ? All::asked : 0u) | ...);
 }
 
-/// What a scene asks of the sum over the stencils of a vertex (sums.hpp).
+/// Returns the features that a scene needs in the sum over a vertex's stencils, one bit each (sums.hpp).
 inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene) {
   bool usual_models = true;
   for (const SurfaceModels& models : rest.models)
@@ -58,16 +58,16 @@ inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene)
 /// Launches a team of `lanes` team lanes for each of `count` vertices of a colour.
 template <class Backend, class Sum>
 void update_vertices(Backend& backend, int lanes, int count, const UpdateVertex<Sum>& kernel, Start start);
-/// Launches a team for each slot. The width is fixed, because no position depends on these sums.
+/// Launches a team for each slot. The number of lanes is fixed, because no position depends on these sums.
 template <class Backend>
 void measure_vertices(Backend& backend, int slots, const MeasureVertex<GatherAll>& kernel);
 
-/// The resident streams and their launches. `complete` gives a view what belongs to the sweep; positions, bounds and
-/// control of an iteration are the caller's.
+/// Holds the resident streams and launches the sweep. `complete` fills in the sweep's part of a view; the caller sets
+/// an iteration's positions, bounds and control.
 template <class Backend>
 class Sweep {
  public:
-  /// Makes the sweep of a scene; only `backend` must outlive it. `segments`: colours of the segments of its rods.
+  /// Makes the sweep of a scene; only `backend` must outlive it. `segments`: colours of the rods' segments.
   Sweep(Backend& backend, const RestState& rest, const Colouring& colouring, const compare::Topology& topology,
         const compare::Scene& scene, const Colouring& segments = {})
       : backend_(backend),
@@ -91,21 +91,20 @@ class Sweep {
     const int bodies = static_cast<int>(rest.materials.size());
     tables_ = {body_.data(), contact_materials_.data(), bodies, rest_squared_.data(), nullptr};
     for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
-      // a driven volume is at its targets already
+      // volumes' vertices are at their targets already
       if (rest.mobility[v] == Mobility::prescribed && !is_of_volume(scene, rest.body[v]))
         prescribed_host_.push_back(static_cast<int>(v));
     }
     upload(prescribed_, prescribed_host_);
   }
 
-  int colours() const { return colours_; }  ///< launches of an iteration, beside that of the prescribed vertices
+  int colours() const { return colours_; }  ///< launches of an iteration, without the launch for prescribed vertices
   /// W, the width of the sums.
   int lanes() const { return lanes_; }
   ContactActivation activation() const { return activation_; }
-  const int* colour() const { return colour_.data(); }  ///< by vertex; −1: not free. On the backend
+  const int* colour() const { return colour_.data(); }  ///< by vertex; −1: not free; on the backend
 
-  /// Returns the data of contacts that are not in their records. `previous`: X_prev, the positions of the last
-  /// detection.
+  /// Returns the contact data that records do not have. `previous`: X_prev, the positions of the last detection.
   ContactTables tables(const Vec* previous) const {
     ContactTables tables = tables_;
     tables.previous = previous;
@@ -115,39 +114,40 @@ class Sweep {
   /// Makes room for the contacts of a detection, and for their incidences. Host only, outside a step.
   void reserve_contacts(int contacts) { contacts_.resize(4 * static_cast<std::size_t>(contacts)); }
 
-  /// Free vertices: items of a launch over contact_rows.
+  /// Returns the number of free vertices, the items of a launch over contact_rows.
   int slots() const { return streams_.slots(); }
-  /// The stream of the last detection: a vertex's contacts are where its row of incidences is; on the backend.
+  /// Returns the contact stream of the last detection, on the backend. A vertex's contacts are at the same places as
+  /// its incidences.
   const ContactIncidence* contacts() const { return contacts_.data(); }
   /// Returns the free vertices by slot, on the backend.
   const SweepVertex* vertices() const { return streams_.vertices(); }
-  /// Returns the functor that makes the rows of the stream after a detection. If *overflow is not 0 the old stream
-  /// stays; it is complete.
+  /// Returns the functor that makes the rows of the contact stream after a detection. If *overflow is not 0, the old
+  /// stream, which is complete, stays.
   template <class Item>
   CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* overflow) {
     return {incidence_offsets, incidences, overflow, vertices(), contact_rows_.data()};
   }
-  /// Returns the functor that writes the stream when each incidence gets its place. `previous`: the positions of the
-  /// detection.
+  /// Returns the functor that writes the contact stream as incidences get their places. `previous`: the positions of
+  /// the detection.
   ResolveContact resolve_contact(const ContactView& view, const Vec* previous) {
     return {view, tables(previous), colour_.data(), contacts_.data()};
   }
 
-  /// Makes the stream of contacts that are there already.
+  /// Makes the contact stream of given contacts.
   void resolve_contacts(const ContactView& view, const Vec* previous) {
     backend_.for_both(slots(), contact_rows(view.incidence_offsets, view.incidences, nullptr),
                       view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
                       resolve_contact(view, previous));
   }
 
-  /// At the start of a step: what damping of elements counts from. `start`: xᵗ, on the backend.
+  /// Computes the elements' state at xᵗ (Kind::Start), which damping reads. `start`: xᵗ, on the backend.
   void begin(const Vec* start) { streams_.begin(backend_, start); }
-  /// The elements at these positions, on the backend.
+  /// Returns the elements at `position` (on the backend).
   AllElements<Kinds> elements(const Vec* position) const {
     return streams_.elements(materials_.data(), models_.data(), position);
   }
 
-  /// The streams of this sweep in a view; positions, targets and control are the caller's.
+  /// Puts the streams into a view; the caller sets positions, targets and control.
   void complete(SweepView& view) const {
     streams_.complete(view);
     view.contact_rows = contact_rows_.data();
@@ -158,12 +158,12 @@ class Sweep {
     rods_.complete(view.rods);
   }
 
-  /// One iteration: prescribed vertices, segments and then vertices colour by colour; each position is truncated before
-  /// it is written, each cut counted. `start`: overlapping where the launch before writes nothing that a sweep reads
-  /// but StepControl::turn.
+  /// Runs one iteration: prescribed vertices, segments, then vertices, colour by colour. Each position is truncated
+  /// before it is written, and each cut is counted. `start` is `overlapping` if the sweep reads nothing that the
+  /// previous launch writes, except StepControl::turn.
   void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
-    // It writes only what a colour reads after its sum, so the first colour may overlap it.
+    // UpdatePrescribed writes only what a colour reads after its sum, so the first colour may overlap it.
     backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});
     rods_.enqueue(backend_, view, prescribed == 0);
     const bool is_before = prescribed > 0 || rods_.colours() > 0;
@@ -179,7 +179,7 @@ class Sweep {
     }
   }
 
-  /// The force on each free vertex, into `left`; as MeasureVertex.
+  /// Writes the force on each free vertex into `left` (see MeasureVertex).
   void measure(const SweepView& view, LeftForce* left, bool is_end) const {
     measure_vertices(backend_, slots(), MeasureVertex<GatherAll>{view, left, is_end});
   }

@@ -1,5 +1,5 @@
-// The launches that a sum over stencils takes part in: for each backend and sum instantiated in a source of its own,
-// since they take longest to compile.
+// Defines the launches that depend on a sum over stencils. Each backend instantiates them in a source of its own for
+// each sum, since they take longest to compile.
 #pragma once
 
 #include "fast/kernels/sweep/sums.hpp"

@@ -1,5 +1,5 @@
-// The volumes of a scene (§3.9; fast/kernels/volumes/): memory and launches of their trees and of their contacts. A
-// scene without volumes has none of it.
+// Holds the memory of a scene's volumes (§3.9; fast/kernels/volumes/), their trees and their contacts, and launches
+// their kernels. A scene without volumes has neither.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace ogc::fast {
 
-/// Trees of parts, and what is known of their tetrahedra.
+/// Holds the trees of the parts and the data of their tetrahedra.
 template <class Backend>
 class VolumeTrees {
  public:
@@ -61,12 +61,12 @@ class VolumeTrees {
 
   int count() const { return static_cast<int>(parts_.size()); }  ///< parts
   const VolumePart* parts() const { return parts_.data(); }      ///< on the backend
-  /// The tetrahedra of the parts, signs as of the last refit.
+  /// Returns the tetrahedra of the parts; their signs are those of the last refit.
   SolidView solids() {
     return {elements_.data(), is_positive_.data(), {offsets_.data(), around_.data()}, owner_.data()};
   }
 
-  /// At these positions; by vertex, on the backend [m].
+  /// Refits the trees to `positions` [m], by vertex, on the backend.
   void refit(Backend& backend, const SurfaceView& surface, const Vec* positions) {
     const RefitVolumes refit{surface, solids(), positions, trees_.data(), facet_trees_, static_cast<int>(trees_.size()),
                              items_};
@@ -86,21 +86,21 @@ class VolumeTrees {
   Buffer<std::uint8_t> is_positive_;
 };
 
-/// The data with which a detection tests vertices against volumes; all on the backend.
+/// The arguments of a detection that tests vertices against volumes; all pointers are to the backend.
 struct VolumeAskers {
-  PaddedVecs volumes;          ///< positions of driven volumes' vertices, by vertex [m]
-  const Vec* position;         ///< of these vertices and of free volumes, by vertex [m]
+  PaddedVecs volumes;          ///< positions of the vertices of driven volumes, by vertex [m]
+  const Vec* position;         ///< positions of the tested vertices and of free volumes, by vertex [m]
   ContactTables tables;        ///< k and μ
   float contact_radius;        ///< r [m]
-  const StepControl* control;  ///< where it is not active no vertex is tested
+  const StepControl* control;  ///< if it is not active, no vertex is tested
 };
 
-/// The resident volumes of one scene.
+/// Holds the resident volumes of one scene. If there are no parts, there are no volumes, and its functions do nothing.
 template <class Backend>
 class Volumes {
  public:
-  /// `rows`: of the scene; `slots`: free vertices; `colour`: of the sweep, by vertex, on the backend. No parts: there
-  /// are no volumes, and nothing below does anything.
+  /// `rows`: the scene's tested vertices. `slots`: number of free vertices. `colour`: colours of the sweep by vertex,
+  /// on the backend.
   Volumes(const SurfaceView& surface, const VolumeParts& parts, const SolidTables& solids, const AskerRows& rows,
           int slots, const int* colour)
       : surface_(surface),
@@ -134,13 +134,13 @@ class Volumes {
     if (has_free()) reserve_corners(usual_corner_capacity);
   }
 
-  /// Whether there are any.
+  /// Returns whether the scene has volumes.
   bool is_used() const { return trees_.count() > 0; }
-  /// Whether some are free.
+  /// Returns whether the scene has free volumes.
   bool has_free() const { return !slot_of_host_.empty(); }
 
-  /// Refits the trees of driven volumes to these positions, where they stay during the step; by vertex, on the backend
-  /// [m].
+  /// Refits the trees of driven volumes to `positions` [m], by vertex, on the backend. Driven volumes keep these
+  /// positions during the step.
   void refit(Backend& backend, const Vec* positions) {
     if (!is_used() || has_free()) return;
     backend.for_each(static_cast<int>(clear_.size()), ForgetClearBalls{clear_.data()});
@@ -175,7 +175,6 @@ class Volumes {
     backend.for_each(slots_, SortCorners{asked.control, corners, longest_.data() + 1, overflow});
   }
 
-  /// Returns the stream as the sweep reads it.
   VolumeStream stream() const {
     VolumeStream stream{stream_.data(), counts_.data(), capacity_};
     if (!has_free()) return stream;
@@ -185,10 +184,10 @@ class Volumes {
     stream.corner_capacity = corner_capacity_;
     return stream;
   }
-  /// Returns further data of the contacts, which are not in the stream.
+  /// Returns data of the contacts that the stream does not have.
   const FoundVolumeContact* found() const { return found_.data(); }
-  /// Return by row the asker, and the number of sheets without a path to the boundary (null if there are no solids). On
-  /// the backend.
+  /// Return, by row, the tested vertex, and the number of sheets without a path to the boundary (null if there are no
+  /// solids). Both are on the backend.
   const int* askers() const { return askers_.data(); }
   const int* unresolved() const { return unresolved_.data(); }
   /// Returns the number of rows of contacts; 0 if there are no volumes.
@@ -208,7 +207,7 @@ class Volumes {
     if (longest[0] > capacity_) reserve(longest[0]);
     if (longest[1] > corner_capacity_) reserve_corners(longest[1]);
   }
-  /// Contacts that fit in a row, as the point, and, where volumes are free, as a corner.
+  /// Returns the numbers of contacts that fit in a row: of a tested vertex, and, if volumes are free, of a corner.
   std::vector<std::int64_t> capacities() const {
     if (!is_used()) return {};
     if (!has_free()) return {capacity_};
@@ -225,7 +224,7 @@ class Volumes {
     if (capacities.size() > 1) reserve_corners(static_cast<int>(capacities[1]));
   }
 
-  /// Host only: replaces the contacts of a detection, row by row.
+  /// Host only: replaces the contacts of a detection by these rows.
   void put(const std::vector<std::vector<VolumeIncidence>>& rows) {
     std::vector<int> counts;
     std::size_t longest = 1;
@@ -246,11 +245,11 @@ class Volumes {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
-  /// A vertex near a ridge or in a junction of parts has two or three.
+  /// A vertex near a ridge, or where parts meet, has two or three contacts.
   static constexpr int usual_capacity = 4;
-  /// A vertex has six triangles or so, and points press as densely as they lie.
+  /// A vertex is a corner of about six triangles; each of them may have contacts with several vertices.
   static constexpr int usual_corner_capacity = 16;
-  /// Codes of corners have two bits for the role.
+  /// A corner's code needs two bits for the role.
   static constexpr std::int64_t most_places = (std::int64_t{1} << 29) - 1;
 
   template <bool has_solids>
@@ -319,9 +318,9 @@ class Volumes {
   std::vector<int> slot_of_host_;
   const int* colour_;
   Buffer<int> askers_, answers_, counts_, unresolved_, longest_;
-  Buffer<ClearBall> clear_;                             ///< beside `answers_`, where none are free
-  Buffer<int> slot_of_, corner_counts_, corner_codes_;  ///< where some are free
-  Buffer<PaddedVec> padded_;  ///< where some are free: positions of the detection, by vertex [m]
+  Buffer<ClearBall> clear_;                             ///< beside `answers_`; only if no volume is free
+  Buffer<int> slot_of_, corner_counts_, corner_codes_;  ///< only if some volumes are free
+  Buffer<PaddedVec> padded_;  ///< only if some volumes are free: positions of the detection, by vertex [m]
   Buffer<VolumeIncidence> stream_;
   Buffer<FoundVolumeContact> found_;
 };

@@ -1,4 +1,4 @@
-// Records where a step detected: an observer that keeps X_prev of each detection on the host.
+// Records the positions of a step's detections: an observer that copies X_prev of each detection to the host.
 #pragma once
 
 #include <utility>
@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Records the detections of one simulation's last step; if the step was repeated because a list grew, those of the
-/// last attempt.
+/// Records the detections of a simulation's last step. If the step was repeated because a list grew, only the last
+/// attempt is kept.
 template <class Backend>
 class WayRecorder : public StepObserver {
  public:
@@ -42,7 +42,7 @@ class WayRecorder : public StepObserver {
  private:
   Backend& backend_;
   const StepState<Backend>& state_;
-  int seen_ = 0;  ///< detections counted at the last look
+  int seen_ = 0;  ///< number of detections that have been recorded
   std::vector<std::vector<compare::Vec3f>> states_;
 };
 

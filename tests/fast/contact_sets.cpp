@@ -19,7 +19,7 @@ tests::TestMesh two_sheets() {
   return mesh;
 }
 
-/// Returns the message of an action's input error; empty if there is none.
+/// Returns the message of the input error that `action` throws; empty if it throws none.
 template <class Action>
 std::string error_of(Action action) {
   try {
@@ -67,7 +67,7 @@ TEST_CASE("contact_sets: far more contacts than the first guess of the lists are
   for (int k = 0; k < 12; ++k) mesh.add(tests::sheet(4, 1.0F, 0.01F * static_cast<float>(k)));
   fast::ContactFinder finder = finder_of(mesh);
   const fast::ContactSets sets = finder.find(mesh.positions, {.contact_radius = 0.5F, .query_radius = 0.5F});
-  CHECK(sets.vertex_facet.size() == 12 * 11 * 16);  // each vertex with its twin in each other layer
+  CHECK(sets.vertex_facet.size() == 12 * 11 * 16);  // each vertex touches its twin in each other layer
 }
 
 TEST_CASE("contact_sets: wrong input is refused with the element's name", "[unit]") {

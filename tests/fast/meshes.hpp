@@ -17,7 +17,7 @@ struct TestMesh {
   compare::Topology topology() const {
     return compare::build_topology(static_cast<compare::Index>(positions.size()), triangles, loose_edges);
   }
-  /// Adds another surface as a component of its own.
+  /// Adds another surface as a separate component.
   void add(const TestMesh& other) {
     const auto first = static_cast<compare::Index>(positions.size());
     positions.insert(positions.end(), other.positions.begin(), other.positions.end());
@@ -46,7 +46,7 @@ inline TestMesh sheet(int n, float step, float y) {
   return surface;
 }
 
-/// Moves every coordinate by up to `by`, from a fixed seed.
+/// Moves every coordinate by up to `by`, with a fixed seed.
 inline TestMesh jittered(TestMesh surface, float by, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> amount(-by, by);
@@ -54,7 +54,6 @@ inline TestMesh jittered(TestMesh surface, float by, std::uint32_t seed) {
   return surface;
 }
 
-/// Multiplies every coordinate by a factor.
 inline std::vector<compare::Vec3f> scaled(std::vector<compare::Vec3f> positions, float factor) {
   for (auto& x : positions) x = {x.x * factor, x.y * factor, x.z * factor};
   return positions;

@@ -1,5 +1,5 @@
-// Holds double-precision vectors, differences and random placements for the tests of the energies. Energies are written
-// here once more, from their definitions.
+// Holds double-precision vectors, differences and random placements for the tests of the energies. The tests write the
+// energies a second time, from their definitions.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ inline double largest_difference(const std::array<double, 9>& a, const std::arra
   return worst;
 }
 
-/// Returns the smallest value of uᵀHu/‖u‖² over many directions: below zero only for a block that is not positive
+/// Returns the smallest value of uᵀHu/‖u‖² over many directions. It is below zero only if the block is not positive
 /// semidefinite.
 inline double least_curvature(const Symmetric3& h, std::mt19937& random) {
   std::normal_distribution<double> normal;

@@ -1,4 +1,4 @@
-// Compares work counted by hand with work counted by carrying it out.
+// Compares work counted by hand with work counted during a run.
 #include "fast/contestant.hpp"
 
 #include <string>
@@ -10,7 +10,7 @@ using namespace ogc;
 
 namespace {
 
-/// Returns a triangle at height 0 and one at `height`, as two free bodies; r [m].
+/// Returns two free triangles, at height 0 and at `height`, as two bodies; r [m].
 compare::Scene two_triangles(double height, double contact_radius) {
   compare::Scene scene;
   for (const double y : {0.0, height}) {
@@ -34,11 +34,11 @@ fast::SearchWork work_of(const compare::Scene& scene) {
 
 TEST_CASE("searches of two triangles within each other's radius open, are offered and measure what one counts by hand",
           "[unit]") {
-  // Trees have four primitives a node. Edges: six in two leaves under a root; each of the six searches opens the root
-  // and the second leaf, and the three at places 0 to 2, which search places up to 3, the first leaf, too: 6 + 6 + 3.
-  // Vertices: six searches through root and leaf of two facets: 12. Edges are offered those behind them: 15 pairs.
-  // Vertices are offered both facets: 12. Pairs that share a vertex have no distance: 3 · 3 pairs of edges and 3 + 3 of
-  // vertices have one.
+  // Trees have four primitives a node. Edges: six edges are in two leaves under a root. Each of the six searches opens
+  // the root and the second leaf; the searches of places 0 to 2, which end at place 3, open the first leaf, too: 6 + 6
+  // + 3. Vertices: six searches open the root and the leaf of two facets: 12. Edges are offered the edges behind them:
+  // 15 pairs. Vertices are offered both facets: 12. Pairs that share a vertex have no distance; 3 · 3 pairs of edges
+  // and 3 + 3 pairs of vertex and facet have one.
   const fast::SearchWork work = work_of(two_triangles(0.1, 10));
   CHECK(work.nodes == 15 + 12);
   CHECK(work.candidates == 15 + 12);
@@ -83,7 +83,7 @@ TEST_CASE("the work of a sweep counts a segment once, and for each of its free e
   CHECK(one.colours == 4);  // two for segments, two for vertices
   CHECK(two.flop == 2 * one.flop);
   CHECK(two.bytes == 2 * one.bytes);
-  // One vertex more is one segment more with two ends: about the work of the paper's yarn for each vertex.
+  // One more vertex means one more segment with two ends: about the work of the paper's yarn for each vertex.
   CHECK((longer.flop - one.flop) / 100 == Approx(54 + 2 * 51 + 336));
   CHECK((longer.bytes - one.bytes) / 100 == Approx(280).epsilon(0.1));
   CHECK(one.flop - held.flop == Approx(2 * 54 + 3 * 51 + 336));

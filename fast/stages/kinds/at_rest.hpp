@@ -1,11 +1,11 @@
-// The elements of a scene at rest, kind by kind, made once on the host in double and rounded once. A kind says in a
-// file beside this one
+// Holds the elements of a scene at rest, by kind, made once on the host in double and rounded once. Each kind defines
+// in a file of this folder:
 //
 //   elements, rest_beside        its elements, and the data that some models read beside them (RestBeside)
-//   add(build)                   adds those of a scene, and their masses
-//   add(in, out)                 adds those whose numbers are an answer's to the judge
-//   give                         writes them as the judge asks for them
-//   reads_beside, beside         whether a model of the scene reads what lies beside an incidence (Beside)
+//   add(build)                   adds the elements of a scene, and their masses
+//   add(in, out)                 adds the elements with the numbers of an answer to the judge
+//   give                         writes the elements in the form that the judge asks for
+//   reads_beside, beside         whether a model of the scene reads data beside an incidence; these data (Beside)
 //   damps                        whether an element is damped
 //   by_body                      constants by body (ByBody)
 #pragma once
@@ -23,13 +23,13 @@ namespace ogc::fast {
 /// How a vertex moves.
 enum class Mobility : std::uint8_t { free, prescribed, fixed };
 
-/// What a scene has at rest beside its elements.
+/// Holds the rest data of a scene except its elements.
 struct RestShared {
-  /// m_v [kg]: a third of each incident triangle's, a quarter of each incident tetrahedron's, half of each incident
-  /// segment's; 0 on fixed bodies
+  /// m_v [kg]: a third of the mass of each incident triangle, a quarter of each tetrahedron's, half of each segment's;
+  /// 0 on fixed bodies
   std::vector<float> mass;
   std::vector<Mobility> mobility;
-  std::vector<int> body;                   ///< of each vertex
+  std::vector<int> body;                   ///< by vertex
   std::vector<float> edge_length_squared;  ///< ‖ē‖² by edge [m²]
   std::vector<SurfaceMaterial> materials;  ///< by body
   std::vector<SurfaceModels> models;       ///< by body
@@ -37,15 +37,15 @@ struct RestShared {
   std::vector<ContactMaterial> contact;  ///< of bodies a and b, at a · bodies + b
 };
 
-/// What a kind's elements are made of.
+/// The data from which a kind's elements are made.
 struct RestBuild {
   const compare::Scene& scene;
   const compare::Topology& topology;
   const RestShared& shared;   ///< without masses
-  std::vector<double>& mass;  ///< by vertex [kg]; elements add theirs
+  std::vector<double>& mass;  ///< by vertex [kg]; each kind adds the masses of its elements
 };
 
-/// The elements of a kind at rest. What a kind has if it does not say otherwise:
+/// The defaults of AtRest.
 template <class Kind>
 struct PlainAtRest {
   std::vector<NoData> rest_beside() const { return {}; }
@@ -56,7 +56,6 @@ struct PlainAtRest {
 template <class Kind>
 struct AtRest;
 
-/// Converts an index of the mesh to an index of an array.
 inline std::size_t as_index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace ogc::fast

@@ -1,4 +1,5 @@
-// Hinges at rest. Those without energy (of fixed bodies and solids, or without a bending) are left out.
+// Hinges at rest. Hinges without energy are left out: those of fixed bodies and solids, and those without a bending
+// model.
 #pragma once
 
 #include "fast/stages/kinds/at_rest.hpp"
@@ -8,7 +9,7 @@ namespace ogc::fast {
 template <>
 struct AtRest<HingeKind> : PlainAtRest<HingeKind> {
   std::vector<HingeRest> hinges;
-  std::vector<HingeWeights> weights;  ///< by hinge; empty where no model reads them
+  std::vector<HingeWeights> weights;  ///< by hinge; empty if no model reads them
 
   const std::vector<HingeRest>& elements() const { return hinges; }
   const std::vector<HingeWeights>& rest_beside() const { return weights; }

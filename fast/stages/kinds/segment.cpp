@@ -12,7 +12,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// A frame at rest.
 using RestFrame = QuatOf<double>;
 
 RestFrame normal(const RestFrame& a) {
@@ -40,10 +39,10 @@ RestFrame turn_between(const RestVector& a, const RestVector& b) {
   return normal({axis.x, axis.y, axis.z, real});
 }
 
-/// The segments that meet at a vertex, each with the number of its end there.
+/// The segments that meet at a vertex, each with the number of its end at this vertex.
 using Ends = std::vector<std::pair<int, int>>;
 
-/// Neighbours, and frames along the walks of compare/stages/rest_state.hpp.
+/// Finds neighbours, and frames along the walks of compare/stages/rest_state.hpp.
 class Walks {
  public:
   Walks(const std::vector<SegmentRest>& segments, std::vector<RestVector> directions, std::size_t vertices)
@@ -65,7 +64,7 @@ class Walks {
 
   int neighbour(int e, int end) const { return neighbours_[at(e)][at(end)]; }
   const RestFrame& frame(int e) const { return frames_[at(e)]; }
-  /// Returns p° as the segment sees it across that end.
+  /// Returns p° of the segment and its neighbour across that end, as seen from the segment.
   RestFrame relative(int e, int end) const {
     const RestFrame &own = frame(e), &other = frame(neighbour(e, end));
     return end == 1 ? conjugate(own) * other : conjugate(other) * own;
@@ -94,12 +93,12 @@ class Walks {
   }
 
   std::vector<RestVector> directions_;
-  std::vector<std::array<int, 2>> neighbours_, enters_;  ///< by end; the other's end
+  std::vector<std::array<int, 2>> neighbours_, enters_;  ///< by end: the neighbour; the end of the neighbour
   std::vector<RestFrame> frames_;
   std::vector<bool> is_set_;
 };
 
-/// Ends, materials, bodies and motions: nothing that is computed from the rest shape.
+/// Returns ends, materials, bodies and motions, which do not depend on the rest shape.
 RodsAtRest without_shape(const compare::Scene& scene) {
   const std::vector<compare::Index> numbers = compare::rod_segments(scene), bodies = compare::body_of_vertex(scene);
   RodsAtRest rods;

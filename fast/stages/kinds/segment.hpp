@@ -1,4 +1,4 @@
-// Rest data of the segments of rods, made once on the host in double and rounded once.
+// Holds the rest data of rods' segments, made once on the host in double and rounded once.
 #pragma once
 
 #include <span>
@@ -8,24 +8,24 @@
 
 namespace ogc::fast {
 
-/// All segments of a scene, in the order of compare::rod_segments.
+/// Holds all segments of a scene, in the order of compare::rod_segments.
 struct RodsAtRest {
   std::vector<SegmentRest> segments;
   std::vector<SegmentNeighbours> neighbours;
   std::vector<Quat> orientations;  ///< q°
-  std::vector<int> body;           ///< of each segment
-  std::vector<int> motion;         ///< of each segment: segment_free, segment_fixed, or number of a motion
+  std::vector<int> body;           ///< by segment
+  std::vector<int> motion;         ///< by segment: segment_free, segment_fixed, or the number of a motion
   bool empty() const { return segments.empty(); }
 };
 
-/// Returns the rods of a scene at rest; also adds half of ρ l of each segment of a moving body to the mass of each of
-/// its ends [kg].
+/// Returns the rods of a scene at rest. Also adds half of ρ l of each segment of a moving body to the mass of both its
+/// ends [kg].
 RodsAtRest rods_at_rest(const compare::Scene& scene, std::vector<double>& mass);
 
 /// Returns the segments in the form that the judge asks for.
 std::vector<compare::RestSegment> rest_segments(const RodsAtRest& rods);
 
-/// Returns rods with the numbers of an answer.
+/// Returns rods with the numbers of an answer to the judge.
 RodsAtRest rods_of(const compare::Scene& scene, const std::vector<compare::RestSegment>& segments);
 
 template <>
@@ -39,11 +39,11 @@ struct AtRest<SegmentKind> : PlainAtRest<SegmentKind> {
   }
   void give(compare::RestStateOut& out) const { out.segments = rest_segments(rods); }
   bool damps(const RestShared&, int segment) const { return rods.segments[as_index(segment)].damping > 0; }
-  /// k_d/h; empty where it is 0 everywhere.
+  /// Returns k_d/h by body; empty if no body is damped.
   std::vector<float> by_body(const RestShared& shared) const;
 };
 
-/// A quaternion of either room, or several.
+/// Convert quaternions between the types of `compare` and of the kernels.
 inline Quat quat(const compare::Quaternion& q) { return {q[0], q[1], q[2], q[3]}; }
 inline compare::Quaternion quaternion(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
 std::vector<Quat> quats(std::span<const compare::Quaternion> all);

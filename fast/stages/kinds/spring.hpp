@@ -1,4 +1,4 @@
-// Springs at rest: numbers of the scene, which no shape enters.
+// Springs at rest. Their rest lengths and stiffnesses are given by the scene, not computed from the rest shape.
 #pragma once
 
 #include "fast/stages/kinds/at_rest.hpp"

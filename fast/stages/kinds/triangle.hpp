@@ -1,5 +1,4 @@
-// Triangles at rest. Those without energy (of fixed bodies, or without a membrane) are left out, so that no later stage
-// has to ask.
+// Triangles at rest. Triangles without energy are left out: those of fixed bodies, and those without a membrane model.
 #pragma once
 
 #include "fast/stages/kinds/at_rest.hpp"

@@ -11,7 +11,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Counts the parts in which a loop runs, and its items.
+/// Counts the ranges and the items of a loop.
 struct Counted {
   std::atomic<int>*parts, *items;
 };
@@ -20,7 +20,7 @@ void run_range(const Counted& counted, int begin, int end) {
   *counted.items += end - begin;
 }
 
-/// Receives what for_each_row computes for each row.
+/// Receives the two numbers that for_each_row computes for each row.
 struct TwoOfRow {
   static constexpr int rank = 16;
   float *least, *after;

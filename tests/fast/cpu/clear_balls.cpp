@@ -1,5 +1,5 @@
-// Tests the balls within which no vertex queries a driven volume again (fast/kernels/volume_depth.hpp): every point in
-// one is far, whatever the part is like.
+// Tests clear balls, within which no vertex queries a driven volume again (fast/kernels/volume_depth.hpp). Every point
+// in a clear ball is far from the part, whatever the shape of the part.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -21,8 +21,8 @@ struct Shape {
   std::vector<compare::Triangle> triangles;
 };
 
-/// Returns a closed surface about the origin, of rings and the two poles, about 2 m wide; vertices are off by up to
-/// `rough`.
+/// Returns a closed surface about the origin, about 2 m wide, made of rings and two poles. Vertices are displaced by up
+/// to `rough`.
 Shape ball(std::mt19937& random, int rings, int columns, float rough) {
   Shape shape;
   std::uniform_real_distribution<float> off(-rough, rough);
@@ -50,7 +50,7 @@ Shape ball(std::mt19937& random, int rings, int columns, float rough) {
   return shape;
 }
 
-/// One part on the CPU, queried by points.
+/// A part on the CPU that points query.
 class Asked {
  public:
   Asked(const Shape& shape, float radius)
@@ -86,7 +86,7 @@ struct Counts {
   int far = 0, balls = 0, inside = 0;
 };
 
-/// Checks points anywhere in the box of `shape`, and that the points in the ball of each are far.
+/// Tests points in the box of `shape`, and that all points in their clear balls are far.
 Counts check(std::mt19937& random, const Shape& shape, float radius) {
   const Asked part(shape, radius);
   std::uniform_real_distribution<float> anywhere(-1.2f, 1.2f), share(0.5f, 1);
@@ -125,7 +125,7 @@ TEST_CASE("whoever is in the clear ball of a point that is far is far, too", "[p
     for (const int rings : {3, 6, 12}) {
       Shape shape = ball(random, rings, 2 * rings, rough);
       const Counts closed = check(random, shape, 0.02f);
-      // with rims, and a point inside that only the nearest face classifies so
+      // with rims, and a point that is inside only by the rule of the nearest face
       shape.triangles.erase(shape.triangles.begin() + 1, shape.triangles.begin() + 4);
       const Counts open = check(random, shape, 0.02f);
       if (rough == 0.0f) {

@@ -1,5 +1,5 @@
-// Tests free volumes in the resident simulation (§3.9): bodies of tetrahedra push each other, themselves and surfaces
-// out.
+// Tests free volumes in the resident simulation (§3.9): bodies of tetrahedra push out each other, surfaces, and parts
+// of themselves.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -36,7 +36,7 @@ compare::Material rubber(double friction = 0.5) {
   return material;
 }
 
-/// Returns a material so soft and light that 60 iterations carry a block's weight through it.
+/// Returns a material so soft and light that 60 iterations spread a block's weight through it.
 compare::Material foam(double friction = 0.5) {
   compare::Material material = rubber(friction);
   material.solid_density = 100;
@@ -54,7 +54,7 @@ void add_block(Scene& scene, const Vec3& corner, const compare::Material& materi
               tests::block_mesh(side, spacing, corner));
 }
 
-/// Moves the vertices of a body for which `is` holds with a velocity [m/s].
+/// Moves with a velocity [m/s] the vertices of a body for which `is` returns true.
 template <class Is>
 void drive(Scene& scene, std::size_t body, const Vec3& velocity, Is is) {
   compare::PrescribedMotion motion;
@@ -70,7 +70,8 @@ void drive(Scene& scene, std::size_t body, const Vec3& velocity, Is is) {
 /// Returns whether x is at the height of the lowest vertices.
 bool is_at_ground(const Vec3& x) { return x.y < 1e-6; }
 
-/// Returns a block whose lowest vertices are held, and another one, aside, 4 mm inside of it.
+/// Returns two blocks. The first is held at its lowest vertices. The second is shifted sideways and begins 4 mm inside
+/// the first.
 Scene block_in_block() {
   Scene scene = empty_scene();
   add_block(scene, {0, 0, 0}, foam());
@@ -87,7 +88,7 @@ compare::VolumePenetration penetration(const Scene& scene, const compare::Snapsh
   return compare::VolumeAuditor(scene).audit(compare::to_double(state.positions));
 }
 
-/// Returns the mean over the vertices of a block.
+/// Returns the mean of a block's vertices.
 Vec3 mean(const std::vector<compare::Vec3f>& of, std::size_t block) {
   Vec3 sum;
   for (std::size_t v = block * in_block; v < (block + 1) * in_block; ++v)
@@ -118,8 +119,8 @@ TEST_CASE("a block that begins inside another comes out on the nearest side, and
   }
   const compare::Snapshot end = simulation->snapshot();
   CHECK(penetration(scene, end).vertices_inside == 0);
-  CHECK(mean(end.positions, 1).y > 3 * spacing + 1.5 * spacing);  // it lies on the other one, not beside it
-  // volumes have no bound
+  CHECK(mean(end.positions, 1).y > 3 * spacing + 1.5 * spacing);  // it lies on the other block, not beside it
+  // vertices of volumes have no bound
   for (const float bound : end.bounds) CHECK(bound == std::numeric_limits<float>::max());
 }
 
@@ -134,7 +135,7 @@ TEST_CASE("what a free block is pressed by presses back: without other forces bo
   const std::vector<compare::Vec3f> velocity = simulation->snapshot().velocities;
   const Vec3 low = mean(velocity, 0), high = mean(velocity, 1);
   CHECK(high.y > 0.05);
-  // equal masses; a sweep leaves some force, 300 sweeps less than 10⁻³ of the whole
+  // The masses are equal. 300 sweeps leave less than 10⁻³ of the force.
   CHECK(low.y == Approx(-high.y).epsilon(1e-3));
   CHECK(low.x == Approx(-high.x).margin(1e-3 * high.y));
   CHECK(low.z == Approx(-high.z).margin(1e-3 * high.y));
@@ -160,7 +161,8 @@ TEST_CASE("a free block goes along with a driven one that friction holds it on, 
     }
     return mean(simulation->snapshot().positions, 1).x - 0.03 - 1.5 * spacing;
   };
-  // 0.4 s at 0.05 m/s; it slides until it is as fast, v/(μ g) = 6 ms for μ = 0.8, and loses half of that way
+  // 0.4 s at 0.05 m/s. It first slides until it has this speed, v/(μ g) = 6 ms for μ = 0.8, and loses half of that
+  // distance.
   CHECK(travelled(0.8) == Approx(0.05 * 0.4).epsilon(0.05));
   CHECK(std::abs(travelled(0)) < 1e-4);
 }
@@ -180,7 +182,7 @@ TEST_CASE("a prescribed surface pushes a free volume along", "[property]") {
     CHECK(row.status == compare::step_clean);
     CHECK(row.largest_lag == 0);
   }
-  // the sheet has moved 6 cm; a distance of 1 cm less r was between them
+  // the sheet has moved 6 cm; it began 1 cm minus r away
   const compare::Snapshot end = simulation->snapshot();
   float highest = -1;
   for (std::size_t v = 81; v < end.positions.size(); ++v) highest = std::max(highest, end.positions[v].y);
@@ -203,7 +205,7 @@ TEST_CASE("a sheet on a free volume comes to rest above it, and the volume bears
     grew = grew || row.repeats > 0;
     CHECK(row.vertices_inside == 0);
   }
-  CHECK(grew);  // sixteen points and more press one corner
+  CHECK(grew);  // at least sixteen points press on one corner
   CHECK(penetration(scene, simulation->snapshot()).vertices_inside == 0);
 }
 
@@ -235,7 +237,7 @@ TEST_CASE("free volumes: the same bits again, on any number of threads and acros
 }
 
 TEST_CASE("a body whose rest shape lies in itself is pushed out of itself", "[property]") {
-  // a U: a block of 27 cells without the upper two of the middle ones; one of its arms leans into the other
+  // a U: a block of 27 cells without the upper two cells in the middle; one arm leans into the other
   compare::Mesh mesh = tests::block_mesh(side, spacing);
   std::vector<compare::Tetrahedron> kept;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {

@@ -17,10 +17,9 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Both widths if this file is compiled for AVX2.
+/// Both widths, if this file is compiled for AVX2.
 using Packs = std::conditional_t<Pack::width == WidePack::width, std::tuple<Pack>, std::tuple<Pack, WidePack>>;
 
-/// As many floats as a pack has.
 template <class P>
 using Floats = std::array<float, P::width>;
 
@@ -36,12 +35,12 @@ P pack(const Floats<P>& a) {
   return P::of_each([&a](int k) { return a[static_cast<std::size_t>(k)]; });
 }
 
-/// Returns whether the bits are the same, or both are NaN: of two NaN operands a processor keeps the first, and the
-/// compiler may choose which that is.
+/// Returns whether the bits are the same, or both are NaN. Of two NaN operands a processor returns the first, and the
+/// compiler may choose the order.
 bool alike(float a, float b) { return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// Returns how often f of packs differs from f of each place, for numbers of every size, zeros of both signs,
-/// infinities and NaN.
+/// Counts the cases in which f of packs differs from f of single numbers. Numbers are of every size, zeros of both
+/// signs, infinities and NaN.
 template <class P, class F>
 int differences(F f) {
   std::mt19937 random(7);
@@ -133,10 +132,10 @@ TEST_CASE("the lower bounds of distances of four pairs at a time have the bits o
   };
   int wrong = 0;
   for (int k = 0; k < 20000; ++k) {
-    Vec p[4][4];  // [which point][pair]
+    Vec p[4][4];  // [point][pair]
     const float size = std::ldexp(1.0F, -static_cast<int>(random() % 20));
     for (auto& of_pairs : p)
-      // some coincide
+      // some points coincide
       for (Vec& x : of_pairs) x = random() % 16 == 0 ? p[0][0] : point(random() % 4 == 0 ? 1.0F : size);
     const auto edges = floats(
         separation(EndsOf<Pack>{packed(p[0]), packed(p[1])}, EndsOf<Pack>{packed(p[2]), packed(p[3])}));

@@ -1,4 +1,4 @@
-// Tests which contacts a pack computes together: if they were fewer, results would stay and time would be lost.
+// Tests which contacts a pack computes together. If they were fewer, results would be the same, but slower.
 #include "fast/cpu/packed_contact.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace ogc::fast::test;
 
 namespace {
 
-/// Holds four contacts, of vertices [slot][place].
+/// Holds four contacts, with vertices by [slot][lane].
 struct Four {
   Vec x[4][Pack::width];
 
@@ -26,7 +26,7 @@ struct Four {
     }
     return packed;
   }
-  /// Returns the lanes whose weights are those of one contact by itself, bit for bit.
+  /// Returns the lanes whose weights have the bits of the same contact computed alone.
   unsigned alike(ContactKind kind, const ContactWeightsOf<Pack>& weights) const {
     unsigned all = 0;
     for (int k = 0; k < Pack::width; ++k) {
@@ -50,18 +50,18 @@ TEST_CASE("edges are computed together unless they have no length or count as pa
     unsigned expected = 0;
     const double scale = std::ldexp(1.0, trial % 21 - 10);
     for (int k = 0; k < Pack::width; ++k) {
-      // Squared ratio of the angle's sine to the limit; none is within rounding of 1, nor are their squares within
+      // Squared ratio of the angle's sine to the limit. No ratio is within rounding of 1, and no square is within
       // rounding of 0.
       const double share = std::array{0.3, 0.7, 1.4, 1.8, 3.0, 1e4}[random() % 6];
       const D3 start = vector(), first = vector(), aside = cross(first, vector());
       const D3 across = std::sqrt(share * 1e-6 / (1 - share * 1e-6)) * length(first) / length(aside) * aside;
       const D3 second = (random() % 2 == 0 ? 1.0 : -0.3) * (first + across), other = start + vector();
-      const int without_length = static_cast<int>(random() % 8);  // the first, the second, both or none
+      const int without_length = static_cast<int>(random() % 8);  // 1 or 5: the first has no length; 2 or 5: the second
       const D3 points[4] = {start, without_length % 4 == 1 ? start : start + first, other,
                             without_length == 2 || without_length == 5 ? other : other + second};
       for (int s = 0; s < 4; ++s) four.x[s][k] = narrow(scale * points[s]);
       const bool proper = without_length % 4 != 1 && without_length != 2;
-      // Coordinates near 1 are rounded by 2^-24 of their size, which changes sines near 1e-3 by some 1e-3 of theirs.
+      // Coordinates near 1 are rounded by 2^-24, which changes sines near 1e-3 by about 1e-3 of their size.
       if (proper && share > 1) expected |= 1U << k;
     }
     Pack::Mask usual;
@@ -84,7 +84,7 @@ TEST_CASE("points over the interiors of triangles are computed together, at any 
     for (int k = 0; k < Pack::width; ++k) {
       const D3 a = vector(), ab = vector(), aside = cross(ab, vector());
       const D3 ac = 0.3 * ab + length(ab) / length(aside) * aside, above = cross(ab, ac);
-      const int beyond = static_cast<int>(random() % 6);  // edge ac, ab or bc; or none
+      const int beyond = static_cast<int>(random() % 6);  // beyond edge ac, ab or bc, or beyond none
       const double b = beyond == 0 ? outer(random) : inner(random), c = beyond == 1 ? outer(random) : inner(random);
       const double scaled = beyond == 2 ? 1.2 / (b + c) : 0.9 / std::max(b + c, 0.9);
       const D3 point = a + (b * scaled) * ab + (c * scaled) * ac + normal(random) * above;

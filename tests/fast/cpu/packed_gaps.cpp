@@ -21,7 +21,7 @@ TEST_CASE(
   };
   for (int trial = 0; trial < 2000; ++trial) {
     Quad quad;
-    const int filled = trial % 5;  // the others are empty
+    const int filled = trial % 5;  // the other children are empty
     for (int k = 0; k < filled; ++k) {
       const Box own = box();
       const int primitive = trial % 3 == 0 ? -1 : (trial % 3 == 1 ? k : (1 << 27) - 1 - k);

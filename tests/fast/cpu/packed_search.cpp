@@ -1,4 +1,4 @@
-// Tests the search of one thread whose candidates wait for each other: its limit falls as in a search without waiting.
+// Tests that the limit of a search that collects candidates falls like that of a search that does not.
 #include "fast/cpu/packed_search.hpp"
 
 #include <vector>
@@ -9,7 +9,8 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Stands for a query: primitive i is `apart[i]` from the owner, and once met leaves the search `limit[i]`.
+/// Replaces a query: primitive i is `apart[i]` from the owner, and sets the search's limit to `limit[i]` when it is
+/// met.
 struct Scripted {
   std::vector<float> apart, limit;
 
@@ -22,7 +23,7 @@ Pack separations(const Scripted& query, const Search&, const int* primitive) {
   return Pack::of_each([&](int k) { return query.apart[static_cast<std::size_t>(primitive[k])]; });
 }
 
-/// Returns the limit after these primitives were offered; numbers from 100 on are idle primitives of 100 less.
+/// Returns the limit after these primitives have been offered. A number k ≥ 100 is primitive k − 100 as an idle one.
 float limit_after(const Scripted& query, const std::vector<int>& offered) {
   NotedPair room[1];
   int count = 0;
@@ -45,7 +46,7 @@ TEST_CASE("what was met narrows a search, however many wait, and what is beyond 
   CHECK(limit_after(query, {0}) == 4);
   CHECK(limit_after(query, {4, 0}) == 4);
   CHECK(limit_after(query, {0, 1, 4}) == 3);
-  CHECK(limit_after(query, {2, 3}) == 9);  // the one is beyond, the other no candidate
+  CHECK(limit_after(query, {2, 3}) == 9);  // primitive 2 is beyond the limit, primitive 3 is no candidate
   CHECK(limit_after(query, {0, 1, 2, 3, 4}) == 3);
   CHECK(limit_after(query, {1, 4, 0, 0, 5, 4}) == 2);
   CHECK(limit_after(query, {101, 0}) == 4);

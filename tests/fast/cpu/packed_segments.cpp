@@ -1,5 +1,4 @@
-// Tests that a colour of segments computed at once has the bits of its segments one by one, in whatever case each of
-// them is.
+// Tests that segments updated in packs have the bits of single updates, in each case of UpdateSegment.
 #include <bit>
 #include <cstring>
 #include <random>
@@ -12,7 +11,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Holds segments that read other segments, a third of them in an unusual case.
+/// Holds segments whose neighbours are other segments. A third of the segments are in an unusual case.
 struct Colour {
   static constexpr int count = 43;
   std::mt19937 random;
@@ -51,8 +50,8 @@ struct Colour {
   float normal() { return std::normal_distribution<float>()(random); }
   float stretch() { return std::array{1e-3F, 1.0F, 1e4F}[random() % 3]; }
 
-  /// Makes a segment unusual: no neighbour; no length; neighbours that pull towards a reversed director; a number that
-  /// is NaN.
+  /// Makes a segment unusual: without neighbour, without length, with neighbours that pull towards a reversed director,
+  /// or with a NaN.
   void spoil(int k) {
     SegmentSlot& slot = slots[static_cast<std::size_t>(k)];
     const auto first = static_cast<std::size_t>(2 * k);

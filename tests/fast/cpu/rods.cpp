@@ -1,4 +1,4 @@
-// Tests whole runs of rods against closed forms: spin, rest, rigid motions, twist, energies; and the bits of resumed
+// Tests whole runs of rods against closed forms (spin, rest, rigid motions, twist, energies), and the bits of resumed
 // runs.
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,8 @@ using std::numbers::pi;
 
 compare::RodMaterial yarn() { return {.density = 1e-3, .stretch = 0.1, .bend = 2e-7, .damping = 0, .diameter = 1e-3}; }
 
-/// Returns a scene of one rod along these points, in free space; h and iterations are those of the yarn scenes.
+/// Returns a scene of one rod along these points, in free space. h and the number of iterations are those of the yarn
+/// scenes.
 compare::Scene rod_scene(const std::vector<Vec3>& points, bool closed = false,
                          const compare::RodMaterial& rod = yarn()) {
   compare::Scene scene;
@@ -99,7 +100,7 @@ bool same_bits(const compare::Snapshot& a, const compare::Snapshot& b) {
 
 double distance(const compare::Vec3f& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Returns the angle of the twist from one frame to the next about their director.
+/// Returns the twist angle from one frame to the next about their director.
 double twist_between(const compare::Quaternion& a, const compare::Quaternion& b) {
   const double z = double{a[3]} * b[2] - double{a[2]} * b[3] - double{a[0]} * b[1] + double{a[1]} * b[0],
                w = double{a[3]} * b[3] + double{a[2]} * b[2] + double{a[0]} * b[0] + double{a[1]} * b[1];
@@ -110,7 +111,7 @@ double twist_between(const compare::Quaternion& a, const compare::Quaternion& b)
 
 TEST_CASE("a free rod keeps its angular momentum but for what backward Euler loses; without turned frames it does not",
           "[property]") {
-  // Backward Euler takes (ω h)² of it a step: 500 · (10 · 4·10⁻⁴)² = 0.8 %.
+  // Backward Euler loses the share (ω h)² a step: 500 · (10 · 4·10⁻⁴)² = 0.8 %.
   CHECK(kept_spin(compare::RodStart::turned) == Approx(0.992).margin(0.002));
   CHECK(kept_spin(compare::RodStart::kept) < 0.6);
 }
@@ -120,7 +121,7 @@ TEST_CASE("a bent and twisted rod at rest stays, wherever it is turned to, and d
   const double angle = 0.7;
   for (Vec3& x : scene.mesh.positions)
     x = {std::cos(angle) * x.x - std::sin(angle) * x.z, x.y, std::sin(angle) * x.x + std::cos(angle) * x.z};
-  // The frames of the rest shape, turned with it.
+  // the orientations at rest, turned like the rod
   const RestState rest = rest_of(scene);
   const Quat turn{0, static_cast<float>(-std::sin(angle / 2)), 0, static_cast<float>(std::cos(angle / 2))};
   for (const Quat& q : rest.rods.orientations) scene.orientations.push_back(quaternion(unit(turn * q)));
@@ -136,7 +137,7 @@ TEST_CASE("a bent and twisted rod at rest stays, wherever it is turned to, and d
     const Vec3& x = scene.mesh.positions[v];
     worst = std::max(worst, distance(state.positions[v], {x.x + 0.01 * time, x.y - 0.02 * time, x.z + 0.005 * time}));
   }
-  // Roundings of 100 steps, at 1 cm from the origin, of segments of 1 mm.
+  // Rounding errors of 100 steps, at 1 cm from the origin, of segments of 1 mm.
   CHECK(worst < 1e-6);
   CHECK(rows.back().mean_stretch == Approx(0).margin(1e-4));
 }
@@ -145,7 +146,7 @@ TEST_CASE("a rod that is straight at rest and wound to a circle has the energy o
   for (const int n : {50, 200}) {
     const double radius = 0.02, length = 2 * pi * radius / n;
     compare::Scene scene = rod_scene(straight(n, length));
-    // Chords of `length`, of a circle that is a little larger.
+    // Chords of `length` in a circle that is slightly larger.
     const double chord = 2 * std::asin(length / (2 * radius));
     for (int k = 0; k <= n; ++k) {
       const double t = chord * k - pi;
@@ -155,13 +156,13 @@ TEST_CASE("a rod that is straight at rest and wound to a circle has the energy o
     scene.settings.contact_radius = 1e-5;
     for (Vec3& v : scene.velocities) v = {};
     scene.bodies[0].material.rod->density = 1e6;  // so heavy that it has not moved after a step
-    // The ends are held, because their frames would give way otherwise.
+    // The end segments are held, because their frames would turn otherwise.
     scene.motions = {{.name = "first", .vertices = {0, 1}, .keyframes = {}},
                      {.name = "last", .vertices = {n - 1, n}, .keyframes = {}}};
     compare::round_to_single(scene);
     const auto simulation = start_cpu(scene, {});
     const double energy = simulation->advance(1).back().elastic_energy;
-    // n − 1 joints of the angle `chord`: k_b/(2 l̄) θ², up to the model's fourth order, (1 − θ²/48).
+    // n − 1 joints of the angle `chord`: energy k_b/(2 l̄) θ², up to the model's fourth order, (1 − θ²/48).
     CHECK(energy == Approx(yarn().bend * (n - 1) * chord * chord / (2 * length)).epsilon(1e-3));
   }
 }
@@ -210,7 +211,8 @@ TEST_CASE("renumbered vertices and segments that run the other way give the same
     if (e % 3 == 0) std::swap(ends[0], ends[1]);
   }
   for (Index& v : other.motions[0].vertices) v = place[static_cast<std::size_t>(v)];
-  // Colours follow numbers, and sweeps that have not converged depend on colours, so the sweeps converge here.
+  // Colours depend on vertex numbers, and sweeps that have not converged depend on colours. So the sweeps converge
+  // here.
   for (compare::Scene* scene : {&one, &other}) scene->settings.iterations = 100;
   const auto first = start_cpu(one, {}), second = start_cpu(other, {});
   first->advance(50), second->advance(50);

@@ -21,7 +21,8 @@ bool same_bits(const std::vector<compare::Vec3f>& a, const std::vector<compare::
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(compare::Vec3f)) == 0;
 }
 
-// Returns a sheet that falls askew on a fixed one: contacts of all kinds, friction, damping, several detections a step.
+// Returns a sheet that falls askew on a fixed sheet: contacts of all kinds, friction, damping, several detections a
+// step.
 compare::Scene drop_scene() {
   compare::Scene scene = empty_scene();
   compare::Material material;
@@ -78,15 +79,15 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
     const auto x = simulation->snapshot().positions;
     double worst = 0;
     for (const compare::Vec3f& p : x) worst = std::max(worst, std::abs(p.y - (1.0f - fall)));
-    // Each step rounds a position below 4 m to 2^-23 m once, and the velocity made of it carries that error on,
-    // n(n+1)/2 times at most; the internal forces that the sweep leaves act on strains of rounding size and are as
-    // small.
+    // Each step rounds a position below 4 m to 2^-23 m once. Its velocity keeps this error, which grows to at most
+    // n(n+1)/2 times as much. The internal forces that the sweep leaves come from strains of the size of roundings and
+    // are as small.
     REQUIRE(worst <= n * (n + 1) * 0x1p-23);
     REQUIRE(row.momentum_lost_end <= 1e-4);
     followed = g * h * n;
   }
   CHECK(capped);
-  // gamma_p times a spacing of about 11 mm, 16 times a step of 1/100 s.
+  // gamma_p times an edge of about 11 mm, in 16 rounds of a step of 1/100 s
   CHECK(followed > 3.0);
   CHECK(followed < 16 * 0.45 * 0.012 / h);
 }
@@ -135,9 +136,9 @@ TEST_CASE(
   for (std::size_t v = 0; v < 64; ++v) CHECK(std::abs(outcome.end.positions[v].y - 0.005) < 9.81 * h * h);
 }
 
-// Membrane and contact are soft against the inertia m/h² of 0.2 N/m, so that few sweeps suffice. A stiff membrane
-// recovers a translation slowly after the first sweep braked it with the normal force of a start that fell into the
-// plane, and stiff contacts do not converge (see the chattering above).
+// Membrane and contact are soft compared with the inertia m/h² of 0.2 N/m, so that few sweeps suffice. The first sweep
+// brakes the patch by the normal force of a start inside the plane. A stiff membrane would recover slowly from this,
+// and stiff contacts do not converge (see the chattering above).
 TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g (sin a - mu cos a) without",
           "[property]") {
   const double tilt = 0.35, h = 0.01;
@@ -173,9 +174,9 @@ TEST_CASE("the smallest distance of a row is that of the last detection, whateve
     add_sheet(scene, 6, 0.1, gap, false, soft);
     add_sheet(scene, 6, 0.1, 0, true, soft);
     const compare::StepMetrics near = run(scene, 1).rows.at(0);
-    REQUIRE(near.discrete_detections == 1);  // at the start, whose bounds no vertex leaves
-    // The gap is rounded to single precision, the distance is lowered by its error bound and the bound rounded down:
-    // some ten u.
+    REQUIRE(near.discrete_detections == 1);  // made at the start; no vertex leaves its bound later
+    // The gap is rounded to single precision, the distance is lowered by its error bound, and the bound is rounded
+    // down: about ten u.
     CHECK(near.smallest_distance == Approx(gap).epsilon(32 * 0x1p-24));
     for (std::size_t v = 0; v < 36; ++v) scene.mesh.positions[v].y = 0.5;
     const compare::StepMetrics far = run(scene, 1).rows.at(0);
@@ -218,13 +219,13 @@ TEST_CASE("whether iterations are asked one by one or in groups whether a detect
     scene.settings.iterations = 13;  // two groups and a shorter one
     scene.settings.detection_fraction = every == 0 ? 1e-3 : 1;
     scene.settings.detection_every = every;
-    const Outcome grouped = run(scene, 12);  // the first frame has groups, whatever it will find
+    const Outcome grouped = run(scene, 12);  // the first frame always has groups
     compare::SimulationOptions options;
-    options.profile = true;  // one by one
+    options.profile = true;  // one iteration at a time
     const Outcome profiled = run(scene, 12, options);
     const auto simulation = start_cpu(scene, {});
     std::int64_t redetections = 0;
-    for (std::size_t k = 0; k < 12; ++k) {  // groups as the frame before decides
+    for (std::size_t k = 0; k < 12; ++k) {  // the frame before decides about groups
       const compare::StepMetrics row = simulation->advance(1).at(0), &expected = grouped.rows.at(k),
                                  &profiled_row = profiled.rows.at(k);
       for (const compare::StepMetrics* other : {&expected, &profiled_row}) {
@@ -288,8 +289,8 @@ TEST_CASE("energy only falls while a cloth drops, touches and slides", "[propert
   for (const auto& row : outcome.rows) {
     const double total = row.kinetic_energy + row.elastic_energy + row.contact_energy + row.gravity_energy;
     if (!std::isfinite(before)) start = row.kinetic_energy;
-    // An unconverged step may leave a little of the energy that its truncated start lost meanwhile: a thousandth of the
-    // first kinetic energy.
+    // An unconverged step may leave a little of the energy that its truncated start lost: a thousandth of the first
+    // kinetic energy.
     CHECK(total <= before + 1e-3 * start);
     before = total;
   }
@@ -344,8 +345,8 @@ TEST_CASE("a slow handle is where its motion says after each step", "[unit]") {
   for (std::size_t k = 0; k < 6; ++k) CHECK(x[k] == targets[k]);
 }
 
-// State that a step leaves besides a snapshot (the order of the trees, sorted every 16 steps, contacts, bounds, the
-// strain and angles that damping starts from) must decide nothing: each step is taken by a fresh simulation.
+// A step leaves data that a snapshot does not have: the trees, sorted every 16 steps, contacts, bounds, and the strain
+// and angles from which damping starts. None of them may change a result, so each step is taken by a new simulation.
 TEST_CASE("a simulation that is replaced by a new one after each step comes to the same bits and the same rows",
           "[property]") {
   const compare::Scene scene = drop_scene();
@@ -454,8 +455,8 @@ TEST_CASE("each activation, model and form of damping changes the result of a ru
 
 namespace {
 
-/// Returns two sheets beside each other in one plane, 8 mm apart, at rest and without gravity. Each vertex of the
-/// second one's border is stitched to the border of the first.
+/// Returns two sheets beside each other in one plane, 8 mm apart, at rest and without gravity. Each border vertex of
+/// the second sheet is stitched to the border of the first.
 compare::Scene seam_scene(bool excluded) {
   compare::Scene scene = empty_scene();
   scene.gravity = {};
@@ -475,7 +476,7 @@ compare::Scene seam_scene(bool excluded) {
   return scene;
 }
 
-/// Returns the widest gap of its stitches [m].
+/// Returns the length of the longest stitch [m].
 double widest_gap(const compare::Scene& scene, const std::vector<compare::Vec3f>& x) {
   double widest = 0;
   for (const compare::Spring& s : scene.springs) {
@@ -499,8 +500,8 @@ TEST_CASE("a seam of stitches closes where the pairs beside it are no contacts, 
   const Outcome closed = run(seam, 150), open = run(repelled, 150);
   CHECK(closed.rows.back().status == compare::step_clean);
   CHECK(open.rows.back().status == compare::step_clean);
-  // A stitch of 20 N/m acts against a contact of at most k_c r/2: they balance at more than a tenth of r; without
-  // contacts only the sheets hold a stitch open.
+  // A stitch of 20 N/m acts against a contact of at most k_c r/2; they balance at more than r/10. Without contacts,
+  // only the sheets resist a stitch.
   CHECK(widest_gap(seam, closed.end.positions) < 0.05 * seam.settings.contact_radius);
   CHECK(widest_gap(repelled, open.end.positions) > 0.1 * seam.settings.contact_radius);
 }
@@ -530,6 +531,6 @@ TEST_CASE("a surface that keyframes deform carries a sheet along, and follows it
     const compare::Vec3f& x = outcome.end.positions[64 + k];
     CHECK(x == motion.keyframes.positions[162 + k]);
   }
-  // The surface has risen by 0.4 (0.1 + 0.5 cos 20 x) ≥ 0.2 m under the sheet, which began 6 mm above it.
+  // The surface has risen by 0.4 (0.1 + 0.5 cos 20 x) ≥ 0.2 m under the sheet, which began 6 mm above the surface.
   CHECK(mean(outcome.end.positions, 0, 64, &compare::Vec3f::y) > 0.2);
 }

@@ -91,8 +91,8 @@ TEST_CASE("a vertex inside a block has no bound, and all others have one", "[uni
 }
 
 TEST_CASE("a bar whose ends are stretched takes the closed-form length and width in between", "[property]") {
-  // Without force across, ∂ψ/∂b = 0 of ψ = μ/2 (a² + 2b² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ab²; hence J − 1 =
-  // μ (a − 1)/((λ + μ) a).
+  // Without lateral force ∂ψ/∂b = 0, with ψ = μ/2 (a² + 2b² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)² and J = ab². Hence J
+  // − 1 = μ (a − 1)/((λ + μ) a).
   compare::Scene scene = empty_scene();
   scene.gravity = {};
   const double a = 1.3, mu = 1e4, lambda = 3e4, b = std::sqrt((1 + mu * (a - 1) / ((lambda + mu) * a)) / a);
@@ -131,7 +131,7 @@ TEST_CASE("a block that is pressed through itself comes back, and its inverted t
   compare::Material material;
   material.solid_damping = 0.02;
   add_block(scene, 3, 0.1, {}, material);
-  scene.mesh.positions[13] = {0.1, 0.35, 0.1};  // inside at rest, outside now: nothing bounds it
+  scene.mesh.positions[13] = {0.1, 0.35, 0.1};  // a vertex inside at rest, now outside: it has no bound
   scene.settings.contact_radius = 0.02;
   const auto simulation = start_cpu(scene, {});
   const auto first = simulation->advance(1).back();
@@ -208,13 +208,13 @@ TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free co
   CHECK(two.vertices == 2 * one.vertices);
   CHECK(two.flop == 2 * one.flop);
   CHECK(two.bytes == 2 * one.bytes);
-  // Damping of one block adds the work of its own stencils alone; a fixed block needs no work.
+  // Damping of one block adds the work of its own stencils only. A fixed block needs no work.
   scene.bodies[1].material.solid_damping = 1e-3;
   const double damping = sweep_work(scene).flop - two.flop;
   CHECK(damping > 200 * stencils);
   scene.bodies[0].fixed = true;
   CHECK(sweep_work(scene).flop == one.flop + damping);
-  // A held vertex needs no work itself, and none of its stencils.
+  // A held vertex needs no work, and its stencils are not computed for it.
   scene.bodies[0].fixed = false;
   scene.bodies[1].material.solid_damping = 0;
   scene.motions.resize(1);

@@ -1,4 +1,5 @@
-// Tests driven volumes in the resident simulation (§3.9): they are at their targets, push out, and carry along.
+// Tests driven volumes in the resident simulation (§3.9): they reach their targets, push vertices out, and drag them
+// along by friction.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -40,7 +41,7 @@ compare::Body& add_box(Scene& scene, const Vec3& low, const Vec3& high, double f
   return scene.bodies.back();
 }
 
-/// Moves the last body with this velocity [m/s] and turns it about the y axis.
+/// Moves the last body with this velocity [m/s], and rotates it about the y axis.
 void drive(Scene& scene, const Vec3& velocity, double angular_velocity = 0) {
   compare::Body& body = scene.bodies.back();
   body.fixed = false;
@@ -53,7 +54,7 @@ void drive(Scene& scene, const Vec3& velocity, double angular_velocity = 0) {
   scene.motions.push_back(motion);
 }
 
-/// Returns a sheet over a box that is its ground; r = 5 mm.
+/// Returns a sheet over a box that supports it; r = 5 mm.
 Scene sheet_over_box(double height, double friction = 0.5) {
   Scene scene = empty_scene();
   compare::Material material;
@@ -85,7 +86,7 @@ TEST_CASE("a sheet that falls on a volume comes to rest r above it, less what it
   for (const compare::StepMetrics& row : simulation->advance(150)) CHECK(row.status == compare::step_clean);
   const compare::Snapshot state = simulation->snapshot();
   const auto [low, high] = heights(state, 64);
-  // 0.2 kg/m² on (0.1/7)² m² a vertex, twice that where eight triangles meet, press 100 N/m by 8 µm at most
+  // 0.2 kg/m² on (0.1/7)² m² a vertex, twice that for a vertex of eight triangles, compresses 100 N/m by at most 8 µm.
   CHECK(low > 0.005f - 1e-5f);
   CHECK(high < 0.005f + 1e-5f);
   CHECK(penetration(scene, state).vertices_inside == 0);
@@ -93,7 +94,7 @@ TEST_CASE("a sheet that falls on a volume comes to rest r above it, less what it
 
 namespace {
 
-/// Adds a box with walls 5 cm thick around the void from (−0.1, 0, −0.1) to (0.1, 0.1, 0.1) m, of triangles alone.
+/// Adds a box with walls 5 cm thick around the void from (−0.1, 0, −0.1) to (0.1, 0.1, 0.1) m, of triangles only.
 void add_hollow_box(Scene& scene) {
   add_box(scene, {-0.15, -0.05, -0.15}, {0.15, 0.15, 0.15});
   compare::Body& body = scene.bodies.back();
@@ -110,7 +111,7 @@ void add_hollow_box(Scene& scene) {
   body.vertex_count += 8, body.triangle_count += 12;
 }
 
-/// Adds a block of tetrahedra without its middle cell of 0.2 × 0.2 × 0.2 m, whose floor is y = 0.
+/// Adds a block of tetrahedra without its middle cell. This void has 0.2 × 0.2 × 0.2 m and its floor at y = 0.
 void add_hollow_block(Scene& scene) {
   compare::Mesh mesh = ogc::tests::block_mesh(4, 0.2, {-0.3, -0.2, -0.3});
   const auto is_middle = [&](Index v) {
@@ -182,7 +183,7 @@ TEST_CASE("a driven volume is at its targets, and carries along what lies on it"
 }
 
 TEST_CASE("without friction a driven volume slides away below what lies on it", "[unit]") {
-  // compared with a volume that stands still: they differ by roundings of the triangles' points
+  // compared with a volume at rest; the difference comes from roundings of the triangles' points
   const auto velocities = [](bool is_driven) {
     Scene scene = sheet_over_box(0.0049, 0);
     if (is_driven) drive(scene, {0.2, 0, 0});
@@ -212,8 +213,8 @@ TEST_CASE("two sheets on a volume that rises fast never pass through each other"
   }
 }
 
-// The layers' 98 vertices alone never request a detection, as γ_e K = 1,122 must be cut. Their balls are 0.045 mm a
-// detection, and the box rises 5 mm a step.
+// The layers' 98 vertices alone never cause a detection, as γ_e K = 1,122 vertices must be cut. Their balls are 0.045
+// mm a detection, and the box rises 5 mm a step.
 TEST_CASE("layers that nearly touch are not left deep inside a volume that rises into them, whatever else is not cut",
           "[property]") {
   Scene scene = empty_scene();
@@ -236,7 +237,7 @@ TEST_CASE("layers that nearly touch are not left deep inside a volume that rises
 TEST_CASE("rows of contacts with volumes grow, and a run with volumes has the same bits again and across a restore",
           "[property]") {
   Scene scene = sheet_over_box(-0.003);
-  // boxes in boxes: a vertex is inside of seven at once
+  // nested boxes: a vertex is inside seven boxes at once
   for (int k = 0; k < 6; ++k) {
     const double by = 0.001 * k;
     add_box(scene, {-0.2 - by, -0.1 - by, -0.2}, {0.2 + by, 0.0005 * k, 0.2 + by});

@@ -1,4 +1,4 @@
-// Tests the device against the reference, with the judge and the cases of the CPU.
+// Tests the device against the reference, with the judge and the cases of the CPU's tests.
 #include "tests/catch.hpp"
 
 #include "compare/judge/cases/stage_traits.hpp"

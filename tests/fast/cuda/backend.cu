@@ -1,4 +1,5 @@
-// Tests the CUDA backend against its definition in fast/stages/backend.hpp, computed here in the plainest way.
+// Tests the CUDA backend against its definition in fast/stages/backend.hpp, which is computed here as simply as
+// possible.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -60,8 +61,8 @@ struct AddBoth {
   OGC_HD void operator()(int) const { *sum += *first + *second; }
 };
 
-// Holds sums of different kinds in one accumulator; terms span many magnitudes, so that another order of addition gives
-// other bits.
+// Holds sums of different kinds in one accumulator. Terms span many magnitudes, so that another order of additions
+// gives other bits.
 struct Sums {
   float large = 0, small = 0;
   int count = 0;
@@ -79,8 +80,8 @@ struct TwoOfRow {
   OGC_HD void operator()(int i, float smallest, float after_rank) const { least[i] = smallest, after[i] = after_rank; }
 };
 
-// Searches a row after a sum: the first number below 20, the next one, and the smallest of all but at most 45. Teams of
-// one warp search as often as their rows need, so that their control flow diverges.
+// After a sum, searches a row for the first number below 20, for the next one, and for the smallest of all, but at most
+// 45. Teams of one warp search different numbers of times, so that their control flow diverges.
 struct AskRow {
   static constexpr int parts = 1;
   const int* offsets;
@@ -106,7 +107,7 @@ struct AskRow {
   }
 };
 
-// Sums a row as three parts of unequal length, the last of them pooled; the first is empty in some rows.
+// Sums a row as three parts of unequal length. The last part is pooled; the first is empty in some rows.
 struct RowSums {
   static constexpr int parts = 3;
   const int* offsets;
@@ -296,7 +297,7 @@ TEST_CASE("what lanes ask together is what one lane finds", "[gpu]") {
     found.resize(3 * static_cast<std::size_t>(count));
     return found;
   };
-  for (const int count : {1, 7, rows}) {  // spread over a block's warps, and in turn
+  for (const int count : {1, 7, rows}) {  // few rows take SpreadTeams; many rows and wide teams take SerialLaneTeams
     const std::vector<int> wanted(expected.begin(), expected.begin() + 3 * count);
     CHECK((asked.operator()<1>(count) == wanted));
     CHECK((asked.operator()<4>(count) == wanted));
@@ -349,7 +350,8 @@ TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
   CudaBuffer<int> flag, count;
   flag.resize(1);
   count.resize(1);
-  // 0: nothing; 1: counts; then a body that scans and sorts inside the condition; then the flag falls again.
+  // With flag 0 nothing runs. With flag 1 the body counts, sorts and scans inside the condition, and clears the flag.
+  // So the third body does not run.
   std::vector<std::uint64_t> keys{3, 1, 2};
   CudaBuffer<std::uint64_t> device_keys;
   CudaBuffer<int> values, sums, sums_again;
@@ -413,7 +415,7 @@ TEST_CASE("two branches part and meet, both at once and in a replay, at the top 
   CudaBuffer<int> left, aside, main, sum;
   for (auto* buffer : {&left, &aside, &main, &sum}) buffer->resize(1);
   CudaRecording recording;
-  // a launch that does not wait for both branches reads less than 3 from one of them
+  // a launch that does not wait for both branches reads a sum below 3
   const auto branches = [&] {
     backend.for_each(1, Assign{aside.data(), 1});
     backend.for_each(1, Assign{main.data(), 1});

@@ -1,5 +1,5 @@
-// Tests that the device gives the host's bits. Detection does so in every build, because its arithmetic is rounded
-// operation by operation; a whole step does in the strict build, where neither side contracts.
+// Tests that the device gives the host's bits. Detections do so in every build, because each operation is rounded.
+// Whole steps do so in the strict build, where neither compiler contracts operations.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -30,15 +30,15 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// Returns a point at a scale from 2⁻⁸, where many coordinates coincide, up to 1: touching, parallel and coplanar pairs
-/// are frequent.
+/// Returns a random point. Scales are from 2⁻⁸, where many coordinates coincide, up to 1, so touching, parallel and
+/// coplanar pairs are frequent.
 Vec3f random_point(std::mt19937& random) {
   const float unit = std::ldexp(1.0f, -static_cast<int>(random() % 9));
   const auto coordinate = [&] { return unit * static_cast<float>(static_cast<int>(random() % 17) - 8); };
   return {coordinate(), coordinate(), coordinate()};
 }
 
-/// Two crumpled square sheets of n × n vertices, one in the other.
+/// Holds two crumpled square sheets of n × n vertices, one inside the other.
 struct Crumpled {
   std::vector<Vec3f> positions;
   std::vector<compare::Triangle> triangles;
@@ -62,7 +62,7 @@ Crumpled crumpled_sheets(int n) {
   return sheets;
 }
 
-// Compares by member: the defaulted comparisons of the contracts do not survive nvcc's pass over the host code.
+// Compares by member, because the judge's defaulted comparisons do not survive nvcc's pass over the host code.
 bool same_face(const compare::Face& a, const compare::Face& b) { return a.kind == b.kind && a.index == b.index; }
 bool same_contact(const compare::VertexFacetContact& a, const compare::VertexFacetContact& b) {
   return a.vertex == b.vertex && same_face(a.face, b.face) && a.owner == b.owner;

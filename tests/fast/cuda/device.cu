@@ -1,5 +1,5 @@
-// Skips tests that need a device if there is none: the run ends with exit status 77, ctest's SKIP_RETURN_CODE, before
-// its first test case. Listing the test cases, which happens at build time, starts no run and needs no device.
+// Skips tests that need a device if there is none: the run ends before its first test case with exit status 77, ctest's
+// SKIP_RETURN_CODE. Listing the test cases, which happens at build time, starts no run and needs no device.
 #include <cstdio>
 #include <cstdlib>
 

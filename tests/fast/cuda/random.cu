@@ -1,6 +1,6 @@
-// Compares the judge's random numbers in device code and on the host, bit for bit. `between`, which adds a product, is
-// left out: contraction may change it on the device. Names are literals with their length: a function of the host
-// counts the length of a plain literal, and nvcc then drops the whole kernel without a message.
+// Compares the judge's random numbers on the device and on the host, bit for bit. `between` adds a product and is left
+// out, because contraction may change it on the device. Names are literals with a given length: a host function counts
+// the length of a plain literal, and nvcc then drops the whole kernel without a message.
 #include <bit>
 #include <cstdint>
 #include <string_view>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int numbers_a_case = 10;
 
-/// Writes ten numbers of the case with this index, each of another kind.
+/// Writes ten numbers, each of another kind, of the case with this index.
 struct NumbersOfCase {
   std::uint64_t* target;
   OGC_HD void operator()(int index) const {

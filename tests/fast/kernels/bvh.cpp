@@ -1,4 +1,4 @@
-// Tests the order of the trees. tests/fast/stages/detection.cpp tests that searches find all that is near in any order.
+// Tests the order of the trees. tests/fast/stages/detection.cpp tests that searches find all near pairs in any order.
 #include "fast/kernels/bvh.hpp"
 
 #include <algorithm>
@@ -97,7 +97,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   CHECK(keys == std::vector<std::uint64_t>{key_of(0, 0, 0, 0), key_of(0, last, 0, 0), key_of(0, 0, last, 0),
                                            key_of(0, last, last, last), key_of(1, half, 0, 0),
                                            key_of(1, half, half, half), key_of(2, half, half, 0)});
-  // If not all are searched, the searched ones stand in the order of their list.
+  // If only some primitives are searched, they are in the order of their list.
   const std::vector<int> searched{3, 1, 1, 0};
   SurfaceView some = surface;
   some.searched = searched.data(), some.searched_vertices = 2, some.searched_edges = 1;
@@ -106,7 +106,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   for (int i = 0; i < 4; ++i) HilbertKeys{some, positions.data(), tree, tree, of_some.data(), numbers.data()}(i);
   CHECK(numbers == searched);
   CHECK(of_some == std::vector<std::uint64_t>{keys[3], keys[1], keys[5], keys[6]});
-  // A mesh without extent lies in the first cell.
+  // A mesh without extent is in the first cell.
   Quad point;
   Box one;
   one.include(positions[3]);

@@ -1,4 +1,4 @@
-// Tests values by hand: the triangle (0,0,0), (4,0,0), (0,4,0), seen from points over each of its seven faces and on
+// Tests hand-computed values: the triangle (0,0,0), (4,0,0), (0,4,0), and points over each of its seven faces and on
 // the planes between them.
 #include "fast/kernels/closest_face.hpp"
 
@@ -33,7 +33,7 @@ const std::vector<Hand> hands{
     {{0, 9, 12}, 4, 13},             // beyond corner 2
 };
 
-/// Returns the corners of the feature, as a bit set of places in the triangle.
+/// Returns the corners of the feature, as a bit set.
 int bits(TriangleFeature feature) {
   constexpr std::array<int, 7> of{1, 2, 4, 3, 6, 5, 7};
   return of[static_cast<std::size_t>(feature)];

@@ -22,7 +22,8 @@ long double to_segment(const Exact& x, const Exact& a, const Exact& b) {
   return std::sqrt(by(p, p));
 }
 
-/// Returns the distance by ternary search over the first edge: the distance to the second is convex along it.
+/// Returns the distance by ternary search over the first edge; the distance to the second edge is convex along the
+/// first.
 double searched_distance(const Ends& p, const Ends& q) {
   const Exact a = widened(p.a), b = widened(p.b), c = widened(q.a), d = widened(q.b);
   const auto at = [&](long double s) {
@@ -49,11 +50,11 @@ TEST_CASE("closest_points: hand cases", "[unit]") {
   CHECK(features({1, 1, 0}, {2, 5, 0}) == std::pair{EdgeFeature::interior, EdgeFeature::end_0});
   CHECK(features({6, -1, 0}, {6, 1, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::interior});
   CHECK(features({5, 1, 0}, {9, 1, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::end_0});
-  // on the end plane the vertex wins
+  // on the end plane the end is closest
   CHECK(features({4, 1, 0}, {4, 5, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::end_0});
   CHECK(features({-9, 3, 0}, {-3, 4, 0}) == std::pair{EdgeFeature::end_0, EdgeFeature::end_1});
   CHECK(edge_edge_distance(x_axis, {{-9, 3, 0}, {-3, 4, 0}}).value == 5);
-  // without length: its end_0
+  // An edge without length has end_0 as its closest feature.
   CHECK(features({2, 3, 4}, {2, 3, 4}) == std::pair{EdgeFeature::interior, EdgeFeature::end_0});
 }
 
@@ -83,7 +84,7 @@ TEST_CASE("closest_points: distance_below never exceeds the distance on a ladder
     const float size = std::ldexp(1.0F, exponent(random));
     const Ends p{point(size), point(size)};
     Ends q{point(size), point(size)};
-    if (i % 4 != 0) {  // through the first edge's neighbourhood, at a small angle, crossing inside
+    if (i % 4 != 0) {  // near the first edge, at a small angle to it, crossing inside
       const Vec off = std::ldexp(1.0F, angle(random)) * point(size),
                 turn = std::ldexp(1.0F, angle(random)) * point(size);
       q = {p.a + off - turn, p.b + off + turn};

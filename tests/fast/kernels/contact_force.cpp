@@ -14,7 +14,7 @@ constexpr double u = 0x1p-24;
 constexpr ContactKind kinds[] = {ContactKind::point_point, ContactKind::point_segment, ContactKind::segment_segment,
                                  ContactKind::point_triangle};
 
-// Slots of the first side (1), the second (2), or none (0).
+// by kind and slot: first side (1), second side (2), or neither (0)
 constexpr int sides[4][4] = {{1, 0, 2, 0}, {1, 0, 2, 2}, {1, 1, 2, 2}, {1, 2, 2, 2}};
 
 struct Placement {
@@ -34,7 +34,7 @@ Placement random_placement(std::mt19937& random, ContactKind kind, double spread
   return p;
 }
 
-// Computes the points of both sides in double, from the weights.
+// Computes the points of both sides in double from the weights.
 void closest(ContactKind kind, const Placement& p, const ContactWeights& w, D3& first, D3& second) {
   first = second = {};
   for (int k = 0; k < 4; ++k) {
@@ -64,8 +64,8 @@ TEST_CASE("closest points of the closed faces satisfy the conditions of a minimu
         const int side = sides[static_cast<int>(kind)][k];
         total[side] += w.slot[k];
         REQUIRE((side == 0 ? w.slot[k] == 0 : side == 1 ? w.slot[k] >= 0 : w.slot[k] <= 0));
-        // By convexity no vertex of a side is nearer to the other side's point, seen along the gap, than the side's own
-        // closest point is.
+        // By convexity no vertex of a side is nearer, along the gap, to the other side's closest point than the side's
+        // own closest point.
         const double nearer = dot(gap, (wide(p.x[k]) - wide(p.x[0])) - (side == 1 ? first : second)) *
                               (side == 1 ? -1 : 1);
         if (side != 0) REQUIRE(nearer <= 4e4 * u * p.size * p.size);
@@ -104,7 +104,7 @@ TEST_CASE("normal and distance are those of the gap between the weighted points"
       D3 first, second;
       closest(kind, p, w, first, second);
       const ContactShape shape = contact_shape(weighted_sum(w, p.x), 0.02f);
-      // Slot 0 carries the weight that the others leave: their sum is off by 4 u, times the size.
+      // Slot 0 gets minus the sum of the other weights, which errs by 4 u, times the size.
       const double error = 16 * u * p.size;
       REQUIRE(std::abs(shape.distance - length(first - second)) <= error);
       REQUIRE(length(static_cast<double>(shape.distance) * wide(shape.normal) - (first - second)) <= 2 * error);
@@ -139,8 +139,7 @@ TEST_CASE("contact forces leave no net force and no net torque, and blocks are g
       }
       REQUIRE(strength > 0);
       REQUIRE(length(force) <= 16 * u * strength);
-      // The arm of the pair of forces is along n but for the error of the weights' sum; the normal has the error of the
-      // gap.
+      // The two forces' arm is along n, except for the error of the weights' sum. The normal has the error of the gap.
       REQUIRE(length(torque) <= 64 * u * strength * p.size * std::max(1.0, p.size / shape.distance));
     }
   }
@@ -242,7 +241,7 @@ TEST_CASE("the mollifier is 0 for parallel edges, 1 from its limit on, and C1 th
 TEST_CASE("a point far above a corner keeps its foot on the side where it is, though all distances agree", "[unit]") {
   const float d = 0.0127f;
   for (const float off : {1e-6f, 1e-5f, 1e-4f}) {
-    // The foot lies on the side from the third corner to the first, `off` from the third.
+    // The foot is on the side from the third corner to the first, `off` from the third.
     const Vec x[4] = {{off, 0, d}, {0.01f, 0, 0}, {-0.005f, 0.01f, 0}, {0, 0, 0}};
     const ContactWeights w = contact_weights(ContactKind::point_triangle, x);
     CHECK(-w.slot[1] == Approx(off / 0.01).margin(2 * u));  // the complement of a parameter near 1
@@ -251,7 +250,7 @@ TEST_CASE("a point far above a corner keeps its foot on the side where it is, th
 }
 
 TEST_CASE("almost collinear edges one behind the other meet at the end that is nearer, whichever it is", "[unit]") {
-  // The second edge begins behind the first, seen along the first; seen along itself, the tilted one begins before the
+  // Along the first edge the second one begins after the first. Along the second, tilted edge, it begins before the
   // first ends.
   const Vec x[4] = {{0, 0, 0}, {1, 0, 0}, {1.00002f, 0, 0.1f}, {2, 0, 0.1004f}};
   const ContactWeights forward = contact_weights(ContactKind::segment_segment, x);

@@ -95,7 +95,7 @@ TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once 
   CHECK(iterate(true) == 1);
   CHECK(c.cut_last == 1);
   CHECK(iterate(true) == 1);
-  CHECK(iterate(false) == 0);  // it has requested one already
+  CHECK(iterate(false) == 0);  // a lag without advance causes one detection a step
   c = running();
   CHECK(iterate(false) == 1);
   CHECK(iterate(false) == 0);

@@ -8,8 +8,8 @@ namespace {
 
 bool same(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-// Holds three free vertices on a line, with targets 1, 1 and 0.1 away and bounds 0.25. If contacts hold, the first one
-// is in contact with the second, 1 away, as r is 1.5.
+// Holds three free vertices on a line, with targets at distances 1, 1 and 0.1 and bounds 0.25. With contacts, the first
+// vertex touches the second one, at distance 1, since r is 1.5.
 struct Line {
   Vec target[3] = {{1, 0, 0}, {1, 1, 0}, {0.1f, 2, 0}};
   Vec previous[3] = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
@@ -45,7 +45,7 @@ TEST_CASE("the guess keeps from a move what closes a contact, and the next round
   for (const int rounds : {0, 1}) {
     Line line;
     line.control.rounds = rounds;
-    line.target[0] = {0.125f, 1, 0};  // the partner is 1 away along y, and moves across
+    line.target[0] = {0.125f, 1, 0};  // the partner is 1 away along y and moves sideways
     line.guess(true);
     CHECK(same(line.position[0], Vec{0.125f, 0, 0}));
     CHECK(line.position[1].x == 0.25f);

@@ -1,4 +1,4 @@
-// Tests the numbers of a step's row, with different numbers in every place, because no stage judges them.
+// Tests the numbers of a step's row, because no stage judges them. All inputs are different.
 #include "fast/kernels/metrics.hpp"
 
 #include <array>
@@ -14,8 +14,8 @@ namespace {
 
 using Sums = std::array<double, sum_columns>;
 
-// Holds one vertex of 3 kg that has come from (1, 2, 4) to (2, 5, 9) and was to go to (4, 9, 16), in steps of half a
-// second under an acceleration of (−1, 2, −10).
+// Holds one vertex of 3 kg that moved from (1, 2, 4) to (2, 5, 9) with the target (4, 9, 16). Steps have half a second,
+// and the acceleration is (−1, 2, −10).
 struct OneVertex {
   Vec position{2, 5, 9}, start{1, 2, 4}, target{4, 9, 16}, previous{1, 2, 4};
   PaddedVec before{{2, 4, 11}};
@@ -81,7 +81,7 @@ TEST_CASE("terms of vertices add up", "[unit]") {
 
 TEST_CASE("the share of momentum lost is the quotient of two lengths, and 0 where nothing was to move", "[unit]") {
   Sums sums{};
-  const std::array<double, 6> lengths{2, -3, 6, -4, 4, 7};  // two vectors of lengths 7 and 9
+  const std::array<double, 6> lengths{2, -3, 6, -4, 4, 7};  // two vectors, of lengths 7 and 9
   for (std::size_t k = 0; k < 6; ++k) sums[static_cast<std::size_t>(sum_lost) + k] = lengths[k];
   CHECK(momentum_lost(sums.data()) == Approx(7.0 / 9).epsilon(1e-15));
   for (std::size_t k = 0; k < 3; ++k) sums[sum_moved + k] = 0;
@@ -92,7 +92,7 @@ TEST_CASE(
     "at the end of a step the smallest bound, the lag of what is prescribed, and what broke its bound or is not finite",
     "[unit]") {
   OneVertex vertex;
-  vertex.target = {4, 8, 15};  // (2, 3, 6) away: 7
+  vertex.target = {4, 8, 15};  // (2, 3, 6) away, at distance 7
   StepControl control = vertex.checked(2);
   CHECK(control.smallest_bound == 10);
   CHECK(float_from_bits(control.largest_lag) == 7);
@@ -100,7 +100,7 @@ TEST_CASE(
   CHECK(control.not_finite == 0);
   CHECK(float_from_bits(vertex.checked(0).largest_lag) == 7);
   CHECK(float_from_bits(vertex.checked(-1).largest_lag) == 0);
-  vertex.bound = 5.5f;  // it has moved by the root of 35
+  vertex.bound = 5.5f;  // it has moved by √35
   control = vertex.checked(-1);
   CHECK(control.smallest_bound == 5.5f);
   CHECK(control.violations == 1);
@@ -143,7 +143,7 @@ TEST_CASE("the row of a step holds what was counted; one that a list stopped or 
   FinishStep{&control, view, sums.data(), rows}(0);
   CHECK(control.steps_done == 2);
   CHECK(rows[2].detections == 0);
-  control.active = 0, control.attempted = 1;  // a step that failed: its row stays where it is
+  control.active = 0, control.attempted = 1;  // a step that failed: the next step overwrites its row
   FinishStep{&control, view, sums.data(), rows}(0);
   CHECK(control.steps_done == 2);
   CHECK(rows[2].detections == 3);
@@ -188,7 +188,7 @@ TEST_CASE("what a step leaves of forces: means over those that nothing holds, ov
   CHECK(row.left_held == 1);
   finish(nullptr);
   CHECK(std::array{row.left_residual, row.left_rounding} == std::array{0.0, 0.0});
-  left = {0, 1, 1, 4};  // no force to compare with, and no free vertex: no quotient of zeros
+  left = {0, 1, 1, 4};  // no force to compare with and no free vertex: no quotient of zeros
   finish(left.data());
   CHECK(std::array{row.left_residual, row.left_rounding} == std::array{0.0, 0.0});
 }

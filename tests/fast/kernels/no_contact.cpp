@@ -1,5 +1,5 @@
-// Tests the rejection of pairs in single precision: the exact decision must not call a rejected pair a contact, at any
-// scale and next to each limit; for rods nearly all pairs must be rejected.
+// Tests the rejection of pairs in single precision. A rejected pair must not be a contact in the exact decision, at any
+// scale and near each limit. For rods nearly all pairs must be rejected.
 #include "fast/kernels/block.hpp"
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Counts {
   int pairs = 0, rejected = 0, contacts = 0, wrong = 0;
 };
 
-/// Counts all pairs of edges without a common vertex, each as if it were nearer than r.
+/// Counts the pairs of edges without a common vertex, each treated as if it were nearer than r.
 Counts count(const tests::TestMesh& mesh) {
   const compare::Topology topology = mesh.topology();
   Surface<CpuBackend> surface(topology, {});
@@ -52,8 +52,8 @@ float rung(std::mt19937& random) {
   return random() % 2 == 0 ? size : -size;
 }
 
-/// Returns rods of unit steps on a lattice, each step a rung off, with a sheet or none: right angles, half turns,
-/// parallel and straight parts, ends above ends.
+/// Returns rods of unit steps on a lattice, each step changed by a rung, with or without a sheet. They have right
+/// angles, half turns, parallel and straight parts, and ends above ends.
 tests::TestMesh rods(std::mt19937& random) {
   tests::TestMesh mesh;
   const auto between = [&](int low, int high) {

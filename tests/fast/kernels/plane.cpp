@@ -19,7 +19,7 @@ PairPlane plane_of(const PairPoints<m, n>& pair) {
   return ogc::fast::plane_of(pair, distance_of(pair).below(), share);
 }
 
-/// Returns n·x in 113 bits: three products of 48 bits, whose exponents lie within 60 of each other here.
+/// Returns n·x in 113 bits: the three products have 48 bits each and exponents within 60 of each other.
 Quad along(const Vec& n, const Vec& x) { return Quad(n.x) * x.x + Quad(n.y) * x.y + Quad(n.z) * x.z; }
 
 bool is_exactly_behind(const HalfSpace& plane, const Vec& x) { return along(plane.normal, x) <= Quad(plane.offset); }
@@ -68,8 +68,8 @@ struct Counts {
   int planes = 0, without = 0, wrong = 0, meeting = 0, broken = 0, met = 0, off_way = 0;
 };
 
-/// Returns whether x lies between `from` and `to`, but for storing it and stepping three times, 4 u of a coordinate in
-/// each.
+/// Returns whether x is between `from` and `to`, with a tolerance for storing x and for three steps of an ulp: 4 u of
+/// each coordinate.
 bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
   const auto wide = [](const Vec& a) { return Vector<double>{a.x, a.y, a.z}; };
   const Vector<double> way = wide(to) - wide(from), gone = wide(x) - wide(from);
@@ -79,7 +79,7 @@ bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
   return std::sqrt(dot(off, off)) <= std::sqrt(3.0) * 8 * 0x1p-24 * size;
 }
 
-/// Returns all points of a pair after each has taken a proposal as far as its region allows.
+/// Returns all points of a pair after each has moved towards a proposal as far as its region allows.
 template <int m, int n>
 PairPoints<m, n> moved(RandomPairs& random, const PairPoints<m, n>& pair, const PairPlane& plane, float radius,
                        Counts& counts, bool slides = true) {
@@ -112,7 +112,6 @@ bool is_separated(const PairPlane& plane, const PairPoints<m, n>& pair) {
   return separated;
 }
 
-/// Returns displacements of any size and speed.
 template <int m, int n>
 ByApproach<m, n> approach(RandomPairs& random) {
   ByApproach<m, n> all{};
@@ -171,7 +170,8 @@ TEST_CASE("plane: approach along the normal divides the gap, with a sixteenth fo
   const PairPoints<1, 3> pair{{{0, 0, 0}}, {{-1, -1, 1}, {1, -1, 1}, {0, 2, 1}}, false, false};
   const auto room_of_first = [&](const ByApproach<1, 3>& w) {
     const PairPlane plane = ogc::fast::plane_of(pair, 1, share, w);
-    CHECK(plane.first + (1 - plane.second) == Approx(2 * static_cast<double>(share)));  // the room of both sides
+    // the room of both sides together
+    CHECK(plane.first + (1 - plane.second) == Approx(2 * static_cast<double>(share)));
     return plane.first / (2 * static_cast<double>(share));
   };
   CHECK(room_of_first({{{0, 0, 0}}, {}}) == Approx(0.5));
@@ -204,10 +204,10 @@ TEST_CASE("plane: as near as the closest points, and no less room than a ball of
     double extent = 0;
     for (const Vec& x : pair.first)
       for (const Vec& y : pair.second) extent = std::max(extent, norm_1(difference<Rounded>(x, y)));
-    // stored in single precision, n turns by 2⁻²⁴: projections on it move by as much of the extent
+    // Stored in single precision, n is rotated by 2⁻²⁴, and projections on it change by this share of the extent.
     if (!plane.exists() || d < 0x1p12 * slack || d < 0x1p-12 * extent) return;
     ++planes;
-    // o₂ − o₁ = (1 − 2γ_p) of the gap, which is the distance
+    // o₂ − o₁ is (1 − 2γ_p) times the gap, and the gap is the distance.
     far += std::abs((plane.second - plane.first) - (pair.is_first_fixed || pair.is_second_fixed ? 0.05 : 0.1) * d) >
            1e-3 * d;
     for (const Vec& x : pair.first)
@@ -261,7 +261,7 @@ TEST_CASE(
 }
 
 TEST_CASE("plane: what slides along a wall keeps its way along it", "[unit]") {
-  // a vertex 1 mm above a fixed wall: it may come down by 0.9 mm
+  // A vertex 1 mm above a fixed wall may come down by 0.9 mm.
   const PairPoints<1, 3> pair{{{0, 0, 1e-3f}}, {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}, false, true};
   const PairPlane plane = plane_of(pair);
   REQUIRE(plane.exists());
@@ -272,16 +272,16 @@ TEST_CASE("plane: what slides along a wall keeps its way along it", "[unit]") {
   CHECK(slid.position.x == 0.02f);
   CHECK(slid.position.y == -0.01f);
   CHECK(slid.position.z == Approx(1e-4).epsilon(1e-3));
-  // along its path it comes as far as the wall allows
+  // On its path the vertex goes as far as the wall allows.
   const Truncated scaled = held_on_path(region, pair.first[0], {0.011f, 0, -0.010f});
   CHECK(scaled.position.x == Approx(0.011 * 0.9 / 11).epsilon(1e-3));
   CHECK(scaled.position.z == Approx(1e-4).epsilon(1e-3));
-  // away from it nothing is cut
+  // If the vertex moves away from the wall, nothing is cut.
   CHECK_FALSE(held(region, pair.first[0], {0, 0, 0.05f}, InertiaMetric{}).cut);
 }
 
 TEST_CASE("plane: the least increase of a vertex's energy, not the shortest way", "[unit]") {
-  // H is stiff along x: a vertex leaves the half-space x + y ≤ 0 along y
+  // H is stiff along x, so the vertex leaves the half-space x + y ≤ 0 along y.
   const HalfSpace plane{{1, 1, 0}, 0};
   const FeasibleRegion region{{{0, 0, 0}, 1}, &plane, 1};
   const Truncated kept = held(region, {-0.1f, 0, 0}, {0.1f, 0.1f, 0}, BlockMetric{{1000, 0, 0, 1, 0, 1}, 1});
@@ -304,7 +304,7 @@ TEST_CASE("plane: where the ball ends a way, all of the way to it is gone, slidi
       CHECK(kept.cut);
       CHECK(is_exactly_in(region, kept.position));
       const Vec gone = kept.position - centre;
-      at_end += std::sqrt(dot(gone, gone)) > 0.999e-3f;  // storing costs 2^-22 of a coordinate of 1
+      at_end += std::sqrt(dot(gone, gone)) > 0.999e-3f;  // storing costs 2^-22 of a coordinate of size 1
       ++count;
     }
   }
@@ -312,7 +312,8 @@ TEST_CASE("plane: where the ball ends a way, all of the way to it is gone, slidi
 }
 
 TEST_CASE("plane: what goes along its half-space gets to the end, whichever coordinate is small", "[property]") {
-  // the half-space leans on a coordinate whose floats are too fine to bring a stored position back
+  // The normal's largest component belongs to a small coordinate. A step of its floats is too short to bring a stored
+  // position back.
   RandomPairs random;
   int short_of_end = 0, outside = 0, count = 0;
   for (int i = 0; i < 6000; ++i) {
@@ -325,13 +326,13 @@ TEST_CASE("plane: what goes along its half-space gets to the end, whichever coor
     const double height = static_cast<double>(along(n, x));
     const HalfSpace beside{n, height + 0x1p-49 * std::abs(height)};
     const Vec target = x + way;
-    // rounding makes half of the ways climb
+    // rounding makes half of the moves climb
     if (!is_behind(beside, x) || along(n, target) > along(n, x) || !(std::sqrt(dot(way, way)) > 5e-3f)) continue;
     const FeasibleRegion region{{x, 4e-3f}, &beside, 1};
     const Truncated kept = held_on_path(region, x, target);
     const Vec gone = kept.position - x;
     outside += !is_exactly_in(region, kept.position);
-    // 8 · 2⁻²⁴ of a coordinate of 1 for the steps, storing, three steps of a spacing
+    // tolerance: storing a position and three steps of an ulp, with coordinates of up to 1
     short_of_end += std::sqrt(dot(gone, gone)) < 4e-3f - 16 * 0x1p-24f;
     ++count;
   }
@@ -358,7 +359,7 @@ TEST_CASE("plane: turned axes turn the answer, but for the spacing of stored num
       const Vec apart = turned(a.position) - b.position;
       cut += a.cut;
       outside += a.cut != b.cut;
-      // each is stored within half a spacing of 2⁻²³, and stepped back by three of them
+      // each position is stored within half a spacing of 2⁻²³ and stepped back by at most three
       far += std::sqrt(dot(apart, apart)) > 7 * 0x1p-23f;
     }
   }

@@ -1,4 +1,4 @@
-// Tests that the bound is never too large (it may be too small): a pair that it rejects must not be able to lower any
+// Tests that the bound is never too large, while it may be too small: a pair that it rejects must not lower any
 // smallest distance by one bit.
 #include "fast/kernels/separation.hpp"
 
@@ -12,8 +12,8 @@ namespace {
 
 using namespace ogc::fast;
 
-/// Draws the points of one pair: generic, on a lattice (parallel, coplanar, touching, zero length), nearly flat, nearly
-/// collinear; far from the origin; at any scale.
+/// Draws the points of one pair: generic, on a lattice (parallel, coplanar, touching, of zero length), nearly flat or
+/// nearly collinear. Some are far from the origin. Scales vary.
 class Points {
  public:
   explicit Points(unsigned seed) : random_(seed) {}

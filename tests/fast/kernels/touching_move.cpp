@@ -9,7 +9,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Holds a vertex above the middle of a triangle, 0.5 away, and the targets of all four.
+/// Holds a vertex at distance 0.5 above the middle of a triangle, and the targets of all four vertices.
 struct Touching {
   Vec position[4] = {{0.25f, 0.5f, 0.25f}, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
   Vec target[4] = {{0.25f, 0.5f, 0.25f}, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}};

@@ -16,7 +16,7 @@ struct Placed {
   std::vector<Vec> x, start;
 };
 
-/// Returns a point at `height` over a point of a triangle, seen along a random direction.
+/// Returns a point at `height` above a point of a random triangle, along a random normal.
 Placed random_contact(std::mt19937& random, float height) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<float> unit(0, 1);
@@ -43,7 +43,7 @@ ForceAndBlock of(const Placed& p, int role, float friction) {
   return sum;
 }
 
-/// Returns φ, with weights and n held.
+/// Returns φ with fixed weights and n.
 double height(const Placed& p, const std::vector<D3>& x) {
   double sum = 0;
   for (std::size_t k = 1; k < 4; ++k) sum += p.contact.weights[k - 1] * dot(wide(p.contact.normal), x[0] - x[k]);
@@ -70,7 +70,8 @@ TEST_CASE("the normal force of a volume is minus the slope of k/2 (r - phi)^2, i
     for (int role = 0; role < 4; ++role) {
       const D3 difference = wide(of(p, role, 0).force) -
                             force_by_differences(energy, wide_points(p), static_cast<std::size_t>(role), 1e-6);
-      // φ is a sum of products of lengths of at most 0.1 m: 8 u of them, times k; differences are exact for a parabola
+      // φ is a sum of products of lengths of at most 0.1 m: an error of 8 u, times k. Differences are exact for a
+      // parabola.
       REQUIRE(length(difference) <= 20 * (16 * u * 0.2 + 1e-9));
     }
   }
@@ -121,8 +122,8 @@ TEST_CASE("friction of a driven volume carries along: the slip is that of the po
   p.contact = {{0.25f, 0.25f, 0.5f}, {0, 0, 1}, 20, 0.4f};
   p.x = {{0.5f, 0.25f, -0.01f}, {0.01f, 0, 0}, {0.01f, 1, 0}, {1.01f, 0, 0}};
   p.start = {{0.5f, 0.25f, -0.01f}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
-  // the volume has moved by 0.01 m along x, far beyond ε_v h: μ λ = 0.4 · 20 · 0.02 N along x on the point
+  // The volume has moved by 0.01 m along x, far beyond ε_v h: μ λ = 0.4 · 20 · 0.02 N along x acts on the point.
   CHECK(of(p, 0, 0.4f).force.x == Approx(0.16).epsilon(1e-4));
-  p.start[0].x -= 0.01f;  // moves with it
+  p.start[0].x -= 0.01f;  // the point moves with the volume
   CHECK(std::abs(of(p, 0, 0.4f).force.x) <= 0.16 * 2 * 1e-3);
 }

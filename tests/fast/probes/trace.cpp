@@ -1,4 +1,4 @@
-// Tests that a trace records the simulation's own step, and that recording changes nothing.
+// Tests that a trace records the simulation's own step, and that recording changes no bit.
 #include "fast/probes/probe_step.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool same_bits(const std::vector<compare::Vec3f>& a, const std::vector<compare::
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(compare::Vec3f)) == 0;
 }
 
-// Returns a sheet thrown askew at a fixed one: several rounds, contacts, detections between iterations.
+// Returns a sheet thrown askew at a fixed sheet: several rounds, contacts, detections between iterations.
 compare::Scene thrown_sheet() {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 7, 0.06, 0.006, false);
@@ -79,11 +79,10 @@ TEST_CASE("the last detection of a trace is the one that the state's certificate
 TEST_CASE("a simulation tells the states at which it detected: those of its trace, and looking changes no bit",
           "[property]") {
   const compare::Scene scene = thrown_sheet();
-  for (const int list_capacity : {0, 1}) {  // with 1 the lists grow, and the last attempt counts
+  for (const int list_capacity : {0, 1}) {  // 1: the lists grow, and only the last attempt counts
     const auto seen = start_cpu(scene, {}, list_capacity), unseen = start_cpu(scene, {}, list_capacity);
     std::vector<std::vector<compare::Vec3f>> states;
-    const std::vector<compare::StepMetrics> rows =
-        dynamic_cast<compare::WayTeller&>(*seen).advance_telling(states);
+    const std::vector<compare::StepMetrics> rows = dynamic_cast<compare::WayTeller&>(*seen).advance_telling(states);
     REQUIRE(rows.size() == 1);
     CHECK(std::ssize(states) == rows[0].discrete_detections);
     CHECK(states.size() > 2);
@@ -92,7 +91,7 @@ TEST_CASE("a simulation tells the states at which it detected: those of its trac
       if (event.kind == compare::StepEventKind::detection) traced_states.push_back(event.position);
     CHECK(std::ranges::equal(states, traced_states, same_bits));
     unseen->advance(1);
-    for (int k = 0; k < 3; ++k) seen->advance(1), unseen->advance(1);  // without an observer now
+    for (int k = 0; k < 3; ++k) seen->advance(1), unseen->advance(1);  // without an observer
     CHECK(same_bits(seen->snapshot().positions, unseen->snapshot().positions));
   }
 }

@@ -1,4 +1,4 @@
-// Tests the search of volumes on the CPU against values by hand.
+// Tests the search of volumes on the CPU against hand-computed values.
 #include "compare/stages/volume_depth.hpp"
 
 #include <algorithm>
@@ -13,14 +13,14 @@ using namespace ogc::compare;
 
 namespace {
 
-/// Boxes about centres, 2 m wide each: a part for each.
+/// Boxes 2 m wide about given centres; each is a part.
 struct Boxes {
   std::vector<Vec3f> positions;
   std::vector<Triangle> triangles;
   Topology topology;
 
   explicit Boxes(const std::vector<Vec3f>& centres) {
-    // quads of the cube, counterclockwise as seen from outside; bit 0: x, bit 1: y, bit 2: z
+    // quads of the cube, counterclockwise from outside; bit 0: x, bit 1: y, bit 2: z
     constexpr std::array<std::array<Index, 4>, 6> quads{
         {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
     for (const Vec3f& c : centres) {
@@ -113,7 +113,7 @@ TEST_CASE("a void belongs to the part around it: nobody in it is inside, and the
 
 namespace {
 
-/// A row of cubes of six tetrahedra each, 2 m wide, high and deep; the layer between two of them stands at `x`.
+/// A row of cubes of six tetrahedra each, 2 m wide, high and deep. `x` has the positions of the layers between cubes.
 struct Row {
   std::vector<Vec3f> positions;
   std::vector<Tetrahedron> tetrahedra;
@@ -151,7 +151,7 @@ TEST_CASE("in a body of tetrahedra the depth is r at the surface, and that of th
     CHECK(out.contacts[0].depth == Approx(0.5).margin(2e-6));
     CHECK(out.contacts[0].direction.z == 1);
   }
-  // ways through the edges and vertices between the cells, too
+  // paths also through the edges and vertices between the cells
   for (const Vec3f x : {Vec3f{2, 1, 1.25f}, Vec3f{2, 1.5f, 1.75f}, Vec3f{1, 1, 1.125f}, Vec3f{3, 1, 1.125f}}) {
     const auto out = row.ask({x}, 0.125f);
     REQUIRE(out.contacts.size() == 1);
@@ -162,7 +162,8 @@ TEST_CASE("in a body of tetrahedra the depth is r at the surface, and that of th
 
 TEST_CASE("each sheet of a body that lies in itself has its own contact, and none a way through what is inside out",
           "[unit]") {
-  // the middle cell is inside out; both others hold x = 2.5, whose nearest layers, at 3 and at 2, are no boundary
+  // The middle cell is inside out. Both other cells contain x = 2.5; their nearest layers, at 3 and at 2, are no
+  // boundary.
   const Row row({0, 3, 2, 5});
   const auto out = row.ask({{2.5f, 1, 0.75f}, {1, 1, 0.75f}}, 0.25f);
   REQUIRE(out.contacts.size() == 3);

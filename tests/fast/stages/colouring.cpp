@@ -51,7 +51,7 @@ void require_valid(const RestState& rest, const Colouring& colouring) {
   }
 }
 
-// Returns a chain of hubs, each with a fan of random size, with non-manifold edges where fans share triangles' edges.
+// Returns a chain of hubs, each with a fan of random size. Edges are non-manifold where fans share triangles' edges.
 compare::Scene random_mesh(unsigned seed) {
   std::mt19937 random(seed);
   compare::Scene scene = test::empty_scene();
@@ -83,7 +83,7 @@ TEST_CASE("no two free vertices of a triangle or bending stencil share a colour,
     const RestState rest = rest_of(scene);
     const Colouring colouring = colour_vertices(rest);
     require_valid(rest, colouring);
-    CHECK(colouring.count <= 6);  // the closed form for alternating diagonals needs 6
+    CHECK(colouring.count <= 6);  // alternating diagonals can be coloured with 6
   }
 }
 
@@ -158,8 +158,8 @@ TEST_CASE("the colouring is the same each time", "[property]") {
 
 TEST_CASE("facing vertices of identical cloths share no colour, and no more colours are needed than for one",
           "[property]") {
-  // Contacts are Jacobi inside a colour: partners that share one both remove the whole of their overlap (method.md
-  // §7.3).
+  // Contacts are Jacobi within a colour, so partners with the same colour would both remove their whole overlap
+  // (method.md §7.3).
   compare::Scene one = test::empty_scene();
   test::add_sheet(one, 12, 1, 0, false);
   const int alone = colour_vertices(rest_of(one)).count;

@@ -1,4 +1,4 @@
-// Tests bounds as planes: the planes that a detection makes, judged exactly, and the freedom that a step has with them.
+// Tests bounds as planes: checks the planes of a detection exactly, and how far a step can move with them.
 #include "fast/stages/planes.hpp"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ bool are_equal(const compare::PlaneOut& a, const compare::PlaneOut& b) {
                             });
 }
 
-/// Returns the pairs whose planes v bears, each as its vertices, renumbered by `name` and sorted.
+/// Returns the pairs whose planes bound v. Each pair is given by its vertices, renumbered by `name` and sorted.
 template <class Name>
 std::vector<std::array<compare::Index, 4>> pairs_of(const compare::Topology& topology, const Held& held,
                                                     compare::Index v, Name name) {
@@ -85,8 +85,8 @@ std::vector<std::array<compare::Index, 4>> pairs_of(const compare::Topology& top
   return pairs;
 }
 
-/// Adds a strip that is folded into a V, its edge of three vertices at x = `apex`, its ends at x = `ends` [m].
-/// `is_upright`: the edge is along y, not along z.
+/// Adds a strip folded into a V. Its fold has three vertices at x = `apex`, its ends are at x = `ends` [m].
+/// `is_upright`: the fold is along y instead of z.
 void add_hook(compare::Scene& scene, double apex, double ends, bool is_upright) {
   const compare::Index first = add_sheet(scene, 3, 1, 0, false).first_vertex;
   compare::PrescribedMotion pull;
@@ -102,7 +102,7 @@ void add_hook(compare::Scene& scene, double apex, double ends, bool is_upright) 
   scene.motions.push_back(pull);
 }
 
-/// Returns positions at the end of `steps` steps without failure.
+/// Returns the positions after `steps` steps; all steps must succeed.
 std::vector<compare::Vec3f> positions_after(const compare::Scene& scene, int steps,
                                             std::vector<compare::StepMetrics>* rows = nullptr) {
   const auto simulation = start_cpu(scene, {});
@@ -113,7 +113,7 @@ std::vector<compare::Vec3f> positions_after(const compare::Scene& scene, int ste
   return simulation->snapshot().positions;
 }
 
-/// Returns a free sheet beside a fixed one; both are upright, and their distance is `apart` [m].
+/// Returns a free sheet beside a fixed one, both upright, `apart` [m] from each other.
 compare::Scene beside_a_wall(double apart) {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 4, 0.03, 0, false);
@@ -188,7 +188,7 @@ TEST_CASE("planes: no vertex has a smaller ball than without planes, and some ha
 }
 
 TEST_CASE("planes: nothing bounds a vertex inside a solid, and it bounds nothing", "[unit]") {
-  // beside the middle of a triangle, nearer to it than anything else
+  // a vertex beside the middle of a triangle, nearer to the triangle than anything else
   const std::vector<compare::Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3F, 0.3F, 0.01F}};
   compare::Topology topology = compare::build_topology(4, std::vector<compare::Triangle>{{0, 1, 2}});
   const std::vector<std::uint8_t> none(4, 0);
@@ -215,10 +215,10 @@ TEST_CASE("planes: a sheet that falls past a wall a few micrometres away falls f
   const double fall = 9.81 * h * h * steps * (steps + 1) / 2;
   std::vector<compare::StepMetrics> rows;
   const auto free = positions_after(scene, steps, &rows);
-  // each step rounds a position below 2 m to 2⁻²⁴ m, and the velocity made of it carries that error on
+  // Each step rounds a position below 2 m to 2⁻²⁴ m, and its velocity keeps this error.
   for (std::size_t v = 0; v < 16; ++v)
     CHECK(std::abs(free[v].y - (scene.mesh.positions[v].y - fall)) < steps * (steps + 1) * 0x1p-24);
-  // a ball of that distance lets it fall γ_p times the distance in each of 16 rounds and 10 iterations a step, at most
+  // With balls of this distance it falls at most γ_p times the distance in each of 16 rounds and 10 iterations a step.
   scene.settings.bounds = compare::Bounds::ball;
   const auto stuck = positions_after(scene, steps);
   for (std::size_t v = 0; v < 16; ++v)
@@ -248,7 +248,7 @@ TEST_CASE("planes: a cloth pulled out between two plates leaves, and passes neit
     CHECK(compare::audit(topology, compare::to_double(state.positions), compare::exclusions(scene)).count == 0);
     CHECK(reference::broken_planes(state.planes, state.positions) == 0);
   }
-  // after 0.3 m it is out of the plates, whose edges are 0.15 m from the middle
+  // After 0.3 m it has left the plates, whose edges are 0.15 m from the middle.
   const auto end = simulation->snapshot().positions;
   CHECK(std::ranges::all_of(end.begin(), end.begin() + 36, [](const compare::Vec3f& p) { return p.x > 0.15f; }));
 }
@@ -271,7 +271,7 @@ TEST_CASE("planes: two hooked corners stay hooked, however far they are pulled",
     CHECK(compare::audit(topology, compare::to_double(state.positions), compare::exclusions(scene)).count == 0);
     CHECK(reference::broken_planes(state.planes, state.positions) == 0);
   }
-  // the middle of the first fold is held by that of the second; the ends, 0.2 m apart at first, lag in the end
+  // The middle of the second fold holds the middle of the first. The ends, 0.2 m apart at first, lag at the end.
   const auto end = simulation->snapshot().positions;
   CHECK(contacts > 0);
   CHECK(end[4].x > end[13].x);
@@ -299,7 +299,8 @@ TEST_CASE("planes: renumbered vertices have the planes of the same pairs, and th
   std::size_t planes = 0;
   for (compare::Index v = 0; v < n; ++v) {
     const float ball = a.out.bound[static_cast<std::size_t>(v)], same = b.out.bound[static_cast<std::size_t>(there(v))];
-    CHECK(std::abs(ball - same) <= 8 * 0x1p-24F);  // distances below 1, rounded in the order of corners and edges
+    // distances below 1 whose rounding depends on the order of corners and edges
+    CHECK(std::abs(ball - same) <= 8 * 0x1p-24F);
     const auto pairs = pairs_of(topology, a, v, there);
     CHECK(pairs == pairs_of(other_topology, b, there(v), [](compare::Index u) { return u; }));
     planes += pairs.size();
@@ -307,7 +308,7 @@ TEST_CASE("planes: renumbered vertices have the planes of the same pairs, and th
   CHECK(planes > 500);
 }
 
-// Planes of the step before must decide nothing: each step is taken by a fresh simulation.
+// Planes of the previous step must not change a result: each step is taken by a new simulation.
 TEST_CASE("planes: a simulation that is replaced by a new one after each step comes to the same bits", "[property]") {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 8, 0.06, 0.003, false);
@@ -327,7 +328,7 @@ TEST_CASE("planes: a simulation that is replaced by a new one after each step co
 
 TEST_CASE("bounds=off: nothing is cut, and sheets pass through each other", "[unit]") {
   compare::Scene scene = empty_scene();
-  add_sheet(scene, 4, 0.03, 0.02, false);  // touches nothing at the start
+  add_sheet(scene, 4, 0.03, 0.02, false);  // without contacts at the start
   add_sheet(scene, 4, 0.3, 0, true);
   for (std::size_t v = 0; v < 16; ++v) scene.velocities[v] = {0, -100, 0};
   scene.settings.bounds = compare::Bounds::off;

@@ -22,7 +22,7 @@ TEST_CASE("the time of a stage inside another one is not the outer one's, and is
     clock.time(StepStage::detection, [] { wait(20); });
     wait(3);
   });
-  wait(10);  // outside of any stage
+  wait(10);  // outside all stages
   const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
   const std::vector<double> times = clock.take();
   REQUIRE(times.size() == step_stage_names().size());

@@ -10,7 +10,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Sums n items of each of two kinds, in columns of their own.
+/// Sums n items of each of two kinds, each in its own columns.
 struct TwoKinds {
   int n;
   void add(int chunk, int chunks, double* sum) const {

@@ -18,7 +18,7 @@ TEST_CASE("lumped mass is density times area, a third of each triangle's to its 
   test::add_sheet(scene, 3, 1, 0, true);
   const RestState rest = build_rest_state(scene, compare::build_topology(scene));
   CHECK(std::accumulate(rest.mass.begin(), rest.mass.end(), 0.0) == Approx(0.2 * 0.25));
-  CHECK(rest.mass[1] == Approx(0.2 * (0.125 * 0.125 / 2) / 3 * 2));  // a vertex of the border with two triangles
+  CHECK(rest.mass[1] == Approx(0.2 * (0.125 * 0.125 / 2) / 3 * 2));  // a border vertex with two triangles
   CHECK(rest.mass[25] == 0);
   CHECK(rest.mobility[24] == Mobility::free);
   CHECK(rest.mobility[25] == Mobility::fixed);
@@ -49,7 +49,7 @@ TEST_CASE("only manifold interior edges of moving bodies become hinges, with 3 e
   test::add_sheet(scene, 4, 1, 0, true);
   const RestState rest = build_rest_state(scene, compare::build_topology(scene));
   REQUIRE(rest.hinges.size() == 1);
-  CHECK(rest.hinges[0].stiffness == Approx(1e-6 * 3 * 2 / 1.0));  // the diagonal of the unit square, areas of a half
+  CHECK(rest.hinges[0].stiffness == Approx(1e-6 * 3 * 2 / 1.0));  // the diagonal of the unit square; both areas are 1/2
   CHECK(rest.hinges[0].angle == 0);
 }
 

@@ -20,7 +20,7 @@ Seeds seeds_of(const compare::Topology& topology) {
 
 }  // namespace
 
-// Any pair bounds a search; a pair that is not next to the primitive bounds it worse, which costs time alone.
+// Any pair bounds a search. A pair that is not near the primitive gives a worse bound, which only costs time.
 TEST_CASE("searches begin at the nearest pairs of the mesh, opposite to edge, facet and vertex", "[property]") {
   for (const bool reversed : {false, true}) {
     tests::TestMesh mesh = tests::sheet(6, 1, 0);
@@ -38,7 +38,7 @@ TEST_CASE("searches begin at the nearest pairs of the mesh, opposite to edge, fa
       for (const int v : topology.edge_opposite[e]) {
         std::set<int> neighbours = set(topology.vertex_neighbours[static_cast<std::size_t>(v)]);
         for (const int end : ends) neighbours.erase(end);
-        if (!neighbours.empty()) opposite.insert(v);  // with an edge that does not touch e
+        if (!neighbours.empty()) opposite.insert(v);  // v forms an edge that does not touch e
       }
       REQUIRE(found.size() == 2);
       REQUIRE(*found.begin() >= 0);

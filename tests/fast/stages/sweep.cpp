@@ -25,8 +25,8 @@ std::vector<PaddedVec> padded_of(const std::vector<Vec>& positions, int copies =
   return padded;
 }
 
-// Holds two crumpled sheets, 0.6 r apart, with contacts of every kind; start positions are a little elsewhere, so that
-// damping and friction act.
+// Holds two crumpled sheets, 0.6 r apart, with contacts of every kind. Start positions differ a little, so that damping
+// and friction act.
 struct Fixture {
   compare::Scene scene;
   compare::Topology topology;
@@ -40,7 +40,7 @@ struct Fixture {
   std::unique_ptr<Detection<CpuBackend>> detection;
   std::unique_ptr<Sweep<CpuBackend>> sweep;
 
-  /// `rough`: distance of vertices from the grids of their sheets [m], which are turned against one another by `turn`.
+  /// `rough`: distance of vertices from the grids of their sheets [m]. `turn`: angle between the two grids.
   Fixture(bool second_fixed, int lanes, double friction = 0.3, double rough = 1e-3, double turn = 0) {
     compare::Material material;
     material.membrane_damping = 1e-3, material.bending_damping = 1e-3, material.bending_stiffness = 1e-5;
@@ -97,7 +97,7 @@ struct Fixture {
   }
 };
 
-/// Runs a detection's launches that make the stream of a sweep; it holds what else a step has to do in them.
+/// Makes a sweep's contact stream by a detection's launches, without a step's other work in these launches.
 struct MadeStream {
   std::vector<Vec> previous;
   StepControl control;
@@ -141,7 +141,8 @@ Totals totals(Fixture& f) {
   return sum;
 }
 
-// Each force has some 30 terms of about its own size, each known to a few tens of u (see the tests of the energies).
+// Each force has about 30 terms of about its own size, with errors of some tens of u each (see the tests of the
+// energies).
 constexpr double relative_error = 300 * 0x1p-24;
 
 }  // namespace
@@ -168,8 +169,8 @@ TEST_CASE("an iteration reads lower colours from the fresh buffer and all others
     const SweepView view = f.view();
     f.sweep->iterate(view);
     const std::vector<Vec> answer = f.fresh;
-    // Applies the rule naively: before each colour it takes a snapshot of what has been written so far, and solves each
-    // vertex of the colour in it.
+    // Applies the rule naively: before each colour copies the positions written so far, then solves each vertex of the
+    // colour with this copy.
     std::vector<Vec> now = f.x;
     for (int c = 0; c < f.colouring.count; ++c) {
       std::vector<Vec> seen = now, out = now;
@@ -280,7 +281,7 @@ TEST_CASE("where models are the usual ones, the sum of any scene has the bits of
 
 namespace {
 
-/// Returns the number of vertices whose sum in packs has other bits than that of SerialTeam.
+/// Counts the vertices whose sum in packs differs from that of SerialTeam.
 template <int W>
 int other_bits(const Fixture& f, const SweepView& view, const PackKernels& kernels) {
   int count = 0;
@@ -294,7 +295,7 @@ int other_bits(const Fixture& f, const SweepView& view, const PackKernels& kerne
   return count;
 }
 
-/// Returns the kernels of every machine that can run here.
+/// Returns the kernels that this machine can run.
 std::vector<const PackKernels*> all_kernels() {
 #ifdef __x86_64__
   if (has_avx2()) return {&pack_kernels_baseline, &pack_kernels_avx2};
@@ -344,7 +345,7 @@ TEST_CASE("that holds for a contact on either side of the distance below which t
   REQUIRE(record < *view.vertex_facet_count);
   const auto at = [&](int v) -> Vec& { return f.x[static_cast<std::size_t>(v)]; };
   const VertexFacetRecord& contact = view.vertex_facet[record];
-  // Over a quarter of the triangle, where all but the height comes out exactly.
+  // the vertex is over the triangle at weights of a quarter, where all differences except the height are exact
   at(contact.corner[0]) = {0, 0, 0}, at(contact.corner[1]) = {1, 0, 0}, at(contact.corner[2]) = {0, 0, 1};
   for (const float squared : {0x1p-124F, 0x1.8p-126F, 0x1.8p-127F, 0x1.8p-128F, 0x1p-140F, 0.0F}) {
     at(contact.vertex) = {0.25F, std::sqrt(squared), 0.25F};
@@ -364,7 +365,8 @@ TEST_CASE("that holds for edges on either side of the limit below which two coun
       };
       const EdgeEdgeRecord& record = view.edge_edge[i];
       const D3 a = direction(record.first_edge), b = direction(record.second_edge), normal = cross(a, b);
-      const double share = dot(normal, normal) / (1e-6 * dot(a, a) * dot(b, b));  // 1: the limit of closest_on_segments
+      // 1 is the limit of closest_on_segments
+      const double share = dot(normal, normal) / (1e-6 * dot(a, a) * dot(b, b));
       below += share > 0.5 && share < 1;
       above += share > 1 && share < 2;
     }

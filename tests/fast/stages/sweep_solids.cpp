@@ -14,7 +14,7 @@ using namespace ogc::fast::test;
 
 namespace {
 
-/// Holds a crumpled block without known contacts; start positions are a little elsewhere, so that damping acts.
+/// Holds a crumpled block without contacts. Start positions differ a little, so that damping acts.
 struct Fixture {
   compare::Scene scene = empty_scene();
   RestState rest;
@@ -70,7 +70,7 @@ std::vector<const PackKernels*> all_kernels() {
   return {&pack_kernels_baseline};
 }
 
-/// Returns the number of vertices whose two sums have other bits.
+/// Counts the vertices for which the two sums differ.
 template <int W, class A, class B>
 int other_bits(Fixture& f, const A& a, const B& b) {
   int count = 0;
@@ -108,8 +108,8 @@ TEST_CASE("a solid's damping is not zero and none of a rigid motion", "[property
   CHECK(other_bits<4>(damped, GatherSolids{}, GatherSolids{}) == 0);
   const ForceAndBlock with = sum_of<4>(damped, 20, GatherSolids{}), without = sum_of<4>(plain, 20, GatherSolids{});
   CHECK(std::memcmp(&with, &without, sizeof with) != 0);
-  // Moved as a whole since the start of the step: Gᵗ is G up to rounding, and the damping's force is nothing beside the
-  // elastic one.
+  // Moved as a whole since the start of the step: Gᵗ is G up to rounding, and the force of damping is negligible
+  // compared with the elastic force.
   for (Fixture* f : {&damped, &plain}) {
     f->padded.resize(f->start.size());
     for (std::size_t v = 0; v < f->start.size(); ++v) f->padded[v] = PaddedVec(f->start[v] + Vec{0.5f, 0, 0});

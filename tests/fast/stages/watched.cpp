@@ -1,5 +1,5 @@
-// Runs the stages on a backend that watches them: their memory has margins, replays are noted, and positions can be
-// made wrong before a step checks them.
+// Runs the stages on a backend that observes them: arrays have margins, replays are noted, and positions can be spoiled
+// before a step checks them.
 #include <cstring>
 #include <functional>
 #include <set>
@@ -20,17 +20,17 @@ using namespace ogc::fast::test;
 namespace {
 
 int broken_margins = 0;
-int strains_begun = 0, angles_begun = 0;  // loops that need strains at the start of a step
+int strains_begun = 0, angles_begun = 0;  // loops that compute strains and angles at the start of a step
 
 using Launches = std::vector<std::type_index>;
-Launches* launched = nullptr;  // notes functors in the order of their launches
+Launches* launched = nullptr;  // functors in the order of their launches
 
 template <class F>
 void note_launch() {
   if (launched != nullptr) launched->push_back(typeid(F));
 }
 
-/// A CpuBuffer with a margin of set bits behind its items: floats that are NaN, places below 0.
+/// A CpuBuffer with a margin of set bits behind its items: NaN as floats, −1 as integers.
 template <class T>
 class GuardedBuffer {
  public:
@@ -73,7 +73,7 @@ class GuardedBuffer {
   std::size_t size_ = 0, capacity_ = 0;
 };
 
-/// Whether a launch has a step's certificate beside its sums.
+/// Tells whether a launch contains a step's certificate.
 template <class F>
 constexpr bool is_check = false;
 template <class F>
@@ -89,7 +89,7 @@ class WatchedBackend : public CpuBackend {
   };
   using Replayed = std::vector<const Recording*>;
 
-  /// `before_check`: called before a step checks its positions.
+  /// `before_check` is called before a step checks its positions.
   explicit WatchedBackend(Replayed* replayed = nullptr, std::function<void(Vec*)> before_check = nullptr)
       : replayed_(replayed), before_check_(std::move(before_check)) {}
 
@@ -179,7 +179,7 @@ compare::Scene thrown_sheet() {
   return scene;
 }
 
-/// Returns a sheet that nothing moves.
+/// Returns a sheet without any force.
 compare::Scene still_sheet() {
   compare::Scene scene = empty_scene();
   scene.gravity = {};
@@ -196,7 +196,7 @@ WatchedBackend::Replayed replayed(const compare::Scene& scene, int frames, int c
   return noted;
 }
 
-/// Returns the number of recordings among them.
+/// Returns the number of different recordings.
 std::size_t kinds(const WatchedBackend::Replayed& noted) { return std::set(noted.begin(), noted.end()).size(); }
 
 }  // namespace
@@ -268,8 +268,8 @@ TEST_CASE("a position beyond its bound, or none, at a step's end stops the run a
 }
 
 TEST_CASE("iterations are asked in groups whether a detection is due until a frame has one in four of them", "[unit]") {
-  // Steps that sort the trees, the first and the seventeenth, have a recording of their own. The only detections are
-  // those of the guess loop, which do not count for iterations; nor does a frame without a step, as lists grew.
+  // Steps that sort the trees, the first and the seventeenth, have their own recordings. All detections are those of
+  // the guess loop, which do not count here. A frame without a step, because lists grew, does not count, either.
   constexpr int frames = steps_between_sorts + 1;
   const WatchedBackend::Replayed still = replayed(still_sheet(), frames);
   REQUIRE(still.size() == frames);
@@ -324,7 +324,7 @@ TEST_CASE("a step that is timed, or observed, makes the launches of one that is 
     return std::count(expected.begin(), expected.end(), functor);
   };
   REQUIRE(count(typeid(GuessVertex)) > 1);                              // several rounds
-  REQUIRE(count(typeid(RankAndResolve)) > count(typeid(GuessVertex)));  // also between iterations
+  REQUIRE(count(typeid(RankAndResolve)) > count(typeid(GuessVertex)));  // detections between iterations, too
   CHECK(count(typeid(RankAndResolve)) == count(typeid(DetectEdgeEdge)));
   CHECK((launches(true, false) == expected));
   CHECK((launches(true, true) == expected));

@@ -1,4 +1,4 @@
-// Tests Single: it may leave a sign open, but the signs that it is certain of must be right, at every scale, also if
+// Tests Single. It may leave a sign open, but the signs of which it is certain must be right at every scale, also if
 // terms cancel or underflow.
 #include "fast/kernels/predicates.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace ogc::fast;
 
-/// Counts how often Single was certain, and how often it was wrong then.
+/// Counts how often Single was certain, and how often it was certain but wrong.
 struct Tally {
   int certain = 0, wrong = 0;
 

@@ -45,7 +45,8 @@ TEST_CASE("activation: slope and curvature are the derivatives of the energy, of
   const float r = 1, k = 3;
   for (const ContactActivation kind : all_kinds)
     for (const float d : {0.01F, 0.1F, 0.3F, 0.6F, 0.9F}) {
-      // A hundredth of the way to the nearer end of the formula: a central difference is then wrong by some 10⁻⁴.
+      // A hundredth of the distance to the nearer end of the formula's range: a central difference is then wrong by
+      // about 10⁻⁴.
       const double step = 0.01 * std::min(d, r - d), low = d - step, high = d + step;
       const auto g = [&](double x) { return static_cast<double>(energy_of(static_cast<float>(x), r, k, kind)); };
       const double noise = 0x1p-22 * g(d);  // a few roundings of the energy, and of d

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double u = 0x1p-24;
 
-// Returns the angle between the two half planes, from their unit vectors across the edge; 0 where flat, negative if o1
-// is on the side of (x1 − x0) × (o0 − x0).
+// Returns the angle between the two half planes, from their unit vectors across the edge. It is 0 if flat, and negative
+// if o1 is on the side of (x1 − x0) × (o0 − x0).
 double angle_of(const std::vector<D3>& x) {
   const D3 edge = (1 / length(x[1] - x[0])) * (x[1] - x[0]);
   const auto across = [&](const D3& p) {
@@ -33,7 +33,7 @@ struct Case {
     const double a = angle_of(at), from_rest = a - stencil.rest_angle, from_start = a - angle_start;
     return 0.5 * stencil.stiffness * (from_rest * from_rest + damping * from_start * from_start);
   }
-  // Adds the hinge as the sweep does: ends of the edge as x0, opposite vertices as o0.
+  // Adds the hinge in the sweep's order: the vertex of this role is x0 if it is an end of the edge, else o0.
   ForceAndBlock add(std::size_t role) const {
     static constexpr std::size_t order[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {0, 1, 2, 3}, {1, 0, 3, 2}};
     const Vec x0 = x[order[role][0]], x1 = x[order[role][1]], a = x[order[role][2]], b = x[order[role][3]];
@@ -43,8 +43,8 @@ struct Case {
       DiscreteHinge::add(stencil, damping, shape.angle, angle_start, hinge_gradient(shape, role >= 2), sum);
     return sum;
   }
-  // Returns the largest gradient of the angle: one over the smaller height, with the feet of the heights along the
-  // edge.
+  // Returns a bound of the angle's gradient: one over the smaller height, enlarged for feet of heights that are off the
+  // edge's ends.
   double steepness() const {
     const auto w = wide_x();
     const double e = length(w[1] - w[0]), ha = length(cross(w[1] - w[0], w[2] - w[0])) / e,
@@ -83,8 +83,8 @@ TEST_CASE("the hinge's angle is that of the half planes, for every role", "[prop
     const double exact = angle_of(c.wide_x());
     const float forward = hinge_shape(c.x[1] - c.x[0], c.x[2] - c.x[0], c.x[3] - c.x[0]).angle;
     const float backward = hinge_shape(c.x[0] - c.x[1], c.x[3] - c.x[1], c.x[2] - c.x[1]).angle;
-    // The differences of coordinates below 1 m are exact in double, so the test has no input error. The kernel's
-    // differences err by up to u of a coordinate; what is left is 12 u of the sine, amplified by the shape.
+    // Differences of coordinates below 1 m are exact in double, so the test has no input error. The kernel's
+    // differences err by up to u of a coordinate. The remaining error is 12 u of the sine, amplified by the shape.
     REQUIRE(std::abs(forward - exact) <= 32 * u * c.conditioning());
     REQUIRE(std::abs(backward - exact) <= 32 * u * c.conditioning());
   }
@@ -149,7 +149,7 @@ TEST_CASE("rest angle and present angle agree in sign and size", "[unit]") {
   CHECK(rest_hinge(x0, x1, o0, down).angle == Approx(std::atan(0.5)));
   CHECK(angle(up) == Approx(rest_hinge(x0, x1, o0, up).angle));
   CHECK(angle(down) == Approx(rest_hinge(x0, x1, o0, down).angle));
-  CHECK(rest_hinge(x0, x1, o0, {0.5, -1, 0}).factor == Approx(3.0));  // ‖e‖ = 1, areas of a half each
+  CHECK(rest_hinge(x0, x1, o0, {0.5, -1, 0}).factor == Approx(3.0));  // ‖e‖ = 1, both areas are 1/2
 }
 
 TEST_CASE("a hinge with a collapsed triangle or edge exerts nothing", "[unit]") {

@@ -1,5 +1,5 @@
-// Tests the kernels of the models that are not the default ones against differences of energies, which are written here
-// once more.
+// Tests the kernels of the models that are not the default against differences of energies. The energies are written
+// here a second time.
 #include <random>
 
 #include "fast/kernels/sweep/gather.hpp"
@@ -11,7 +11,7 @@ using namespace ogc::fast::test;
 
 namespace {
 
-// One triangle with edges of about 1 in both shapes, so that forces are of the size of the stiffness.
+// Holds one triangle with edges of about 1 in both shapes, so that forces have the size of the stiffness.
 struct Triangle {
   TriangleRest rest;
   SurfaceMaterial material;
@@ -47,8 +47,8 @@ struct Triangle {
   }
 };
 
-// Forces of size 10 with a few tens of roundings, or a step of 10⁻⁴ of energies of size 10 with third derivatives of
-// size 100.
+// Forces of size 10 with some tens of roundings, or differences with a step of 10⁻⁴ of energies of size 10 with third
+// derivatives of size 100.
 constexpr double accepted = 1e-4;
 
 }  // namespace
@@ -99,7 +99,7 @@ TEST_CASE("isometric kernel: flat hinges exert nothing, and force and block are 
   std::mt19937 random(3);
   std::uniform_real_distribution<float> near(-0.3f, 0.3f);
   const HingeWeights rest{{0.8f, -1.1f, -0.9f}};
-  const float all[4] = {1.2f, 0.8f, -1.1f, -0.9f};  // they add up to 0 exactly enough: 0.8 − 1.1 − 0.9 = −1.2
+  const float all[4] = {1.2f, 0.8f, -1.1f, -0.9f};  // their sum is 0 with sufficient accuracy: 0.8 − 1.1 − 0.9 = −1.2
   for (int i = 0; i < 100; ++i) {
     std::vector<D3> x(4);
     for (D3& p : x) p = {near(random), near(random), near(random)};

@@ -46,7 +46,7 @@ TEST_CASE("quaternions turn as their product says, back as their conjugates do, 
     const Quat q = some_orientation(random);
     const Vec v = some_vector(random);
     const Quat by_product = q * pure(v) * conjugate(q);
-    // two products of 8 u, 14 u of the turn, a length that is off by 8 u twice
+    // two products err by 8 u, the rotation by 14 u, and the length, off by 8 u, enters twice
     REQUIRE(length(turned(q, v) - Vec{by_product.x, by_product.y, by_product.z}) <= 46 * u * length(v));
     REQUIRE(length(turned_back(q, turned(q, v)) - v) <= 44 * u * length(v));
     worst = std::max(worst, std::abs(size(q) - 1));
@@ -67,7 +67,7 @@ TEST_CASE("both ends of a segment feel opposite forces, nothing at rest", "[prop
     REQUIRE(length(first.force + second.force) == 0);
     REQUIRE(first.block.xx == Approx(3 * 1.25 / 0.5));
     add_rod(segment, 0.25f, 1, 0.5f * director(q), q, direction, rest);
-    // each turn errs by 14 u of 1.25, with lengths that are off by 8 u: times k_s
+    // each rotation errs by 14 u of 1.25, and lengths are off by 8 u: times k_s
     REQUIRE(length(rest.force) <= 3 * 1.25 * 60 * u);
   }
 }
@@ -79,7 +79,7 @@ TEST_CASE("the force of a segment is the slope of its energy, its block the slop
     const SegmentRest segment{{0, 1}, 0.5f, 3, 0.25f};
     const Vec before = some_vector(random);
     const std::vector<D3> x{wide(some_vector(random)), wide(some_vector(random))};
-    // The segment's vector now and then, turned back by its frame.
+    // the segment's vector now and then, rotated back by its frame
     const auto seen = [](const Quat& frame, const D3& v) { return wide(turned_back(frame, narrow(v))); };
     const D3 strain_then = 2.0 * seen(start, wide(before));
     const auto energy = [&](const std::vector<D3>& at) {
@@ -91,7 +91,7 @@ TEST_CASE("the force of a segment is the slope of its energy, its block the slop
     for (std::size_t end = 0; end < 2; ++end) {
       ForceAndBlock sum;
       add_rod(segment, 0.25f, static_cast<int>(end), narrow(x[1] - x[0]), q, direction, sum);
-      // for a quadratic form central differences err by rounding alone, 2⁻⁵³ of E over the step
+      // For a quadratic form the only error of central differences is rounding: 2⁻⁵³ of E over the step.
       const D3 slope = force_by_differences(energy, x, end, 1e-3);
       REQUIRE(length(wide(sum.force) - slope) <= 3 * 100 * u * (1 + length(x[1] - x[0]) + length(before)));
       REQUIRE(sum.block.xx == Approx(3 * 1.25 / 0.5));
@@ -105,8 +105,8 @@ TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its
   std::mt19937 random(87);
   const float weight = 2, damping = 0.5f;
   for (int i = 0; i < 1000; ++i) {
-    // The neighbour stands relative to the segment as at rest, and as at the start: both pull towards the present
-    // frame.
+    // The neighbour's rotation relative to the segment equals that at rest and that at the start. So both terms pull
+    // towards the present frame.
     const Quat now = some_orientation(random), own_start = some_orientation(random),
                relative = some_orientation(random), elsewhere = some_orientation(random);
     for (const bool is_ahead : {false, true}) {
@@ -116,10 +116,10 @@ TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its
         add_neighbour({weight, rest}, is_ahead, k, beside(now), other_start, own_start, now, b);
         return b;
       };
-      // Each product errs by 8 u, units by 4 u.
+      // Each product errs by 8 u, normalising by 4 u.
       CHECK(size(sum(0, relative, elsewhere) - weight * now) <= 20 * u * weight);
       CHECK(size(sum(damping, relative, beside(own_start)) - weight * (1 + damping) * now) <= 80 * u * weight);
-      // The twin alone: the pull towards the relative rotation at rest is subtracted.
+      // Damping alone: the pull towards the relative rotation at rest is subtracted.
       const Quat twin = sum(damping, elsewhere, beside(own_start)) - sum(0, elsewhere, elsewhere);
       CHECK(size(twin - weight * damping * now) <= 80 * u * weight);
     }
@@ -134,7 +134,7 @@ TEST_CASE("the secular root is that of bisection, wherever the parts lie", "[pro
     float lower = std::pow(10.0f, power(random));
     if (i % 4 == 0) lower = 2 * sigma * (1 + 0.1f * std::pow(10.0f, power(random)) * 1e-6f);
     const double exact = bisected(upper, lower, sigma), nu = secular_root(upper, lower, sigma);
-    // The left side S is known to about 12 u. Its root's slope is −(β₊²/ν³ + β₋²/(ν + 2σ)³)/S.
+    // The error of the left side S is about 12 u. Its slope at the root is −(β₊²/ν³ + β₋²/(ν + 2σ)³)/S.
     const double a = upper / exact, b = lower / (exact + 2 * double{sigma});
     const double slope = a * a / exact + b * b / (exact + 2 * double{sigma});
     REQUIRE(std::abs(nu - exact) <= 24 * u / slope + 8 * u * exact);
@@ -168,17 +168,18 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   CHECK(size(stays - old) == 0);
   const Quat along = rod_orientation(1, {0, 2, 0}, axis, none, old);
   CHECK(length(director(along) - Vec{0, 1, 0}) <= 16 * u);
-  // Reversed: the old orientation has no part along D, and 1 has none either; i has one.
+  // Reversed: the old orientation has no part along D, and neither has 1; i has one.
   const Quat reversed = rod_orientation(1, {0, 0, -1}, axis, none, {0, 0, 0, 1});
   CHECK(length(director(reversed) - Vec{0, 0, -1}) <= 16 * u);
-  // With damping c may be reversed along x, too: then i has no part along D either, and j has one.
+  // With damping c may also be reversed along x. Then i has no part along D, either, and j has one.
   const Quat across = rod_orientation(1, {2, 0, 0}, {-1, 0, 0}, none, {0, 0, 0, 1});
   CHECK(size(across - Quat{0, 1, 0, 0}) <= 4 * u);
   CHECK(length(turned(across, {-1, 0, 0}) - Vec{1, 0, 0}) <= 16 * u);
-  // Neighbours alone.
+  // neighbours only
   const Quat alone = rod_orientation(1, {0, 0, 0}, axis, {0, 3, 4, 0}, old);
   CHECK(size(alone - Quat{0, 0.6f, 0.8f, 0}) <= 4 * u);
-  // Neighbours pull towards a reversed director, weaker than the stretch: the twist stays that of the old orientation.
+  // Neighbours pull towards a reversed director, but less than the stretch: the twist stays that of the old
+  // orientation.
   const Quat held = rod_orientation(1, {0, 0, 1}, axis, {0.1f, 0, 0, 0}, {0, 0, 0.6f, 0.8f});
   CHECK(std::abs(size(held) - 1) <= 4 * u);
   CHECK(held.z / held.w == Approx(0.75));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double u = 0x1p-24;
 
-// Returns G by its definition, from single-precision gradients widened: G_ij = (f_i·f_j − δ_ij)/2.
+// Returns G by its definition from the single-precision gradients in double: G_ij = (f_i·f_j − δ_ij)/2.
 std::array<double, 3> strain_of(const TriangleRest& rest, const std::vector<D3>& x) {
   D3 f[2];
   for (int column = 0; column < 2; ++column) {
@@ -48,7 +48,7 @@ struct Case {
                            x[static_cast<std::size_t>(c)] - x[own], before, sum);
     return sum;
   }
-  // Returns the scale of a force's rounding: strain of rounding u (1 + ‖F‖²), times stiffness, ‖F‖ and the largest
+  // Returns the scale of a force's rounding error: a strain error u (1 + ‖F‖²), times stiffness, ‖F‖ and the largest
   // ‖∇N‖.
   double force_scale() const {
     double stretch = 0, gradient = 0;
@@ -92,8 +92,8 @@ TEST_CASE("membrane forces are the negative gradient of energy and damping", "[p
     for (int corner = 0; corner < 3; ++corner) {
       const D3 expected = force_by_differences([&](const auto& at) { return c.energy(at); }, c.wide_x(),
                                                static_cast<std::size_t>(corner), 1e-7);
-      // 24 u: strain (6 roundings), stress (4), product with F and b (6), each on terms of this size; 1e-8: the
-      // differences' own error.
+      // 24 u: strain (6 roundings), stress (4), products with F and b (6), each on terms of this size. 1e-8: error of
+      // the differences.
       REQUIRE(length(wide(c.add(corner).force) - expected) <= (24 * u + 1e-8) * c.force_scale());
     }
   }
@@ -155,7 +155,7 @@ TEST_CASE("a rigid motion since the start of the step meets no membrane force, e
     Case c = random_case(random, 0);
     const RigidMotion motion(random, 0.1);
     for (std::size_t k = 0; k < 3; ++k) c.x[k] = narrow(motion(wide(c.start[k])));
-    // Coordinates of up to about 1 m are rounded to u; over an edge of length l that is a strain of 4 u/l.
+    // Coordinates of up to about 1 m are rounded to u, which is a strain of 4 u/l over an edge of length l.
     double shortest = INFINITY, size = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       shortest = std::min(shortest, length(c.x[k] - c.x[(k + 1) % 3]));

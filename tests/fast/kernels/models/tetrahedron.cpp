@@ -1,4 +1,4 @@
-// Tests the tetrahedron's kernel against differences of its energy, in every shape, and its exact properties.
+// Tests the tetrahedron's kernel against differences of its energy in every shape, and tests its exact properties.
 #include "fast/kernels/models/tetrahedron.hpp"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ ForceAndBlock seen_from(const RestState& state, const SolidMaterial& material, c
   return sum;
 }
 
-/// Returns ψ by F = D D₀⁻¹ in double, with D and D₀ the edges from corner 0; it uses no part of the kernel.
+/// Returns ψ from F = D D₀⁻¹ in double, with D and D₀ the edges from corner 0. It shares no code with the kernel.
 double energy(const SolidCorners& rest, const SolidMaterial& material, const SolidCorners& x,
               const SolidCorners& start) {
   using Matrix = std::array<std::array<double, 3>, 3>;
@@ -150,8 +150,8 @@ TEST_CASE("a tetrahedron's force is minus the derivative of its energy in every 
           coordinate(ahead, corner, axis) += step, coordinate(behind, corner, axis) -= step;
           const double slope = (energy(rest, material, ahead, start) - energy(rest, material, behind, start)) /
                                (2 * step);
-          // Stiffness times edge length is 4e4 N, and a few times that where F is large: 1e-5 of it, most of which is
-          // single precision.
+          // Stiffness times edge length is 4e4 N, and a few times that if F is large. The margin is 1e-5 of it, mostly
+          // for single precision.
           CHECK(numbers(sum.force)[static_cast<std::size_t>(axis)] == Approx(-slope).margin(2));
         }
       }
@@ -169,14 +169,15 @@ TEST_CASE("a tetrahedron's block is the second derivative of the elastic energy,
       const double diagonal[] = {b.xx, b.yy, b.zz};
       for (int axis = 0; axis < 3; ++axis) {
         SolidCorners ahead = x, behind = x;
-        constexpr double step = 1e-3;  // J is affine in one vertex: the energy is quadratic, and no step too long
+        // J is affine in one vertex, so the energy is quadratic, and the step may be long
+        constexpr double step = 1e-3;
         coordinate(ahead, corner, axis) += step, coordinate(behind, corner, axis) -= step;
         const double bend = (energy(unit_corners, soft, ahead, x) - 2 * energy(unit_corners, soft, x, x) +
                              energy(unit_corners, soft, behind, x)) /
                             (step * step);
         CHECK(diagonal[axis] == Approx(bend).epsilon(1e-4));
       }
-      // μ V ‖∇N‖² alone is positive: 1e4/6 and more on the unit tetrahedron
+      // μ V ‖∇N‖², a part of the block, is already at least 1e4/6 on the unit tetrahedron
       const double least = 0.999 * soft.lame_mu / 6;
       const double minor = static_cast<double>(b.xx) * b.yy - static_cast<double>(b.xy) * b.xy;
       const double det = b.xx * (static_cast<double>(b.yy) * b.zz - static_cast<double>(b.yz) * b.yz) -

@@ -1,5 +1,5 @@
-// Tests kernels of rods that no stage judges alone: frames at the start of a step and at its end, the numbers of a row,
-// the published update of a frame.
+// Tests kernels of rods that no stage judges alone: frames at the start and the end of a step, the numbers of a row,
+// and the published update of a frame.
 #include <array>
 #include <random>
 
@@ -34,8 +34,7 @@ double size(const Quat& q) {
   return std::sqrt(double{q.x} * q.x + double{q.y} * q.y + double{q.z} * q.z + double{q.w} * q.w);
 }
 
-/// Returns v after the smallest rotation that takes the direction of `from` to that of `to`: Rodrigues' formula in
-/// double.
+/// Returns v after the smallest rotation from the direction of `from` to that of `to`, by Rodrigues' formula in double.
 D3 rotated(const Vec& from, const Vec& to, const D3& v) {
   const D3 a = 1 / length(from) * wide(from), b = 1 / length(to) * wide(to), axis = cross(a, b);
   const double cosine = dot(a, b);
@@ -50,8 +49,8 @@ D3 turned_by(const Quat& q, const D3& v) {
           2 * (x * z - w * y) * v.x + 2 * (y * z + w * x) * v.y + (1 - 2 * (x * x + y * y)) * v.z};
 }
 
-/// Holds one segment from (1, 2, 3) along z that comes to lie along y, and two motions at the second step of a frame,
-/// the second of which gives no rotation.
+/// Holds one segment from (1, 2, 3) along z that moves to lie along y, and two motions at the second step of a frame.
+/// The second motion gives no rotation.
 struct OneSegment {
   SegmentRest rest{{1, 0}, 2, 1, 0};
   std::array<Vec, 2> start{Vec{1, 2, 5}, Vec{1, 2, 3}}, position{Vec{7, 10, 3}, Vec{7, 8, 3}};
@@ -79,8 +78,8 @@ TEST_CASE("a frame is turned by the smallest rotation between two directions, wh
     const Quat turned = turned_along(from, to, q);
     REQUIRE(std::abs(size(turned) - 1) <= 8 * u);
     const double cosine = dot(wide(from), wide(to)) / (length(from) * length(to));
-    // Unit vectors err by 4 u each and their product by 6 u more, against 2 cos θ/2, the length of `twice`; two
-    // products of quaternions and their units by 40 u; all of it turns by twice as much.
+    // Unit vectors err by 4 u each and their product by 6 u more, relative to 2 cos θ/2, the length of `twice`. Two
+    // products of quaternions and normalising err by 40 u. A rotation doubles these errors.
     const double tolerance = 2 * (14 / std::sqrt(2 * (1 + cosine)) + 40) * u;
     for (const D3& v : {D3{1, 0, 0}, D3{0, 1, 0}, D3{0, 0, 1}})
       REQUIRE(length(turned_by(turned, v) - rotated(from, to, turned_by(q, v))) <= tolerance);
@@ -112,7 +111,7 @@ TEST_CASE("at the start of a step a segment turns as what holds it does", "[unit
     CHECK(size(one.turned(0, turns_free) - one.turns[2] * one.before) <= 20 * u);
     CHECK(size(one.turned(1, turns_free) - one.along()) == 0);
   }
-  one.turns[2] = {0, 0, 0, 1};  // a motion whose rotation is none
+  one.turns[2] = {0, 0, 0, 1};  // a motion that does not rotate
   CHECK(size(one.turned(0, true) - one.before) <= 4 * u);
 }
 
@@ -125,7 +124,7 @@ TEST_CASE("a frame that is turned in every step stays of unit length", "[propert
     q = turned_along(from, to, q);
     from = to;
   }
-  CHECK(std::abs(size(q) - 1) <= 4 * u);  // as `unit` leaves it, however often it is applied
+  CHECK(std::abs(size(q) - 1) <= 4 * u);  // the accuracy of `unit`, however often it is applied
 }
 
 TEST_CASE("frames of a step count where the step does", "[unit]") {
@@ -178,7 +177,7 @@ TEST_CASE("a row has the energies of segments and joints, each joint once, whate
       stretched += length(apart) - 1;
       CHECK(ratios[e] == Approx(length(apart)).epsilon(8 * u));
     }
-    // 2 k_b/l̄ = w/2 of the nearer sign
+    // 2 k_b/l̄ = w/2, with the nearer sign of the relative rotation
     const Quat relative = conjugate(q[0]) * q[1];
     const double apart = std::min(size(relative - p), size(relative + p));
     energy += 0.5 * w * apart * apart;

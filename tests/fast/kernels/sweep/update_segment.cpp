@@ -1,5 +1,5 @@
-// Tests what a sweep reads of rods: which end, which neighbour, which of two buffers, which damping. The formulas have
-// tests of their own (tests/fast/kernels/models/rod.cpp).
+// Tests which data of rods a sweep reads: which end, which neighbour, which of two buffers, which damping.
+// tests/fast/kernels/models/rod.cpp tests the formulas.
 #include "fast/kernels/sweep/update_segment.hpp"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 bool same(const Quat& a, const Quat& b) { return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w; }
 
-/// Holds a chain of four vertices and three segments, and a sweep over the middle one, whose first end has moved
+/// Holds a chain of four vertices and three segments, and a sweep over the middle segment, whose first end has moved
 /// already. All numbers are different.
 struct Chain {
   static constexpr int vertices = 4;
@@ -59,9 +59,9 @@ struct Chain {
     const PaddedVec& x = positions[static_cast<std::size_t>(place)];
     return {x.x, x.y, x.z};
   }
-  /// Returns D of the middle segment: from its fresh end to its old one.
+  /// Returns D of the middle segment, from its moved end to its old end.
   Vec apart() const { return at(2) - at(vertices + 1); }
-  /// Returns b of the middle segment between its neighbours.
+  /// Returns b of the middle segment.
   Quat pull(float damping) const {
     Quat b{0, 0, 0, 0};
     add_neighbour(slot.neighbours.rest[0], false, damping, q[0], start[0], start[1], q[1], b);
@@ -90,7 +90,7 @@ TEST_CASE("a segment is set from its ends and neighbours, with its own damping",
     chain.view.rods.as_published = true;
     REQUIRE(same(set(), published));
     chain.view.rods.as_published = false;
-    chain.view.rods.is_damped_by_vertex = true;  // frames are not damped, and strains are not
+    chain.view.rods.is_damped_by_vertex = true;  // strains are damped by vertex and frames are not damped
     chain.view.rods.direction = nullptr;
     REQUIRE(same(set(), free));
     REQUIRE(chain.control.not_finite == 0);
@@ -133,7 +133,7 @@ TEST_CASE("a vertex feels its segments by the end that it is, damped as its body
       REQUIRE(felt().block.xx == strain.block.xx);
       add_rod(rest, 0, end, apart, chain.q[1], chain.direction[1], elastic);
       chain.view.rods.is_damped_by_vertex = true;
-      // B is k_s/l I; a difference and two products are rounded
+      // B is (k_s/l) I; the error comes from a difference and two products
       const double size = length(elastic.force) + 0.25 * 3 / 0.5 * length(moved);
       REQUIRE(length(felt().force - (elastic.force - 0.25f * 3 / 0.5f * moved)) <= 4 * 0x1p-24 * size);
       REQUIRE(felt().block.xx == Approx(3 * 1.25 / 0.5));
