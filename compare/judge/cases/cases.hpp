@@ -29,15 +29,15 @@ namespace ogc::compare {
 
 /// A parameter whose value is set after the case is made (compare/judge/cases/parameters.hpp).
 struct Override {
-  std::string name;
-  float value = 0;
+  std::string name;  ///< name in the stage's table
+  float value = 0;   ///< value as given
   friend bool operator==(const Override&, const Override&) = default;
 };
 
 /// The name of a generated case, printed as `stage=detect_edge_edge gen=few seed=7 index=1234`. Parameters that differ
 /// from the generator's follow (` r=0.002`); for real states, ` states=RUN` comes last.
 struct CaseName {
-  Stage stage = Stage::closest_face;
+  Stage stage = Stage::closest_face;  ///< stage under test
   std::string generator;              ///< a row of the stage's table, `states` or `mutated`
   std::uint64_t seed = 0, index = 0;  ///< key of the random numbers
   std::string states;                 ///< run folder; empty unless the generator takes real states
@@ -60,7 +60,7 @@ struct GuessCase {
 /// A point and a triangle [m].
 struct ClosestFaceCase {
   Vec3f point;                    ///< may lie on the triangle
-  std::array<Vec3f, 3> triangle;
+  std::array<Vec3f, 3> triangle;  ///< by corner
 };
 
 /// Two edges [m].
@@ -70,7 +70,7 @@ struct ClosestPointsCase {
 
 /// A whole state for the detections.
 struct MeshCase {
-  std::shared_ptr<const Topology> topology;
+  std::shared_ptr<const Topology> topology;    ///< of the mesh
   std::vector<Index> rigid_groups;             ///< by vertex, as in Exclusions
   std::vector<Vec3f> positions;                ///< by vertex [m]
   float contact_radius = 0, query_radius = 0;  ///< r ≤ r_q [m]
@@ -79,14 +79,14 @@ struct MeshCase {
 
 /// Smallest distances of a mesh's faces.
 struct BoundCase {
-  std::shared_ptr<const Topology> topology;
+  std::shared_ptr<const Topology> topology;                     ///< of the mesh
   std::vector<float> d_min_vertex, d_min_edge, d_min_triangle;  ///< by face [m]
   float bounds_relaxation = 0.45f;                              ///< γ_p, Eq. 21
 };
 
 /// A state for stage plane.
 struct PlaneCase {
-  std::shared_ptr<const Topology> topology;
+  std::shared_ptr<const Topology> topology;  ///< of the mesh
   /// By vertex, as in Exclusions. Vertices of group 0 never move; pairs inside one group are excluded.
   std::vector<Index> rigid_groups;
   std::vector<Vec3f> positions;        ///< by vertex [m]
@@ -104,13 +104,13 @@ struct VolumeDepthCase {
   float contact_radius = 0;                  ///< r [m]
   std::vector<Vec3f> points;                 ///< each counts as a case [m]
   std::vector<Tetrahedron> tetrahedra{};     ///< of the parts that have tetrahedra
-  std::vector<Index> own{};      ///< by point: its vertex, or −1; empty if no point is a vertex
-  std::vector<Edge> cavities{};  ///< as in VolumeDepthIn
+  std::vector<Index> own{};                  ///< by point: its vertex, or −1; empty if no point is a vertex
+  std::vector<Edge> cavities{};              ///< as in VolumeDepthIn
 };
 
 /// A mesh and questions about it.
 struct BlockCase {
-  std::shared_ptr<const Topology> topology;
+  std::shared_ptr<const Topology> topology;  ///< of the mesh
   std::vector<Vec3f> positions;              ///< by vertex [m]
   std::vector<BlockQuestion> questions;      ///< each counts as a case
 };
@@ -118,13 +118,13 @@ struct BlockCase {
 /// A scene whose rest data are asked.
 struct RestStateCase {
   std::shared_ptr<const Scene> scene;        ///< rounded
-  std::shared_ptr<const Topology> topology;
+  std::shared_ptr<const Topology> topology;  ///< of the mesh
 };
 
 /// A scene that takes one step.
 struct StepCase {
   std::shared_ptr<const Scene> scene;        ///< rounded
-  std::shared_ptr<const Topology> topology;
+  std::shared_ptr<const Topology> topology;  ///< of the mesh
 };
 
 /// The state in which a sweep begins; contacts and bounds follow from X_prev (compare/judge/engine/sweep_question.hpp).
@@ -142,7 +142,7 @@ struct SweepCase {
 /// A distance, and the activation there.
 struct ActivationCase {
   float distance = 0, contact_radius = 0, stiffness = 0;  ///< d [m], r [m], k_c [N/m]
-  ContactActivation activation = ContactActivation::ogc;
+  ContactActivation activation = ContactActivation::ogc;  ///< function of d
 };
 
 /// A vertex that moved.
@@ -174,7 +174,7 @@ Case& case_of(CaseData& data) {
 /// A case and the name from which it can be made again.
 struct TestCase {
   CaseName name;  ///< a smaller case has the name of the original
-  CaseData data;
+  CaseData data;  ///< of the stage's own type
 };
 
 }  // namespace ogc::compare

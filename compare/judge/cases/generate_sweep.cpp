@@ -32,9 +32,9 @@ struct Motion {
   double jitter = 0;              ///< largest shift of X_prev
   Vec3 slip;                      ///< displacement of the last body since xᵗ, in addition to `wander`
   double wander = 0, step = 0.3;  ///< largest distances from X_prev of xᵗ, and of x and y
-  double bound = 0;  ///< above 0: bounds follow from y and bound_rung; 0: random bounds, or the largest legal ones
-  double bound_rung = 0;          ///< if `bound` > 0: y lies at 1 + bound_rung times the bound
-  bool exact = false;             ///< true: only scales and symmetries that keep every bit
+  double bound = 0;       ///< above 0: bounds follow from y and bound_rung; 0: random bounds, or the largest legal ones
+  double bound_rung = 0;  ///< if `bound` > 0: y lies at 1 + bound_rung times the bound
+  bool exact = false;     ///< true: only scales and symmetries that keep every bit
 };
 
 Material material(Random& random) {

@@ -22,7 +22,7 @@ struct Generator {
   /// Least number of cases of a run that uses the row; in smaller runs one of its meshes would be too large a share.
   std::uint64_t least = 0;
   /// Another stage that the contestant must have: `tetrahedron` for solids, `plane` for half-spaces, `volume_depth` for
-  /// volumes.
+  /// volumes, `orientation` for rods.
   std::optional<Stage> also_needs = std::nullopt;
   bool has_cavities = false;  ///< makes volumes with cavities, for contestants that support them
   bool divides = false;       ///< divides gaps by approach, for contestants that support it

@@ -10,8 +10,8 @@ namespace ogc::compare {
 
 /// Collects parts of a mesh; vertices are numbered in the order in which they are added.
 struct MeshBuilder {
-  std::vector<Vec3> points;                    ///< in edge lengths
-  std::vector<Triangle> triangles;
+  std::vector<Vec3> points;         ///< in edge lengths
+  std::vector<Triangle> triangles;  ///< by numbers of points
   std::vector<Edge> loose_edges;
   std::vector<Index> groups;                   ///< as in Exclusions; if short, finish fills it with −1
   std::vector<std::array<Index, 2>> excluded;  ///< pairs of vertices, as in Exclusions
@@ -48,7 +48,7 @@ Mesh triangle_strip(int count);
 /// A curve of loose edges for a rod (compare/judge/cases/rods/), about the origin, in edge lengths. It is planar (z =
 /// 0) except for `jitter`.
 struct RodPlan {
-  int segments = 4;
+  int segments = 4;     ///< along the curve
   bool closed = false;  ///< true: a ring of at least 3 segments
   int branches = 0;     ///< number of short chains that begin at vertices of the curve
   double bend = 0.3;    ///< angle between segments [rad]

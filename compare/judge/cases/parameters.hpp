@@ -9,6 +9,7 @@
 
 namespace ogc::compare {
 
+/// A parameter of a stage.
 struct ParameterInfo {
   std::string_view name, meaning;  ///< "r"; "contact radius [m]"
   float minimum, maximum;          ///< limits of the stage's contract, inclusive

@@ -45,6 +45,7 @@ enum class Determinism : std::uint8_t {
   cpu_to_gpu   ///< on CPU and CUDA, if both are built without contraction (preset `strict`)
 };
 
+/// How cases of a stage are asked.
 enum class CaseKind : std::uint8_t {
   single,   ///< a pair, a stencil or a vertex: many cases make one question
   mesh,     ///< a mesh, which makes one question
@@ -54,10 +55,10 @@ enum class CaseKind : std::uint8_t {
 /// A stage described in words: a row of the table in compare/README.md, which `ogc compare --list --markdown` prints.
 struct StageInfo {
   std::string_view name;       ///< "closest_face"
-  std::string_view question;
+  std::string_view question;   ///< in a few words
   std::string_view unit;       ///< what counts as a case
   std::string_view reference;  ///< file of the reference's answer
-  CaseKind kind;
+  CaseKind kind;               ///< how cases are asked
   /// true if the answer has a discrete part; reports then count the cases near its boundary
   bool has_boundary;
   Determinism determinism;
@@ -73,7 +74,7 @@ struct MetricInfo {
 
 /// All that the judge knows of a stage. No function keeps a view of its arguments.
 struct StageTraits {
-  StageInfo info;
+  StageInfo info;                              ///< in words
   std::span<const Generator> (*generators)();  ///< the stage's table
   std::span<const MetricInfo> metrics;         ///< empty if all answers are discrete
   std::span<const ParameterInfo> parameters;   ///< empty if a case has nothing but coordinates

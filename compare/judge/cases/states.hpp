@@ -34,7 +34,7 @@ class States {
   const std::string& folder() const { return folder_; }
 
   const Topology& topology() const { return *topology_; }
-  const Scene& scene() const { return *scene_; }           ///< rounded
+  const Scene& scene() const { return *scene_; }  ///< rounded
   /// Returns the authority's rest data.
   const RestStateOut& rest() const { return rest_; }
   bool has_contact() const { return frame_with_contact(0).has_value(); }
