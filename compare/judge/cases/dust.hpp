@@ -1,5 +1,5 @@
-// Makes coordinates tiny. Runs produce such coordinates: a rotation turns a zero into one, and so does a vertex near a
-// plane of symmetry. They are legal everywhere (method.md §2.4).
+// Makes coordinates tiny. Runs produce tiny coordinates, for example by rotating a zero, or at vertices near a plane of
+// symmetry. They are legal everywhere (method.md §2.4).
 #pragma once
 
 #include <initializer_list>

@@ -163,8 +163,8 @@ CaseData fan(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, height)});
 }
 
-/// Puts the corners of a triangle above a vertex, an edge and the interior of a patch, on the block's boundary or a
-/// rung beside it.
+/// Puts the corners of a triangle above a vertex, an edge and the interior of a patch, on the block's boundary or one
+/// rung from it.
 CaseData above(Random& random) {
   MeshBuilder builder;
   const double height = random.magnitude(-2, 0);
@@ -249,7 +249,7 @@ CaseData flat(Random& random) {
 }
 
 /// Adds something to one end of an edge, or to both: a triangle on the edge, a triangle beside it, or another edge. It
-/// points towards what lies above, away from it, along the plane between, or in a direction a rung beside these.
+/// points towards what lies above, away from it, along the plane between, or in a direction one rung from these.
 void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
   constexpr std::array<double, 4> ways{-1, 0, 0, 1};
   const auto arm = [&](Index at) {
@@ -338,9 +338,9 @@ CaseData boundary(Random& random) {
   return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
 }
 
-/// Makes 64 stacks side by side in one mesh, each at its own rung beside the radius, because a device takes as long for
-/// twenty vertices as for a thousand. The stacks stand on a lattice near the origin, so that single precision resolves
-/// the lower rungs.
+/// Makes 64 stacks side by side in one mesh, because a device takes as long for twenty vertices as for a thousand. The
+/// height of each stack is one rung from the radius. The stacks are on a lattice near the origin, so that single
+/// precision resolves the lower rungs.
 CaseData field(Random& random) {
   constexpr int side = 4;
   constexpr double spacing = 5;  // a stack is at most 3 wide, and r is below 1.5

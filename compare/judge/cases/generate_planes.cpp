@@ -1,6 +1,8 @@
-// Makes states for stage plane, in units of one edge length. General states are those of detection, with pairs within
-// r_q. Ladders approach states where planes cease to exist (a gap of a few ulp, a collapsed triangle, a far origin),
-// where a vertex has more pairs than planes, and where sides are fixed, whole or in part.
+// Makes states for stage plane, in units of one edge length. General states are states of detection, with pairs within
+// r_q. Ladders approach
+// - gaps of a few ulp, collapsed triangles and far origins, where planes cease to exist,
+// - vertices with more pairs than planes,
+// - sides that are fixed, whole or in part.
 #include <algorithm>
 #include <array>
 #include <string_view>

@@ -273,7 +273,7 @@ CaseData handle(Random& random) {
 }
 
 /// Throws vertices of a sheet at rest out of their bounds. Their number is the threshold of a re-detection, one more or
-/// one less. γ_e K is a rung beside a whole number.
+/// one less. γ_e K is one rung from a whole number.
 CaseData count_at_threshold(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random), count = nx * ny;
@@ -291,7 +291,7 @@ CaseData count_at_threshold(Random& random) {
   return builder.finish();
 }
 
-/// Puts r + ‖y − xᵗ‖ a rung beside the cap of r_q.
+/// Puts r + ‖y − xᵗ‖ one rung from the cap of r_q.
 CaseData radius_at_cap(Random& random) {
   StepBuilder builder(random);
   builder.sheet(side(random), side(random), {0, 0, random.between(0.3, 1)}, {});
@@ -305,7 +305,7 @@ CaseData radius_at_cap(Random& random) {
   return builder.finish();
 }
 
-/// Puts a sheet at rest on another one, in register or shifted by half a cell, at a distance a rung beside the contact
+/// Puts a sheet at rest on another one, in register or shifted by half a cell, at a distance one rung from the contact
 /// radius.
 CaseData at_rest(Random& random) {
   StepBuilder builder(random);
@@ -455,7 +455,7 @@ CaseData in_cavity(Random& random) {
   return builder.finish();
 }
 
-/// Puts a vertex of a sheet at rest straight above the highest vertex of a volume, a rung beside the contact radius.
+/// Puts a vertex of a sheet at rest straight above the highest vertex of a volume, one rung from the contact radius.
 CaseData volume_at_radius(Random& random) {
   StepBuilder builder(random);
   builder.volume({});

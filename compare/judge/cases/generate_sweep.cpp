@@ -459,7 +459,7 @@ CaseData volume(Random& random) {
   return with_volume(random, std::move(test), mesh);
 }
 
-/// Puts the upper corner of a volume at a distance from a vertex of the sheets that is a rung beside r.
+/// Puts the upper corner of a volume near a vertex of the sheets, at a distance one rung from r.
 CaseData volume_at_radius(Random& random) {
   SweepCase test = case_of<SweepCase>(sheets(random));
   const double r = test.scene->settings.contact_radius, away = r * (1 + 0.5 * random.rung()) / std::sqrt(3);

@@ -13,7 +13,7 @@ namespace ogc::compare {
 namespace {
 
 // Real states have no limit of grey decisions. In a regular sheet every vertex lies on the planes of its neighbours,
-// and parallel edges meet at the borders of blocks, so grey decisions in frames do not reveal errors of a kernel.
+// and parallel edges meet at the borders of blocks. So grey decisions in frames do not reveal errors of a kernel.
 constexpr Generator real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
 
 }  // namespace

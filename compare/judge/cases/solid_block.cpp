@@ -65,8 +65,8 @@ Mesh jittered_hollow(Random& random, double size, double height) {
   }
   const auto first = static_cast<Index>(mesh.positions.size());
   const double share = random.between(0.3, 0.5);
-  // An upper or lower side of the block is at most a tenth of a cell away from its mean, so a box of half its size does
-  // not meet it.
+  // A side of the block is at most a tenth of a cell away from its mean. So a box of half the block's size does not
+  // meet it.
   const auto between = [share](double a, double b, int side) { return (a + b) / 2 + (side - 0.5) * share * (b - a); };
   for (int v = 0; v < 8; ++v)
     mesh.positions.push_back(

@@ -30,7 +30,7 @@ struct Primitives {
   Primitives without(std::size_t first, std::size_t last) const;
 };
 
-/// A mesh of some primitives of a larger mesh. Its vertices are those of the primitives, in their old order.
+/// A mesh of some primitives of a larger mesh. It has the vertices of these primitives, in their old order.
 struct MeshPart {
   std::shared_ptr<const Topology> topology;  ///< of the part
   std::vector<Index> vertices;               ///< their numbers in the larger mesh

@@ -1,5 +1,5 @@
-// Finds the cause of failing cases. Asks the contestant once for each failing case and for a sample of all generators,
-// and compares the answers with the known wrong forms of the stage.
+// Finds the cause of failing cases. Asks the contestant once for each failing case and for a sample of all generators.
+// Compares the answers with the known wrong forms of the stage.
 #pragma once
 
 #include <span>

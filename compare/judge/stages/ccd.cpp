@@ -1,6 +1,8 @@
 // Makes the traits of stage ccd. Generators start at the moment at which the faces are nearest, and extend the motion
-// backwards and forwards. Ladders approach rims that are barely hit or missed, parallel edges, long slides at a small
-// gap, gaps of 0, faces that touch at the start, motions in one plane, and edges that turn through each other.
+// backwards and forwards. Ladders approach
+// - rims that are barely hit or missed, parallel edges, motions in one plane,
+// - long slides at a small gap, gaps of 0, faces that touch at the start,
+// - edges that turn through each other.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
-// Makes the traits of stage closest_points. In the canonical frame of the ladders the first edge is on the x axis, so
-// that the planes through its ends are coordinate planes, and the second edge is above it.
+// Makes the traits of stage closest_points. In the canonical frame of the ladders the first edge is on the x axis, and
+// the second edge is above it. So the planes through the ends of the first edge are coordinate planes.
 #include <array>
 #include <limits>
 #include <span>
@@ -296,7 +296,7 @@ EdgeFeature feature_at(double t) {
   return t <= 0 ? EdgeFeature::end_0 : t >= 1 ? EdgeFeature::end_1 : EdgeFeature::interior;
 }
 
-/// Finds the closest point of the second line to the start of the first edge, clamps it, and projects it back, which is
+/// Finds the closest point of the second line to the start of the first edge, clamps it, and projects it back. This is
 /// right for parallel edges.
 void from_start(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
   const Vec3 e = difference(in.first[i][1], in.first[i][0]), f = difference(in.second[i][1], in.second[i][0]),

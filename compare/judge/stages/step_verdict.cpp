@@ -1,6 +1,5 @@
-// Judges a step. Each event is judged by its own stage, starting from the answer's state before it, so that the first
-// wrong event is the one that is named. It ends the case, because later events may be too wrong to make legal
-// questions.
+// Judges a step. Each event is judged by its own stage, starting from the answer's state before it, so that the message
+// names the first wrong event. This event ends the case, because later events may be too wrong to make legal questions.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -68,8 +68,8 @@ std::uint64_t decisions(const SweepIn& in) {
   return count + in.volumes.size() + in.segment_colour.size();
 }
 
-/// Checks that held segments keep their quaternions, and that those of free segments are accepted by the truth about
-/// this answer.
+/// Checks that held segments keep their quaternions. Also checks that the truth about this answer accepts the
+/// quaternions of free segments.
 void judge_orientations(const SweepIn& in, const SweepTruth& truth, const SweepOut& out, Tally& tally) {
   for (std::size_t e = 0; e < in.segment_colour.size(); ++e)
     if (in.segment_colour[e] < 0 && out.orientation[e] != in.orientation[e])

@@ -70,8 +70,8 @@ void judge_step(const TestCase& test, const StepIn& in, const StepTruth& truth, 
                 const Authority& authority, Tally& tally);
 /// Checks whether each array by vertex has one entry for each vertex. Reports a mismatch if not.
 bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, Tally& tally);
-/// Checks whether the truth can follow the answer, which needs one row and one ball for each vertex, finite numbers,
-/// and planes of pairs that contain their vertex. Reports a mismatch if not.
+/// Checks whether the truth can follow the answer; reports a mismatch if not. The answer needs one row and one ball for
+/// each vertex, finite numbers, and planes of pairs that contain their vertex.
 bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
 /// Checks that every pair is separated, and that no vertex is restricted more than this requires.
 void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);

@@ -1,6 +1,8 @@
 // Makes the traits of stage volume_force. In the canonical frame c is at the origin and n along z, so that φ and the
-// slip along n are single coordinates. Ladders approach φ = r, a slip of 0 and of ε_v h, weights of 0 (edges and
-// corners of the volume), depths of many radii, motion along n, and small and large units.
+// slip along n are single coordinates. Ladders approach
+// - φ = r, a slip of 0, a slip of ε_v h, and motion along n,
+// - weights of 0 (edges and corners of the volume),
+// - depths of many radii, and small and large units.
 #include <algorithm>
 #include <array>
 #include <cmath>

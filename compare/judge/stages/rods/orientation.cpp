@@ -315,7 +315,7 @@ CaseData antiparallel(Random& random) {
 /// Approaches σ = 0: D nears 0, or c does, because its damping part cancels e₃.
 CaseData soft(Random& random) {
   Draft draft = near_rest(random);
-  draft.length = random.magnitude(-2, 0);  // such that a rung of it is still a length
+  draft.length = random.magnitude(-2, 0);  // so that a rung times this length is a legal length
   const bool is_damped = random.one_in(3);
   const double rung = random.rung();
   if (is_damped) {

@@ -102,7 +102,7 @@ CaseData turned_rigidly(Random& random) {
 /// Approaches D = 0 and Dᵗ = 0.
 CaseData short_one(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::some_orientation(random);
-  const double length = random.magnitude(-2, 0);  // such that a rung of it is still a length
+  const double length = random.magnitude(-2, 0);  // so that a rung times this length is a legal length
   const Vec3 before = random.one_in(2) ? strained(start, length, {})
                                        : scaled(rod_cases::some_direction(random), length * random.rung());
   return placed(random, length, scaled(rod_cases::some_direction(random), length * random.rung()), before, q, start,

@@ -1,7 +1,8 @@
 // Makes blocks of cells, each of six tetrahedra: unchanged, bent until they overlap, or crushed until tetrahedra turn
-// inside out. Points are near the surface and deep inside, on lines and planes of the cells (so that ways lead along
-// and through edges and vertices), on medial axes, where the body overlaps itself, and at vertices of the body, whose
-// own sheet does not count.
+// inside out. Points are
+// - near the surface and deep inside, and on medial axes,
+// - on lines and planes of the cells, so that ways lead along and through edges and vertices,
+// - where the body overlaps itself, and at its vertices (a vertex's own sheet does not count).
 #include "compare/judge/stages/volumes/solid_cases.hpp"
 
 #include <algorithm>
@@ -136,7 +137,7 @@ CaseData grid(Random& random) {
                 std::ldexp(1.0, random.below(21) - 10));
 }
 
-/// Makes ways along the lines of the cells and through their vertices, or a rung beside them. The body is low along one
+/// Makes ways along the lines of the cells and through their vertices, or one rung from them. The body is low along one
 /// axis, and the points are above corners and lines of cells.
 CaseData ray(Random& random) {
   const int height = 2 + random.below(3);

@@ -42,9 +42,9 @@ struct Place {
 
 /// Returns a place in the interior of a triangle.
 Place over_triangle(Random& random, const VolumeBody& body);
-/// Returns a place at an edge. Its direction is between the normals of both triangles, or a rung beside one of them.
+/// Returns a place at an edge. Its direction is between the normals of both triangles, or one rung from one of them.
 Place over_edge(Random& random, const VolumeBody& body);
-/// Returns a place at a vertex. Its direction is in the cone of the triangles' normals, or a rung beside one of them.
+/// Returns a place at a vertex. Its direction is in the cone of the triangles' normals, or one rung from one of them.
 Place over_vertex(Random& random, const VolumeBody& body);
 Place any_place(Random& random, const VolumeBody& body);
 
