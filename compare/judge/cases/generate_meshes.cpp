@@ -339,8 +339,8 @@ CaseData boundary(Random& random) {
 }
 
 /// Makes 64 stacks side by side in one mesh, because a device takes as long for twenty vertices as for a thousand. The
-/// height of each stack is one rung from the radius. The stacks are on a lattice near the origin, so that single
-/// precision resolves the lower rungs.
+/// gap in each stack is one rung from the radius. The stacks are on a lattice near the origin, so that single precision
+/// resolves the lower rungs.
 CaseData field(Random& random) {
   constexpr int side = 4;
   constexpr double spacing = 5;  // a stack is at most 3 wide, and r is below 1.5
