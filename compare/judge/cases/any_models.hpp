@@ -1,4 +1,4 @@
-// Gives a generator's scene models that are not the default ones, for the stages that use all of them at once.
+// Replaces the default models of a generated scene, for the stages that use all models at once.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ Model any_model(Random& random) {
   return static_cast<Model>(last - random.below(last));
 }
 
-/// Returns any choice but the usual one and `none`.
+/// Returns any choice except `usual` and `none`.
 template <class Choice>
 Choice another(Random& random, Choice usual) {
   std::array<Choice, choice_count<Choice>> others{};
@@ -28,15 +28,16 @@ Choice another(Random& random, Choice usual) {
   return count == 1 ? others[0] : random.pick(std::span<const Choice>(others.data(), count));
 }
 
-/// Sets any activation and form of damping, and any models of the bodies that have one. Adds up to three springs
-/// between vertices, or between a vertex and a point between two; at least one of the first two vertices is free. The
-/// pairs beside the springs are left out or not. The scene is rounded again.
+/// Sets a random activation, form of damping, and model of each body that has one. Adds up to three springs by
+/// add_springs. Rounds the scene again.
 void choose_models(Random& random, Scene& scene);
 
-/// Adds the springs of choose_models alone, with the pairs beside them left out or not; the scene is not rounded.
+/// Adds up to three springs, each between two vertices, or between a vertex and a point between two others. At least
+/// one of the first two vertices is free. In half of the cases the pairs beside the springs are excluded. Does not
+/// round the scene.
 void add_springs(Random& random, Scene& scene);
 
-/// Gives each body with a bending energy another model than hinges.
+/// Gives each body with a bending energy a model other than hinges.
 void bend_otherwise(Random& random, Scene& scene);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Makes questions about a mesh for stage block, mostly of neighbours, where blocks end.
+// Makes questions about a mesh for stage block. Most concern neighbouring faces, where blocks end.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// Returns up to `count` legal questions (compare/stages/block.hpp); fewer where the mesh is too small.
+/// Returns up to `count` legal questions (compare/stages/block.hpp), fewer if the mesh is too small.
 std::vector<BlockQuestion> block_questions(Random& random, const Topology& topology,
                                            const std::vector<Vec3f>& positions, int count);
 

@@ -1,4 +1,4 @@
-// Holds one case of each stage as data: a generator makes it, a contestant answers it, a file keeps it.
+// Holds one case of each stage as data, as generators make it and files keep it.
 #pragma once
 
 #include <any>
@@ -27,31 +27,31 @@
 
 namespace ogc::compare {
 
-/// A parameter that is set after the case is made (compare/judge/cases/parameters.hpp).
+/// A parameter whose value is set after the case is made (compare/judge/cases/parameters.hpp).
 struct Override {
   std::string name;  ///< name in the stage's table
-  float value = 0;   ///< the value that was given
+  float value = 0;   ///< value as given
   friend bool operator==(const Override&, const Override&) = default;
 };
 
-/// The name of a generated case. It is printed as `stage=detect_edge_edge gen=few seed=7 index=1234`, followed by
-/// parameters that differ from the generator's (` r=0.002`) and, for real states, by ` states=RUN`.
+/// The name of a generated case, printed as `stage=detect_edge_edge gen=few seed=7 index=1234`. Parameters that differ
+/// from the generator's follow (` r=0.002`); for real states, ` states=RUN` comes last.
 struct CaseName {
-  Stage stage = Stage::closest_face;  ///< the stage under test
+  Stage stage = Stage::closest_face;  ///< stage under test
   std::string generator;              ///< a row of the stage's table, `states` or `mutated`
-  std::uint64_t seed = 0, index = 0;  ///< of the random numbers
+  std::uint64_t seed = 0, index = 0;  ///< key of the random numbers
   std::string states;                 ///< run folder; empty unless the generator takes real states
   std::vector<Override> overrides{};  ///< in the order of the stage's table
   friend bool operator==(const CaseName&, const CaseName&) = default;
 };
 
-/// Returns the canonical line.
+/// Prints the name in its canonical form.
 std::string print_problem(const CaseName& name);
-/// Reads the line back; keys stand in any order, `states` last. Throws InputError that names the wrong key or value, or
-/// the parameter that the stage lacks.
+/// Reads a printed name; keys may be in any order, but `states` comes last. Throws InputError that names the wrong key
+/// or value, or the parameter that the stage lacks.
 CaseName parse_problem(const std::string& line);
 
-/// A vertex that is guessed, and perhaps a segment whose frame is turned.
+/// A vertex for the initial guess, and perhaps a segment whose frame is turned.
 struct GuessCase {
   InitialGuessCase vertex;
   std::optional<TurnCase> turn{};
@@ -65,7 +65,7 @@ struct ClosestFaceCase {
 
 /// Two edges [m].
 struct ClosestPointsCase {
-  std::array<Vec3f, 2> first, second;  ///< by end
+  std::array<Vec3f, 2> first, second;  ///< two ends each
 };
 
 /// A whole state for the detections.
@@ -87,25 +87,25 @@ struct BoundCase {
 /// A state for stage plane.
 struct PlaneCase {
   std::shared_ptr<const Topology> topology;  ///< of the mesh
-  /// By vertex, as in Exclusions; vertices of group 0 never move. Pairs inside one group are left out.
+  /// By vertex, as in Exclusions. Vertices of group 0 never move; pairs inside one group are excluded.
   std::vector<Index> rigid_groups;
   std::vector<Vec3f> positions;        ///< by vertex [m]
   float query_radius = 0;              ///< r_q [m]
   float bounds_relaxation = 0.45f;     ///< γ_p
   CompressedRows partners{};           ///< as in Exclusions
   std::vector<std::uint8_t> is_fixed;  ///< by vertex: whether its group is 0
-  std::vector<Vec3f> displacement{};   ///< by vertex [m], as in PlaneIn; or empty
+  std::vector<Vec3f> displacement{};   ///< by vertex [m], as in PlaneIn; may be empty
 };
 
-/// A volume and the points that ask about it.
+/// A volume and points whose depth is asked.
 struct VolumeDepthCase {
   std::shared_ptr<const Topology> topology;  ///< of the volume
   std::vector<Vec3f> positions;              ///< by vertex [m]
   float contact_radius = 0;                  ///< r [m]
   std::vector<Vec3f> points;                 ///< each counts as a case [m]
   std::vector<Tetrahedron> tetrahedra{};     ///< of the parts that have tetrahedra
-  std::vector<Index> own{};      ///< by point: the vertex that it is, or −1; empty where no point is a vertex
-  std::vector<Edge> cavities{};  ///< as in VolumeDepthIn
+  std::vector<Index> own{};                  ///< by point: its vertex, or −1; empty if no point is a vertex
+  std::vector<Edge> cavities{};              ///< as in VolumeDepthIn
 };
 
 /// A mesh and questions about it.
@@ -115,25 +115,24 @@ struct BlockCase {
   std::vector<BlockQuestion> questions;      ///< each counts as a case
 };
 
-/// A scene for its rest data.
+/// A scene whose rest data are asked.
 struct RestStateCase {
   std::shared_ptr<const Scene> scene;        ///< rounded
-  std::shared_ptr<const Topology> topology;  ///< of its mesh
+  std::shared_ptr<const Topology> topology;  ///< of the mesh
 };
 
 /// A scene that takes one step.
 struct StepCase {
   std::shared_ptr<const Scene> scene;        ///< rounded
-  std::shared_ptr<const Topology> topology;  ///< of its mesh
+  std::shared_ptr<const Topology> topology;  ///< of the mesh
 };
 
-/// The state in which a sweep finds a scene; contacts and bounds follow from X_prev
-/// (compare/judge/engine/sweep_question.hpp).
+/// The state in which a sweep begins; contacts and bounds follow from X_prev (compare/judge/engine/sweep_question.hpp).
 struct SweepCase {
   std::shared_ptr<const Scene> scene;               ///< rounded
   std::vector<Index> colour;                        ///< as in SweepIn
-  std::vector<Vec3f> old, start, target, previous;  ///< x (the question brings it within the bound), xᵗ, y, X_prev [m]
-  /// [m]; b_v is the smaller one of this and the detection's bound
+  std::vector<Vec3f> old, start, target, previous;  ///< x (before it is brought within the bound), xᵗ, y, X_prev [m]
+  /// upper limit of b_v [m]; the detection's bound may be smaller
   std::vector<float> largest_bound;
   float query_radius = 0;                                      ///< r_q [m]
   std::vector<Index> segment_colour{};                         ///< as in SweepIn
@@ -143,24 +142,24 @@ struct SweepCase {
 /// A distance, and the activation there.
 struct ActivationCase {
   float distance = 0, contact_radius = 0, stiffness = 0;  ///< d [m], r [m], k_c [N/m]
-  ContactActivation activation = ContactActivation::ogc;  ///< which function of the distance
+  ContactActivation activation = ContactActivation::ogc;  ///< function of d
 };
 
 /// A vertex that moved.
 struct TruncateCase {
   Vec3f previous, position;  ///< X_prev, x [m]
   float bound = 0;           ///< b_v [m]
-  /// if empty, the ball holds the vertex alone, and the members below are not read
+  /// If empty, only the ball limits the vertex, and the members below are not read.
   std::vector<HalfSpace> half_spaces{};
-  Vec3f current{};                 ///< in the region [m]
+  Vec3f current{};                 ///< a point of the feasible region [m]
   std::array<float, 6> block{};    ///< H [N/m]
-  std::uint8_t is_prescribed = 0;  ///< 1: the vertex does not slide
+  std::uint8_t is_prescribed = 0;  ///< 1 if the vertex does not slide along its region
 };
 
-/// The data of a case; its type is that of the stage (compare/judge/stages).
+/// The data of a case, of the stage's own type.
 using CaseData = std::any;
 
-/// Returns the case; throws std::bad_any_cast where it is another stage's.
+/// Returns the case; throws std::bad_any_cast if the data are of another stage.
 template <class Case>
 const Case& case_of(const CaseData& data) {
   if (const auto* found = std::any_cast<Case>(&data)) return *found;
@@ -172,9 +171,9 @@ Case& case_of(CaseData& data) {
   throw std::bad_any_cast();
 }
 
-/// A case and its name, from which it can be made again.
+/// A case and the name from which it can be made again.
 struct TestCase {
-  CaseName name;  ///< of a case that was made smaller: the name of the original
+  CaseName name;  ///< a smaller case has the name of the original
   CaseData data;  ///< of the stage's own type
 };
 

@@ -10,7 +10,8 @@ namespace ogc::compare {
 
 namespace {
 
-/// Gives each free one, in this order, the least colour that no neighbour has; in a chain each gets its own colour.
+/// Gives each free item, in this order, the least colour that none of its neighbours has. With `chain`, each item gets
+/// a colour of its own.
 std::vector<Index> greedy(const std::vector<Index>& order, const std::vector<Index>& groups, const Neighbours& near,
                           bool chain) {
   std::vector<Index> colour(groups.size(), -1);

@@ -1,4 +1,5 @@
-// Colours the questions about a sweep. The judge does it itself, so that no contestant chooses its question.
+// Colours the vertices and segments of a sweep's question. The judge colours them itself, so that no contestant chooses
+// its question.
 #pragma once
 
 #include <set>
@@ -9,20 +10,20 @@
 
 namespace ogc::compare {
 
-/// For each vertex or segment, those that may not have its colour.
+/// The vertices (or segments) that must differ in colour from each vertex (or segment).
 using Neighbours = std::vector<std::set<Index>>;
 
-/// Returns, for each vertex, those that share an element with it, whatever the materials are.
+/// Returns for each vertex all vertices that share an element with it; materials do not matter.
 Neighbours element_neighbours(const Scene& scene, const Topology& topology);
-/// Returns the neighbours of each segment.
+/// Returns for each segment its neighbours, which share a vertex of exactly two segments with it.
 Neighbours segment_neighbours(const Scene& scene);
 
-/// Returns colours of free vertices, −1 for all others; no two vertices of an element share one. Colours are greedy in
-/// a random order: few, so that contacts meet inside one. In one of eight cases each vertex has its own colour: pure
-/// Gauss–Seidel.
+/// Returns a colour for each free vertex and −1 for all others; no two vertices of an element share a colour. Colours
+/// are greedy in a random order: few, so that contacts occur inside one colour. In one of eight cases each vertex has a
+/// colour of its own (pure Gauss–Seidel).
 std::vector<Index> random_colours(Random& random, const Scene& scene, const Topology& topology);
 
-/// Returns colours of the segments of rods that nothing holds, −1 for all others; no two neighbours share one.
+/// Returns a colour for each free segment of a rod and −1 for all others; no two neighbours share a colour.
 std::vector<Index> random_segment_colours(Random& random, const Scene& scene);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Makes small coordinates, as rotations leave them of a zero and runs leave them of a vertex near a plane of symmetry
-// (method.md §2.4: they are legal everywhere).
+// Makes coordinates tiny. Runs produce tiny coordinates, for example by rotating a zero, or at vertices near a plane of
+// symmetry. They are legal everywhere (method.md §2.4).
 #pragma once
 
 #include <initializer_list>
@@ -11,9 +11,9 @@
 
 namespace ogc::compare {
 
-/// Makes some coordinates of the case small, down to 2⁻⁶⁰ (10⁻¹⁸), each by itself, as long as the case stays legal.
-/// With still smaller ones, products of two would be lost beside 1 in double-double, and decisions with them.
-/// Connectivity, radii, materials and rest data stay. Scenes stay as they are, except for the positions of a sweep.
+/// Makes some coordinates of the case small, down to 2⁻⁶⁰ (10⁻¹⁸), one by one, as long as the case stays legal. Below
+/// 2⁻⁶⁰ the product of two coordinates would be lost beside 1 in double-double numbers. Connectivity, radii, materials
+/// and rest data stay; of scenes only a sweep's positions change.
 void add_dust(Random& random, TestCase& test);
 
 /// Returns pointers to the coordinates of points, one array after another.

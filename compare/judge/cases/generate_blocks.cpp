@@ -1,5 +1,5 @@
-// Makes cases of block: the meshes of the detections, each with questions about faces that lie near each other. In the
-// regular families nearly every answer is decided by a point on the end of a block, or a rung beside it.
+// Makes cases of block: meshes of the detections, with questions about faces near each other. In the regular families
+// nearly every answer depends on a point at the end of a block, exactly or up to a rung.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -21,7 +21,7 @@ double squared_distance(const Vec3f& a, const Vec3f& b) {
   return x * x + y * y + z * z;
 }
 
-/// Checks whether the rule for nearly parallel edges might hold; a margin of a thousandth keeps rounding out of it.
+/// Checks whether two edges may be nearly parallel; a margin of a thousandth excludes the effect of rounding.
 bool might_be_parallel(const std::vector<Vec3f>& x, const Edge& e, const Edge& f) {
   const auto along = [&](const Edge& edge) {
     const Vec3f &a = x[at(edge[0])], &b = x[at(edge[1])];
@@ -39,7 +39,7 @@ class Asker {
   Asker(Random& random, const Topology& topology, const std::vector<Vec3f>& positions)
       : random_(random), topology_(topology), positions_(positions) {}
 
-  /// Appends a question, or none where the drawn faces make none.
+  /// Appends a question, or none if the drawn faces do not make one.
   void ask(std::vector<BlockQuestion>& questions) {
     const Index corner = random_.below(topology_.vertex_count), v = near(corner);
     const Face a = face_at(corner);
@@ -56,7 +56,7 @@ class Asker {
     return {topology_.triangles[at(a.index)].begin(), topology_.triangles[at(a.index)].end()};
   }
 
-  /// Returns one of the nearest vertices, in fine cases the nearest; in one of eight other cases any.
+  /// Returns one of the nearest vertices. Fine cases get the nearest one; one of eight other cases gets any vertex.
   Index near(Index v) {
     if (!random_.is_fine() && random_.one_in(8)) return random_.below(topology_.vertex_count);
     if (random_.is_fine()) return nearest(v);
@@ -69,7 +69,7 @@ class Asker {
     return others[at(random_.below(static_cast<int>(kept)))].second;
   }
 
-  /// Returns the lowest-numbered one of the nearest other vertices; v where there is none.
+  /// Returns the nearest other vertex, the lowest-numbered one if several are equally near; v if there is no other.
   Index nearest(Index v) const {
     Index best = v;
     double least = std::numeric_limits<double>::infinity();
@@ -85,7 +85,7 @@ class Asker {
     return around.empty() ? -1 : random_.pick(around);
   }
 
-  /// Returns the vertex, an edge at it or a triangle at it.
+  /// Returns the vertex itself, or an edge or a triangle that contains it.
   Face face_at(Index v) {
     const int kind = random_.below(3);
     const auto around = topology_.vertex_triangles[at(v)];
@@ -108,8 +108,8 @@ class Asker {
   const std::vector<Vec3f>& positions_;
 };
 
-/// Takes the mesh that the generator `family` of vertex–facet detection makes from these random numbers, and adds
-/// questions about blocks.
+/// Makes the mesh that the generator `family` of vertex–facet detection makes from these random numbers, and adds
+/// questions about its blocks.
 template <const auto& family, int count = questions_a_mesh>
 CaseData about(Random& random) {
   MeshCase mesh = case_of<MeshCase>(find_generator(Stage::detect_vertex_facet, family).make(random));

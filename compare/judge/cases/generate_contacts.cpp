@@ -1,8 +1,9 @@
-// Makes cases of contact_force and friction_force. The canonical frame has the contact point of the second side near
-// the origin and the normal about z, so that distance and slip along the normal are single coordinates. Ladders lead to
-// the boundaries of the closest features, to collapse as far as the question is legal, to parallel edges and the rule
-// for them, to r and far beyond it, to τ and 0; for friction also to a slip of 0 and of ε_v h, and to a motion along
-// the normal.
+// Makes cases of contact_force and friction_force. In the canonical frame the contact point of the second side is near
+// the origin and the normal along z, so distance and slip along the normal are single coordinates. Ladders approach
+// - the boundaries between closest features, and collapse as far as it is legal,
+// - parallel edges and the limit of nearly parallel ones,
+// - d = r, d ≫ r, d = τ and d = 0,
+// - for friction also a slip of 0, a slip of ε_v h, and motion along the normal.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,15 +21,15 @@ using namespace placement;
 constexpr std::array<ContactSides, 4> all_sides{ContactSides::point_point, ContactSides::point_edge,
                                                 ContactSides::edge_edge, ContactSides::point_triangle};
 
-/// A contact in its canonical frame: its points, now and at the last detection.
+/// A contact in its canonical frame: its points now and at the last detection.
 struct Shape {
   ContactSides sides = ContactSides::point_point;
   double size = 1, contact_radius = 1, distance = 0;  ///< about the length of an edge; r; about d
   std::array<Vec3, 4> x{}, previous{};
-  bool turned = true;  ///< may be rotated
+  bool turned = true;  ///< true if it may be rotated
 };
 
-/// Returns a shape with r between a fifth of an edge and three edges, and with d = `share` r.
+/// Returns a shape whose r is between a fifth of an edge and three edges, with d = `share` r.
 Shape sized(Random& random, ContactSides sides, double share) {
   Shape shape;
   shape.sides = sides;
@@ -40,18 +41,18 @@ Shape sized(Random& random, ContactSides sides, double share) {
 
 ContactSides any_sides(Random& random) { return random.pick(std::span<const ContactSides>(all_sides)); }
 
-/// Puts a point above an edge of this length, at its parameter t; the edge lies on the x axis.
+/// Puts a point above an edge of this length on the x axis, at the edge's parameter t.
 void put_edge(Shape& shape, double t, double length) {
   shape.x = {Vec3{0, 0, shape.distance}, Vec3{-t * length, 0, 0}, Vec3{(1 - t) * length, 0, 0}, Vec3{}};
 }
 
-/// Puts a point above the point of a triangle with weights b and c at its second and third corner.
+/// Puts a point above the point of a triangle whose second and third corner have the weights b and c.
 void put_triangle(Shape& shape, const Vec3& second, const Vec3& third, double b, double c) {
   const Vec3 foot = sum(scaled(second, b), scaled(third, c));
   shape.x = {Vec3{0, 0, shape.distance}, scaled(foot, -1), sum(second, scaled(foot, -1)), sum(third, scaled(foot, -1))};
 }
 
-/// Returns edges of the lengths `shape.size` and `length` that cross, seen from above, at the parameters s and t.
+/// Returns edges of the lengths `shape.size` and `length` that cross, seen from above, at their parameters s and t.
 std::array<Vec3, 4> crossing(const Shape& shape, double length, double sine, double s, double t) {
   const double x = length * std::sqrt(std::max(0.0, 1 - sine * sine)), y = length * sine, a = shape.size;
   return {Vec3{-s * a, 0, shape.distance}, Vec3{(1 - s) * a, 0, shape.distance}, Vec3{-t * x, -t * y, 0},
@@ -64,13 +65,13 @@ struct Base {
   Vec3 second, third;
 };
 
-/// Returns the second and third corner of a triangle of some shape, whose first corner is the origin.
+/// Returns the second and third corner of a random triangle whose first corner is the origin.
 Base any_base(Random& random, double size) {
   const double x = random.between(-0.5, 1.5), y = random.between(0.3, 1.5);
   return {{size * random.between(0.5, 1.5), 0, 0}, {size * x, size * y, 0}};
 }
 
-/// Puts a contact of the shape's sides at the given parameters.
+/// Puts the contact's sides at the parameters s and t.
 void put(Random& random, Shape& shape, double s, double t) {
   switch (shape.sides) {
     case ContactSides::point_edge: return put_edge(shape, s, other_length(random, shape));
@@ -85,7 +86,7 @@ void put(Random& random, Shape& shape, double s, double t) {
   }
 }
 
-/// Returns a contact in the interiors of both sides.
+/// Returns a contact of the interiors of both sides.
 Shape inside(Random& random, ContactSides sides, double share) {
   Shape shape = sized(random, sides, share);
   const bool triangle = sides == ContactSides::point_triangle;
@@ -94,7 +95,7 @@ Shape inside(Random& random, ContactSides sides, double share) {
   return shape;
 }
 
-/// Returns a parameter near an end, or beyond it.
+/// Returns a parameter near an end of an edge, or beyond it.
 double near_end(Random& random) {
   const double off = !random.is_fine() && random.one_in(3) ? random.between(-0.5, 0) : random.rung();
   return random.one_in(2) ? off : 1 - off;
@@ -104,7 +105,7 @@ Shape near_feature(Random& random) {
   const ContactSides sides = random.pick(std::span<const ContactSides>(all_sides).subspan(1));
   Shape shape = sized(random, sides, random.between(0.05, 1));
   double s = near_end(random), t = random.one_in(2) ? random.unit() : near_end(random);
-  if (sides == ContactSides::point_triangle && random.one_in(3)) {  // the side opposite the first corner
+  if (sides == ContactSides::point_triangle && random.one_in(3)) {  // the side opposite to the first corner
     s = random.unit();
     t = 1 - s + random.rung();
   }
@@ -112,7 +113,7 @@ Shape near_feature(Random& random) {
   return shape;
 }
 
-/// Returns triangles and edges that are thin or short.
+/// Returns a triangle or edges that are thin or short.
 Shape thin_by(Random& random, double thinness) {
   Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle,
                       random.between(0.05, 1));
@@ -132,11 +133,12 @@ Shape thin_by(Random& random, double thinness) {
   return shape;
 }
 
-/// Goes down to where needles begin (compare/stages/contact_force.hpp), or collapses exactly.
+/// Return shapes down to where needles begin (compare/stages/contact_force.hpp) or exactly collapsed ones, and needles.
 Shape thin(Random& random) { return thin_by(random, random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5)); }
 Shape needle(Random& random) { return thin_by(random, random.magnitude(-9, -2.4)); }
 
-/// Takes angles around the rule for nearly parallel edges and towards 0; the overlap may end, inside or beyond.
+/// Makes edges at angles around the limit of nearly parallel edges, and towards 0. Their overlap may end inside of an
+/// edge or beyond it.
 Shape nearly_parallel(Random& random) {
   Shape shape = sized(random, ContactSides::edge_edge, random.between(0.05, 1));
   const double sine = random.one_in(2) ? 1e-3 * (1 + random.rung()) : std::min(1.0, std::abs(random.rung()));
@@ -145,7 +147,7 @@ Shape nearly_parallel(Random& random) {
     shape.x = crossing(shape, length, sine, random.between(0.05, 0.95), random.between(0.05, 0.95));
     return shape;
   }
-  // The second edge lies behind the first: a share of the first overlaps, or none, or the ends meet.
+  // The second edge continues the first: they overlap by a share of the first, not at all, or meet at their ends.
   const double overlap = random.one_in(2) ? random.between(-0.5, 0.5) : random.rung(),
                aside = random.one_in(2) ? 0.0 : random.between(-1, 1) * shape.contact_radius;
   shape.x = crossing(shape, length, sine, 1 - overlap, 0);
@@ -156,7 +158,7 @@ Shape nearly_parallel(Random& random) {
   return shape;
 }
 
-/// Returns small numbers of few bits, for which decisions are often ties.
+/// Returns a shape with small coordinates of few bits, for which decisions are often ties.
 Shape on_grid(Random& random) {
   Shape shape = sized(random, any_sides(random), 0);
   shape.size = std::ldexp(1.0, random.below(9) - 8);
@@ -166,7 +168,7 @@ Shape on_grid(Random& random) {
   return shape;
 }
 
-/// Sets the points at the last detection: as now, or moved a little.
+/// Sets the points at the last detection: the current ones, or points a little beside them.
 void detect(Random& random, Shape& shape) {
   shape.previous = shape.x;
   const double step = random.one_in(2) ? 0.0 : shape.size * random.magnitude(-4, -1);
@@ -178,8 +180,8 @@ float squared_length(const Vec3f& a, const Vec3f& b) {
   return static_cast<float>(x * x + y * y + z * z);
 }
 
-/// Returns the case of a shape and `moved`, the motion of each vertex since the start of the step; one rigid motion
-/// takes both out of the canonical frame.
+/// Returns the case of a shape; `moved` is the motion of each vertex since the start of the step. One rigid motion
+/// moves both out of the canonical frame.
 FrictionForceCase placed(Random& random, const Shape& shape, const std::array<Vec3, 4>& moved) {
   std::array<Vec3, 12> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -221,13 +223,13 @@ double any_share(Random& random) { return random.between(0.02, 1.15); }
 Shape near_radius(Random& random) { return inside(random, any_sides(random), 1 + random.rung()); }
 /// Approaches d = τ = r/2.
 Shape near_switch(Random& random) { return inside(random, any_sides(random), 0.5 * (1 + random.rung())); }
-/// Approaches d = 0, through 2⁻²³ r.
+/// Approaches d = 0 beyond 2⁻²³ r.
 Shape near_touching(Random& random) {
   return inside(random, any_sides(random), random.one_in(8) ? 0 : random.magnitude(-9, -1));
 }
 
-/// Takes any bits for points, edges and radii. Left out are two edges and a triangle with a point, whose shape might be
-/// illegal.
+/// Takes random bits for points, edges and radii. Contacts of two edges and contacts of a point with a triangle are
+/// excluded, because their shapes might be illegal.
 Shape of_bits(Random& random) {
   Shape shape;
   shape.sides = random.one_in(2) ? ContactSides::point_point : ContactSides::point_edge;
@@ -250,12 +252,12 @@ CaseData contact_thin(Random& random) { return contact_case(random, thin(random)
 CaseData contact_needle(Random& random) { return contact_case(random, needle(random)); }
 CaseData contact_parallel(Random& random) {
   auto question = case_of<ContactForceCase>(contact_case(random, nearly_parallel(random)));
-  if (random.one_in(2)) question.rest_squared = {};  // edges without triangles: their energy is that of the overlap
+  if (random.one_in(2)) question.rest_squared = {};  // edges without triangles, whose energy is that of the overlap
   return question;
 }
 CaseData contact_radius(Random& random) { return contact_case(random, near_radius(random)); }
-/// Takes d = r (1 ± k u) for small k, where single precision decides between both sides, and d up to 10⁴ r, as after a
-/// long way since the last detection.
+/// Takes d = r (1 ± k u) for small k, where single precision decides whether d < r. Also takes d up to 10⁴ r, which
+/// occurs if vertices move far after the last detection.
 CaseData contact_beyond(Random& random) {
   const double share = random.one_in(2) ? 1 + random.sign() * random.below(9) * 0x1p-24 : random.magnitude(0, 4);
   return contact_case(random, inside(random, any_sides(random), share));
@@ -263,7 +265,7 @@ CaseData contact_beyond(Random& random) {
 CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
 CaseData contact_touching(Random& random) { return contact_case(random, near_touching(random)); }
 
-/// Takes any activation, where features and stages change and in between.
+/// Returns a shape where features or parts of the activation change, or between such places.
 Shape any_shape(Random& random) {
   switch (random.below(5)) {
     case 0: return near_feature(random);
@@ -277,7 +279,7 @@ ContactActivation any_activation(Random& random) {
   return random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
 }
 
-/// Goes next to a boundary: of a feature, of the radius, between the stages.
+/// Returns a shape next to a boundary: of a feature, at d = r, or at d = τ.
 Shape near_boundary(Random& random) {
   random.be_fine();
   switch (random.below(4)) {
@@ -294,14 +296,14 @@ CaseData contact_variants(Random& random) {
   return question;
 }
 
-/// Lets any of the vertices be updated together with the one of the question.
+/// Marks random vertices as updated together with the vertex of the question.
 CaseData contact_together(Random& random) {
   auto question = case_of<ContactForceCase>(contact_case(random, any_shape(random)));
   question.together = static_cast<std::uint8_t>(1 + random.below(15));
   return question;
 }
 
-/// Approaches c = ε and c = 0 at the last detection.
+/// Approaches c = ε and c = 0 of the mollifier, at the last detection.
 CaseData contact_mollifier(Random& random) {
   Shape shape = inside(random, ContactSides::edge_edge, any_share(random));
   const double sine = random.one_in(2) ? std::sqrt(1e-3) * (1 + random.rung()) : std::abs(random.rung());
@@ -309,8 +311,8 @@ CaseData contact_mollifier(Random& random) {
   return placed(random, shape, {}).contact;
 }
 
-/// Moves the first side against the second, by `along` in the tangent plane and `lift` along the normal, in units of
-/// ε_v h; both share a common motion.
+/// Moves the first side against the second by `along` in the tangent plane and `lift` along the normal, in units of ε_v
+/// h. Both sides also share a random motion.
 CaseData friction_case(Random& random, Shape shape, double along, double lift) {
   detect(random, shape);
   const double limit = shape.size * random.magnitude(-5, -1), angle = random.between(0, 6.283185307179586);
@@ -347,7 +349,7 @@ CaseData friction_distance(Random& random) {
                                                 : near_radius(random));
 }
 
-/// Takes no slip, or a slip of a grid step.
+/// Takes no slip, or a slip of one lattice step.
 CaseData friction_lattice(Random& random) {
   Shape shape = on_grid(random);
   shape.previous = shape.x;
@@ -359,7 +361,7 @@ CaseData friction_lattice(Random& random) {
   return question;
 }
 
-/// Takes any bits also for the motion.
+/// Takes random bits also for the motion.
 CaseData friction_bits(Random& random) {
   FrictionForceCase question = placed(random, of_bits(random), points_of_bits(random));
   question.friction = static_cast<float>(random.between(0.01, 1.5));
@@ -379,7 +381,7 @@ CaseData friction_limit(Random& random) {
                        random.between(-1, 1));
 }
 
-/// Moves along the normal, up to many times the slip and ε_v h.
+/// Moves along the normal by many times the slip and ε_v h.
 CaseData friction_lift(Random& random) {
   return friction_case(random, inside(random, any_sides(random), any_share(random)),
                        random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));

@@ -1,6 +1,5 @@
-// Makes cases of membrane and bending: a rest shape, a deformation of it, a material. Ladders lead to the rest shape
-// (where strains cancel), to collapse, to a change of the stress's sign along the corner's gradient, and to the fold by
-// ±π.
+// Makes cases of membrane and bending: a rest shape, its deformation, a material. Ladders approach the rest shape,
+// where strains cancel; collapse; tr G = 0, where the stress changes; and folds by ±π.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,8 +44,8 @@ void set_material(Random& random, MembraneCase& question) {
   question.damping = random.one_in(2) ? 0 : single(random.magnitude(-3, 1));
 }
 
-/// Moves the corners of the rest shape by `deform`; the start lies near the result in half of the cases, at rest
-/// otherwise. One rigid motion takes both out of the canonical frame.
+/// Moves the corners of the rest shape by `deform`. In half of the cases the start is near the result, otherwise at
+/// rest. One rigid motion moves both out of the canonical frame.
 template <class Deform>
 CaseData membrane_case(Random& random, Deform deform, bool lattice = false) {
   MembraneCase question;
@@ -81,7 +80,7 @@ CaseData membrane_lattice(Random& random) {
       random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, true);
 }
 
-/// Takes any bits for points, and for the start other ones or the same.
+/// Takes random bits for points; the start gets other ones or the same.
 template <std::size_t N>
 void place_bits(Random& random, std::array<Vec3f, N>& points, std::array<Vec3f, N>& start) {
   const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
@@ -92,7 +91,7 @@ void place_bits(Random& random, std::array<Vec3f, N>& points, std::array<Vec3f, 
   }
 }
 
-/// Takes any bits for corners: stretched up to 10⁹ times, and needles.
+/// Takes random bits for corners, which gives needles and stretches of up to 10⁹.
 CaseData membrane_bits(Random& random) {
   MembraneCase question;
   set_rest(question, rest_corners(random, false));
@@ -107,7 +106,7 @@ CaseData membrane_rest(Random& random) {
   return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); });
 }
 
-/// Approaches a deformed triangle without area, down to a point.
+/// Approaches a triangle whose deformed area is 0, down to a point.
 CaseData membrane_collapse(Random& random) {
   const double xx = random.one_in(2) ? random.between(0.3, 2) : random.rung(),
                xy = random.one_in(4) ? 0.0 : random.between(-1, 1), yy = random.rung();
@@ -116,16 +115,15 @@ CaseData membrane_collapse(Random& random) {
       random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, lattice);
 }
 
-/// Lets the stress along the corner's gradient go through 0, with a stretch one way against a compression the other
-/// way.
+/// Takes tr G through 0, with stretch in one direction and compression in the other.
 CaseData membrane_sign(Random& random) {
   const double xx = random.between(0.5, 1), along = 1 + random.rung();
   const double yy = std::sqrt(std::max(0.0, 2 - xx * xx)) * along;
   return membrane_case(random, [=](const Vec3& p) { return stretched(p, xx, 0, yy); });
 }
 
-/// Takes corner 1 or 2 of the rest triangle as the vertex, as a sweep does, so that no component of a gradient is
-/// always 0.
+/// Takes corner 1 or 2 of the rest triangle as the vertex, as a sweep does. Otherwise one component of a gradient would
+/// always be 0.
 CaseData membrane_corner(Random& random) {
   MembraneCase question = case_of<MembraneCase>(membrane_uniform(random));
   for (int shifts = 1 + random.below(2); shifts > 0; --shifts) {
@@ -137,8 +135,8 @@ CaseData membrane_corner(Random& random) {
   return question;
 }
 
-/// Takes another model than the usual one. Rows may be named after a single model: a row's name is a part of each case
-/// and stays.
+/// Takes a model other than the default. A row keeps its name even if the name is that of one model, because the names
+/// of cases contain it.
 template <CaseData (*make)(Random&)>
 CaseData other_membrane(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));
@@ -146,7 +144,7 @@ CaseData other_membrane(Random& random) {
   return question;
 }
 
-/// Takes another form of damping, and any model.
+/// Takes another form of damping, and a random model.
 template <CaseData (*make)(Random&)>
 CaseData membrane_damped_otherwise(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));
@@ -172,8 +170,8 @@ constexpr std::array<Generator, 15> membrane_table{
      {"per_vertex", 15, true, membrane_damped_otherwise<membrane_corner>},
      {"ladder.per_vertex", 15, false, membrane_damped_otherwise<membrane_collapse>}}};
 
-/// A hinge x0, x1, o0, o1 with its edge along x: o0 lies in the upper half of the xy plane, o1 in the lower half turned
-/// by `angle` about the edge.
+/// A hinge x0, x1, o0, o1 whose edge lies along x. o0 lies in the upper half of the xy plane; o1 lies in the lower
+/// half, turned by `angle` about the edge.
 struct HingeShape {
   double size = 1, foot_a = 0.5, foot_b = 0.5, height_a = 1, height_b = 1, angle = 0;
   std::array<Vec3, 4> points() const {
@@ -192,7 +190,7 @@ HingeShape hinge_shape(Random& random) {
   return shape;
 }
 
-/// Places the two shapes of a hinge, now and at the start, by the same rigid motion.
+/// Places a hinge's shapes, now and at the start, by one rigid motion.
 CaseData bending_case(Random& random, const HingeShape& now, const HingeShape& start, bool turned = true) {
   BendingCase question;
   question.stiffness = single(random.magnitude(-8, -2));
@@ -225,14 +223,14 @@ CaseData bending_uniform(Random& random) {
                       with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
 }
 
-/// Takes any bits for vertices: needles of up to 10¹² to 1, and hinges of every angle.
+/// Takes random bits for vertices, which gives needles of up to 10¹² to 1 and hinges of every angle.
 CaseData bending_bits(Random& random) {
   BendingCase question = case_of<BendingCase>(bending_uniform(random));
   place_bits(random, question.vertex, question.start);
   return question;
 }
 
-/// Makes right angles and flat hinges without a rounding.
+/// Makes right angles and flat hinges exactly, without rounding.
 CaseData bending_lattice(Random& random) {
   HingeShape shape;
   shape.size = std::ldexp(1.0, random.below(9) - 8);
@@ -264,7 +262,8 @@ CaseData bending_fold(Random& random) {
   return bending_case(random, with_angle(shape, angle), with_angle(shape, before), random.one_in(2));
 }
 
-/// Lets one triangle or both tend to a line, or makes them a line exactly: hence no rotation in half of the cases.
+/// Makes one triangle or both nearly or exactly a line. Half of the cases are not rotated, so that the line stays
+/// exact.
 CaseData bending_needle(Random& random) {
   const auto height = [&] { return random.one_in(4) ? 0.0 : random.rung(); };
   HingeShape shape = hinge_shape(random);
@@ -274,7 +273,7 @@ CaseData bending_needle(Random& random) {
   return bending_case(random, with_angle(shape, angle), with_angle(shape, angle), random.one_in(2));
 }
 
-/// Takes the isometric model; its rest shape is `now` unfolded, or another one.
+/// Takes the isometric model; the rest shape is `now` unfolded, or another one.
 CaseData isometric_case(Random& random, const HingeShape& now, const HingeShape& start) {
   BendingCase question = case_of<BendingCase>(bending_case(random, now, start, random.one_in(2)));
   HingeShape rest = random.one_in(2) && now.height_a > 0.1 && now.height_b > 0.1 ? now : hinge_shape(random);
@@ -298,7 +297,7 @@ CaseData isometric_flat(Random& random) {
   return isometric_case(random, with_angle(shape, random.rung()), with_angle(shape, random.rung()));
 }
 
-/// Makes damping meet angles that jump and triangles without an angle.
+/// Takes damping at angles that jump and at triangles without an angle.
 CaseData isometric_damping(Random& random) {
   HingeShape shape = hinge_shape(random);
   if (random.one_in(2)) shape.height_a = random.one_in(4) ? 0.0 : random.rung();

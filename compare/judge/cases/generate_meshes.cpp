@@ -1,5 +1,5 @@
-// Makes meshes for detection and bounds, in units of one edge length. Families that seek a degeneracy are regular
-// arrangements (every tie is exact) with a jitter that climbs a ladder from 0 to a tenth of an edge.
+// Makes meshes for detection and bounds, in units of one edge length. Families that aim at a degeneracy are regular
+// arrangements, in which every tie is exact. Their jitter is a rung from 0 to a tenth of an edge.
 #include <array>
 
 #include "compare/judge/cases/generators.hpp"
@@ -11,25 +11,25 @@ namespace {
 
 using namespace placement;
 
-/// Runs of this many cases take nearly all of them from the rows whose meshes have thousands of vertices: a device
-/// answers these a hundred times as fast.
+/// Runs of at least this many cases take nearly all of them from rows whose meshes have thousands of vertices. A device
+/// answers these cases a hundred times as fast.
 constexpr std::uint64_t large_run = 1000000;
 
 constexpr std::array<int, 6> small_sizes{0, 1, 2, 3, 5, 10};
 
-/// Returns 0 in half of the cases, otherwise 10⁻¹ … 10⁻⁷ of an edge (single precision resolves no less at coordinates
-/// of one edge).
+/// Returns 0 in half of the cases, otherwise 10⁻¹ … 10⁻⁷ of an edge, the finest that single precision resolves at
+/// coordinates of one edge.
 double jitter_rung(Random& random) {
   return random.one_in(2) ? 0 : std::pow(10.0, random.is_fine() ? -5 - random.below(3) : -1 - random.below(7));
 }
 
-/// Returns h (1 + rung / 2), a radius that just reaches, or just misses, what lies at height h; or 0, for a random
-/// radius.
+/// Returns h (1 + rung/2), a radius that just reaches or just misses what lies at height h. Returns 0 in some cases,
+/// for a random radius.
 double radius_at(Random& random, double h) {
   return !random.is_fine() && random.one_in(3) ? 0 : std::abs(h) * (1 + 0.5 * random.rung());
 }
 
-/// Returns strips of triangles and a few loose edges in a box with about one vertex in a unit cube.
+/// Returns strips of triangles and a few loose edges in a box, with about one vertex for each unit of volume.
 MeshBuilder soup_of(Random& random, int size) {
   MeshBuilder builder;
   const double side = std::cbrt(size + 1.0);
@@ -55,7 +55,7 @@ CaseData few(Random& random) {
   return finish(random, soup_of(random, random.pick(std::span<const int>(small_sizes))), {});
 }
 
-/// Makes two wavy sheets, one above the other, with every vertex displaced: like cloth on cloth.
+/// Makes two wavy sheets, one above the other, with every vertex displaced.
 CaseData cloth(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-1.5, 0.3), wave = random.between(0, 0.5);
@@ -71,7 +71,7 @@ CaseData cloth(Random& random) {
   return finish(random, builder, {random.between(0.05, 0.3), 0});
 }
 
-/// Makes three to five wavy sheets of 900 to 3,600 vertices each: deep trees, long lists.
+/// Makes three to five wavy sheets of 900 to 3,600 vertices each, which give deep trees and long lists.
 CaseData large(Random& random) {
   MeshBuilder builder;
   const int layers = 3 + random.below(3), side = 30 + random.below(31);
@@ -82,14 +82,14 @@ CaseData large(Random& random) {
   return finish(random, builder, {random.between(0.05, 0.3), random.between(0.2, 1)});
 }
 
-/// Makes a soup on small integers: ties, and touching, intersecting, coplanar and collapsed triangles.
+/// Makes a soup on small integers: ties, and triangles that touch, intersect, are coplanar or collapsed.
 CaseData lattice(Random& random) {
   MeshBuilder builder = soup_of(random, 3 + random.below(18));
   for (Vec3& p : builder.points) p = on_lattice(random, 1);
   return finish(random, builder, {0, random.one_in(2) ? 0 : 0.5 * (1 + random.below(4))});
 }
 
-/// Makes a soup with any bits for coordinates and radii: needles, edges of 10⁻⁶ beside edges of 10⁶.
+/// Makes a soup with random bits for coordinates and radii, which gives needles, and edges of 10⁻⁶ beside edges of 10⁶.
 CaseData bits(Random& random) {
   MeshBuilder builder = soup_of(random, 3 + random.below(8));
   MeshCase mesh;
@@ -119,7 +119,7 @@ CaseData sheets(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Folds one sheet back upon itself: near the fold non-adjacent neighbours are close and blocks end.
+/// Folds a sheet back onto itself. Near the fold, faces without a common vertex are close, and blocks end.
 CaseData fold(Random& random) {
   MeshBuilder builder;
   const int half = 1 + random.below(4);
@@ -133,7 +133,7 @@ CaseData fold(Random& random) {
   return finish(random, builder, {jitter_rung(random), 0});
 }
 
-/// Returns identical meshes, vertex exactly above vertex.
+/// Returns copies of a mesh above each other, vertex exactly above vertex.
 MeshBuilder stack_of(Random& random, double gap) {
   MeshBuilder builder;
   if (random.one_in(2))
@@ -163,8 +163,8 @@ CaseData fan(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, height)});
 }
 
-/// Puts the corners of a triangle above a vertex, an edge and an interior of a patch, on the block boundary or a rung
-/// beside it.
+/// Puts the corners of a triangle above a vertex, an edge and the interior of a patch, on the block's boundary or one
+/// rung from it.
 CaseData above(Random& random) {
   MeshBuilder builder;
   const double height = random.magnitude(-2, 0);
@@ -199,7 +199,7 @@ CaseData book(Random& random) {
   return finish(random, builder, {jitter_rung(random), 0});
 }
 
-/// Makes yarn: polylines that lie side by side, cross at a small angle, or end on one another.
+/// Makes polylines of loose edges that lie side by side, cross at a small angle, or end on each other.
 CaseData strands(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-2, 0);
@@ -211,13 +211,13 @@ CaseData strands(Random& random) {
                    {random.one_in(4) ? 0.0 : 1.0, sine, random.one_in(4) ? 0.5 : 0.0});
   }
   if (random.one_in(3)) builder.grid(2, 1, {0, 0, -gap}, {1, 0, 0}, {0, 1, 0});
-  // A strand with a step of 0 has edges without length.
+  // A strand whose step is 0 has edges of length 0.
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes rods of right angles, half turns and straight parts, or a rung beside those. Several segments lie within the
-/// radius: there the end of a segment stops being its closest point to another one, and the next segment becomes
-/// nearer.
+/// Makes rods with right angles, half turns and straight parts, exactly or up to a rung. Several segments lie within
+/// the radius. There the end of a segment stops being its closest point to another rod, and the next segment becomes
+/// closer.
 CaseData bends(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-1.5, 0);
@@ -240,7 +240,7 @@ CaseData bends(Random& random) {
                 {jitter_rung(random), random.one_in(2) ? random.between(0.8, 4) : radius_at(random, gap)});
 }
 
-/// Makes a flat sheet at rest whose radius reaches across its cells: each edge has parallel neighbours within it.
+/// Makes a flat sheet whose radius exceeds its cells, so that each edge has parallel neighbours within r.
 CaseData flat(Random& random) {
   MeshBuilder builder;
   const Vec3 column{random.pick(std::span<const double>(std::array{-0.5, 0.0, 0.5})), 1, 0};
@@ -248,8 +248,8 @@ CaseData flat(Random& random) {
   return finish(random, builder, {jitter_rung(random), random.between(0.8, 2.5)});
 }
 
-/// Adds something to one end of an edge, or to both: a triangle on the edge, one beside it, another edge. It points
-/// towards what lies above, away from it, along the plane between, or a rung beside that.
+/// Adds something to one end of an edge, or to both: a triangle on the edge, a triangle beside it, or another edge. It
+/// points towards what lies above, away from it, along the plane between, or in a direction one rung from these.
 void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
   constexpr std::array<double, 4> ways{-1, 0, 0, 1};
   const auto arm = [&](Index at) {
@@ -265,8 +265,8 @@ void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
   }
 }
 
-/// Returns edges one above the other, tilted by a rung or not at all, that end one above the other, beside each other
-/// or anywhere. What hangs at their ends decides whether one end, both or none of the overlap lie in the blocks.
+/// Returns edges one above the other, parallel or tilted by a rung. Their ends lie above each other, beside each other
+/// or anywhere. `hang` adds neighbours, which decide whether one end, both or none of the overlap lie in the blocks.
 MeshBuilder pile_of(Random& random, double gap) {
   MeshBuilder builder;
   for (int k = 0, count = 2 + random.below(3); k < count; ++k) {
@@ -280,7 +280,7 @@ MeshBuilder pile_of(Random& random, double gap) {
   return builder;
 }
 
-/// Puts piles in a row along the edges, so that tilts keep their digits.
+/// Puts piles in a row along their edges, so that tilts keep their digits.
 CaseData parallel(Random& random) {
   constexpr double spacing = 10;
   MeshBuilder builder;
@@ -289,7 +289,7 @@ CaseData parallel(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0 : jitter_rung(random), gap * random.between(0.9, 3)});
 }
 
-/// Makes sheets that belong to different rigid groups, to one, or to none.
+/// Makes sheets of several rigid groups, of one group, or of none.
 CaseData groups(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-1.5, 0);
@@ -304,13 +304,13 @@ CaseData groups(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes two or three sheets whose borders are stitched, vertex to vertex or to an edge: pairs beside a seam are left
-/// out, pairs at its ends and behind it are not.
+/// Makes two or three sheets whose borders are stitched, vertex to vertex or vertex to edge. Pairs beside a seam are
+/// excluded; pairs at its ends and behind it are not.
 CaseData seams(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-2, 0);
   const int columns = 1 + random.below(4), sheets = 2 + random.below(2);
-  const bool beside = random.one_in(2), shifted = random.one_in(2);  // side by side, or one on top of the other
+  const bool beside = random.one_in(2), shifted = random.one_in(2);  // sheets side by side, or one on top of the other
   std::vector<Index> first;
   for (int k = 0; k < sheets; ++k) {
     first.push_back(static_cast<Index>(builder.points.size()));
@@ -322,7 +322,7 @@ CaseData seams(Random& random) {
     const Index own = first[static_cast<std::size_t>(k)] + (beside ? 2 * (columns + 1) : 0),
                 other = first[static_cast<std::size_t>(k) + 1];
     for (int i = 0; i <= columns; ++i) {
-      if (random.one_in(6)) continue;  // a hole in the seam
+      if (random.one_in(6)) continue;  // leaves a hole in the seam
       builder.excluded.push_back({own + i, other + i});
       if (shifted && i > 0) builder.excluded.push_back({own + i, other + i - 1});
     }
@@ -330,20 +330,20 @@ CaseData seams(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Goes next to a boundary: the radius just reaches, and the jitter changes the last digits at most. In a stack that
-/// holds for nearly every vertex and edge.
+/// Makes a stack or sheets next to a boundary: the radius just reaches them, and jitter changes only the last digits.
+/// In a stack this holds for nearly every vertex and edge.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
   random.be_fine();
   return random.pick(std::span<CaseData (*const)(Random&)>(ladders))(random);
 }
 
-/// Makes 64 stacks side by side in one mesh, each at its own rung beside the radius: a device takes as long for twenty
-/// vertices as for a thousand. They stand on a lattice about the origin, no farther from it than a few of their sizes,
-/// so that single precision still tells the lower rungs apart.
+/// Makes 64 stacks side by side in one mesh, because a device takes as long for twenty vertices as for a thousand. The
+/// gap in each stack is one rung from the radius. The stacks are on a lattice near the origin, so that single precision
+/// resolves the lower rungs.
 CaseData field(Random& random) {
   constexpr int side = 4;
-  constexpr double spacing = 5;  // a stack is 3 wide at most, and r below 1.5
+  constexpr double spacing = 5;  // a stack is at most 3 wide, and r is below 1.5
   random.be_fine();
   MeshBuilder builder;
   const double gap = random.magnitude(-1.5, 0);
@@ -354,8 +354,8 @@ CaseData field(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes triangles of which a height or a side tends to 0, around one another and with a point beside each: smallest
-/// distances are least certain there.
+/// Makes triangles with a height or a side near 0, around each other and each with a point beside it. There smallest
+/// distances are least certain.
 CaseData needles(Random& random) {
   MeshBuilder builder;
   for (int i = 4 + random.below(8); i > 0; --i) {
@@ -394,7 +394,7 @@ constexpr std::array<Generator, 22> table{{{"soup", 20, true, soup},
                                            {"ladder.boundary", 450, false, boundary},
                                            {"ladder.field", 15000, false, field, large_run}}};
 
-/// Returns one smallest distance: anything, a tie, or 0.
+/// Returns one smallest distance: a random one, a tie, or 0.
 float smallest(Random& random, int kind) {
   switch (kind) {
     case 0: return random.pattern();

@@ -1,6 +1,8 @@
-// Makes states for stage plane, in units of one edge length. The general ones are those of detection, with pairs within
-// r_q of one another. Ladders lead to where planes cease to exist (a gap of a few ulp, a collapsed triangle, a far
-// origin), to where a vertex has more pairs than planes, and to sides that are fixed, whole or in part.
+// Makes states for stage plane, in units of one edge length. General states are states of detection, with pairs within
+// r_q. Ladders approach
+// - gaps of a few ulp, collapsed triangles and far origins, where planes cease to exist,
+// - vertices with more pairs than planes,
+// - sides that are fixed, whole or in part.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -33,8 +35,8 @@ PlaneCase with_planes(Random& random, const MeshCase& mesh, float query_radius) 
           fixed_flags(mesh.rigid_groups)};
 }
 
-/// Takes a case of the detections by the name of its generator, with r in place of r_q: a larger radius would give too
-/// many pairs.
+/// Makes a case of the detections by the name of its generator. r takes the place of r_q, because a larger radius would
+/// give too many pairs.
 CaseData of_detection(Random& random, std::string_view generator) {
   for (const Generator& row : detect_generators()) {
     if (row.name != generator) continue;
@@ -57,13 +59,13 @@ CaseData strands(Random& random) { return of_detection(random, "ladder.strands")
 CaseData seams(Random& random) { return of_detection(random, "ladder.seams"); }
 CaseData groups(Random& random) { return of_detection(random, "ladder.groups"); }
 
-/// Calls finish with r_q in edge lengths.
+/// Finishes the mesh with r_q in edge lengths.
 CaseData finished(Random& random, const MeshBuilder& builder, double query_radius, double jitter) {
   const MeshCase mesh = finish(random, builder, {jitter, query_radius});
   return with_planes(random, mesh, mesh.contact_radius);
 }
 
-/// Makes two patches whose distance goes down to 0, in register, shifted, turned, or corner to corner.
+/// Makes two patches at distances down to 0, in register, shifted, turned, or corner to corner.
 CaseData gap(Random& random) {
   MeshBuilder builder;
   const double height = std::abs(random.rung()), turn = random.one_in(2) ? 0.8 : 1;
@@ -94,7 +96,7 @@ CaseData collapsed(Random& random) {
   return finished(random, builder, random.between(0.1, 1), 0);
 }
 
-/// Makes layers of fans whose hubs and rims have hundreds of pairs each, many of them at one distance.
+/// Makes layers of fans whose hubs and rims have hundreds of pairs each, many of them at the same distance.
 CaseData crowd(Random& random) {
   MeshBuilder builder;
   const int layers = 2 + random.below(3), rim = 12 + random.below(30);
@@ -103,7 +105,7 @@ CaseData crowd(Random& random) {
   return finished(random, builder, apart * random.between(1.05, layers), random.one_in(3) ? 0 : 0.3 * apart);
 }
 
-/// Puts a sheet above another one that is fixed, whole or in part; vertices of the upper one may also be fixed.
+/// Puts a sheet above another one that is fixed, whole or in part. Vertices of the upper sheet may be fixed, too.
 CaseData fixed(Random& random) {
   MeshBuilder builder;
   const double height = random.one_in(3) ? std::abs(random.rung()) : random.magnitude(-2, 0);
@@ -118,7 +120,7 @@ CaseData fixed(Random& random) {
   return finished(random, builder, random.between(0.2, 1), random.one_in(3) ? 0 : std::abs(random.rung()));
 }
 
-/// Puts a corner of a small triangle into the corner of three walls, a rung from each.
+/// Puts a corner of a small triangle into the corner of three walls, a rung from each wall.
 CaseData corner(Random& random) {
   MeshBuilder builder;
   for (int axis = 0; axis < 3; ++axis) {
@@ -140,8 +142,8 @@ CaseData corner(Random& random) {
   return finished(random, builder, random.between(0.2, 1), 0);
 }
 
-/// Puts sheets so far from the origin that a few ulp of a coordinate lie between them, or none; but no farther than
-/// 2¹⁰, so that coordinates are legal in the largest unit.
+/// Puts sheets far from the origin, so that at most a few ulp of a coordinate lie between them. They stay within 2¹⁰,
+/// so that coordinates are legal in the largest unit.
 CaseData far(Random& random) {
   MeshBuilder builder;
   const double height = random.magnitude(-4, -2);
@@ -152,7 +154,7 @@ CaseData far(Random& random) {
   return finished(random, builder, random.between(0.1, 1), 0);
 }
 
-/// Makes a block with a vertex inside, below a sheet.
+/// Makes a block with an interior vertex below a sheet.
 CaseData solid(Random& random) {
   Mesh block = jittered_block(random, 1, random.between(0.3, 1));
   block.triangles = boundary_triangles(block.tetrahedra);
@@ -169,7 +171,8 @@ CaseData solid(Random& random) {
   return with_planes(random, mesh, static_cast<float>(random.magnitude(-2, 0)));
 }
 
-/// Gives each vertex that can move a displacement whose size has nothing to do with the gap: it only divides it.
+/// Gives each free vertex a displacement. Its size is independent of the gap, because displacements only divide the
+/// gap.
 CaseData divided(Random& random, const CaseData& data) {
   auto test = case_of<PlaneCase>(data);
   const double size = test.query_radius * random.magnitude(-4, 2), common = random.one_in(3) ? size : 0;
@@ -189,14 +192,14 @@ CaseData approach(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> states{soup, cloth, few, groups};
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
 }
-/// Divides the gaps of pairs that are close, collapsed, in a crowd, or of fixed vertices.
+/// Divides the gaps of pairs that are close, collapsed, crowded or fixed.
 CaseData close_approach(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 5> states{gap, collapsed, crowd, fixed, corner};
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
 }
 
-/// Puts two sheets one above the other, so that n is the axis. Vertices of the first, the second, both or none move
-/// along n: towards the other sheet, away from it or not at all, or by almost nothing beside their way across.
+/// Puts two sheets one above the other, so that the normal n is the axis. Vertices of either sheet, of both or of none
+/// move along n, towards the other sheet or away from it. This motion may be tiny beside their motion across n.
 CaseData along_normal(Random& random) {
   MeshBuilder builder;
   builder.grid(1, 1, {}, {1, 0, 0}, {0, 1, 0});

@@ -1,6 +1,6 @@
-// Makes scenes of one step, small enough for the exact detections of every event. Sheets lie in planes z = const before
-// one symmetry of the cube turns everything. Ladders lead to what decides the order of events: the count of cut
-// vertices at its threshold, the cap of r_q, contacts at the radius.
+// Makes scenes of one step, small enough for exact detections at every event. Sheets lie in planes z = const until one
+// symmetry of the cube is applied to all. Ladders approach what decides the order of events: the threshold of cut
+// vertices, the cap of r_q, contacts at the radius.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,11 +42,11 @@ struct StepBuilder {
     scene.gravity = {0, 0, random.one_in(3) ? 0 : -9.81};
   }
 
-  /// Returns a material stiffer than inertia by up to a thousand times; beyond that a single-precision solve says
-  /// little, and stage sweep covers it.
+  /// Returns a material up to a thousand times as stiff as inertia. Beyond that a solve in single precision is too
+  /// inaccurate to compare; stage sweep covers it.
   Material material() {
     Material m;
-    m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has all
+    m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models sets other models
     m.density = 0.2 * random.magnitude(-0.5, 0.5);
     const double inertia = m.density * spacing * spacing / (scene.settings.time_step * scene.settings.time_step);
     m.lame_mu = inertia * random.magnitude(-1, 2.5);
@@ -59,7 +59,7 @@ struct StepBuilder {
     return m;
   }
 
-  /// Returns a material as stiff against a solid's inertia as a sheet's is against its own.
+  /// Returns a material with the same ratio of stiffness to inertia for a solid as `material` has for a sheet.
   Material solid_material() {
     Material m = material();
     m.solid_density = 1000 * random.magnitude(-0.5, 0.5);
@@ -71,8 +71,8 @@ struct StepBuilder {
     return m;
   }
 
-  /// Adds nx × ny vertices at `origin` (in spacings, and two more, so that no jitter brings a coordinate next to 0),
-  /// diagonals alternating, with one velocity [m/s].
+  /// Adds nx × ny vertices at `origin` with alternating diagonals and one velocity [m/s]. `origin` is in spacings; two
+  /// more are added, so that no jitter brings a coordinate next to 0.
   void sheet(int nx, int ny, const Vec3& origin, const Vec3& velocity, bool fixed = false) {
     Mesh mesh;
     for (int j = 0; j < ny; ++j)
@@ -88,9 +88,9 @@ struct StepBuilder {
     add(mesh, velocity, fixed);
   }
 
-  /// Adds a block of tetrahedra with a vertex inside. It stands on the plane of a sheet at `origin`, or hangs from it.
-  /// One block in five is mirrored upside down in its place, so that it starts inside out; never one that is a volume,
-  /// as nothing could be inside of it.
+  /// Adds a block of tetrahedra that stands on the plane of a sheet at `origin`, or hangs from it. A standing block has
+  /// an interior vertex. One block in five is mirrored upside down in place, so that it starts inside out. Volumes are
+  /// never mirrored, because nothing could be inside of them.
   void block(const Vec3& origin, const Vec3& velocity, bool hangs, BodyContact contact = BodyContact::surface) {
     const double height = random.between(0.5, 1.5);
     Mesh mesh = hangs ? jittered_block(random, spacing, height) : jittered_cube(random, spacing, height);
@@ -109,7 +109,7 @@ struct StepBuilder {
     }
   }
 
-  /// Adds the boundary of a block as a volume, fixed or moved as a whole.
+  /// Add a volume without tetrahedra, fixed or moved as a whole; the first one adds the boundary of a block.
   void volume(const Vec3& origin) { volume(jittered_surface(random, spacing, random.between(0.5, 1.5)), origin); }
   void volume(Mesh mesh, const Vec3& origin) {
     for (Vec3& x : mesh.positions) x = sum(x, scaled(sum(origin, {2, 2, 2}), spacing));
@@ -128,8 +128,8 @@ struct StepBuilder {
     scene.motions.push_back(motion);
   }
 
-  /// Adds a curve of loose edges about `origin`, with the weight of a sheet's vertices; in some cases a motion that
-  /// turns holds some of its vertices.
+  /// Adds a curve of loose edges about `origin`, as heavy as a sheet's vertices. In some cases a rotating motion
+  /// prescribes two of its vertices.
   void rod(const Vec3& origin, const Vec3& velocity) {
     RodPlan plan = some_rod(random);
     plan.segments = std::min(plan.segments, 5);
@@ -159,12 +159,12 @@ struct StepBuilder {
     std::fill(scene.velocities.begin() + static_cast<std::ptrdiff_t>(first), scene.velocities.end(), velocity);
   }
 
-  /// Moves every start position by up to `by` spacings a coordinate; rest positions stay.
+  /// Moves every coordinate of the start positions by up to `by` spacings; rest positions stay.
   void jitter(double by) {
     for (Vec3& x : scene.mesh.positions) x = sum(x, scaled(in_box(random, -by, by), spacing));
   }
 
-  /// Returns the speed that moves a vertex by this number of spacings in one step.
+  /// Returns the speed that moves a vertex by this many spacings in one step.
   double speed(double spacings) const { return spacings * spacing / scene.settings.time_step; }
 
   CaseData finish() {
@@ -203,7 +203,7 @@ Vec3 direction(Random& random) {
   return scaled(v, 1 / std::max(0.1, std::hypot(v.x, v.y, v.z)));
 }
 
-/// Lets a single sheet fly freely, slower or faster than its bounds allow.
+/// Makes a single sheet that flies freely, slower or faster than its bounds allow.
 CaseData fall(Random& random) {
   StepBuilder builder(random);
   builder.sheet(side(random), side(random), {}, scaled(direction(random), builder.speed(random.magnitude(-2, 1))));
@@ -211,7 +211,7 @@ CaseData fall(Random& random) {
   return builder.finish();
 }
 
-/// Lets a sheet come down on a fixed one, askew.
+/// Drops a sheet askew onto a fixed one.
 CaseData onto(Random& random) {
   StepBuilder builder(random);
   const double gap = random.between(0.2, 1.5), slip = random.between(-1, 1);
@@ -234,8 +234,8 @@ CaseData collide(Random& random) {
   return builder.finish();
 }
 
-/// Returns a motion of the same vertices, each on a way of its own; the step ends between two keyframes, at one, or
-/// behind the last.
+/// Returns a motion of the same vertices with keyframes, in which each vertex has its own path. The step ends between
+/// two keyframes, at one, or after the last.
 PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const PrescribedMotion& like) {
   const double h = builder.scene.settings.time_step;
   PrescribedMotion motion;
@@ -251,7 +251,7 @@ PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const Pre
   return motion;
 }
 
-/// Carries off one row of a sheet, turns it, or both; in some cases the motion starts or ends within the step.
+/// Moves one row of a sheet away, turns it, or both. In some cases the motion starts or ends within the step.
 CaseData handle(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random);
@@ -272,8 +272,8 @@ CaseData handle(Random& random) {
   return builder.finish();
 }
 
-/// Flings vertices of a sheet at rest out of their bounds: as many as the threshold of a re-detection, one more or one
-/// less; γ_e K lies a rung beside a whole number.
+/// Throws vertices of a sheet at rest out of their bounds. Their number is the threshold of a re-detection, one more or
+/// one less. γ_e K is one rung from a whole number.
 CaseData count_at_threshold(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random), count = nx * ny;
@@ -291,7 +291,7 @@ CaseData count_at_threshold(Random& random) {
   return builder.finish();
 }
 
-/// Puts r + ‖y − xᵗ‖ a rung beside the cap of r_q.
+/// Puts r + ‖y − xᵗ‖ one rung from the cap of r_q.
 CaseData radius_at_cap(Random& random) {
   StepBuilder builder(random);
   builder.sheet(side(random), side(random), {0, 0, random.between(0.3, 1)}, {});
@@ -305,7 +305,8 @@ CaseData radius_at_cap(Random& random) {
   return builder.finish();
 }
 
-/// Puts a sheet at rest on another one, in register or shifted by half a cell, a rung beside the contact radius.
+/// Puts a sheet at rest on another one, in register or shifted by half a cell, at a distance one rung from the contact
+/// radius.
 CaseData at_rest(Random& random) {
   StepBuilder builder(random);
   const double shift = random.one_in(2) ? 0 : 0.5;
@@ -318,7 +319,7 @@ CaseData at_rest(Random& random) {
   return builder.finish();
 }
 
-/// Makes the smallest scenes: one triangle, two, no free vertex; coordinates and velocities lie on a lattice.
+/// Makes the smallest scenes: one triangle, two, or no free vertex. Coordinates and velocities lie on a lattice.
 CaseData lattice(Random& random) {
   StepBuilder builder(random);
   builder.spacing = std::ldexp(1.0, random.below(5) - 9);
@@ -355,8 +356,8 @@ CaseData few(Random& random) {
   return builder.finish();
 }
 
-/// Takes any bits for numbers of strips, as far as an answer can be compared: velocities and materials over eight and
-/// more powers of two (materials within what inertia allows), and the last bits of coordinates.
+/// Takes random bits for numbers of strips, as far as answers can be compared. Velocities and materials span at least
+/// eight powers of two, materials within the limits of inertia. Coordinates get random last bits.
 CaseData bits(Random& random) {
   StepBuilder builder(random);
   const auto single = [](double x) { return static_cast<float>(x); };
@@ -401,7 +402,8 @@ CaseData solid(Random& random) {
   return builder.finish();
 }
 
-/// Puts a free volume over, in or half in another one or a sheet; in some cases some of its vertices are prescribed.
+/// Puts a free volume over another one or over a sheet, or half into it. In some cases four vertices of the other body
+/// are prescribed.
 CaseData free_volume(Random& random) {
   StepBuilder builder(random);
   const double speed = builder.speed(random.magnitude(-2, 0.3)), gap = random.between(-0.6, 0.4);
@@ -425,7 +427,7 @@ CaseData free_volume(Random& random) {
   return builder.finish();
 }
 
-/// Puts one or two sheets before one or two volumes: over them, in them, or half in them.
+/// Puts one or two sheets over, in, or half in one or two volumes.
 CaseData sheets_before_volumes(Random& random) {
   StepBuilder builder(random);
   const double speed = builder.speed(random.magnitude(-2, 0.3)), height = random.between(-0.5, 1.8);
@@ -453,7 +455,7 @@ CaseData in_cavity(Random& random) {
   return builder.finish();
 }
 
-/// Puts a vertex of a sheet at rest straight above a volume's highest one, a rung beside the contact radius.
+/// Puts a vertex of a sheet at rest straight above the highest vertex of a volume, one rung from the contact radius.
 CaseData volume_at_radius(Random& random) {
   StepBuilder builder(random);
   builder.volume({});
@@ -470,7 +472,6 @@ CaseData volume_at_radius(Random& random) {
   return builder.finish();
 }
 
-/// Returns the case with its scene changed by `change`.
 template <class Change>
 CaseData changed(const CaseData& data, const Change& change) {
   StepCase test = case_of<StepCase>(data);
@@ -480,7 +481,7 @@ CaseData changed(const CaseData& data, const Change& change) {
   return test;
 }
 
-/// Takes other models than the default ones.
+/// Takes models other than the default ones.
 CaseData models(Random& random) {
   const CaseData data = random.one_in(2) ? onto(random) : handle(random);
   return changed(data, [&](Scene& scene) { choose_models(random, scene); });
@@ -491,14 +492,14 @@ CaseData with_bounds(const CaseData& data, Bounds bounds) {
 }
 CaseData with_planes(const CaseData& data) { return with_bounds(data, Bounds::planes); }
 
-/// Takes half-spaces in place of balls.
+/// Takes half-spaces instead of balls.
 CaseData planes(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> scenes{onto, collide, handle};
   return with_planes(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
 }
 CaseData planes_at_rest(Random& random) { return with_planes(at_rest(random)); }
 
-/// Takes half-spaces that approach divides and on which vertices stop; in half of the cases a detection follows each
+/// Takes half-spaces that approach divides and at which vertices stop. In half of the cases a detection follows each
 /// iteration.
 CaseData dat(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> scenes{onto, collide, handle, at_rest};
@@ -510,7 +511,7 @@ CaseData dat(Random& random) {
   });
 }
 
-/// Lets rods fall alone, on each other, or on a sheet; some starts are turned against the rest shape.
+/// Drops rods alone, onto each other, or onto a sheet.
 CaseData rods(Random& random) {
   StepBuilder builder(random);
   if (random.one_in(2)) builder.sheet(side(random), side(random), {}, {}, random.one_in(2));

@@ -1,6 +1,6 @@
-// Makes cases of the sweep: one or two small cloths, some with a fixed body or prescribed rows, deformed and on their
-// way from xᵗ to y. Ladders lead to where a part of the update decides: rest, collapse, the contact radius, stiff
-// contacts, the slip limit, crossing at a small angle, the bound.
+// Makes cases of the sweep: one or two small cloths, deformed and on their way from xᵗ to y; some have a fixed body or
+// prescribed rows. Ladders approach what decides part of an update: rest, collapse, the contact radius, stiff contacts,
+// the slip limit, edges that cross at a small angle, the bound.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,26 +20,26 @@ namespace {
 
 using namespace placement;
 
-/// A scene in units of one edge length, and where its vertices are at X_prev.
+/// A scene in units of one edge length, with its vertices at X_prev in `shape`.
 struct Cloth {
   Scene scene;
   std::vector<Vec3> shape;
   double contact_radius = 0.5;  ///< r in edge lengths
 };
 
-/// What a family of cases tells `finish`. Lengths are in units of r.
+/// Parameters of `finish`, in units of r.
 struct Motion {
   double jitter = 0;              ///< largest shift of X_prev
-  Vec3 slip;                      ///< of the last body's vertices since xᵗ, in addition to `wander`
-  double wander = 0, step = 0.3;  ///< how far xᵗ, and x, y, may lie from X_prev
-  double bound = 0;               ///< above 0: bounds follow from y by bound_rung; 0: random, or the largest legal ones
-  double bound_rung = 0;          ///< with `bound`: y lies at 1 + rung times the bound
-  bool exact = false;             ///< scales and symmetries that keep every bit
+  Vec3 slip;                      ///< displacement of the last body since xᵗ, in addition to `wander`
+  double wander = 0, step = 0.3;  ///< largest distances from X_prev of xᵗ, and of x and y
+  double bound = 0;       ///< above 0: bounds follow from y and bound_rung; 0: random bounds, or the largest legal ones
+  double bound_rung = 0;  ///< if `bound` > 0: y lies at 1 + bound_rung times the bound
+  bool exact = false;     ///< true: only scales and symmetries that keep every bit
 };
 
 Material material(Random& random) {
   Material m;
-  m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models has all
+  m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models sets other models
   m.density = random.magnitude(-1, 0);
   m.lame_mu = random.magnitude(0, 2);
   m.lame_lambda = random.one_in(4) ? 0 : random.magnitude(0, 2);
@@ -51,7 +51,7 @@ Material material(Random& random) {
   return m;
 }
 
-/// Adds a mesh at rest, which `map` takes to X_prev. Returns the number of the body's first vertex.
+/// Adds a mesh at rest; `map` gives its positions at X_prev. Returns the number of its first vertex.
 template <class Map>
 Index add_body(Cloth& cloth, const Body& body, const Mesh& mesh, Map map) {
   Body named = body;
@@ -61,7 +61,7 @@ Index add_body(Cloth& cloth, const Body& body, const Mesh& mesh, Map map) {
   return cloth.scene.bodies[number].first_vertex;
 }
 
-/// Adds a sheet of nx × ny cells in a plane, which `map` takes to X_prev.
+/// Adds a flat sheet of nx × ny cells at rest; `map` gives its positions at X_prev.
 template <class Map>
 Index add_sheet(Cloth& cloth, const Body& body, int nx, int ny, Map map) {
   Mesh mesh;
@@ -93,7 +93,7 @@ void settings(Random& random, Settings& s) {
   s.bounds_relaxation = random.one_in(4) ? random.between(0.1, 0.49) : 0.45;
 }
 
-/// Moves the case by the plan: fixed vertices rest, all others wander; the plan also gives the bounds.
+/// Sets positions and bounds by the plan; fixed vertices stay, all others move at random.
 void move(Random& random, const Cloth& cloth, const Motion& plan, double scale, SweepCase& test) {
   const double r = cloth.contact_radius * scale;
   const std::vector<Index> groups = rigid_groups(*test.scene);
@@ -145,7 +145,7 @@ double wave(const Vec3& p, double height) { return height * std::sin(1.3 * p.x) 
 
 int cells(Random& random) { return random.one_in(6) ? 5 + random.below(4) : 1 + random.below(4); }
 
-/// Returns two wavy sheets, one above the other; waves and jitter are too small for them to touch, as in a step.
+/// Returns two wavy sheets, one above the other; waves and jitter are too small for the sheets to touch, as in a step.
 Cloth two_sheets(Random& random, bool fixed_below) {
   Cloth cloth;
   cloth.contact_radius = random.between(0.2, 0.9);
@@ -180,7 +180,7 @@ CaseData over_body(Random& random) {
   return finish(random, std::move(cloth), generic(random));
 }
 
-/// Folds a strip upon itself.
+/// Folds a strip onto itself.
 CaseData fold(Random& random) {
   Cloth cloth;
   cloth.contact_radius = random.between(0.2, 0.7);
@@ -193,7 +193,7 @@ CaseData fold(Random& random) {
   return finish(random, std::move(cloth), generic(random));
 }
 
-/// Lets rows of a sheet move as rigid groups.
+/// Moves rows of a sheet as rigid groups.
 CaseData prescribed(Random& random) {
   Cloth cloth = two_sheets(random, random.one_in(2));
   const Body& last = cloth.scene.bodies.back();
@@ -216,8 +216,8 @@ CaseData alone(Random& random) {
   return finish(random, std::move(cloth), generic(random));
 }
 
-/// Returns flat sheets, parallel and in register or shifted by halves and quarters: closest points tie, and distances
-/// are r, τ = r/2 and values between.
+/// Returns flat parallel sheets, in register or shifted by halves and quarters. Closest points tie, and distances are
+/// r, τ = r/2 or between.
 Cloth flat_sheets(Random& random, double gap, double turn = 0) {
   Cloth cloth;
   cloth.contact_radius = 0.5;
@@ -271,7 +271,7 @@ CaseData at_radius(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Makes small d and large k_c.
+/// Takes small d and large k_c.
 CaseData stiff(Random& random) {
   Cloth cloth = flat_sheets(random, random.magnitude(-3, -0.3));
   for (Body& b : cloth.scene.bodies) b.material.contact_stiffness = random.magnitude(2, 6);
@@ -291,7 +291,7 @@ CaseData slip(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Lets edges cross at a small angle.
+/// Makes edges that cross at a small angle.
 CaseData crossing(Random& random) {
   Cloth cloth = flat_sheets(random, random.between(0.2, 0.9),
                             0.03 * random.rung() + (random.one_in(2) ? 0.0316 * random.between(0.5, 1.5) : 0));
@@ -300,8 +300,8 @@ CaseData crossing(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Puts loose edges side by side, each between the corners of two triangles, shifted along each other and tilted by a
-/// rung.
+/// Puts loose edges above each other, each between the corners of two triangles, shifted along each other and tilted by
+/// a rung.
 CaseData strands(Random& random) {
   Cloth cloth;
   const double gap = cloth.contact_radius * random.between(0.3, 0.9);
@@ -319,7 +319,7 @@ CaseData strands(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Makes one triangle or several with no area or almost none.
+/// Makes one or several triangles with no or almost no area.
 CaseData collapse(Random& random) {
   Cloth cloth;
   cloth.contact_radius = 0.125;
@@ -336,7 +336,7 @@ CaseData collapse(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Approaches ‖x − X_prev‖ = b_v: without energies the proposal is y.
+/// Approaches ‖x − X_prev‖ = b_v; without energies the proposal is y.
 CaseData at_bound(Random& random) {
   Cloth cloth;
   cloth.contact_radius = 0.25;
@@ -352,9 +352,9 @@ CaseData at_bound(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Takes any bits for numbers, as far as an answer can be compared: materials and time step over twelve powers of two,
-/// and the last bits of coordinates and bounds, as stencils keep their shapes, and contacts exist, only where vertices
-/// stay near their positions.
+/// Takes random bits for numbers, as far as answers can be compared. Materials and time step span twelve powers of two.
+/// Coordinates and bounds get random last bits only, because stencils keep their shapes and contacts exist only near
+/// the old positions.
 CaseData bits(Random& random) {
   constexpr int last = 17;
   SweepCase test = case_of<SweepCase>(few(random));
@@ -381,7 +381,7 @@ CaseData bits(Random& random) {
   return test;
 }
 
-/// Puts a block of tetrahedra near rest, sheared or turned inside out, over a sheet, with damping in half of the cases.
+/// Puts a block of tetrahedra over a sheet: near rest, sheared or inside out, in half of the cases with damping.
 CaseData solid(Random& random) {
   SweepCase test = case_of<SweepCase>(sheets(random));
   Scene scene = *test.scene;
@@ -414,13 +414,13 @@ CaseData solid(Random& random) {
   return test;
 }
 
-/// Returns a vertex of sheets, beside which a volume is put.
+/// Returns a vertex of the sheets, beside which a volume is put.
 Vec3 some_vertex(Random& random, const SweepCase& test) {
   const Vec3f& x = test.previous[static_cast<std::size_t>(random.below(static_cast<int>(test.previous.size()) - 1))];
   return {x.x, x.y, x.z};
 }
 
-/// Adds a fixed or driven volume to the sheets; `mesh` lies where it is at X_prev.
+/// Adds a fixed or driven volume to the sheets; `mesh` has its positions at X_prev.
 CaseData with_volume(Random& random, SweepCase test, const Mesh& mesh) {
   Scene scene = *test.scene;
   Body body;
@@ -449,7 +449,7 @@ CaseData with_volume(Random& random, SweepCase test, const Mesh& mesh) {
   return test;
 }
 
-/// Puts a volume about a vertex of sheets, into which it may reach.
+/// Puts a volume near a vertex of the sheets; the vertex may be inside.
 CaseData volume(Random& random) {
   SweepCase test = case_of<SweepCase>(sheets(random));
   const double size = test.scene->settings.contact_radius * random.magnitude(0, 1);
@@ -459,7 +459,7 @@ CaseData volume(Random& random) {
   return with_volume(random, std::move(test), mesh);
 }
 
-/// Puts the upper corner of a volume at a rung beside r from a vertex of sheets.
+/// Puts the upper corner of a volume near a vertex of the sheets, at a distance one rung from r.
 CaseData volume_at_radius(Random& random) {
   SweepCase test = case_of<SweepCase>(sheets(random));
   const double r = test.scene->settings.contact_radius, away = r * (1 + 0.5 * random.rung()) / std::sqrt(3);
@@ -473,8 +473,8 @@ CaseData volume_at_radius(Random& random) {
   return with_volume(random, std::move(test), mesh);
 }
 
-/// Puts one or two free volumes about a vertex of sheets: blocks of tetrahedra, which may reach into each other, as
-/// stiff against their inertia as sheets are.
+/// Puts one or two free volumes about a vertex of the sheets: blocks of tetrahedra, which may overlap. Their ratio of
+/// stiffness to inertia is that of sheets.
 CaseData free_volume(Random& random) {
   SweepCase test = case_of<SweepCase>(sheets(random));
   Scene scene = *test.scene;
@@ -512,7 +512,7 @@ CaseData free_volume(Random& random) {
   return test;
 }
 
-/// Takes other models than the default ones, with colours that suit their springs.
+/// Takes models other than the default ones; colours are chosen again for their springs.
 template <CaseData (*make)(Random&)>
 CaseData with_models(Random& random) {
   SweepCase test = case_of<SweepCase>(make(random));
@@ -523,13 +523,13 @@ CaseData with_models(Random& random) {
   return test;
 }
 
-/// Makes rods, alone or beside sheets, which may have prescribed rows.
+/// Makes rods, alone or beside sheets with or without prescribed rows.
 CaseData rods(Random& random) {
   if (random.one_in(2)) return rods_alone(random);
   return with_rod(random, case_of<SweepCase>(random.one_in(3) ? prescribed(random) : sheets(random)));
 }
 
-/// Puts rods where sheets are at rest or collapsed.
+/// Adds a rod to sheets that are at rest or collapsed.
 CaseData rods_at_rest(Random& random) {
   return with_rod(random, case_of<SweepCase>(random.one_in(2) ? at_rest(random) : collapse(random)));
 }

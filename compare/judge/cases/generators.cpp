@@ -12,9 +12,8 @@ namespace ogc::compare {
 
 namespace {
 
-// No limit of grey decisions holds for real states: in a regular sheet every vertex lies on the planes of its
-// neighbours, and parallel edges meet on the borders of blocks, so grey decisions about frames say nothing of the
-// kernel.
+// Real states have no limit of grey decisions. In a regular sheet every vertex lies on the planes of its neighbours,
+// and parallel edges meet at the borders of blocks. So grey decisions in frames do not reveal errors of a kernel.
 constexpr Generator real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
 
 }  // namespace

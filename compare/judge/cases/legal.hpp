@@ -1,4 +1,4 @@
-// Defines a legal question (compare/stages) in one place: generators, states of runs and shrunk cases obey it.
+// Defines which questions (compare/stages) are legal. Generated cases, states of runs and shrunk cases obey it.
 #pragma once
 
 #include <cmath>
@@ -9,20 +9,20 @@
 
 namespace ogc::compare {
 
-/// The largest modulus of coordinates [m], velocities [m/s] and accelerations [m/s²]. Scenes end at 2²⁰; generators go
-/// beyond, so that no stage relies on that. There is no smallest modulus (method.md §2.4).
+/// The largest modulus of coordinates [m], velocities [m/s] and accelerations [m/s²]. Scenes end at 2²⁰; generators
+/// exceed that, so that no stage relies on it. There is no smallest modulus (method.md §2.4).
 inline constexpr float most_coordinate = 0x1p30f;
 
 /// `least_length` and `most_length` limit radii, distances and steps; `vast` limits stiffnesses and bounds.
 inline constexpr float least_length = 0x1p-20f, most_length = 0x1p20f, vast = 0x1p40f;
 
-/// Says what makes the question illegal, with the wrong number; empty where nothing does.
+/// Returns what makes the question illegal, with the wrong number; empty if it is legal.
 std::string problem_of(const TestCase& test);
 
-/// Keeps the first problem that is noted.
+/// Collects problems and keeps the first one.
 class FirstProblem {
  public:
-  /// Notes a number that lies outside of [least, most] or is NaN.
+  /// Notes a number that is NaN or outside of [least, most].
   void number(const char* what, float value, float least, float most) {
     if (value >= least && value <= most) return;
     say(what, value);
@@ -32,7 +32,7 @@ class FirstProblem {
     for (const float x : {v.x, v.y, v.z})
       if (!(std::abs(x) <= most_coordinate)) say(what, x);
   }
-  /// Notes a coordinate beyond most_coordinate of any of the vectors.
+  /// Notes any vector with a coordinate beyond most_coordinate.
   void vectors(const char* what, std::span<const Vec3f> all) {
     for (const Vec3f& v : all) vector(what, v);
   }
@@ -40,7 +40,7 @@ class FirstProblem {
   void require(bool holds, const char* otherwise) {
     if (!holds && text_.empty()) text_ = otherwise;
   }
-  /// Returns the problem; empty where there is none.
+  /// Returns the problem; empty if there is none.
   const std::string& text() const { return text_; }
 
  private:
@@ -49,12 +49,12 @@ class FirstProblem {
   std::string text_;
 };
 
-/// Notes points of a stencil that lie nearer to each other than `least` without coinciding, or all within
-/// `least_longest` (compare/stages/force.hpp).
+/// Notes a nonzero distance below `least` between points of a stencil, a longest one below `least_longest`, and
+/// distances above 2²² (compare/stages/force.hpp).
 void check_lengths(FirstProblem& problem, std::span<const Vec3f> points, float least, float least_longest = 0x1p-30f);
 
-/// Checks that rest shape, materials and settings are those of a valid scene. Positions may be anything: a run
-/// collapses triangles that no scene may begin with.
+/// Checks that rest shape, materials and settings are valid for a scene. Positions are not checked, because triangles
+/// may collapse during a run.
 void check_scene(FirstProblem& problem, const Scene& scene);
 
 }  // namespace ogc::compare

@@ -55,7 +55,7 @@ void MeshBuilder::group(Index first, Index number) {
 
 namespace {
 
-/// Gives vertices and triangles other numbers, which mean nothing: the contacts must stay the same.
+/// Renumbers vertices and triangles at random; contacts must stay the same.
 void relabel(Random& random, MeshBuilder& builder) {
   const std::size_t count = builder.points.size();
   std::vector<Index> to(count);
@@ -80,7 +80,7 @@ void relabel(Random& random, MeshBuilder& builder) {
   builder.groups = std::move(groups);
 }
 
-/// Returns a scale that keeps coordinates within 2²⁰ and edges above 2⁻²⁰.
+/// Returns a scale for which coordinates stay within 2²⁰ and edges above 2⁻²⁰.
 double scale_of(Random& random) {
   constexpr std::array<double, 10> scales{1, 1, 1, 1, 1, 0x1p10, 0x1p-10, 0x1p14, 0x1p-18, 1000};
   return random.pick(std::span<const double>(scales));

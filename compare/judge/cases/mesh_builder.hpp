@@ -1,4 +1,4 @@
-// Builds a small mesh in units of about one edge length, and turns it into a case by jitter, symmetry, scale and radii.
+// Builds a small mesh whose edges are about 1 long, and turns it into a case by jitter, symmetry, scale and radii.
 #pragma once
 
 #include <vector>
@@ -8,49 +8,49 @@
 
 namespace ogc::compare {
 
-/// Adds meshes one after another; numbers of vertices continue.
+/// Collects parts of a mesh; vertices are numbered in the order in which they are added.
 struct MeshBuilder {
-  std::vector<Vec3> points;                    ///< in edge lengths
-  std::vector<Triangle> triangles;             ///< by numbers of points
-  std::vector<Edge> loose_edges;               ///< edges without a triangle
-  std::vector<Index> groups;                   ///< as in Exclusions; filled with -1 where it is short
+  std::vector<Vec3> points;         ///< in edge lengths
+  std::vector<Triangle> triangles;  ///< by numbers of points
+  std::vector<Edge> loose_edges;
+  std::vector<Index> groups;                   ///< as in Exclusions; if short, finish fills it with −1
   std::vector<std::array<Index, 2>> excluded;  ///< pairs of vertices, as in Exclusions
 
   Index add(const Vec3& point);  ///< Returns the number of the new vertex.
   /// Adds (nx + 1) × (ny + 1) vertices at origin + i u + j v, with two triangles a cell.
   void grid(int nx, int ny, const Vec3& origin, const Vec3& u, const Vec3& v);
-  /// Adds `count` triangles about a vertex at `centre`, closed to a disk or open, with the rim at distance 1 and
-  /// lowered by `rise` (a cone).
+  /// Adds `count` triangles about a vertex at `centre`, closed to a disk or open. The rim is at distance 1, lowered by
+  /// `rise` (a cone).
   void fan(int count, const Vec3& centre, bool closed, double rise);
-  /// Adds a polyline of loose edges from `start`, in `count` steps.
+  /// Adds a polyline of `count` loose edges that begins at `start`.
   void strand(int count, const Vec3& start, const Vec3& step);
   /// Adds another mesh, shifted.
   void append(const MeshBuilder& part, const Vec3& shift);
   /// Adds a shifted copy of the whole mesh.
   void repeat(const Vec3& shift) { append(MeshBuilder(*this), shift); }
-  /// Puts the vertices from `first` on into a group.
+  /// Puts all vertices from number `first` on into a group.
   void group(Index first, Index number);
 };
 
-/// What a family of meshes tells `finish`.
+/// Parameters of `finish`.
 struct MeshPlan {
   double jitter = 0;          ///< largest shift of each coordinate, in edge lengths
-  double contact_radius = 0;  ///< r in edge lengths; 0: random, 10^−2 … 10^0.4
+  double contact_radius = 0;  ///< r in edge lengths; 0: random in 10^−2 … 10^0.4
 };
 
-/// Turns the mesh into a case: applies jitter, one symmetry of the cube (with a rotation in half of the plans that have
-/// jitter, in all fine ones), a scale of 1, 2^±10, 2¹⁴, 2⁻¹⁸ or 1000, and r_q = r × 1 … 4.
+/// Turns the mesh into a case: applies jitter, one symmetry of the cube, a scale of 1, 2^±10, 2¹⁴, 2⁻¹⁸ or 1000, and
+/// r_q = r × 1 … 4. A mesh with jitter is also rotated: every time if the case is fine, otherwise in half of the cases.
 MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan);
 
 /// Returns a zigzag strip of `count` triangles in the plane z = 0, with count + 2 vertices and edges of about 1.
 Mesh triangle_strip(int count);
 
-/// A curve of loose edges for a rod (compare/judge/cases/rods/), in edge lengths, about the origin, in the plane z = 0
-/// except for `jitter`.
+/// A curve of loose edges for a rod (compare/judge/cases/rods/), about the origin, in edge lengths. It is planar (z =
+/// 0) except for `jitter`.
 struct RodPlan {
-  int segments = 4;     ///< number along the curve
-  bool closed = false;  ///< a ring of at least 3 segments
-  int branches = 0;     ///< number of short chains that leave vertices of the curve
+  int segments = 4;     ///< along the curve
+  bool closed = false;  ///< true: a ring of at least 3 segments
+  int branches = 0;     ///< number of short chains that begin at vertices of the curve
   double bend = 0.3;    ///< angle between segments [rad]
   double jitter = 0.1;  ///< largest shift of each coordinate
 };
@@ -58,11 +58,11 @@ struct RodPlan {
 /// Returns a curve of a random kind.
 RodPlan some_rod(Random& random);
 
-/// Returns the curve's vertices in order, then those of branches; each edge runs in one direction or the other.
+/// Returns the vertices of the curve in order, then those of branches; the direction of each edge is random.
 Mesh rod_mesh(Random& random, const RodPlan& plan);
 
-/// Makes a body of a rod_mesh a rod with stiffness k_s of about `stretch` [N], bending about as stiff at segments of
-/// that length [m], and ρ so that a vertex weighs about `mass` [kg].
+/// Turns a body made by rod_mesh into a rod with a stretch stiffness k_s of about `stretch` [N]. Bending is about as
+/// stiff for segments of this length [m]. ρ gives each vertex a mass of about `mass` [kg].
 void make_rod(Random& random, Body& body, double stretch, double length, double mass);
 
 }  // namespace ogc::compare

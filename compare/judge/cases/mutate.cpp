@@ -50,7 +50,7 @@ class Mutation {
     (k == 0 ? moved.x : k == 1 ? moved.y : moved.z) = k == 0 ? from.x : k == 1 ? from.y : from.z;
   }
 
-  /// Rounds all points to multiples of a power of two, 2⁻³ … 2⁻¹⁰ of the size.
+  /// Rounds all points to multiples of a power of two, 2⁻³ … 2⁻¹⁰ of `size`.
   void coarsen(double size) {
     if (!(size > 0)) return;
     const double step = std::ldexp(1.0, std::ilogb(size) - 3 - random_.below(8));

@@ -1,4 +1,4 @@
-// Mutates captured states, to reach what a run never quite reaches from the states where runs are.
+// Mutates captured states. Mutants lie near the states of a run, and reach degeneracies that the run barely misses.
 #pragma once
 
 #include <span>
@@ -9,19 +9,19 @@
 
 namespace ogc::compare {
 
-/// Moves a few points in one or more of these ways: next to another point or halfway between two others, up to a rung
-/// of their distance; onto another point; by a rung; by taking over one coordinate of another point; by rounding all
-/// points to few binary digits. In a step it moves velocities, in a sweep xᵗ and the targets, in rest_state the rest
-/// shape as long as that stays legal. Distances become another distance, the radius or its half, or lie a rung beside
-/// it.
+/// Moves a few points in one or more ways. A point moves next to another point, or next to the middle of two others, by
+/// a rung times their distance. It takes the place or one coordinate of another point, moves by a rung, or all points
+/// are rounded to few binary digits. In a step velocities move, in a sweep xᵗ and the targets. In rest_state the rest
+/// shape moves as long as it stays legal. A distance becomes another distance, the radius or half of it, or moves by a
+/// rung.
 void mutate(Random& random, TestCase& test);
 
-/// Moves points alone in the same ways.
+/// Moves points in the ways of `mutate`.
 void mutate_points(Random& random, std::span<Vec3f> points);
-/// Moves vectors in the same ways; they stay numbers of single precision.
+/// Returns the vectors, moved in the ways of `mutate` and rounded to single precision.
 std::vector<Vec3> mutated(Random& random, const std::vector<Vec3>& vectors);
 
-/// Moves the points of several arrays of a case together.
+/// Moves the points of several arrays together, so that a point may take the place of a point of another array.
 template <class... Points>
 void mutate_together(Random& random, Points&&... arrays) {
   std::vector<Vec3f> points;

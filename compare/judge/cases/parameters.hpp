@@ -1,5 +1,5 @@
-// Handles parameters of a case that a problem string may set after the case is made: `… index=1234 r=2e-3`. Each stage
-// has a few of its own.
+// Sets parameters of a case after it is made, as a problem string gives them: `… index=1234 r=2e-3`. Each stage has a
+// few parameters of its own.
 #pragma once
 
 #include <span>
@@ -9,21 +9,21 @@
 
 namespace ogc::compare {
 
-/// One parameter of a stage.
+/// A parameter of a stage.
 struct ParameterInfo {
   std::string_view name, meaning;  ///< "r"; "contact radius [m]"
-  float minimum, maximum;          ///< inclusive limits of the stage's contract
+  float minimum, maximum;          ///< limits of the stage's contract, inclusive
 };
 
-/// Returns the parameters of a stage in canonical order; none where a case has nothing but coordinates.
+/// Returns the parameters of a stage in canonical order; empty if a case has nothing but coordinates.
 std::span<const ParameterInfo> parameters(Stage stage);
 
-/// Puts values into canonical order. Throws InputError for a name that the stage does not have (and lists those it
-/// has), a value out of range, or a name given twice.
+/// Sorts values into canonical order. Throws InputError for a name that the stage lacks (and lists the known names), a
+/// value out of range, or a name given twice.
 void make_canonical(Stage stage, std::vector<Override>& overrides);
 
-/// Puts the values of `test.name.overrides` into the case. Throws InputError where the question becomes illegal (a
-/// query radius below the contact radius).
+/// Puts the values of `test.name.overrides` into the case. Throws InputError if the question becomes illegal, for
+/// example by a query radius below the contact radius.
 void apply_overrides(TestCase& test);
 
 }  // namespace ogc::compare

@@ -6,7 +6,7 @@ namespace ogc::compare::placement {
 
 namespace {
 
-/// Returns Rodrigues' rotation of p about the unit axis a.
+/// Returns p rotated about the unit axis a (Rodrigues' formula).
 Vec3 turned(const Vec3& p, const Vec3& a, double cosine, double sine) {
   const double along = (a.x * p.x + a.y * p.y + a.z * p.z) * (1 - cosine);
   return {p.x * cosine + (a.y * p.z - a.z * p.y) * sine + a.x * along,

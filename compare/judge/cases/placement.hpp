@@ -1,6 +1,6 @@
-// Takes points from a canonical frame to a case. In the canonical frame a degeneracy can be approached by 10⁻¹²,
-// because the coordinate that carries it lies near 0. Exact symmetries come first (signed permutations and powers of
-// two keep every bit); in half of the cases a rotation follows, whose rounding is one more rung.
+// Moves points from a canonical frame into a case. In the canonical frame the coordinate that makes the degeneracy lies
+// near 0, so it can be approached by 10⁻¹². Exact symmetries come first: signed permutations and powers of two keep
+// every bit. In half of the cases a rotation follows; its rounding adds another small deviation.
 #pragma once
 
 #include <array>
@@ -20,16 +20,16 @@ inline Vec3f single(const Vec3& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// Returns the next larger number.
+/// Returns the next larger number of single precision.
 inline float up(float x) { return std::nextafter(x, std::numeric_limits<float>::infinity()); }
 /// Returns x itself, one of its neighbours, or x (1 + rung).
 float beside(Random& random, float x);
 /// Returns a point of the box [low, high)³.
 Vec3 in_box(Random& random, double low, double high);
-/// Returns small integers, halves or quarters, so that exact ties are common.
+/// Returns a point whose coordinates are small integers, halves or quarters, so that exact ties are common.
 Vec3 on_lattice(Random& random, int extent);
-/// Return four points for both pair stages: in the unit box; of any bits; on a lattice that is scaled exactly, by 1,
-/// 2^±10 or 2^±18.
+/// Return four points for closest_face and closest_points: in the unit box; of random bits; on a lattice that is scaled
+/// exactly, by 1, 2^±10 or 2^±18.
 std::array<Vec3, 4> points_in_box(Random& random);
 std::array<Vec3, 4> points_of_bits(Random& random);
 std::array<Vec3, 4> points_on_lattice(Random& random, int extent);
@@ -37,8 +37,8 @@ std::array<Vec3, 4> points_on_lattice(Random& random, int extent);
 void permute(Random& random, std::span<Vec3> points);
 /// Applies one rotation by a random axis and angle to all points, then a shift within the unit box.
 void rotate(Random& random, std::span<Vec3> points);
-/// Permutes the points; rotates them in half of the cases (in all fine ones, as a coordinate near 0 has no error that
-/// could matter); then scales them by 1, 2^±10 or 1000.
+/// Permutes the points, rotates them in half of the cases, and scales them by 1, 2^±10 or 1000. Fine cases are always
+/// rotated, because a coordinate near 0 has no error that could matter.
 void place(Random& random, std::span<Vec3> points);
 
 }  // namespace ogc::compare::placement

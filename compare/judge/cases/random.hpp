@@ -1,7 +1,7 @@
-// Draws random numbers by counter: the n-th number of a case is a hash of (stage, generator, seed, index, n), so a case
-// does not depend on what was generated before it or on the number of threads, and a problem string alone brings it
-// back. All numbers but `magnitude` (a library's power) and `between` (contraction) are the same to the bit in device
-// code, too (tests/fast/cuda/random.cu).
+// Draws random numbers by counter: the n-th number of a case is a hash of (stage, generator, seed, index, n). So a case
+// depends neither on earlier cases nor on the number of threads, and its problem string reproduces it. Device code
+// gives the same bits for all numbers except `magnitude` (a library's power) and `between` (contraction);
+// tests/fast/cuda/random.cu checks this.
 #pragma once
 
 #include <bit>
@@ -12,8 +12,8 @@
 
 namespace ogc::compare {
 
-/// The stream of one case. Names, not numbers, key the stage and the generator: a new one leaves the others' cases as
-/// they were.
+/// The stream of one case. Stage and generator enter by name, not by number, so that a new one leaves all other cases
+/// as they are.
 class Random {
  public:
   constexpr Random(std::string_view stage, std::string_view generator, std::uint64_t seed, std::uint64_t index)
@@ -55,7 +55,7 @@ class Random {
     const double direction = sign();
     return direction * powers[fine_ ? 4 + below(8) : below(12)];
   }
-  /// Restricts all further rungs to the lower ones, 10⁻⁵ and below: for cases next to a decision boundary.
+  /// Restricts all further rungs to 10⁻⁵ and below, for cases next to a decision boundary.
   constexpr void be_fine() { fine_ = true; }
   constexpr bool is_fine() const { return fine_; }
 

@@ -1,4 +1,4 @@
-// Defines a legal question of stage rest_state.
+// Defines which questions of stage rest_state are legal.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace ogc::compare {
 
-/// Says what makes the case illegal (compare/stages/rest_state.hpp), as one message; empty where nothing does.
+/// Returns what makes the case illegal (compare/stages/rest_state.hpp), as one message; empty if it is legal.
 std::string problems_of(const RestStateCase& c);
 
 }  // namespace ogc::compare

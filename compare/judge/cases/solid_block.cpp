@@ -11,7 +11,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Orders of axes in which paths lead from the lowest corner of a cell to its highest one, even permutations first.
+/// Orders of axes of the paths from a cell's lowest corner to its highest one; even permutations come first.
 constexpr std::array<std::array<std::size_t, 3>, 6> paths{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
 
@@ -65,7 +65,8 @@ Mesh jittered_hollow(Random& random, double size, double height) {
   }
   const auto first = static_cast<Index>(mesh.positions.size());
   const double share = random.between(0.3, 0.5);
-  // An upper or lower side of the block is a tenth of a cell away from its mean: no box of half its size meets it.
+  // A side of the block is at most a tenth of a cell away from its mean. So a box of half the block's size does not
+  // meet it.
   const auto between = [share](double a, double b, int side) { return (a + b) / 2 + (side - 0.5) * share * (b - a); };
   for (int v = 0; v < 8; ++v)
     mesh.positions.push_back(
@@ -81,7 +82,7 @@ Mesh jittered_cube(Random& random, double size, double height) { return jittered
 
 namespace {
 
-/// Returns six times the volume that a body's triangles enclose.
+/// Returns six times the volume inside a body's triangles.
 double six_volumes(const Scene& scene, const Body& body) {
   const auto from_first = [&](Index v) {
     return placement::sum(scene.mesh.positions[static_cast<std::size_t>(v)],

@@ -1,5 +1,5 @@
-// Lists the stages that the judge can compare; their names are the stems of compare/stages. A stage is an enumerator
-// here, a line in the list below, and a file in compare/judge/stages that defines what the list points to.
+// Lists the stages that the judge can compare, named by the stems of the files in compare/stages. A stage is an
+// enumerator here, a line in the list below, and a file in compare/judge/stages that defines its traits.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// All stages, in the order of a step.
+/// All stages, in the order in which a step uses them.
 enum class Stage : std::uint8_t {
   rest_state,
   closest_face,
@@ -42,14 +42,14 @@ struct StageTraits;
 
 /// What the judge knows of each stage (compare/judge/cases/stage_traits.hpp).
 namespace stages {
-/// The traits of each stage; the file of its name in compare/judge/stages defines them.
+/// The traits of each stage, defined in compare/judge/stages by the file of the same name.
 extern const StageTraits rest_state, closest_face, closest_points, block, detect_vertex_facet, detect_edge_edge, bound,
     plane, volume_depth, initial_guess, activation, barrier, contact_force, friction_force, volume_force, membrane,
     bending, spring, tetrahedron, rod, orientation, sweep, ccd, truncate, step;
 }  // namespace stages
 
-/// Returns the traits of a stage; null for a number that is no enumerator. This is the only list of all stages that the
-/// judge has: an enumerator that is missing here does not compile (-Wswitch; tests/choices.py).
+/// Returns the traits of a stage; null for a number that is no enumerator. The judge has no other list of all stages:
+/// an enumerator that is missing here does not compile (-Wswitch; tests/choices.py).
 constexpr const StageTraits* find_traits(Stage stage) {
   switch (stage) {
     case Stage::rest_state: return &stages::rest_state;
@@ -95,14 +95,14 @@ inline constexpr std::array<Stage, stage_count> all_stages = [] {
   return all;
 }();
 
-/// Returns the stage's name: "closest_face" …
+/// Returns the stage's name, as "closest_face".
 std::string_view stage_name(Stage stage);
 
-/// Returns the stage of this name; empty where there is none.
+/// Returns the stage of this name; empty if there is none.
 std::optional<Stage> find_stage(std::string_view name);
 
-/// Checks whether a case of the stage is a whole mesh, whose vertices (or edges, or questions; in a step, vertices at
-/// each event) count one by one.
+/// Checks whether a case of the stage is a whole mesh. Each of its vertices, edges or questions counts as a case; in a
+/// step, each vertex at each event.
 bool is_mesh_stage(Stage stage);
 
 }  // namespace ogc::compare

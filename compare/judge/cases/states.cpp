@@ -17,7 +17,7 @@ namespace ogc::compare {
 namespace {
 
 constexpr std::size_t least_frames = 16, most_frames = 100, vertices_kept = std::size_t{1} << 22;
-constexpr int questions = 256;  // questions of stage block about one frame
+constexpr int questions = 256;  // questions of stage block for each frame
 
 double mean_edge_length(const Topology& topology, const std::vector<Vec3f>& positions) {
   double total = 0;

@@ -1,6 +1,6 @@
-// Takes cases from real states, the frames of a run folder: whole frames for detection, and for the other stages
-// stencils drawn from their lists (elements of the rest state, contacts of the frame). An authority computes what a run
-// folder does not hold because it follows by computation: rest data, distances, contacts.
+// Takes cases from real states, the frames of a run folder. Detection gets whole frames. Other stages get stencils
+// drawn from elements of the rest state and from contacts of the frame. An authority computes what a run folder does
+// not hold: rest data, distances, contacts.
 #pragma once
 
 #include <array>
@@ -20,64 +20,64 @@
 
 namespace ogc::compare {
 
-/// Holds up to 100 frames, of large meshes fewer (16 from 262,144 vertices on), evenly spread over the run (first and
-/// last included), with the scene's topology, groups, r and cap of r_q.
+/// Holds frames spread evenly over the run, first and last included, with the scene's topology, groups, r and cap of
+/// r_q. It holds up to 100 frames, and fewer for large meshes (16 for 262,144 vertices or more).
 class States {
  public:
-  /// Asks the authority for rest data. Throws InputError where the folder is no run or holds no frame.
+  /// Gets rest data from the authority. Throws InputError if the folder is no run or holds no frame.
   States(const std::filesystem::path& folder, const Authority& authority);
-  /// Says why the run has no cases for the stage; empty where it has some.
+  /// Returns why the run has no cases for the stage; empty if it has some.
   std::string missing(Stage stage) const;
-  /// Returns the case `index` of a stage. For detection that is frame index mod frames, whole, with r_q = r × 1 … cap.
-  /// Throws InputError that says what is missing. For cases made from contacts (activation, contact_force,
-  /// friction_force), frames without a contact do not count.
+  /// Returns case `index` of a stage, taken from frame index mod frames. Cases made from contacts (activation,
+  /// contact_force, friction_force) skip frames without contacts. Throws InputError that says what is missing.
   CaseData make(Stage stage, std::uint64_t index, Random& random) const;
   const std::string& folder() const { return folder_; }
 
-  const Topology& topology() const { return *topology_; }  ///< of the scene's mesh
-  const Scene& scene() const { return *scene_; }           ///< rounded
-  /// Returns rest data as the authority computes them.
+  const Topology& topology() const { return *topology_; }
+  const Scene& scene() const { return *scene_; }  ///< rounded
+  /// Returns the authority's rest data.
   const RestStateOut& rest() const { return rest_; }
   bool has_contact() const { return frame_with_contact(0).has_value(); }
 
-  /// Return the frame for a case of this index; the second one skips to the next frame that has a contact.
+  /// Return the frame for a case of this index; the second one skips frames without contacts.
   std::size_t frame(std::uint64_t index) const { return index % states_.size(); }
   std::size_t contact_frame(std::uint64_t index) const { return *frame_with_contact(frame(index)); }
 
-  /// Return a whole frame. The detection case has r_q = r × 1 … cap; the block case has questions about blocks.
+  /// Return cases of a whole frame. The detection case has r_q = r × 1 … cap; the block case has random questions.
   MeshCase whole(std::size_t frame, Random& random) const;
   PlaneCase plane(std::size_t frame, Random& random) const;
   BlockCase block(std::size_t frame, Random& random) const;
   RestStateCase rest_state() const { return {scene_, topology_}; }
-  /// Returns the smallest distances of the frame; asks the authority for them once.
+  /// Returns the smallest distances of the frame, which the authority computes once.
   BoundCase bound(std::size_t frame) const;
-  /// Returns the first sweep of the step that follows the frame.
+  /// Returns the state of the first sweep in the step that follows the frame.
   SweepCase sweep(std::size_t frame, Random& random) const;
   /// Returns the step that follows the frame; prescribed motions continue at the time of the frame.
   StepCase step(std::size_t frame) const;
-  /// Return a vertex and a triangle, or two edges, that are in contact or near each other.
+  /// Return a vertex and a triangle, or two edges, in contact or near each other.
   ClosestFaceCase vertex_triangle(std::size_t frame, Random& random) const;
   ClosestPointsCase edge_edge(std::size_t frame, Random& random) const;
-  /// Returns a contact of the frame's lists, at the frame or within a step from it at the frame's velocities.
+  /// Returns a contact of the frame. Its vertices are where the frame has them, or have moved at the frame's velocities
+  /// for up to a step.
   FrictionForceCase contact(std::size_t frame, Random& random) const;
   /// Returns the distance of a contact of the frame, but at least 2⁻²³ r (compare/stages/contact_force.hpp).
   ActivationCase contact_distance(std::size_t frame, Random& random) const;
-  /// Return a vertex on its way from this frame to the next one, and a vertex at the start of the step that follows.
+  /// Return a vertex on its way from this frame to the next one, and a vertex at the start of the step after the frame.
   TruncateCase moved_vertex(std::size_t frame, Random& random) const;
   InitialGuessCase guessed_vertex(std::size_t frame, Random& random) const;
-  /// Return an element at rest with its vertices where a step at the frame's velocities takes them.
+  /// Return an element at rest, with its vertices where the frame's velocities take them in one step.
   MembraneCase triangle(std::size_t frame, Random& random) const;
   BendingCase hinge(std::size_t frame, Random& random) const;
   SpringCase spring(std::size_t frame, Random& random) const;
   TetrahedronCase tetrahedron(std::size_t frame, Random& random) const;
 
  private:
-  /// A frame, with its vertices sorted by cell of a grid of about one edge length, to find neighbours.
+  /// A frame. Its vertices are sorted by cells of about one edge length, so that neighbours are found.
   struct State {
     std::vector<Vec3f> positions;
     std::vector<float> bounds;
     std::vector<Vec3f> velocities;
-    std::vector<Quaternion> orientations;  // of the segments of rods
+    std::vector<Quaternion> orientations;  // of the rods' segments
     std::int64_t step = 0;
     std::vector<std::pair<std::uint64_t, Index>> cells;
   };
@@ -87,20 +87,20 @@ class States {
     std::vector<EdgeEdgeContact> edge_edge;
     std::size_t size() const { return vertex_facet.size() + edge_edge.size(); }
   };
-  /// Returns the orientations of the frame; where it holds none, identities.
+  /// Returns the orientations of the frame; identities if the frame has none.
   std::vector<Quaternion> orientations_of(const State& state) const;
-  /// Returns the frame's contacts; asks the authority for them once a frame.
+  /// Returns the frame's contacts, which the authority computes once.
   const Contacts& contacts(std::size_t frame) const;
-  /// Returns the first frame with a contact, from this one on and around; none where the run has none.
+  /// Returns the first frame with a contact, cyclically from this one on; none if the run has no contacts.
   std::optional<std::size_t> frame_with_contact(std::size_t frame) const;
   std::uint64_t cell(const Vec3f& position) const;
-  /// Returns a vertex in the same cell or one of its neighbours; v itself where there is no other.
+  /// Returns a vertex in the same cell or a cell beside it; v itself if there is no other.
   Index neighbour(const State& state, Index v, Random& random) const;
-  /// Return a vertex and the corners of a triangle, and the ends of two edges, the lower-numbered edge first: in half
-  /// of the draws those of a contact, if the frame has any, else near each other.
+  /// Return a vertex and the corners of a triangle, and the ends of two edges, the lower-numbered edge first. In half
+  /// of the draws they are in contact, if the frame has any; otherwise they are near each other.
   std::array<Index, 4> vertex_and_triangle(std::size_t frame, Random& random) const;
   std::array<Index, 4> pair_of_edges(std::size_t frame, Random& random) const;
-  /// Returns x after this share of a step at the frame's velocity.
+  /// Returns the vertex's position after this share of a step at its velocity.
   Vec3f moved(const State& state, Index v, double part = 1) const;
   MeetingMaterial meeting(Index v, Index w) const;
 
@@ -114,7 +114,7 @@ class States {
   float contact_radius_ = 0, detection_radius_cap_ = 1, bounds_relaxation_ = 0.45f;
   double cell_size_ = 1;
   std::vector<State> states_;
-  /// By frame; any thread fills them at the first request.
+  /// by frame; the first thread that needs an entry computes it
   mutable std::vector<std::optional<BoundCase>> smallest_distances_;
   mutable std::vector<std::optional<Contacts>> contacts_;
   mutable std::mutex filling_;

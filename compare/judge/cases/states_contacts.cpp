@@ -1,5 +1,4 @@
-// Takes pairs and contacts from real states. The authority finds the contact sets of a frame, with the radius of the
-// run.
+// Takes pairs and contacts from real states. The authority computes the contact sets of a frame at the run's radius.
 #include <algorithm>
 #include <array>
 
@@ -11,7 +10,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns the vertices of a face, −1 for those that it lacks.
+/// Returns the vertices of a face; missing ones are −1.
 std::array<Index, 3> vertices_of(const Topology& topology, const Face& face) {
   const auto i = static_cast<std::size_t>(face.index);
   switch (face.kind) {
@@ -22,7 +21,7 @@ std::array<Index, 3> vertices_of(const Topology& topology, const Face& face) {
   return {};
 }
 
-/// Two sides in contact: the sides and their vertices as ContactForceCase has them, and the numbers of two edges whose
+/// Two sides in contact, with vertices in the order of ContactForceCase. `edge` holds the numbers of two edges whose
 /// interiors meet.
 struct Stencil {
   ContactSides sides = ContactSides::point_point;
@@ -38,8 +37,7 @@ Stencil stencil_of(const Topology& topology, const VertexFacetContact& contact) 
   return {sides, {contact.vertex, a, b, c}, {-1, -1}};
 }
 
-/// Returns the stencil of a contact. Vertices are lower faces than edges, so the first face is an edge only where both
-/// are.
+/// Returns the stencil of a contact. Vertices precede edges, so the first face is an edge only if both are.
 Stencil stencil_of(const Topology& topology, const EdgeEdgeContact& contact) {
   const std::array<Index, 3> p = vertices_of(topology, contact.first), q = vertices_of(topology, contact.second);
   if (contact.first.kind == FaceKind::edge)

@@ -1,5 +1,5 @@
-// Takes stencils and distances from real states. A frame keeps x at the end of a step; to get x beside xᵗ, every vertex
-// goes on for one more step at its velocity.
+// Takes stencils and distances from real states. A frame stores x at the end of a step. To get x in addition to xᵗ,
+// each vertex moves at its velocity for one more step.
 #include <algorithm>
 #include <array>
 
@@ -90,7 +90,7 @@ TetrahedronCase States::tetrahedron(std::size_t frame, Random& random) const {
   const RestTetrahedron& rest = any(random, rest_.tetrahedra);
   const Material& material = scene_->bodies[static_cast<std::size_t>(rest.body)].material;
   TetrahedronCase c;
-  for (std::size_t k = 0; k < 4; ++k) {  // seen from corner 0
+  for (std::size_t k = 0; k < 4; ++k) {  // corner 0 is the vertex of the question
     c.corner[k] = moved(state, rest.corner[k]);
     c.start[k] = state.positions[static_cast<std::size_t>(rest.corner[k])];
   }

@@ -1,4 +1,4 @@
-// Puts cases to both sides and takes the time of each side.
+// Gives cases to both sides and measures the time of each side.
 #pragma once
 
 #include <chrono>
@@ -29,7 +29,7 @@ class Asker {
     return truth;
   }
 
-  /// Returns the contestant's answer; one thread at a time asks.
+  /// Returns the contestant's answer. One thread at a time calls the contestant.
   template <class Question, class Out, class In>
   Out answer(const Question& question, const std::function<Out(const In&)>& contestant) {
     const std::lock_guard lock(turn_);
@@ -48,8 +48,8 @@ class Asker {
   Tally& tally_;
 };
 
-/// Puts cases of one stage to both sides and judges the answers. Holds `contestant_turn` while it asks the contestant,
-/// which need not be safe for two threads at once.
+/// Gives cases of one stage to both sides and judges the answers. Holds `contestant_turn` during each call of the
+/// contestant, which need not be safe for several threads.
 void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority,
          std::mutex& contestant_turn, Tally& tally);
 

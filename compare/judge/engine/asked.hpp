@@ -1,4 +1,4 @@
-// Decides which generators' cases a contestant is asked about.
+// Decides which generators are used for a contestant.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -6,7 +6,7 @@
 
 namespace ogc::compare {
 
-/// Checks whether the contestant has all that the generator's cases need beside the judged stage.
+/// Checks whether the contestant has all that the generator's cases need in addition to the judged stage.
 bool is_asked(const Contestant& contestant, Stage stage, const Generator& generator);
 
 }  // namespace ogc::compare

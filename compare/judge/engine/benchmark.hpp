@@ -1,4 +1,4 @@
-// Holds a question that can be asked again and again.
+// Holds a question that can be repeated.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 
 namespace ogc::compare {
 
-/// A call for a clock: the question is made once and asked as often as needed.
+/// A question that is made once and asked as often as a benchmark needs.
 struct BenchmarkCall {
-  std::function<void()> ask;  ///< discards the answer; owns what the question points to
+  std::function<void()> ask;  ///< discards the answer; owns the data of the question
   std::int64_t items = 0;     ///< number of cases, or of vertices of a mesh
 };
 

@@ -1,4 +1,4 @@
-// Turns answers into bits, for comparisons that forgive nothing: signs of zeros and payloads count.
+// Turns answers into bits, to compare them exactly; signs of zeros and payloads of NaNs count.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace ogc::compare {
 
-/// Collects the bits of numbers one after another.
+/// Collects the bits of numbers in order.
 class Bits {
  public:
   /// Adds a number, or a structure of numbers without padding.
@@ -27,7 +27,7 @@ class Bits {
     for (const T& value : values) add(value);
   }
 
-  /// Adds a face by its members, as there is padding between them.
+  /// Adds a face member by member, because there is padding between members.
   void add(const Face& face) {
     add(face.kind);
     add(face.index);
@@ -109,7 +109,7 @@ class Bits {
     add(out.orientation);
   }
 
-  /// Returns all bits so far and removes them.
+  /// Returns the bits collected so far and removes them.
   std::string take() { return std::move(text_); }
 
  private:

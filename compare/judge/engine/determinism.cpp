@@ -12,7 +12,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns the bits of the answers to cases that are asked in batches of `size`.
+/// Returns the bits of the answers if cases are asked in batches of `size`.
 std::vector<std::string> in_batches(Stage stage, Cases cases, std::size_t size, const Contestant& contestant,
                                     const Authority& authority) {
   std::vector<std::string> all;
@@ -24,7 +24,7 @@ std::vector<std::string> in_batches(Stage stage, Cases cases, std::size_t size, 
   return all;
 }
 
-/// Returns a fixed shuffle, by the judge's own random numbers.
+/// Returns a random order that is the same for the same count.
 std::vector<std::size_t> shuffled(std::size_t count) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -53,8 +53,8 @@ std::vector<TestCase> cases_of(Stage stage, std::uint64_t count, std::uint64_t s
   return cases;
 }
 
-/// Says how many generic cases change under other numbers of vertices and triangles, and the first of them; empty where
-/// none does, or where the answer depends on the numbers.
+/// Returns how many generic cases change if vertices and triangles are renumbered, and the first such case. Returns an
+/// empty text if none changes, or if the answer depends on numbers.
 std::string changed_by_numbers(Stage stage, Cases cases, const Contestant& contestant) {
   const auto is_same = traits_of(stage).is_same_renumbered;
   if (is_same == nullptr) return {};

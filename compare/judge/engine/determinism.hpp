@@ -1,5 +1,5 @@
-// Checks whether the same questions get the same bits: when asked again, with other numbers of threads, alone and
-// together with other cases, and in another order. The check needs no truth.
+// Checks whether the same questions get the same bits: when repeated, with other numbers of threads, alone or together
+// with other cases, and in another order. No truth is needed.
 #pragma once
 
 #include <cstdint>
@@ -13,37 +13,37 @@
 
 namespace ogc::compare {
 
-/// Returns the bits of the contestant's answers, one string a case; they are equal if and only if all numbers are,
-/// signs of zeros and payloads included. The authority answers where a question needs it (the contacts of a sweep). All
-/// cases must be of one stage.
+/// Returns the bits of the contestant's answers, one string for each case. Strings are equal if and only if all numbers
+/// are equal, including signs of zeros and payloads of NaNs. The authority answers if a question needs it, as for the
+/// contacts of a sweep. All cases must be of one stage.
 std::vector<std::string> answer_bits(Stage stage, std::span<const TestCase> cases, const Contestant& contestant,
                                      const Authority& authority);
 
-/// A way to ask that must not change a bit: it runs its argument on other threads or under another limit.
+/// Conditions that must not change a bit, such as other threads or another limit.
 struct Surrounding {
   std::string name;                                       ///< for the report: "2 threads"
   std::function<void(const std::function<void()>&)> run;  ///< calls its argument once
 };
 
-/// What a stage's answers depend on, though they must not.
+/// Conditions that changed a stage's answers.
 struct DeterminismReport {
   Stage stage = Stage::rest_state;  ///< the stage under test
   std::uint64_t cases = 0;          ///< number of cases; a mesh counts once
   /// FNV-1a of all answers in order; equal on two machines or builds that give the same bits
   std::uint64_t digest = 0;
-  /// one line for each way to ask that changed bits: the way, the number of cases, the first of them
+  /// one line for each condition that changed bits: its name, the number of cases, the first of them
   std::vector<std::string> changed;
   bool skipped = false;  ///< the contestant does not have the stage
 };
 
-/// Asks about `cases` cases of all generators (a mesh counts once) again, shuffled, one by one, in batches of 2, 3, 5,
-/// 10 and 50, and in each surrounding. Generic cases of stages whose answers do not depend on numbers
-/// (StageTraits::is_same_renumbered) are also asked under other numbers of vertices and triangles.
+/// Asks `cases` cases of all generators (a mesh counts once) again: shuffled, one by one, in batches of 2, 3, 5, 10 and
+/// 50, and in each surrounding. Generic cases of stages with StageTraits::is_same_renumbered are also asked with
+/// renumbered vertices and triangles.
 DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint64_t seed, const Contestant& contestant,
                                     const Authority& authority, std::span<const Surrounding> surroundings);
 
-/// Returns a table with one row a stage: stage, stated level (compare/judge/cases/stage_traits.hpp), cases, digest,
-/// what changed.
+/// Returns a table with one row for each stage: stage, stated level (compare/judge/cases/stage_traits.hpp), cases,
+/// digest, what changed.
 std::string determinism_table(std::span<const DeterminismReport> reports);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Holds what the judge finds about the failures of a stage as a whole (compare/judge/report/diagnose.hpp finds it).
+// Holds the common cause of a stage's failures; compare/judge/report/diagnose.hpp finds it.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,29 @@
 
 namespace ogc::compare {
 
-/// A second mistake, in failing cases that the named form does not explain.
+/// A second mistake, which explains failing cases that the first form does not explain.
 struct SecondMistake {
-  std::string name, meaning;  ///< name and meaning of its form
-  std::uint64_t fits = 0;     ///< failing cases that this form fits and no form before it
-  bool together = false;      ///< in the same answer as the named form, not in its place
+  std::string name, meaning;  ///< of its wrong form
+  std::uint64_t fits = 0;     ///< failing cases that this form fits and no earlier form fits
+  /// true if the answers contain both mistakes, false if they contain this one instead of the first
+  bool together = false;
 };
 
-/// A known wrong form that the answers equal, and where they fail.
+/// A wrong form that matches the answers, and the inputs for which they fail.
 struct Diagnosis {
-  std::string name, meaning;            ///< of the form (compare/judge/report/wrong_forms.hpp); empty where none fits
-  std::vector<std::string> as_well;     ///< forms that fit equally many cases: these do not tell them apart
-  std::uint64_t fits = 0, failing = 0;  ///< failing cases that the form fits, of all that were checked
-  /// right cases that differ from the form, of all that were checked
+  std::string name, meaning;         ///< of the form (compare/judge/report/wrong_forms.hpp); empty if none fits
+  std::vector<std::string> as_well;  ///< other forms that fit equally well, so that these cases do not distinguish them
+  std::uint64_t fits = 0, failing = 0;  ///< failing cases that the form fits, of all that were tried
+  /// right cases that contradict the form, of all that were tried
   std::uint64_t otherwise = 0, right = 0;
   std::uint64_t forms = 0;  ///< number of forms that were tried
-  /// what all failing cases have in common and right ones lack, for example "activation is ogc"; or empty
+  /// what all failing cases have in common and right ones lack, for example "activation is ogc"; may be empty
   std::string where{};
-  std::uint64_t elsewhere = 0;           ///< number of right cases without it
-  std::vector<SecondMistake> seconds{};  ///< forms that fit the failing cases that the named one misses
+  std::uint64_t elsewhere = 0;           ///< number of right cases that lack it
+  std::vector<SecondMistake> seconds{};  ///< forms that fit failing cases which the first form does not fit
 };
 
-/// Returns a paragraph, and the same as JSON.
+/// Return the diagnosis as a paragraph, and as JSON.
 std::string diagnosis_text(const Diagnosis& diagnosis);
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
 

@@ -1,6 +1,6 @@
-// Finds the sign of a sum of doubles without rounding, by Shewchuk's growing expansion (1997). The judge uses it for
-// the only exact question that it answers itself: whether a stored position obeys its bound. No contestant's arithmetic
-// is trusted for that.
+// Finds the sign of a sum of doubles without rounding, by Shewchuk's growing expansion (1997). The judge uses it to
+// decide by itself whether a stored position obeys its bound, so that this decision does not depend on a contestant's
+// arithmetic.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace ogc::compare {
 
-/// A sum without rounding. Terms and products must neither overflow nor fall below 2⁻¹⁰⁷⁴; squares of single-precision
-/// inputs do neither.
+/// A sum without rounding. Terms and products must neither overflow nor fall below 2⁻¹⁰⁷⁴, which holds for squares of
+/// single-precision inputs.
 class ExactSum {
  public:
   /// Adds a term.
@@ -34,14 +34,14 @@ class ExactSum {
     add(product);
     add(std::fma(a, b, -product));
   }
-  /// Returns −1, 0 or 1. The parts do not overlap and they grow, so the last one decides.
+  /// Returns −1, 0 or 1. The last part decides, because parts do not overlap and their magnitudes increase.
   int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
 
  private:
   std::vector<double> parts_;
 };
 
-/// Checks whether ‖x − p‖ ≤ b, exactly: sums x² − 2xp + p² by coordinate, as products of two floats are exact in
+/// Checks exactly whether ‖x − p‖ ≤ b. Sums x² − 2xp + p² by coordinate, because products of two floats are exact in
 /// double. All numbers must be finite.
 inline bool obeys_bound(const Vec3f& x, const Vec3f& p, float b) {
   ExactSum margin;
@@ -54,7 +54,7 @@ inline bool obeys_bound(const Vec3f& x, const Vec3f& p, float b) {
   return margin.sign() <= 0;
 }
 
-/// Checks whether n·x ≤ o, exactly. All numbers must be finite.
+/// Checks exactly whether n·x ≤ o. All numbers must be finite.
 inline bool obeys_half_space(const Vec3f& x, const HalfSpace& half_space) {
   const Vec3f& n = half_space.normal;
   ExactSum margin;

@@ -1,4 +1,4 @@
-// Names features for messages and explanations, which never contain a bare number.
+// Names features for messages and explanations, which would be unclear with bare numbers.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace ogc::compare {
 
-// A feature in an answer need not exist; its name says so then.
+// If a feature of an answer does not exist, its name says so.
 
 /// Returns "vertex 2 of the triangle", "edge (0,1) of the triangle", "the interior of the triangle".
 std::string feature_name(TriangleFeature feature);

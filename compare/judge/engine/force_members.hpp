@@ -1,5 +1,4 @@
-// Lists the members of the cases of force stages by name and unit, in one place: for writing and reading files, and for
-// people.
+// Lists the members of the cases of force stages by name and unit. Files and printed explanations use this list.
 #pragma once
 
 #include <array>
@@ -14,8 +13,8 @@
 
 namespace ogc::compare {
 
-// Calls visit(name, unit, member) for each member. Lengths have the unit m, pure numbers "1", choices and numbers of
-// vertices "".
+// Each function calls visit(name, unit, member) for every member. The unit is "m" for lengths, "1" for pure numbers,
+// and "" for choices and numbers of vertices.
 
 /// Visits the members of a triangle with a membrane.
 template <class Case, class Visit>
@@ -95,7 +94,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// Visits the members of a segment between its neighbours.
+/// Visits the members of a segment with its neighbours.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, OrientationCase>
 void visit_members(Case& c, Visit visit) {
@@ -156,7 +155,7 @@ void visit_members(Case& c, Visit visit) {
   visit("slip_limit", "m", c.slip_limit);
 }
 
-/// Names in the order of ContactSides.
+/// Names of contact sides, in the order of ContactSides.
 inline constexpr std::array<std::string_view, 4> side_names{"point_point", "point_edge", "edge_edge", "point_triangle"};
 
 /// Returns the names of an enumeration's values, in their order.
@@ -166,7 +165,7 @@ inline std::span<const std::string_view> names_of(BendingModel) { return choice_
 inline std::span<const std::string_view> names_of(ContactActivation) { return choice_names<ContactActivation>; }
 inline std::span<const std::string_view> names_of(DampingForm) { return choice_names<DampingForm>; }
 
-/// The types that names_of takes.
+/// A type that has names_of.
 template <class T>
 concept Named = std::is_enum_v<T>;
 

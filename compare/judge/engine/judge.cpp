@@ -1,8 +1,10 @@
-// Judges stages with several threads. Threads take batches by number and merge them by number, so they can change
-// neither a case nor a sum. A mesh stage does not know beforehand how many batches it needs: it stops merging where the
-// wanted number of cases is reached, and discards the batches begun beyond. To discard little, no batch is begun far
-// ahead of the merged ones: a contestant that answers one thread at a time would otherwise be busy with batches that
-// are not needed, while the one that all threads wait for stands in the queue.
+// Judges stages with several threads. Threads take batches by number and merge results in the same order, so threads
+// affect neither cases nor sums.
+//
+// The number of batches that a mesh stage needs is unknown at the start. Merging stops when the wanted number of cases
+// is reached; batches beyond it are discarded. To discard few, threads do not begin batches far ahead of the merged
+// ones. Otherwise a contestant that answers one thread at a time would spend its time on unneeded batches while the
+// next batch to merge waits.
 #include "compare/judge/engine/judge.hpp"
 
 #include <algorithm>
@@ -24,18 +26,18 @@ namespace ogc::compare {
 
 namespace {
 
-// visit_stages reaches every stage of the judge's list, so that code which wraps a contestant stage by stage leaves
-// none out.
+// Code that wraps a contestant stage by stage uses visit_stages, which must therefore visit every stage of the judge's
+// list.
 static_assert([] {
   std::size_t count = 0;
   visit_stages([&](const char*, auto) { ++count; });
   return count == stage_count;
 }());
 
-// Meshes of a batch; one where a mesh has thousands of vertices.
+// Meshes in one batch; one if a mesh has thousands of vertices.
 constexpr std::uint64_t mesh_batch = 4;
 
-/// Runs one generator: batches of consecutive indices, until it has counted `cases`.
+/// Runs one generator in batches of consecutive indices until it has counted `cases`.
 class GeneratorRun {
  public:
   GeneratorRun(Stage stage, const Generator& generator, std::uint64_t cases, const Contestant& contestant,
@@ -101,8 +103,9 @@ class GeneratorRun {
 
   bool is_over() const { return stopped_ || next_ == batches_; }
 
-  /// Returns how many batches may be begun beyond the merged ones: a few a thread where their number is known; in a
-  /// mesh stage at most one a thread, and no more than are missing by the cases of a batch so far.
+  /// Returns how many batches may be begun beyond the merged ones: four for each thread if the number of batches is
+  /// known. In a mesh stage at most one for each thread, and not more than are missing, estimated from the cases of a
+  /// batch so far.
   std::uint64_t ahead() const {
     if (!is_mesh_stage(stage_)) return 4 * options_.threads;
     if (merged_count_ == 0) return options_.threads;
@@ -118,7 +121,7 @@ class GeneratorRun {
       merged_.add(it->second);
       waiting_.erase(it);
       ++merged_count_;
-      // A family whose meshes are all empty would never reach the wanted number of cases.
+      // This also stops a generator whose meshes are all empty, which would never reach the wanted number of cases.
       stopped_ = merged_.total().cases >= wanted_ || merged_count_ > wanted_ || merged_.failures >= failures_allowed;
     }
     may_go_on_.notify_all();
@@ -129,7 +132,7 @@ class GeneratorRun {
   Stage stage_;
   const Generator& generator_;
   std::uint64_t wanted_;
-  std::uint64_t batches_ = std::numeric_limits<std::uint64_t>::max();  ///< not known beforehand for a mesh stage
+  std::uint64_t batches_ = std::numeric_limits<std::uint64_t>::max();  ///< unknown for a mesh stage
   const Contestant& contestant_;
   const Authority& authority_;
   const JudgeOptions& options_;

@@ -1,4 +1,4 @@
-// Drives a contestant and an authority through the same cases, stage by stage; the judge never learns which programs
+// Takes a contestant and an authority through the same cases, stage by stage. The judge never learns which programs
 // they are.
 #pragma once
 
@@ -16,39 +16,39 @@
 
 namespace ogc::compare {
 
-/// How much the judge asks, and how.
+/// Extent and options of a judgement.
 struct JudgeOptions {
-  std::uint64_t cases = 100000;  ///< cases of each stage; a mesh stage ends with the mesh that reaches the number
+  std::uint64_t cases = 100000;  ///< cases for each stage; the last mesh of a mesh stage may exceed the number
   std::uint64_t seed = 1;        ///< seed of the generators
-  /// threads that generate, ask the authority and judge; one thread at a time asks the contestant
+  /// threads that generate, call the authority and judge; one thread at a time calls the contestant
   unsigned threads = 2;
-  std::uint64_t batch = 1u << 14;  ///< cases put to a pair stage at once
-  std::string generator;           ///< only this generator; all where empty
-  const States* states = nullptr;  ///< real states to take cases from, besides
-  /// Called by one thread at a time after each batch, with the cases judged so far and the mismatches so far.
+  std::uint64_t batch = 1u << 14;  ///< cases in one question of a pair stage
+  std::string generator;           ///< the only generator to use; empty: all
+  const States* states = nullptr;  ///< real states from which cases are also taken
+  /// Called after each batch with the numbers of cases and of mismatches so far, by one thread at a time.
   std::function<void(std::uint64_t, std::uint64_t)> progress;
 };
 
 /// What the judge found about a stage.
 struct StageReport {
-  Tally tally;                           ///< all counts and errors
-  double seconds = 0;                    ///< time of both sides and the judge
-  bool skipped = false;                  ///< the contestant or the authority does not have the stage
-  std::optional<Diagnosis> diagnosis{};  ///< diagnosis of the failures, where one was wanted (report/diagnose.hpp)
-  std::string note{};                    ///< why the given run has no cases for the stage; otherwise empty
-  /// Checks that there is no mismatch, at least one case, and a grey share of the generic generators within its limit.
+  Tally tally;           ///< all counts and errors
+  double seconds = 0;    ///< time of both sides and the judge
+  bool skipped = false;  ///< true if the contestant or the authority lacks the stage
+  /// set if a diagnosis of the failures was requested (compare/judge/report/diagnose.hpp)
+  std::optional<Diagnosis> diagnosis{};
+  std::string note{};  ///< why the given run has no cases for the stage; empty if it has
+  /// Checks that there is at least one case and no mismatch, and that few decisions of the generic generators are grey.
   bool passed() const;
 };
 
 /// Checks whether both sides have the stage.
 bool can_judge(Stage stage, const Contestant& contestant, const Authority& authority);
 
-/// A stage ends after this many failures of the contestant (ContestantFailure), with the cases judged so far.
+/// A stage ends after this many failures of the contestant (ContestantFailure); it reports the cases judged so far.
 inline constexpr std::uint64_t failures_allowed = 3;
 
 /// Judges generated cases of one stage. The report depends on cases, seed, batch and generators, not on threads. A
-/// ContestantFailure becomes a mismatch of the case that provokes it; whatever else a contestant throws reaches the
-/// caller.
+/// ContestantFailure becomes a mismatch of the case that causes it; other exceptions of a contestant reach the caller.
 StageReport judge_stage(Stage stage, const Contestant& contestant, const Authority& authority,
                         const JudgeOptions& options);
 

@@ -14,7 +14,7 @@ class Narrowing {
   Narrowing(Stage stage, const Contestant& contestant, const Authority& authority, std::mutex& turn, Tally& tally)
       : stage_(stage), contestant_(contestant), authority_(authority), turn_(turn), tally_(tally) {}
 
-  /// Judges the cases; where there is no answer, counts nothing and returns the failure's message.
+  /// Judges the cases. If the contestant fails, counts nothing and returns the failure's message.
   std::optional<std::string> judge(Cases cases) {
     Tally attempt(stage_);
     try {
@@ -26,12 +26,12 @@ class Narrowing {
     return std::nullopt;
   }
 
-  /// Takes cases that fail together: judges those before the first that fails, reports that one, and returns those
-  /// behind it.
+  /// Takes a batch that fails. Judges the cases before the first failing one, reports this one, and returns the cases
+  /// after it.
   Cases report_first(Cases cases, std::string message) {
     std::size_t failing = cases.size();
     for (bool is_first = true; failing > 1; is_first = false) {
-      // One case comes first: it reveals at once a contestant that fails everywhere.
+      // The first half is one case, so that a contestant that fails everywhere is found at once.
       const Cases half = cases.first(is_first ? 1 : failing / 2);
       if (auto of_half = judge(half)) {
         failing = half.size();
@@ -44,7 +44,7 @@ class Narrowing {
         message = *of_rest;
         continue;
       }
-      // Both halves are answered one by one: the cases fail only together, and have now been judged.
+      // Each half alone got an answer: the cases fail only together, and all have now been judged.
       mismatch(cases[0], message + " (in a batch with others, not alone)");
       return cases.subspan(failing);
     }

@@ -1,4 +1,4 @@
-// Asks a contestant that may crash: narrows a batch without an answer down to the case that provokes it.
+// Judges a contestant that may crash: finds the case of a batch that makes the contestant fail.
 #pragma once
 
 #include <mutex>
@@ -7,9 +7,9 @@
 
 namespace ogc::compare {
 
-/// Does what `ask` does. Where the contestant gives no answer (ContestantFailure), halves the batch until one case is
-/// left; the case becomes a mismatch with the failure's message, and the rest is asked again. After `allowed` cases of
-/// this kind the rest is left out.
+/// Does the same as `ask`. If the contestant fails (ContestantFailure), the batch is halved until one case remains.
+/// This case becomes a mismatch with the failure's message, and the rest is asked again. After `allowed` failing cases
+/// the rest is skipped.
 void ask_narrowing(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority,
                    std::mutex& contestant_turn, std::uint64_t allowed, Tally& tally);
 

@@ -1,4 +1,4 @@
-// Writes numbers and points of saved cases as hexadecimal text, so that every bit comes back, and choices by name.
+// Writes numbers and points of saved cases as hexadecimal text, which keeps every bit, and choices by name.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace ogc::compare {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the number with every bit: "0x1.8p-3".
+/// Returns the number as hexadecimal text, as "0x1.8p-3".
 inline std::string hexadecimal_of(double x) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%a", x);
@@ -25,8 +25,7 @@ inline std::string hexadecimal_of(double x) {
 }
 inline std::string hexadecimal(float x) { return hexadecimal_of(static_cast<double>(x)); }
 
-/// Returns the number that `parse`, of C's library, makes of the text; throws InputError where that is not all of the
-/// text.
+/// Parses the text by `parse`, a function of C's library. Throws InputError if `parse` does not use the whole text.
 template <class Number>
 Number parsed_number(const Json& json, Number (*parse)(const char*, char**)) {
   const std::string text = json.get<std::string>();
@@ -37,11 +36,11 @@ Number parsed_number(const Json& json, Number (*parse)(const char*, char**)) {
   return x;
 }
 
-/// Reads a hexadecimal or decimal number; throws InputError for other text.
+/// Return the number of a hexadecimal or decimal text; throw InputError for other text.
 inline float number(const Json& json) { return parsed_number(json, &std::strtof); }
 inline double number_of_double(const Json& json) { return parsed_number(json, &std::strtod); }
 
-/// Writes [x, y, z], and reads it back.
+/// Convert a point to [x, y, z] and back.
 inline Json to_json(const Vec3f& p) { return {hexadecimal(p.x), hexadecimal(p.y), hexadecimal(p.z)}; }
 inline Vec3f to_point(const Json& json) { return {number(json.at(0)), number(json.at(1)), number(json.at(2))}; }
 
@@ -68,14 +67,14 @@ inline Json numbers_to_json(const std::vector<float>& numbers) {
   return json;
 }
 
-/// Reads an array of numbers back.
+/// Reads an array of numbers.
 inline std::vector<float> to_numbers(const Json& json) {
   std::vector<float> numbers;
   for (const Json& x : json) numbers.push_back(number(x));
   return numbers;
 }
 
-/// Returns the index of a name in a list of all names. Throws InputError where the list lacks it.
+/// Returns the index of a name in a list of names. Throws InputError if the list lacks it.
 template <class Names>
 int number_of(const Json& name, const Names& names) {
   const auto found = std::find(names.begin(), names.end(), name.get<std::string>());

@@ -1,5 +1,5 @@
-// Gives a mesh other numbers, and takes its answer back to the old ones: numbers of vertices and triangles mean nothing
-// to contact sets and bounds.
+// Renumbers a mesh, and converts its answer back. Contact sets and bounds must not depend on the numbers of vertices
+// and triangles.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace ogc::compare {
 
-/// Another order of vertices, triangles and each triangle's corners.
+/// A random order of vertices, triangles and each triangle's corners.
 class Renumbering {
  public:
   Renumbering(Random& random, const Topology& from);
@@ -31,7 +31,7 @@ class Renumbering {
   std::vector<T> by_triangle(const std::vector<T>& old) const {
     return renumbered(old, triangle_);
   }
-  /// Return the new number of a vertex, and a face under its new number.
+  /// Return the new number of a vertex, and the face with its new number.
   Index vertex(Index v) const { return vertex_[static_cast<std::size_t>(v)]; }
   Face face(const Face& f) const {
     const std::vector<Index>& to = f.kind == FaceKind::vertex ? vertex_ : f.kind == FaceKind::edge ? edge_ : triangle_;

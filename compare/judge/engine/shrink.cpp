@@ -14,7 +14,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns x rounded to this number of binary digits, to nearest.
+/// Returns x rounded to nearest with this number of binary digits.
 float with_digits(float x, int digits) {
   int exponent = 0;
   const double fraction = std::frexp(double{x}, &exponent);
@@ -44,7 +44,7 @@ class Shrinker {
            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > options_.seconds;
   }
 
-  /// Keeps the candidate if it fails, too.
+  /// Keeps the candidate if it still fails.
   bool attempt(const CaseData& data) {
     if (out_of_budget()) return false;
     ++tries_;
@@ -54,7 +54,8 @@ class Shrinker {
     return true;
   }
 
-  /// Goes through the list once, from halves to single primitives; returns whether any was dropped.
+  /// Drops primitives in one pass, in chunks from half of the list to single primitives. Returns whether any was
+  /// dropped and budget is left.
   bool drop_primitives() {
     const Topology* mesh = traits_.mesh(best_.data);
     if (mesh == nullptr) return false;
@@ -81,7 +82,7 @@ class Shrinker {
     }
   }
 
-  /// Moves the first point to the origin; differences are rounded, so this may end the failure.
+  /// Moves the first point to the origin. Differences are rounded, so the failure may disappear.
   void move_to_origin() {
     CaseData data = best_.data;
     const ShortenedNumbers numbers = traits_.numbers(data);
@@ -111,13 +112,13 @@ class Shrinker {
   TestCase best_;
   const std::function<bool(const TestCase&)>& fails_;
   const ShrinkOptions& options_;
-  bool was_legal_;  ///< a saved case may be of another version's contract: then illegal candidates are tried, too
+  bool was_legal_;  ///< A saved case of another version may be illegal; then illegal candidates are tried, too.
   std::size_t tries_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Returns what is wrong, without the numbers that change with the case: the text before the colon, and whether
-/// something is missing or too much.
+/// Returns the kind of a mismatch: its text before the colon without numbers, and whether something is missing or
+/// excessive.
 std::string kind_of(const std::string& message) {
   std::string kind;
   for (const char c : message.substr(0, message.find(':')))
@@ -173,7 +174,7 @@ MeshPart::MeshPart(const Topology& whole, const Primitives& kept) {
 
 CompressedRows MeshPart::partners(const CompressedRows& of_whole) const {
   std::vector<std::array<Index, 2>> pairs;
-  // Vertices ascend.
+  // Vertices are in ascending order.
   const auto number = [&](Index v) {
     const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
     return found != vertices.end() && *found == v ? static_cast<Index>(found - vertices.begin()) : -1;

@@ -1,5 +1,5 @@
-// Makes a failing case small enough to look at: drops primitives, then gives coordinates fewer digits, as long as the
-// case still fails.
+// Makes a failing case smaller for inspection: drops primitives, then shortens coordinates, as long as the case still
+// fails.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ namespace ogc::compare {
 
 /// Limits of the search.
 struct ShrinkOptions {
-  std::size_t tries = 4000;  ///< largest number of cases that are asked
-  double seconds = 3;        ///< no case is begun after this time [s]
+  std::size_t tries = 4000;  ///< largest number of cases that are tried
+  double seconds = 3;        ///< after this time no further case is tried [s]
 };
 
 /// Triangles and loose edges of a mesh, in one list.
@@ -24,48 +24,47 @@ struct Primitives {
   std::vector<Edge> loose_edges;    ///< come after the triangles
 
   explicit Primitives(const Topology& topology);
-  /// Returns the number of both together.
+  /// Returns the number of triangles and loose edges.
   std::size_t size() const { return triangles.size() + loose_edges.size(); }
   /// Returns the list without the entries from `first` to `last`.
   Primitives without(std::size_t first, std::size_t last) const;
 };
 
-/// A mesh of some primitives of another one; its vertices are those of the primitives, in order.
+/// A mesh of some primitives of a larger mesh. It has the vertices of these primitives, in their old order.
 struct MeshPart {
   std::shared_ptr<const Topology> topology;  ///< of the part
-  std::vector<Index> vertices;               ///< their numbers in the other mesh
-  std::vector<std::size_t> edges;            ///< their numbers in the other mesh
-  std::vector<std::size_t> triangles;        ///< their numbers in the other mesh; empty where all are dropped
+  std::vector<Index> vertices;               ///< their numbers in the larger mesh
+  std::vector<std::size_t> edges;            ///< their numbers in the larger mesh
+  std::vector<std::size_t> triangles;        ///< their numbers in the larger mesh; empty if all are dropped
 
   MeshPart(const Topology& whole, const Primitives& kept);
-  /// Returns the items of the part's vertices, edges or triangles, out of those of the whole mesh.
+  /// Returns the entries that belong to the part's vertices, edges or triangles, from those of the larger mesh.
   template <class T, class Numbers>
   static std::vector<T> picked(const std::vector<T>& items, const Numbers& numbers) {
     std::vector<T> chosen;
     for (const auto i : numbers) chosen.push_back(items[static_cast<std::size_t>(i)]);
     return chosen;
   }
-  /// Returns the excluded pairs (as in Exclusions) of which the part holds both vertices.
+  /// Returns the excluded pairs (as in Exclusions) whose vertices are both in the part.
   CompressedRows partners(const CompressedRows& of_whole) const;
 };
 
-/// The numbers of a case that may get fewer binary digits. Where the case has points, they come first, as x y z.
+/// The numbers of a case that may lose binary digits. Coordinates of points come first, as x y z.
 struct ShortenedNumbers {
   std::vector<float*> coordinates, lengths;  ///< lengths stay above 0
 };
 
-/// Returns the number of triangles and of edges without a triangle; 0 for cases that are no mesh.
+/// Returns the number of triangles and of loose edges; 0 for cases that are no mesh.
 std::size_t primitive_count(const TestCase& test);
 
-/// Returns a smaller case under the same name. `fails` tells whether a candidate fails as the given case does. Cases of
-/// the two detections, bound and plane lose triangles and loose edges, with the vertices that no primitive holds then.
-/// After that their coordinates and radii, and the coordinates of closest_face, closest_points and ccd, are set to 0 or
-/// to the fewest binary digits that keep the failure. All other cases come back as they are.
+/// Returns a smaller case with the same name. `fails` checks whether a candidate fails as the given case does. Cases of
+/// both detections, bound and plane lose triangles, loose edges and vertices without primitives. Then coordinates and
+/// radii, also those of closest_face, closest_points and ccd, become 0 or get the fewest binary digits that keep the
+/// failure. All other cases are returned unchanged.
 TestCase shrink(const TestCase& test, const std::function<bool(const TestCase&)>& fails,
                 const ShrinkOptions& options = {});
 
-/// Shrinks a case with a mismatch: a candidate fails where the judge finds a mismatch of the same kind, whatever its
-/// numbers.
+/// Shrinks a case with a mismatch. A candidate fails if the judge finds a mismatch of the same kind, with any numbers.
 TestCase shrink_failure(const TestCase& test, const std::string& message, const Contestant& contestant,
                         const Authority& authority, const ShrinkOptions& options = {});
 

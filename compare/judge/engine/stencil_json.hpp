@@ -1,4 +1,4 @@
-// Writes and reads the members that compare/judge/engine/force_members.hpp names.
+// Writes and reads the members listed in compare/judge/engine/force_members.hpp.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace ogc::compare {
 
 /// Adds members to an object.
 struct StencilWriter {
-  Json json;  ///< the object so far
+  Json json;  ///< object so far
   void operator()(const char* name, float x) { json[name] = hexadecimal(x); }
   void operator()(const char* name, std::int32_t x) { json[name] = x; }
   void operator()(const char* name, std::uint8_t bits) { json[name] = bits; }
@@ -26,16 +26,16 @@ struct StencilWriter {
   }
 };
 
-/// Reads members from an object; throws InputError where one has a value that no case can have.
+/// Reads members from an object. Throws InputError for a value that no case can have.
 struct StencilReader {
-  const Json& json;  ///< the object
+  const Json& json;  ///< object to read
   void operator()(const char* name, float& x) const { x = number(json.at(name)); }
   void operator()(const char* name, std::int32_t& x) const {
     x = json.at(name).get<std::int32_t>();
     if (x < 0 || x > 3)
       throw InputError(std::string(name) + ": " + std::to_string(x) + " is not a vertex of the stencil; use 0 to 3");
   }
-  /// Reads bits of vertices; older files have none.
+  /// Reads a bit mask of vertices; 0 if the file has none.
   void operator()(const char* name, std::uint8_t& bits) const {
     const auto given = json.value(name, std::int32_t{0});
     if (given < 0 || given > 15)
@@ -61,7 +61,7 @@ struct StencilReader {
   }
 };
 
-/// Returns a stencil as an object.
+/// Writes a stencil as a JSON object.
 template <class Case>
 Json write_stencil(const Case& c) {
   StencilWriter writer;
@@ -69,7 +69,7 @@ Json write_stencil(const Case& c) {
   return writer.json;
 }
 
-/// Reads a stencil back.
+/// Reads a stencil from a JSON object.
 template <class Case>
 Case read_stencil(const Json& data) {
   Case c;

@@ -1,5 +1,5 @@
-// Makes a question of a sweep case. The authority finds contacts and bounds at X_prev, so that every question is one
-// that a step could ask, and a case holds nothing but positions.
+// Makes the question of a sweep case. The authority finds contacts and bounds at X_prev, so a case holds only
+// positions, and its question could occur in a step.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -8,15 +8,15 @@
 
 namespace ogc::compare {
 
-/// Owns what a SweepIn points to; must not move.
+/// Owns the data that a SweepIn views; must not move.
 class SweepQuestion {
  public:
-  /// Asks the authority for rest state, contact sets, contacts with volumes, and bounds.
+  /// Gets rest state, contact sets, contacts with volumes, and bounds from the authority.
   SweepQuestion(const SweepCase& test, const Authority& authority);
   SweepQuestion(const SweepQuestion&) = delete;
   SweepQuestion& operator=(const SweepQuestion&) = delete;
 
-  const SweepIn& in() const { return in_; }  ///< valid as long as the question
+  const SweepIn& in() const { return in_; }  ///< valid as long as this object
 
  private:
   SweepIn in_;
@@ -29,9 +29,9 @@ class SweepQuestion {
   std::vector<VolumeContact> volumes_;
 };
 
-/// Returns `wish` where it obeys the bound; otherwise the point at the bound of the segment that leads there, its
-/// rounded coordinates stepped towards `previous` until the stored point obeys. The step must be finite in single
-/// precision.
+/// Returns `wish` if it obeys the bound. Otherwise returns the point at the bound on the segment from `previous` to
+/// `wish`; its rounded coordinates move towards `previous` until the stored point obeys. The step must be finite in
+/// single precision.
 Vec3f within_bound(const Vec3f& wish, const Vec3f& previous, float bound);
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Counts for the judge. Tallies of batches add up in the order of the batches, so a report is the same on any number of
-// threads.
+// Counts the judge's results. Tallies of batches are added in the order of the batches, so a report does not depend on
+// the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@
 
 namespace ogc::compare {
 
-/// Errors ≥ 0 in bins of 1 % (the top 15 bits of a float), so that quantiles need neither memory nor an order.
+/// Counts errors ≥ 0 in bins of 1 % (the top 15 bits of a float), so that quantiles do not need a list of errors.
 class Histogram {
  public:
-  void add(double value);                         ///< infinite values count at the end
-  void add(const Histogram& other);               ///< adds all of its values
+  void add(double value);                         ///< counts infinite values in the last bin
+  void add(const Histogram& other);               ///< adds all counts of another histogram
   std::uint64_t count() const { return count_; }  ///< number of values
-  double maximum() const { return maximum_; }     ///< exact; 0 where there are none
-  /// Returns the smallest bin edge below which the share `q` of the values lies (within 1 %); 0 where there are none.
+  double maximum() const { return maximum_; }     ///< exact; 0 if there are no values
+  /// Returns the smallest bin edge below which the share `q` of the values lies (within 1 %); 0 if there are no values.
   double quantile(double q) const;
-  /// The number of values in [2^exponent, 2^(exponent+1)). Octaves ascend without gaps; values below 2^lowest, also 0,
-  /// count in the lowest one.
+  /// The number of values in [2^exponent, 2^(exponent+1)). Octaves ascend without gaps. The lowest octave also counts
+  /// all smaller values, including 0.
   struct Octave {
     int exponent = 0;         ///< of the lower end
     std::uint64_t count = 0;  ///< number of values
   };
-  std::vector<Octave> octaves(int lowest) const;  ///< from octave `lowest` on
+  std::vector<Octave> octaves(int lowest) const;  ///< begins at octave `lowest`
 
  private:
   std::vector<std::uint64_t> bins_;
@@ -37,83 +37,83 @@ class Histogram {
   double maximum_ = 0;
 };
 
-/// A tolerance is loose where it is at least this many times the largest error: a kernel could become that much worse
-/// and pass. A loose tolerance is tightened, or MetricInfo::loose_because gives the reason; a test finds loose
-/// tolerances without a reason, and reasons without a loose tolerance.
+/// A tolerance is loose if it is at least this many times the largest error, because a kernel could get that much worse
+/// and still pass. A loose tolerance is tightened, or MetricInfo::loose_because states the reason. A test finds loose
+/// tolerances without a reason, and reasons for tolerances that are not loose.
 inline constexpr double loose_factor = 50;
 
 /// The errors of one metric.
 struct MetricTally {
   Histogram errors;  ///< in units of the metric
   CaseName worst;    ///< case of the largest error
-  /// Returns the factor by which the largest error stays below the tolerance; infinite where all errors are 0.
+  /// Returns the tolerance divided by the largest error; infinite if all errors are 0.
   double room(const MetricInfo& info) const { return info.tolerance / errors.maximum(); }
   bool is_loose(const MetricInfo& info) const { return errors.count() > 0 && !(room(info) <= loose_factor); }
 };
 
 /// A wrong answer.
 struct Mismatch {
-  CaseName name;        ///< the case
-  std::string message;  ///< which element of the answer is wrong, and how
+  CaseName name;        ///< wrong case
+  std::string message;  ///< the wrong element of the answer, and the error
 };
 
 /// Counts of one generator, or of several.
 struct GeneratorTally {
-  /// counts that Tally::count takes, and mismatches
+  /// as in Tally::count; mismatches
   std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;
-  /// grey decisions whose accepted answer is not the exact one, or not one of its side of a jump
+  /// grey decisions whose accepted answer differs from the exact one, or lies on the other side of a jump
   std::uint64_t not_exact = 0;
 };
 
-/// Counts of one stage. A case of a mesh stage is one vertex (rest_state, bound, detect_vertex_facet), edge
-/// (detect_edge_edge) or question (block), of step one vertex at one event.
+/// Counts of one stage. In a mesh stage a case is a vertex (rest_state, bound, detect_vertex_facet), an edge
+/// (detect_edge_edge) or a question (block); in a step, a vertex at one event.
 class Tally {
  public:
   explicit Tally(Stage stage);
-  /// Assigns all that follows to this case, until the next call.
+  /// Assigns all following counts to this case, until the next call.
   void begin(const CaseName& name);
-  /// Adds counts. `near` is the number of cases within 2¹⁰ ulp of a decision boundary (near_factor), where the stage
-  /// has one.
+  /// Adds counts. `near` is the number of cases within 2¹⁰ ulp of a decision boundary (near_factor), if the stage has
+  /// one.
   void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey, std::uint64_t near = 0);
-  /// Adds an error in units of the metric. Beyond the tolerance it is a mismatch, described by the numbers and `where`,
-  /// which is called only then.
+  /// Adds an error in units of the metric. An error above the tolerance is a mismatch. Its message has the numbers and
+  /// `where`, which is called only then.
   template <class Where>
   void error(std::size_t metric, double value, const Where& where) {
     if (const auto excess = note_error(metric, value)) mismatch(*excess + where());
   }
-  void mismatch(std::string message);  ///< notes a wrong answer to the present case
+  void mismatch(std::string message);  ///< notes a wrong answer to the current case
   /// Counts grey decisions whose accepted answer is not the exact one.
   void answered_not_exactly(std::uint64_t count = 1) { row_->not_exact += count; }
   void add(const Tally& other);
 
-  Stage stage;                                       ///< the stage of the cases
+  Stage stage;                                       ///< stage of the cases
   std::vector<MetricTally> metrics;                  ///< in the order of metrics(stage)
   std::map<std::string, GeneratorTally> generators;  ///< by name
-  std::vector<Mismatch> mismatches;                  ///< the first ones of each generator, at most `listed`
+  std::vector<Mismatch> mismatches;                  ///< the first mismatches of each generator, at most `listed`
   std::uint64_t mismatched = 0;                      ///< number of all mismatches
-  std::uint64_t questions = 0;                       ///< generated cases: in a mesh stage meshes, sweeps or steps
-  std::uint64_t failures = 0;  ///< number of those to which the contestant gave no answer (ContestantFailure)
-  double contestant_seconds = 0, authority_seconds = 0;  ///< time of each side's answers alone
-  static constexpr std::uint64_t listed = 20;            ///< largest number of mismatches kept of each generator
+  std::uint64_t questions = 0;  ///< generated cases; in a mesh stage these are meshes, sweeps or steps
+  std::uint64_t failures = 0;   ///< questions to which the contestant gave no answer (ContestantFailure)
+  double contestant_seconds = 0, authority_seconds = 0;  ///< time of each side's answers
+  static constexpr std::uint64_t listed = 20;            ///< largest number of listed mismatches for each generator
 
   GeneratorTally total() const;  ///< sum over all generators
   /// Returns the sum over the generic generators.
   GeneratorTally generic_total() const;
-  /// Returns the few generators that all mismatches come from, worst first, if other generators have enough cases that
-  /// pass (`least_passing`); empty where failures are spread, or there are none.
+  /// Returns the generators of all mismatches, worst first, if they are few and other generators have at least
+  /// `least_passing` cases that pass. Otherwise returns an empty list.
   std::vector<std::string> confined_to() const;
-  static constexpr std::size_t most_confined = 3;      ///< largest number that counts as few
+  static constexpr std::size_t most_confined = 3;      ///< largest number of such generators
   static constexpr std::uint64_t least_passing = 100;  ///< cases of other generators
   /// Returns the share of grey decisions among all decisions of the generic generators.
   double grey_share() const;
   /// Returns the share of cases within 2¹⁰ ulp of a decision boundary.
   double near_share() const;
-  /// Checks whether the share is compatible with grey_share_limit: of n decisions m = n · limit may be grey, and chance
-  /// may add 3 √m + 3 (a Poisson count of mean m lies higher in less than one run of a hundred).
+  /// Checks whether the share is compatible with grey_share_limit. Of n decisions m = n · limit may be grey; chance may
+  /// add 3 √m + 3. A Poisson count of mean m exceeds this in less than one run of a hundred.
   bool grey_within_limit() const;
 
  private:
-  /// Adds an error; returns a text where it lies beyond the tolerance.
+  /// Adds an error; returns a text if the error is above the tolerance.
   std::optional<std::string> note_error(std::size_t metric, double value);
 
   CaseName current_;

@@ -1,4 +1,4 @@
-// Writes and reads the complex of a saved case as a mesh file holds it; the adjacency is built again.
+// Writes and reads the mesh of a saved case in the form of a mesh file; reading builds adjacency again.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace ogc::compare {
 
-/// Writes vertex count, triangles and loose edges, and flags of vertices inside solids, where there are any.
+/// Writes vertex count, triangles, loose edges, and flags of vertices inside solids if there are any.
 inline Json topology_to_json(const Topology& topology) {
   Json loose = Json::array();
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
@@ -20,9 +20,9 @@ inline Json topology_to_json(const Topology& topology) {
   return json;
 }
 
-/// Reads a complex. `vertices` is the number of vertices for which the file has entries. Throws what the JSON library
-/// or build_topology throw, and InputError where the mesh has another number of vertices (before it takes memory for
-/// them) or inside_solid another number of entries.
+/// Reads a mesh. `vertices` is the number of vertices for which the file has entries. Throws InputError if the mesh has
+/// another number of vertices (before memory is allocated for them) or if inside_solid has another number of entries.
+/// Also throws the exceptions of the JSON library and of build_topology.
 inline std::shared_ptr<const Topology> to_topology(const Json& json, std::size_t vertices) {
   if (json.at("vertex_count").get<std::int64_t>() != static_cast<std::int64_t>(vertices))
     throw InputError("a mesh of " + json.at("vertex_count").dump() + " vertices comes with entries for " +

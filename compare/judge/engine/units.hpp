@@ -1,4 +1,4 @@
-// Serves the verdicts of all stages: errors in units, numbers in messages.
+// Helps the verdicts of all stages: computes errors in units and prints numbers in messages.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace ogc::compare {
 
-/// Returns 0 where the error is 0, whatever the scale; otherwise the error in units of u · scale. Numbers below the
-/// smallest normal one, 2⁻¹²⁶, are rounded to multiples of 2⁻¹⁴⁹: there no kernel can avoid an error of u · 2⁻¹²⁶.
+/// Returns the error in units of u · scale; 0 if the error is 0, whatever the scale. Numbers below the smallest normal
+/// one, 2⁻¹²⁶, are rounded to multiples of 2⁻¹⁴⁹, so no kernel can avoid an error of u · 2⁻¹²⁶ there.
 inline double in_units(double error, double scale) {
   return error == 0 ? 0 : error / (unit_roundoff * (scale + 0x1p-126));
 }

@@ -1,5 +1,4 @@
-// Holds both answers to a case whole: each output of the stage by name and unit, from the contestant and from the
-// authority.
+// Holds both answers to a case: each output of the stage by name and unit, of the contestant and of the authority.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -7,22 +6,22 @@
 
 namespace ogc::compare {
 
-/// One output. In a sweep or a step the exact values follow from the contestant's own answer
+/// One output of both sides. In a sweep or a step the exact values follow from the contestant's own answer
 /// (compare/stages/sweep.hpp).
 struct AnswerPair {
-  Quantity given, exact;  ///< `given` is empty where there is no answer
+  Quantity given, exact;  ///< `given` is empty if there is no answer
 };
 
 /// All outputs of a case.
 struct Answers {
   std::vector<AnswerPair> outputs;  ///< in the contract's order
-  std::string note;                 ///< why there is no answer, or that more than one is right; otherwise empty
+  std::string note;                 ///< why there is no answer, or that several are right; may be empty
 };
 
-/// Puts given and exact outputs side by side; where the given list is shorter, the rest is empty.
+/// Pairs given and exact outputs by position. If the given list is shorter, its missing outputs are empty.
 Answers paired(const std::vector<Quantity>& given, const std::vector<Quantity>& exact, std::string note);
 
-/// Asks both sides.
+/// Returns the answers of both sides.
 Answers answers_to(const TestCase& test, const Contestant& contestant, const Authority& authority);
 
 }  // namespace ogc::compare

@@ -25,8 +25,8 @@ Leaf leaf_of(const Json& json) {
   return json.is_string() && is_hexadecimal(json.get_ref<const std::string&>()) ? Leaf::single : Leaf::none;
 }
 
-/// A table: an array of numbers, or of arrays of one length. `leaf` is the type of all its entries, `none` where they
-/// differ.
+/// A table: an array of numbers, or of arrays of equal length. `leaf` is the common type of its entries, `none` if
+/// there is none.
 struct Table {
   Leaf leaf = Leaf::none;
   std::size_t columns = 0;  ///< 0: an array of numbers
@@ -89,7 +89,7 @@ Json read_table(const Hdf5File& file, const std::string& name) {
   return json;
 }
 
-/// Moves the tables of the JSON into datasets, and returns the rest.
+/// Moves the tables of the JSON into datasets and returns the rest.
 Json put_away(Hdf5File& file, const std::string& name, const Json& json) {
   if (const Table table = table_of(json); table.leaf != Leaf::none) {
     if (table.leaf == Leaf::single)

@@ -1,6 +1,6 @@
-// Stores a case as HDF5. Dataset `case` holds its JSON text, in which the name of a dataset beside it replaces every
-// array of numbers ("@float:positions", "@integer:mesh.triangles", "@double:…"), so that other programs read
-// coordinates and connectivity as arrays, and every bit comes back.
+// Stores a case as HDF5. Dataset `case` holds its JSON text. In this text every array of numbers is replaced by the
+// name of another dataset ("@float:positions", "@integer:mesh.triangles", "@double:…"). So every bit is kept, and other
+// programs can read coordinates and connectivity as arrays.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace ogc::compare {
 
-/// Writes the file at once. Throws ResourceError where the disk does not take it.
+/// Writes the file in one operation. Throws ResourceError if the disk does not accept it.
 void write_case_hdf5(const std::filesystem::path& path, const nlohmann::ordered_json& json);
 
-/// Reads the file back. Throws InputError that names the file and what is missing or wrong.
+/// Reads the file. Throws InputError that names the file and what is missing or wrong.
 nlohmann::ordered_json read_case_hdf5(const std::filesystem::path& path);
 
 }  // namespace ogc::compare

@@ -15,18 +15,18 @@ namespace ogc::compare {
 
 namespace {
 
-// Largest numbers of cases that are looked at: enough to tell accident from rule, few enough for a second or two of the
-// authority's time.
+// Largest numbers of cases that are tried: enough to tell chance from rule, with a second or two of the authority's
+// time.
 constexpr std::size_t most_failing = 120, most_failing_meshes = 24;
 constexpr std::size_t sampled = 600, sampled_of_mesh_stage = 2;
-// A property of all failing cases is reported where at least this many right cases lack it.
+// A property of all failing cases is reported if at least this many right cases lack it.
 constexpr std::uint64_t least_elsewhere = 10;
-// A form that fits a tenth of the cases fits one of these with a chance of 92 %.
+// If a form fits a tenth of the cases, it fits one of these with a probability of 92 %.
 constexpr std::size_t most_tried = 24;
-// Largest number of mistakes that are named beside the first.
+// Largest number of mistakes that are named in addition to the first.
 constexpr std::size_t most_seconds = 3;
 
-/// Returns the number of cases that the sample of a stage takes from each generator.
+/// Returns the number of sampled cases from each generator of a stage.
 std::size_t cases_of_a_generator(CaseKind kind, std::size_t generators) {
   switch (kind) {
     case CaseKind::single: return (sampled + generators - 1) / generators;
@@ -36,7 +36,7 @@ std::size_t cases_of_a_generator(CaseKind kind, std::size_t generators) {
   return 1;
 }
 
-/// Returns the first cases of every generator that the contestant is asked about.
+/// Returns the first cases of every generator that is used for the contestant.
 std::vector<TestCase> sample(Stage stage, const Contestant& contestant, std::uint64_t seed) {
   const auto rows = generators(stage);
   const std::size_t each = cases_of_a_generator(stage_info(stage).kind, rows.size());
@@ -47,7 +47,7 @@ std::vector<TestCase> sample(Stage stage, const Contestant& contestant, std::uin
   return cases;
 }
 
-/// Returns at most `most` of the cases, evenly spread.
+/// Returns at most `most` of the cases, evenly spaced.
 std::vector<TestCase> thinned(std::span<const TestCase> cases, std::size_t most) {
   std::vector<TestCase> kept;
   const std::size_t count = std::min(cases.size(), most);
@@ -69,7 +69,7 @@ class Diagnosing {
       try {
         one.fails = !agrees(one, authority_);
       } catch (const ContestantFailure&) {
-        return;  // the contestant crashes or hangs: every further case like this would cost a restart
+        return;  // The contestant crashes or hangs; every further case of this kind would cost a restart.
       }
       evidence_.push_back(std::move(one));
     }
@@ -99,11 +99,12 @@ class Diagnosing {
     try {
       return form.fits(one, authority);
     } catch (const std::exception&) {
-      return false;  // the authority does not take the changed question
+      return false;  // the authority does not accept the changed question
     }
   }
 
-  /// Keeps the form that the fewest cases contradict, failing or right, among those that fit enough failing ones.
+  /// Takes the form as the best one if it fits enough failing cases and fewer cases contradict it than the best one so
+  /// far.
   void consider(const WrongForm& form, Diagnosis& best) const {
     const auto wanted = std::max<std::uint64_t>(
         least_fits, static_cast<std::uint64_t>(std::ceil(least_share * static_cast<double>(best.failing))));
@@ -127,7 +128,7 @@ class Diagnosing {
     best.otherwise = otherwise;
   }
 
-  /// Returns the cases that the form fits. The authority may already make the mistake of another form.
+  /// Returns the cases that the form fits. `authority` may already contain the mistake of another form.
   static std::vector<const Evidence*> fitting(const WrongForm& form, const Authority& authority,
                                               const std::vector<const Evidence*>& rest) {
     std::vector<const Evidence*> found;
@@ -136,15 +137,15 @@ class Diagnosing {
     return found;
   }
 
-  /// A form for a part of the failing cases, alone or together with the first form, and the cases that it fits.
+  /// A form that fits a part of the failing cases, alone or together with the first form, and these cases.
   struct Part {
     const WrongForm* form = nullptr;
     bool together = false;
     std::vector<const Evidence*> cases{};
   };
 
-  /// Checks whether few right cases contradict the form: one that is wrong nearly everywhere fits some cases by
-  /// accident.
+  /// Checks whether few right cases contradict the form. A form that is wrong nearly everywhere fits some failing cases
+  /// by chance.
   static bool is_spoken_for(const WrongForm& form, const Authority& authority,
                             const std::vector<const Evidence*>& right) {
     double left = (1 - least_share_of_right) * static_cast<double>(right.size());
@@ -152,8 +153,8 @@ class Diagnosing {
                                [&](const Evidence* one) { return fits(form, *one, authority) || (left -= 1) >= 0; });
   }
 
-  /// Checks whether the form fits at least one of a few sampled cases. Most forms fit none of them; the other cases are
-  /// then not tried.
+  /// Checks whether the form fits at least one of a few sampled cases. Most forms fit none, which saves trying them on
+  /// all cases.
   static bool may_fit(const WrongForm& form, const Authority& authority, const std::vector<const Evidence*>& rest) {
     const std::size_t count = std::min(most_tried, rest.size());
     for (std::size_t i = 0; i < count; ++i)
@@ -161,7 +162,8 @@ class Diagnosing {
     return false;
   }
 
-  /// Returns the form that fits most of the rest; a vague one only where no other fits `wanted` of them.
+  /// Returns the form that fits most of the remaining cases. A vague form is returned only if no other form fits
+  /// `wanted` of them.
   Part best_part(const std::vector<WrongForm>& forms, const WrongForm* first, const std::vector<const Evidence*>& rest,
                  const std::vector<const Evidence*>& right, std::size_t wanted) const {
     Part best;
@@ -180,7 +182,8 @@ class Diagnosing {
     return best;
   }
 
-  /// Names several forms, each for a part of the failing cases; after a form that is named, those that fit the rest.
+  /// Names several forms, each for a part of the failing cases. If one form is already named, names forms for the cases
+  /// that it does not fit.
   void find_parts(const std::vector<WrongForm>& forms, Diagnosis& result) const {
     std::vector<const Evidence*> rest, right;
     for (const Evidence& one : evidence_) (one.fails ? rest : right).push_back(&one);
@@ -216,7 +219,7 @@ class Diagnosing {
       result.seconds.push_back({parts[i].form->name, parts[i].form->meaning, parts[i].cases.size(), parts[i].together});
   }
 
-  /// Returns the words of a case's inputs: names, and for numbers whether they are 0.
+  /// Returns each single input of a case as a word: its name, or for a number whether it is 0.
   static std::map<std::string, std::string> words_of(const TestCase& test) {
     std::map<std::string, std::string> words;
     for (const Quantity& quantity : inputs_of(test)) {
@@ -229,8 +232,8 @@ class Diagnosing {
     return words;
   }
 
-  /// Finds the input whose words in failing cases are missing from most right ones; of several inputs, the one with the
-  /// fewest words.
+  /// Finds the input whose words in failing cases are missing from most right cases; of equally good inputs, the one
+  /// with the fewest words.
   void find_where(Diagnosis& result) const {
     if (is_mesh_stage(stage_) || result.failing < least_fits) return;
     std::map<std::string, std::set<std::string>> of_failing;

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_entries = 12, most_differences = 6;
 
-/// Prints nine digits, which tell any two numbers of single precision apart.
+/// Prints nine digits, which distinguish any two numbers of single precision.
 std::string number(double x) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%.9g", x);
@@ -53,8 +53,7 @@ std::string input_text(const Quantity& quantity) {
   return shown < quantity.entries() ? text + left_out(quantity.entries() - shown) : text;
 }
 
-/// Returns how far an entry of the answer is from the exact one, as a share of it; infinite where one of the two is no
-/// number.
+/// Returns the relative difference of an entry from the exact one; infinite if one of the two is no number.
 double difference(const AnswerPair& pair, std::size_t i) {
   const std::size_t width = pair.exact.width;
   double largest = 0;
@@ -66,7 +65,7 @@ double difference(const AnswerPair& pair, std::size_t i) {
   return largest;
 }
 
-/// Prints the entries of two lists of words, for example contacts, that stand in one of them alone.
+/// Prints the words, for example contacts, that only one of the two lists has.
 std::string words_text(const AnswerPair& pair) {
   const std::multiset<std::string> given(pair.given.words.begin(), pair.given.words.end()),
       exact(pair.exact.words.begin(), pair.exact.words.end());
@@ -108,7 +107,7 @@ std::string pair_text(const AnswerPair& pair) {
   return text;
 }
 
-/// Returns an array for a list, otherwise the entry itself.
+/// Returns an array if the quantity is a list, otherwise its single entry.
 Json value_json(const Quantity& quantity) {
   Json all = Json::array();
   for (std::size_t i = 0; i < quantity.entries(); ++i) {

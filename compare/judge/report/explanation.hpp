@@ -1,4 +1,4 @@
-// Explains one case whole: its inputs by name and unit, both answers, what is wrong, and the file that keeps it.
+// Explains one case: its inputs by name and unit, both answers, what is wrong, and the file that stores it.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace ogc::compare {
 
-/// The content that `ogc compare --problem` prints.
+/// What `ogc compare --problem` prints.
 struct Explanation {
   std::string problem;                ///< the problem string
-  std::vector<std::string> messages;  ///< what is wrong; none where the answer is right
+  std::vector<std::string> messages;  ///< what is wrong; empty if the answer is right
   std::vector<Quantity> inputs;       ///< in the contract's order
-  Answers answers;                    ///< answers of both sides
-  std::string file{}, mesh{};         ///< saved files, to replay and to audit; empty where not saved
+  Answers answers;                    ///< of both sides
+  std::string file{}, mesh{};         ///< saved files, for replay and audit; empty if not saved
 };
 
-/// Asks both sides. `test` may be a smaller form of the case of its name.
+/// Gets answers from both sides. `test` may be smaller than the original case of its name.
 Explanation explain(const TestCase& test, const Contestant& contestant, const Authority& authority);
 
-/// Prints for people: the first entries of long lists, and the entries of long answers that differ most.
+/// Prints a text for readers: the first entries of long lists, and those entries of long answers that differ most.
 std::string explanation_text(const Explanation& explanation);
-/// Prints everything.
+/// Returns everything as JSON.
 nlohmann::ordered_json explanation_json(const Explanation& explanation);
 
 }  // namespace ogc::compare

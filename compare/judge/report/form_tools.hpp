@@ -1,4 +1,4 @@
-// Makes wrong forms: as a change of the question to the authority, or of its answer.
+// Makes wrong forms, by changing the authority's question or its answer.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace ogc::compare {
 template <class Truth, class In>
 using Ask = std::function<Truth(const In&)>;
 
-/// Makes a form from the truth of the stage: `change(right, in)` returns what the form gives for the question.
+/// Makes a form from the truth of the stage; `change(right, in)` returns the form's answer to the question.
 template <class Truth, class In, class Change>
 WrongForm form(std::string name, std::string meaning, Ask<Truth, In> Authority::*stage, Change change) {
   return form_of(std::move(name), std::move(meaning), [stage, change](const Authority& authority) {
@@ -42,13 +42,13 @@ WrongForm told(std::string name, std::string meaning, Ask<Truth, In> Authority::
   });
 }
 
-/// An activation by name.
+/// An activation and its wrong form.
 struct NamedActivation {
-  ContactActivation kind;      ///< which one
+  ContactActivation kind;
   const char *name, *meaning;  ///< of the form
 };
 
-/// Activations that may stand in place of `ogc`.
+/// Activations that a contestant may use by mistake in place of `ogc`.
 inline constexpr std::array<NamedActivation, 4> other_activations{
     {{ContactActivation::ogc_as_printed, "ogc_as_printed", "Eq. 19 as printed: k' = τ k_c (τ − r)², numbers in metres"},
      {ContactActivation::quadratic, "quadratic", "k_c/2 (r − d)² at every distance"},

@@ -31,7 +31,7 @@ std::vector<Quantity> state_quantities(const Topology& topology, const std::vect
 std::vector<Quantity> scene_quantities(const Scene& scene) {
   std::vector<Quantity> all;
   for (const SettingInfo& info : setting_table()) {
-    if (info.name.starts_with("newton") || info.name.starts_with("ipc")) continue;  // no stage reads them
+    if (info.name.starts_with("newton") || info.name.starts_with("ipc")) continue;  // no stage reads these
     const bool is_choice = !info.choices.empty();
     all.push_back(is_choice
                       ? word(std::string(info.name), setting_text(scene.settings, info))

@@ -18,7 +18,7 @@ constexpr const char* style =
     ".wrong{background:#fdd}.loose{background:#ffd}code{font-size:13px}figure{display:inline-block;margin:0 2em 1em "
     "0}figcaption{font-size:13px;color:#555}";
 
-// Errors below 2⁻¹⁰ units are all the same to a reader.
+// Readers do not need to distinguish errors below 2⁻¹⁰ units.
 constexpr int lowest_octave = -10;
 constexpr double plot_height = 120, bar_width = 14, left = 34, below = 34;
 
@@ -47,7 +47,7 @@ std::string main_table(std::span<const StageReport> reports) {
   return html + "</table>\n";
 }
 
-/// Draws bars by octave, with heights by the logarithm of the count, and a line at the tolerance.
+/// Draws one bar for each octave, with heights on a logarithmic scale, and a line at the tolerance.
 std::string histogram(const Histogram& errors, double tolerance, const std::string& name) {
   const auto octaves = errors.octaves(lowest_octave);
   const int first = octaves.front().exponent, last = std::max(octaves.back().exponent, std::ilogb(tolerance));

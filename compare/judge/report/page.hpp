@@ -1,4 +1,4 @@
-// Prints a report as one static page of HTML that loads nothing.
+// Prints a report as one static HTML page that loads no other files.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace ogc::compare {
 
-/// Returns the page: the table of report_table, a histogram of each metric, each generator's counts, the listed
+/// Returns the page: the table of report_table, a histogram of each metric, the counts of each generator, the listed
 /// mismatches and the worst cases. `heading` names the judged contestant.
 std::string report_page(std::span<const StageReport> reports, const std::string& heading);
 

@@ -14,7 +14,7 @@ namespace ogc::compare {
 inline Quantity scalar(std::string name, std::string unit, double x) {
   return {.name = std::move(name), .unit = std::move(unit), .numbers = {x}};
 }
-/// Returns a number of things.
+/// Returns a count.
 inline Quantity count(std::string name, std::size_t n) { return scalar(std::move(name), "", static_cast<double>(n)); }
 /// Returns one name.
 inline Quantity word(std::string name, std::string text) {
@@ -36,7 +36,7 @@ Quantity numbers(std::string name, std::string unit, const Numbers& values) {
   return {.name = std::move(name), .unit = std::move(unit), .numbers = {values.begin(), values.end()}, .is_list = true};
 }
 
-/// Returns points; one point alone is no list.
+/// Returns points; a single point is not a list.
 template <class Points>
 Quantity points(std::string name, std::string unit, const Points& all) {
   Quantity quantity{.name = std::move(name), .unit = std::move(unit), .width = 3, .is_list = all.size() != 1};
@@ -45,7 +45,7 @@ Quantity points(std::string name, std::string unit, const Points& all) {
   return quantity;
 }
 
-/// Returns rows of the same number of numbers each: gradients, blocks, triangles.
+/// Returns rows with equally many numbers: gradients, blocks, triangles.
 template <class Row>
 Quantity rows(std::string name, std::string unit, const std::vector<Row>& all) {
   Quantity quantity{.name = std::move(name), .unit = std::move(unit), .width = std::tuple_size_v<Row>, .is_list = true};
@@ -53,7 +53,7 @@ Quantity rows(std::string name, std::string unit, const std::vector<Row>& all) {
   return quantity;
 }
 
-/// Returns the list of what `pick` takes of each item.
+/// Returns the list of the values that `pick` gives for the items.
 template <class Item, class Pick>
 Quantity each(std::string name, std::string unit, const std::vector<Item>& items, Pick pick) {
   std::vector<double> values;
@@ -61,28 +61,28 @@ Quantity each(std::string name, std::string unit, const std::vector<Item>& items
   return numbers(std::move(name), std::move(unit), values);
 }
 
-/// Returns numbers of vertices, n an entry.
+/// Returns entries of n vertex numbers.
 template <std::size_t n>
 Quantity indices(std::string name, const std::vector<std::array<Index, n>>& all) {
   return rows(std::move(name), "", all);
 }
-/// Returns numbers of vertices, one an entry.
+/// Returns a list of vertex numbers.
 inline Quantity indices(std::string name, const std::vector<Index>& all) { return numbers(std::move(name), "", all); }
 
-/// Returns the quantity with names for its entries.
+/// Returns the quantity with labels for its entries.
 inline Quantity labelled(Quantity quantity, std::vector<std::string> labels) {
   quantity.labels = std::move(labels);
   return quantity;
 }
 
-/// Return what a mesh consists of, and a scene: settings that a stage reads, gravity, bodies with their materials.
+/// Return the parts of a mesh; and of a scene: settings that a stage reads, gravity, bodies with their materials.
 std::vector<Quantity> mesh_quantities(const Topology& topology);
 std::vector<Quantity> scene_quantities(const Scene& scene);
-/// Returns a mesh with positions [m] and rigid groups by vertex, and excluded pairs where there are any.
+/// Returns a mesh with positions [m] and rigid groups by vertex, and excluded pairs if there are any.
 std::vector<Quantity> state_quantities(const Topology& topology, const std::vector<Vec3f>& positions,
                                        const std::vector<Index>& rigid_groups, const CompressedRows& partners);
 
-/// Joins lists one after another.
+/// Returns all lists joined into one.
 template <class... Lists>
 std::vector<Quantity> joined(std::vector<Quantity> all, Lists... more) {
   (all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end())), ...);

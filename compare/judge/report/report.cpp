@@ -26,7 +26,7 @@ double speed(const StageReport& report) {
   return report.seconds > 0 ? static_cast<double>(report.tally.total().cases) / report.seconds : 0;
 }
 
-/// Returns the width in characters of UTF-8 text: counts all bytes but continuations.
+/// Returns the number of characters of UTF-8 text, by counting all bytes except continuation bytes.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
@@ -48,7 +48,7 @@ std::string print_rows(const std::vector<ReportRow>& rows) {
   return text;
 }
 
-/// Names the generators that all mismatches come from, if they are few; empty otherwise.
+/// Returns the names of the generators of all mismatches if these are few; otherwise an empty text.
 std::string confinement(const Tally& tally) {
   const std::vector<std::string> names = tally.confined_to();
   std::string text;

@@ -1,4 +1,4 @@
-// Prints reports: one JSON object a stage, and a table for people (as a page: compare/judge/report/page.hpp).
+// Prints reports: one JSON object for each stage, and a table for readers (as a page: compare/judge/report/page.hpp).
 #pragma once
 
 #include <array>
@@ -12,29 +12,29 @@
 
 namespace ogc::compare {
 
-/// Returns one stage: counts, grey zone, cases near a boundary, errors by metric (median, 99.9th percentile, maximum,
-/// room below the tolerance, whether that is loose, worst problem string), speed, the listed mismatches, each
-/// generator's counts.
+/// Returns the report of one stage: counts, grey zone, cases near a boundary, errors by metric (median, 99.9th
+/// percentile, maximum, room below the tolerance, whether it is loose, worst problem string), speed, the listed
+/// mismatches, the counts of each generator.
 nlohmann::ordered_json report_json(const StageReport& report);
 
-/// One row of report_table, of which each metric has one: stage, cases, mismatches, grey share, grey decisions answered
-/// otherwise than exactly, share near a boundary, error and its unit, median, 99.9 %, maximum and tolerance in that
-/// unit, their ratio, cases per second. What belongs to a stage stands in its first row.
+/// One row of report_table, for one metric: stage, cases, mismatches, grey share, grey decisions answered otherwise
+/// than exactly, share near a boundary, error and its unit, median, 99.9 %, maximum and tolerance in this unit, their
+/// ratio, cases per second. Only the first row of a stage has the columns of the stage.
 using ReportRow = std::array<std::string, 13>;
 ReportRow report_columns();                                     ///< headings of the columns
-std::vector<ReportRow> report_rows(const StageReport& report);  ///< one row a metric, at least one
+std::vector<ReportRow> report_rows(const StageReport& report);  ///< one row for each metric, at least one
 
 /// Returns "passed", "skipped", or what went wrong.
 std::string verdict(const StageReport& report);
 
-/// Returns one line over all stages: cases, mismatches, the share of all cases near a boundary.
+/// Returns one line for all stages: cases, mismatches, the share of cases near a boundary.
 std::string report_total(std::span<const StageReport> reports);
 
 /// Returns all rows, the line of report_total, then verdict, loose tolerances and worst cases of each stage.
 std::string report_table(std::span<const StageReport> reports);
 
-/// Returns the listed mismatches, problem string and message, at most `limit` a generator, then the count of all
-/// others.
+/// Returns the listed mismatches with problem string and message, at most `limit` for each generator, then the number
+/// of all others.
 std::string report_mismatches(const StageReport& report, std::size_t limit);
 
 }  // namespace ogc::compare

@@ -27,7 +27,8 @@ std::size_t slot(Index i) { return static_cast<std::size_t>(i); }
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Makes a shape a mesh that validate accepts, and keeps which point of the shape each vertex of the mesh is; −1: none.
+/// Turns a shape into a mesh that validate accepts. `points` holds for each vertex of the mesh its point of the shape,
+/// or −1.
 class LegalMesh {
  public:
   explicit LegalMesh(const Shape& shape) : positions_(to_double(shape.points)) {
@@ -82,8 +83,8 @@ class LegalMesh {
     return held;
   }
 
-  /// Returns a point beyond v, half as far again from the centre of the first `count` points without v; in some
-  /// direction where v is at the centre.
+  /// Returns a point beyond v, as seen from the centre of the first `count` points without v: half as far again from
+  /// this centre as v. If v is at the centre, the direction is arbitrary.
   Vec3 away_from_others(std::size_t v, std::size_t count) const {
     Vec3 centre{};
     double spread = 0;
@@ -132,7 +133,7 @@ class LegalMesh {
   std::size_t shape_points_ = 0;
 };
 
-/// The two axes with the largest extents, the larger one to the right, and the range of each.
+/// The two axes with the largest extents, the larger one horizontal, and the range of each.
 struct Projection {
   std::array<int, 2> axis{0, 1};
   std::array<double, 2> low{}, high{};

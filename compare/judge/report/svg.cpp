@@ -6,7 +6,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Prints a length in pixels; a hundredth of one is precise enough.
+/// Prints a length in pixels with two decimals.
 std::string pixels(double x) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%.2f", x);

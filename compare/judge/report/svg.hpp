@@ -1,4 +1,4 @@
-// Writes the little of SVG that pictures of cases and the page of a report need. Escapes text.
+// Writes the few elements of SVG that pictures of cases and pages of reports need. Escapes text.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class Svg {
   void circle(At centre, double radius, const char* style);
   void rectangle(At corner, double width, double height, const char* style);
   void text(At at, const std::string& words, const char* style);
-  /// Returns the whole picture, for a file of its own or for a page.
+  /// Returns the whole picture, for a file or for a page.
   std::string finish() const { return text_ + "</svg>\n"; }
 
  private:

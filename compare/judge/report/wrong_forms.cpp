@@ -24,7 +24,7 @@ std::function<Out(const In&)> asked_once(const std::function<Out(const In&)>& co
   };
 }
 
-/// Checks whether a number of the answer is a NaN; an answer without one must be right.
+/// Checks whether the answer contains a NaN or is right.
 bool is_no_number_or_right(const Evidence& evidence, const Authority& authority) {
   const std::vector<AnswerPair> outputs = answers_to(evidence.test, evidence.answered, authority).outputs;
   const bool is_nan = std::ranges::any_of(outputs, [](const AnswerPair& pair) {

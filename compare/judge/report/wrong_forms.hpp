@@ -1,9 +1,8 @@
-// Holds known ways to get a stage wrong, each with a name: an answer that does not equal the truth may equal one of
-// these forms.
+// Holds known mistakes of a stage, each with a name. A wrong answer may equal one of these forms.
 //
-// A form is the truth to a question that is changed first (another activation, no damping), or a truth that is changed
-// afterwards (a sign, a factor). Both come from the authority, so a form is as exact as the truth itself, and an answer
-// equals it within the verdict and the tolerances of its stage.
+// A form changes the question first (another activation, no damping), or changes the truth afterwards (a sign, a
+// factor). The authority computes both, so a form is as exact as the truth itself. An answer equals a form if the
+// stage's verdict accepts it, with the form as the truth.
 #pragma once
 
 #include <functional>
@@ -16,37 +15,37 @@
 
 namespace ogc::compare {
 
-/// A case, and a contestant that answers as the judged one did (`remembered`).
+/// A case, and a contestant that repeats the judged contestant's answers (`remembered`).
 struct Evidence {
   TestCase test;        ///< the question
-  Contestant answered;  ///< repeats the answers of the judged contestant
+  Contestant answered;  ///< repeats the judged answers
   bool fails = false;   ///< whether the judge finds a mismatch
 };
 
-/// One way to get a stage wrong.
+/// A known mistake of a stage.
 struct WrongForm {
   std::string name;     ///< "ogc_as_printed"
-  std::string meaning;  ///< one line: what is computed in place of what
-  /// checks whether the answer is what the form gives, within what the stage accepts
+  std::string meaning;  ///< one line: what is computed instead of what
+  /// checks whether the answer equals the form, within the stage's tolerances
   std::function<bool(const Evidence&, const Authority&)> fits;
-  /// the authority that takes the form for the truth; empty where the form depends on the answer
+  /// returns an authority that has the form as the truth; empty if the form depends on the answer
   std::function<Authority(const Authority&)> wrong{};
-  /// describes what the answers look like, not what was computed: tried where no other form is named
+  /// true if it describes the answers and not what was computed; tried only if no other form is named
   bool is_vague = false;
 };
 
-/// Makes the form of an authority that takes it for the truth.
+/// Makes a form from an authority that has it as the truth.
 WrongForm form_of(std::string name, std::string meaning, std::function<Authority(const Authority&)> wrong);
 
-/// Returns the forms of a stage. Some have a parameter that is read off the answers (how many contacts a list keeps). A
-/// stage of single cases also has `not_a_number`.
+/// Returns the forms of a stage. Some have a parameter found from the answers, for example how many contacts a list
+/// keeps. Stages of single cases also have `not_a_number`.
 std::vector<WrongForm> wrong_forms(Stage stage, std::span<const Evidence> evidence);
 
-/// Returns the contestant with a memory: it is asked once a stage, and repeats its first answer to every later
+/// Returns a contestant that calls the given one once for each stage, and repeats this first answer to every later
 /// question. A failure is not remembered.
 Contestant remembered(const Contestant& contestant);
 
-/// Checks whether the judge finds nothing wrong with the answer, given this authority.
+/// Checks whether the judge accepts the answer with this authority.
 bool agrees(const Evidence& evidence, const Authority& authority);
 
 }  // namespace ogc::compare

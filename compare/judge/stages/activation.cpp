@@ -41,7 +41,7 @@ CaseData activation_radius(Random& random) {
   return ActivationCase{beside(random, r), r, static_cast<float>(random.magnitude(-1, 6))};
 }
 
-/// Approaches d = τ = r/2, where the stages join.
+/// Approaches d = τ = r/2, where both stages of the activation meet.
 CaseData activation_switch(Random& random) {
   const float r = random.one_in(2) ? random.pattern() : 0.005f;
   return ActivationCase{beside(random, r / 2), r, static_cast<float>(random.magnitude(-1, 6))};
@@ -62,7 +62,8 @@ ActivationCase with_any_activation(Random& random, const CaseData& data) {
 
 CaseData activation_variants(Random& random) { return with_any_activation(random, activation_uniform(random)); }
 
-/// Approaches the places where the variants change over or cancel: r, τ (where logarithms may cancel, too) and 0.
+/// Approaches the places where an activation changes or terms cancel: d = r, d = τ (where logarithms may cancel, too)
+/// and d = 0.
 CaseData activation_ladders(Random& random) {
   switch (random.below(8)) {
     case 0: return with_any_activation(random, activation_touching(random));
@@ -83,7 +84,7 @@ constexpr std::array<Generator, 8> activation_table{{{"uniform", 20, true, activ
                                                      {"variants", 8, true, activation_variants},
                                                      {"ladder.variants", 40, false, activation_ladders}}};
 
-/// Checks whether d lies near r, or near τ = r/2 where the stages of the activation meet.
+/// Checks whether d is near r or near τ = r/2, where pieces of the activation meet.
 bool near_join(double d, double r) { return std::min(std::abs(d - r), std::abs(d - r / 2)) <= near_factor * d; }
 
 }  // namespace
@@ -111,7 +112,7 @@ void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth
 
 namespace {
 
-/// Thresholds that people write [m].
+/// Absolute thresholds that programs use [m].
 constexpr std::array<std::pair<const char*, float>, 7> thresholds{{{"1e-2", 1e-2f},
                                                                    {"1e-3", 1e-3f},
                                                                    {"1e-4", 1e-4f},
@@ -120,7 +121,7 @@ constexpr std::array<std::pair<const char*, float>, 7> thresholds{{{"1e-2", 1e-2
                                                                    {"1e-7", 1e-7f},
                                                                    {"1e-8", 1e-8f}}};
 
-/// Makes a form that spoils the truth about each case by `change(in, i, truth)`.
+/// Makes a form that changes the truth of each case by `change(in, i, truth)`.
 template <class Change>
 WrongForm activation_told(std::string name, std::string meaning, Change change) {
   return told(std::move(name), std::move(meaning), &Authority::activation,
@@ -141,7 +142,7 @@ bool is_logarithmic(const ActivationIn& in, std::size_t i) {
   return in.activation[i] == ContactActivation::ogc && 2 * double{in.distance[i]} < in.contact_radius[i];
 }
 
-/// Makes the form that multiplies k' of the logarithmic stage; energies stay equal at τ.
+/// Makes the form that multiplies k' of the logarithmic stage; energies remain equal at τ.
 WrongForm logarithm_times(float factor, std::string name, std::string meaning) {
   return form(std::move(name), std::move(meaning), &Authority::activation,
               [factor](const std::function<ActivationTruth(const ActivationIn&)>& right, const ActivationIn& in) {
@@ -297,7 +298,6 @@ struct Activation : BatchStage<Activation, &Contestant::activation, &Authority::
   static constexpr auto judge = judge_activation;
   static auto arrays(const Out& out) { return std::tie(out.energy, out.slope, out.curvature); }
 
-  /// Takes `Out` and `Truth`, which have the same members.
   template <class Answer>
   static std::vector<Quantity> outputs(const In&, const Answer& answer) {
     return {scalar("energy", "J", answer.energy.at(0)), scalar("slope", "N", answer.slope.at(0)),

@@ -1,5 +1,5 @@
-// Makes the traits of stage barrier. Ladders lead to g = H, where barrier, slope and curvature end; to g = 0, where the
-// logarithm grows; and to a thickness beside which d̂ is small.
+// Makes the traits of stage barrier. Ladders approach g = H, where barrier, slope and curvature end; g = 0, where the
+// logarithm grows; and thicknesses far above d̂.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +27,7 @@ bool tells_gap(const BarrierCase& c) {
   return gap_of(c) >= 0x1p-40 * support_of(c) && gap_of(c) >= 0x1p-18 * c.squared_distance;
 }
 
-/// Returns the case with its lengths clamped, and D raised to the least legal one where it is below.
+/// Returns the case with legal lengths; D becomes the least legal one if it is below.
 BarrierCase legal(BarrierCase c) {
   c.activation_distance = std::clamp(c.activation_distance, ranges::least, ranges::most);
   if (c.thickness != 0)
@@ -39,7 +39,7 @@ BarrierCase legal(BarrierCase c) {
   return c;
 }
 
-/// Returns a case whose gap is `share` of the support.
+/// Returns a case whose g is `share` of the support H.
 BarrierCase at_share(double share, float distance, float thickness) {
   BarrierCase c{0, distance, thickness};
   c = legal(c);
@@ -84,7 +84,7 @@ CaseData touching(Random& random) {
   return at_share(std::pow(10.0, -1 - random.below(12)), distance, some_thickness(random, distance));
 }
 
-/// Makes cases with ξ ≫ d̂, where D differs little from ξ².
+/// Makes cases with ξ ≫ d̂, in which D differs little from ξ².
 CaseData thick(Random& random) {
   const float distance = some_distance(random);
   return at_share(random.between(0, 1.2), distance, static_cast<float>(distance * random.magnitude(1, 3)));
@@ -213,7 +213,6 @@ struct Barrier : BatchStage<Barrier, &Contestant::barrier, &Authority::barrier>,
   static void judge(Cases cases, const In&, const Truth& truth, const Out& out, Tally& tally);
   static auto arrays(const Out& out) { return std::tie(out.energy, out.slope, out.curvature); }
 
-  /// Takes `Out` and `Truth`, which have the same members.
   template <class Answer>
   static std::vector<Quantity> outputs(const In&, const Answer& answer) {
     return {scalar("energy", "m⁴", answer.energy.at(0)), scalar("slope", "m²", answer.slope.at(0)),

@@ -124,7 +124,7 @@ struct Block : MeshStage<Block, &Contestant::block, &Authority::block>,
       problem.require(is_question(c, question), "a question is about a face that has a vertex of the asking one");
   }
   static void mutate(Random& random, Case& c) {
-    // Moved edges may become parallel, which makes questions about them illegal.
+    // If edges move, they may become parallel, which makes questions about them illegal.
     std::erase_if(c.questions, [](const BlockQuestion& q) {
       return q.kind == BlockQuestion::Kind::edge_in_edges && q.face.kind == FaceKind::edge;
     });
@@ -172,7 +172,6 @@ struct Block : MeshStage<Block, &Contestant::block, &Authority::block>,
   static void add(Bits& bits, const Out& out) { bits.add(out.inside); }
   static std::int64_t items(const Case& c) { return static_cast<std::int64_t>(c.questions.size()); }
 
-  /// Takes `Out` and `Truth`, which have the same member.
   template <class Answer>
   static std::vector<Quantity> outputs(const In& in, const Answer& answer) {
     Quantity inside = compare::numbers("inside", "", answer.inside);

@@ -22,7 +22,7 @@ void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& 
 
 namespace {
 
-/// Makes the form that does not read one of the three minima.
+/// Makes the form that ignores one of the three minima.
 WrongForm unread(std::string name, std::string meaning, std::span<const float> BoundIn::*minima) {
   return form(std::move(name), std::move(meaning), &Authority::bound,
               [minima](const std::function<BoundTruth(const BoundIn&)>& right, const BoundIn& in) {
@@ -146,7 +146,7 @@ struct Bound : MeshStage<Bound, &Contestant::bound, &Authority::bound>, Paramete
   static std::vector<Quantity> outputs(const In& in, const Truth& truth) { return outputs(in, truth.exact); }
   static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) { return bound_forms(); }
 
-  /// Checks whether bounds keep their bits under other numbers.
+  /// Checks whether renumbering keeps the bits of bounds.
   static bool is_same_renumbered(const TestCase& test, Random& random, const Contestant& contestant) {
     const auto& c = case_of<Case>(test.data);
     const Renumbering to(random, *c.topology);

@@ -1,7 +1,8 @@
-// Makes the traits of stage ccd. Generators make a motion from the moment at which the faces are nearest, backwards and
-// forwards. Ladders lead to rims that are just hit or just missed, to parallel edges, to long slides at a small gap, to
-// gaps that vanish, to faces that touch at the start, to motions in one plane, and to edges that turn through each
-// other.
+// Makes the traits of stage ccd. Generators start at the moment at which the faces are nearest, and extend the motion
+// backwards and forwards. Ladders approach
+// - rims that are barely hit or missed, parallel edges, motions in one plane,
+// - long slides at a small gap, gaps of 0, faces that touch at the start,
+// - edges that turn through each other.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +28,7 @@ using namespace placement;
 
 using Four = std::array<Vec3, 4>;
 
-/// Positions and velocities at the moment `at`.
+/// Positions and velocities at the time `at`.
 struct Draft {
   CcdKind kind = CcdKind::vertex_triangle;
   Four x{}, v{};
@@ -54,7 +55,7 @@ void shuffle(Random& random, CcdCase& c) {
   }
 }
 
-/// Places both ends of the motion together.
+/// Places positions at the start and the end by one symmetry and rotation.
 CcdCase placed(Random& random, const Draft& draft) {
   std::array<Vec3, 8> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -69,7 +70,7 @@ CcdCase placed(Random& random, const Draft& draft) {
 }
 
 /// Returns faces in the plane z = 0: a vertex at weights (a, b) of a triangle, or edges that cross at parameters a and
-/// b at an angle of this sine.
+/// b with this sine of their angle.
 Four touching_faces(Random& random, CcdKind kind, double a, double b, double sine) {
   if (kind == CcdKind::edge_edge) {
     const double cosine = std::sqrt(1 - sine * sine), length = random.magnitude(-1, 1);
@@ -87,7 +88,7 @@ void lift(Draft& draft, double height) {
     if (is_first(draft.kind, k)) draft.x[k].z += height;
 }
 
-/// Moves the first face against the second; each vertex also moves a little by itself.
+/// Moves the first face against the second; each vertex also gets a small motion of its own.
 void approach(Random& random, Draft& draft, double speed, double own) {
   for (std::size_t k = 0; k < 4; ++k) {
     draft.v[k] = scaled(in_box(random, -1, 1), own * speed);
@@ -110,7 +111,7 @@ CaseData uniform(Random& random) {
   return placed(random, draft);
 }
 
-/// Lets the faces meet somewhere on the way.
+/// Makes faces that meet during the motion.
 CaseData aimed(Random& random) {
   Draft draft{.kind = some_kind(random), .at = random.unit()};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), random.between(0.2, 1));
@@ -123,12 +124,12 @@ CaseData bits(Random& random) {
   CcdCase c{.kind = some_kind(random)};
   const Four from = points_of_bits(random), to = points_of_bits(random);
   for (std::size_t k = 0; k < 4; ++k) c.from[k] = single(from[k]), c.to[k] = single(to[k]);
-  if (random.one_in(2))  // a short way
+  if (random.one_in(2))  // a motion of a few ulp
     for (std::size_t k = 0; k < 4; ++k) c.to[k] = {up(c.from[k].x), c.from[k].y, up(up(c.from[k].z))};
   return c;
 }
 
-/// Makes small whole numbers: collapsed faces, one plane, one line, contacts at the start and at the end.
+/// Makes small integers: collapsed faces, faces on one plane or line, contacts at the start and at the end.
 CaseData lattice(Random& random) {
   CcdCase c{.kind = some_kind(random)};
   const double size = std::ldexp(1.0, random.below(9) - 4);
@@ -139,7 +140,7 @@ CaseData lattice(Random& random) {
   return c;
 }
 
-/// Lets a rim or an end be hit or missed by a rung.
+/// Makes motions that hit or miss a rim or an end by a rung.
 CaseData grazing(Random& random) {
   Draft draft{.kind = some_kind(random), .at = random.unit()};
   const double a = random.rung(), b = random.one_in(2) ? random.rung() : inside(random);
@@ -171,7 +172,7 @@ CaseData slide(Random& random) {
   return placed(random, draft);
 }
 
-/// Approaches a first gap of 0, or makes it 0; the way is as long as the gap, shorter or longer.
+/// Approaches or takes a gap of 0 at the start. The distance moved is similar to the gap, shorter or longer.
 CaseData gap(Random& random) {
   Draft draft{.kind = some_kind(random)};
   const double height = random.rung();
@@ -181,7 +182,7 @@ CaseData gap(Random& random) {
   return placed(random, draft);
 }
 
-/// Keeps all motion in one plane: edges and rims meet within it.
+/// Makes motions in one plane, in which edges and rims meet.
 CaseData planar(Random& random) {
   Draft draft{.kind = some_kind(random)};
   draft.x = points_in_box(random);
@@ -193,7 +194,7 @@ CaseData planar(Random& random) {
   return placed(random, draft);
 }
 
-/// Turns a long edge or triangle about a point near the other face: through it and back, or beside it.
+/// Turns a long edge or triangle about a point near the other face: through this face and back, or beside it.
 CaseData turning(Random& random) {
   Draft draft{.kind = some_kind(random), .at = 0.5};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), random.between(0.2, 1));
@@ -203,7 +204,7 @@ CaseData turning(Random& random) {
   return placed(random, draft);
 }
 
-/// Moves a case far from the origin, where the differences of coordinates have few bits.
+/// Moves a case far from the origin, where differences of coordinates have few bits.
 CaseData offset(Random& random) {
   const Vec3 far = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
   CcdCase c = case_of<CcdCase>(aimed(random));
@@ -212,7 +213,7 @@ CaseData offset(Random& random) {
   return c;
 }
 
-/// Makes needles: faces with nearly no area or no length.
+/// Makes faces with nearly no area or no length.
 CaseData needle(Random& random) {
   Draft draft{.kind = some_kind(random), .at = random.between(0, 1.2)};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), std::abs(random.rung()));
@@ -235,7 +236,7 @@ constexpr std::array<Generator, 13> ccd_table{{{"uniform", 12, true, uniform},
                                                {"ladder.needle", 8, false, needle},
                                                {"ladder.offset", 6, false, offset}}};
 
-/// Returns, of the two edges at the start, ‖e × e'‖² and ‖e‖² ‖e'‖² [m⁴].
+/// Returns ‖e × e'‖² and ‖e‖² ‖e'‖² of the two edges at the start [m⁴].
 std::pair<double, double> parallelism(const CcdCase& c) {
   const auto side = [&](std::size_t i, std::size_t j) {
     return Vec3{double{c.from[j].x} - c.from[i].x, double{c.from[j].y} - c.from[i].y,
@@ -252,7 +253,7 @@ bool starts_parallel(const CcdCase& c) {
   return cross <= 1e-6 * product;
 }
 
-/// Makes the form that never finds an impact of cases for which `skips` holds.
+/// Makes the form that finds no impact in cases for which `skips` returns true.
 template <class Skips>
 WrongForm skipping(std::string name, std::string meaning, Skips skips) {
   return told(std::move(name), std::move(meaning), &Authority::ccd, [skips](const CcdIn& in, CcdTruth& truth) {
@@ -324,7 +325,7 @@ struct Ccd : BatchStage<Ccd, &Contestant::ccd, &Authority::ccd>, NoParameters, I
   static const Topology* mesh(const Case&) { return nullptr; }
   static Case part(const Case& c, const MeshPart&) { return c; }
 
-  /// Takes a near pair of a frame, on ways as long as the pair is wide or shorter.
+  /// Takes two near faces of a frame, which move by up to their size.
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
     Case c{.kind = some_kind(random)};
     const std::size_t frame = states.frame(index);

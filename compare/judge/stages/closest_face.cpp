@@ -1,6 +1,6 @@
-// Makes the traits of stage closest_face. The ladders' canonical frame has a = 0, b on the x axis, and c in the xy
-// plane. The planes that separate the features of a and of the edge ab are then coordinate planes, which the point can
-// approach by any power of ten.
+// Makes the traits of stage closest_face. In the canonical frame of the ladders a = 0, b is on the x axis, and c in the
+// xy plane. The planes between the blocks of a and ab are then coordinate planes, which the point can approach by any
+// power of ten.
 #include <array>
 #include <span>
 
@@ -23,7 +23,7 @@ CaseData finish(const std::array<Vec3, 4>& points) {
   return ClosestFaceCase{single(points[0]), {single(points[1]), single(points[2]), single(points[3])}};
 }
 
-/// Relabels the corners, then places the case.
+/// Changes the order of the corners and places the case.
 CaseData placed(Random& random, const Vec3& p, std::array<Vec3, 3> corners) {
   const int first = random.below(3);
   const bool turned = random.one_in(2);
@@ -42,33 +42,33 @@ CaseData uniform(Random& random) { return finish(points_in_box(random)); }
 CaseData bits(Random& random) { return finish(points_of_bits(random)); }
 CaseData lattice(Random& random) { return finish(points_on_lattice(random, 3)); }
 
-/// Approaches the plane between the blocks of corner a and of edge ab.
+/// Approaches the plane between the blocks of corner a and edge ab.
 CaseData corner_plane(Random& random) {
   return placed(random, {random.rung(), -random.magnitude(-3, 0), random.sign() * random.magnitude(-3, 0)},
                 canonical(random));
 }
 
-/// Approaches the plane between the edge ab and the interior.
+/// Approaches the plane between the blocks of edge ab and the interior.
 CaseData edge_plane(Random& random) {
   const auto corners = canonical(random);
   return placed(random, {random.between(0, 1) * corners[1].x, random.rung(), random.sign() * random.magnitude(-4, 0)},
                 corners);
 }
 
-/// Approaches both planes at once, near the corner a.
+/// Approaches both planes near the corner a.
 CaseData corner_edge(Random& random) {
   return placed(random, {random.rung(), random.rung(), random.one_in(2) ? random.rung() : random.between(-1, 1)},
                 canonical(random));
 }
 
-/// Approaches d = 0 over the interior, an edge and a corner.
+/// Approaches d = 0 above the interior, an edge and a corner.
 CaseData near(Random& random) {
   const auto corners = canonical(random);
   const double s = random.one_in(3) ? 0 : random.unit(), t = random.one_in(3) ? 0 : random.unit() * (1 - s);
   return placed(random, {s * corners[1].x + t * corners[2].x, t * corners[2].y, random.rung()}, corners);
 }
 
-/// Lets one height tend to 0: c falls on the line of ab, inside or outside the edge.
+/// Approaches a height of 0: c nears the line ab, inside or outside of the edge.
 CaseData needle(Random& random) {
   auto corners = canonical(random);
   corners[2].y = random.rung();
@@ -77,7 +77,7 @@ CaseData needle(Random& random) {
   return placed(random, {random.between(-0.3, 1.3) * corners[1].x, y, z}, corners);
 }
 
-/// Lets one side tend to 0.
+/// Approaches a side of length 0.
 CaseData sliver(Random& random) {
   auto corners = canonical(random);
   corners[2] = sum(corners[random.below(2)], {random.rung(), random.rung(), 0});
@@ -87,15 +87,15 @@ CaseData sliver(Random& random) {
                 corners);
 }
 
-/// Puts the point close to the short side of a triangle that is 10⁰ … 10⁶ times as long: there the weight of the far
-/// corner is least certain.
+/// Puts the point near the short side of a triangle that is 10⁰ … 10⁶ times as long. There the weight of the far corner
+/// is least certain.
 CaseData base(Random& random) {
   const double side = random.magnitude(-3, 0), height = side * random.magnitude(0, 6);
   const Vec3 p{side * random.rung(), random.between(-0.2, 1.2) * side, side * random.rung()};
   return placed(random, p, {Vec3{}, Vec3{0, side, 0}, Vec3{height, random.between(-1, 1) * height, 0}});
 }
 
-/// Makes an area of exactly zero: corners on a line of lattice points, two equal, or all equal.
+/// Makes triangles with an area of exactly 0: corners on a line of lattice points, two equal, or all equal.
 CaseData zero_area(Random& random) {
   const Vec3 a = on_lattice(random, 2), direction = on_lattice(random, 1);
   const int kind = random.below(4);
@@ -106,7 +106,7 @@ CaseData zero_area(Random& random) {
   return finish(points);
 }
 
-/// Puts a small triangle far from the origin, where the differences of its coordinates have few bits.
+/// Puts a small triangle far from the origin, where differences of coordinates have few bits.
 CaseData offset(Random& random) {
   const Vec3 far = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
   std::array<Vec3, 4> points;
@@ -114,7 +114,7 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-/// Approaches a boundary: climbs one of the ladders towards the planes, on its lower rungs.
+/// Takes the lower rungs of the ladders towards the planes.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> ladders{corner_plane, edge_plane, corner_edge};
   random.be_fine();

@@ -20,19 +20,19 @@ using Right = Ask<ClosestFaceTruth, ClosestFaceIn>;
 
 constexpr std::array opposite_edge{TriangleFeature::edge_12, TriangleFeature::edge_20, TriangleFeature::edge_01};
 
-/// Accepts this feature alone.
+/// Accepts only this feature.
 void accept(ClosestFaceTruth& truth, std::size_t i, TriangleFeature feature) {
   truth.exact.feature[i] = feature;
   truth.accepted[i] = static_cast<std::uint8_t>(1u << static_cast<unsigned>(feature));
 }
 
-/// Sets the rounded answer from distances and weights.
+/// Rounds distance and weights into the answer.
 void round_answer(ClosestFaceTruth& truth, std::size_t i) {
   truth.exact.distance[i] = static_cast<float>(truth.distance[i]);
   for (std::size_t k = 0; k < 3; ++k) truth.exact.weights[i][k] = static_cast<float>(truth.weights[i][k]);
 }
 
-/// Makes a form that spoils the truth about each case by `change(in, i, truth)`; its rounded answer follows.
+/// Makes a form that changes the truth of each case by `change(in, i, truth)`, and rounds the answer again.
 template <class Change>
 WrongForm face_told(std::string name, std::string meaning, Change change) {
   return told(std::move(name), std::move(meaning), &Authority::closest_face,
@@ -56,7 +56,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// The triangle as seen from the point.
+/// The triangle relative to the point.
 struct Seen {
   explicit Seen(const ClosestFaceIn& in, std::size_t i)
       : corner{difference(in.triangle[i][0], in.point[i]), difference(in.triangle[i][1], in.point[i]),
@@ -64,7 +64,7 @@ struct Seen {
         normal(cross(difference(in.triangle[i][1], in.triangle[i][0]),
                      difference(in.triangle[i][2], in.triangle[i][0]))) {}
 
-  /// Returns the weights of the foot on the triangle's plane; they are no numbers for a triangle without area.
+  /// Returns the weights of the foot on the triangle's plane; NaN for a triangle without area.
   Weights foot() const {
     Weights w;
     for (std::size_t k = 0; k < 3; ++k)
@@ -72,7 +72,7 @@ struct Seen {
     return w;
   }
 
-  /// Returns twice the areas of the triangles that the point itself makes with the edges.
+  /// Returns twice the areas of the triangles between the point and each edge.
   Weights areas() const {
     Weights a;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -107,7 +107,7 @@ Weights moduli(Weights w) {
   return w;
 }
 
-/// Makes this point the truth. Its weights are not compared: the mistake is not that they are rounded differently.
+/// Makes this point the truth. Its weights are not compared, because the mistake is the choice of the point.
 void say_point(const ClosestFaceIn& in, std::size_t i, const Weights& w, ClosestFaceTruth& truth) {
   truth.weights[i] = w;
   truth.weight_condition[i] = std::numeric_limits<double>::infinity();
@@ -115,11 +115,11 @@ void say_point(const ClosestFaceIn& in, std::size_t i, const Weights& w, Closest
   truth.exact.distance_below[i] = surely_above(truth.distance[i], size_of(in, i));
 }
 
-// Forms that permute.
+// Forms that permute corners or weights.
 
 struct NamedOrder {
   const char* name;
-  std::array<std::size_t, 3> of;  ///< place k holds what belongs to corner of[k]
+  std::array<std::size_t, 3> of;  ///< place k gets the value of corner of[k]
 };
 constexpr std::array<NamedOrder, 5> orders{{{"swapped_01", {1, 0, 2}},
                                             {"swapped_12", {0, 2, 1}},
@@ -157,9 +157,9 @@ void add_permutations(std::vector<WrongForm>& forms) {
                             }));
 }
 
-// Forms that choose another edge or corner than the nearest.
+// Forms that choose an edge or corner that is not the nearest.
 
-/// Takes the closest point of one edge from the authority; an edge without length is its first end.
+/// Makes the closest point of one edge, by the authority, the answer; an edge without length is its first end.
 void take_edge(const Authority& authority, const ClosestFaceIn& in, std::size_t i, std::size_t edge,
                ClosestFaceTruth& truth) {
   const std::size_t from = edge, to = (edge + 1) % 3;
@@ -190,7 +190,7 @@ void take_corner(const ClosestFaceIn& in, std::size_t i, std::size_t corner, Clo
   round_answer(truth, i);
 }
 
-/// Makes a form in which `choose(authority, in, i, truth)` chooses the closest point where it does not lie in the
+/// Makes a form in which `choose(authority, in, i, truth)` chooses the closest point if this point is not in the
 /// interior and the triangle has an area.
 template <class Choose>
 WrongForm chosen_outside(std::string name, std::string meaning, Choose choose) {
@@ -207,7 +207,7 @@ WrongForm chosen_outside(std::string name, std::string meaning, Choose choose) {
   });
 }
 
-/// Makes the form that takes the first edge, in this order, beyond which the foot lies.
+/// Makes the form that takes the first edge in this order beyond which the foot lies.
 WrongForm first_edge_of(const std::array<std::size_t, 3>& order) {
   constexpr std::array<const char*, 3> edges{"01", "12", "20"};
   const std::string which = std::string(edges[order[0]]) + "_" + edges[order[1]] + "_" + edges[order[2]];
@@ -221,7 +221,8 @@ WrongForm first_edge_of(const std::array<std::size_t, 3>& order) {
       });
 }
 
-/// Chooses corner or edge by how many weights are positive. Beside an obtuse corner an edge is nearer.
+/// Chooses corner or edge by the number of positive weights, which is wrong near an obtuse corner, where an edge may be
+/// nearer.
 void by_signs(const Authority& authority, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   const Weights w = Seen(in, i).foot();
   const auto positive = std::count_if(w.begin(), w.end(), [](double x) { return x > 0; });
@@ -231,7 +232,7 @@ void by_signs(const Authority& authority, const ClosestFaceIn& in, std::size_t i
   }
 }
 
-/// Sets negative weights to 0, and divides the others by their sum.
+/// Sets negative weights to 0 and divides the others by their sum.
 void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   Weights w = Seen(in, i).foot();
   for (double& x : w) x = std::max(x, 0.0);
@@ -245,7 +246,7 @@ void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, Close
   round_answer(truth, i);
 }
 
-/// Choose the nearest corner, or the edge whose line is nearest.
+/// Choose the nearest corner, and the edge whose line is nearest.
 void nearest_corner(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   const Seen seen(in, i);
   const auto squared = [](const Vec3& v) { return dot(v, v); };
@@ -285,14 +286,14 @@ void add_choices(std::vector<WrongForm>& forms) {
                                  by_clamping));
 }
 
-// Forms that add up areas.
+// Forms that add areas.
 
 constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::interior);
-/// Bounds the error of the sum of three weights, each of ten roundings in double.
+/// A bound of the error of a sum of three weights, each with ten roundings in double.
 constexpr double sum_rounding = 30 * 0x1p-53;
 
-/// Makes the form that counts the foot as inside where areas of its triangles, added without their signs, exceed the
-/// triangle's by no more than `slack(area)` [twice m²].
+/// Makes the form that counts the foot as inside if the areas of its three triangles, added without signs, exceed the
+/// triangle's area by at most `slack(area)` [twice m²].
 template <class Slack>
 WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack slack) {
   return face_told(std::move(name),
@@ -303,7 +304,8 @@ WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack sl
                      if (truth.exact.feature[i] == TriangleFeature::interior ||
                          !((sum_of(w) - 1) * seen.area() <= slack(seen.area())))
                        return;
-                     if (sum_of(w) - 1 <= sum_rounding) {  // on the rim the areas rightly add up: either name will do
+                     // on the rim the areas correctly add up: both features are accepted
+                     if (sum_of(w) - 1 <= sum_rounding) {
                        truth.accepted[i] = static_cast<std::uint8_t>(truth.accepted[i] | inside_bit);
                        return;
                      }
@@ -339,7 +341,7 @@ void add_areas(std::vector<WrongForm>& forms) {
 
 // Forms with thresholds.
 
-/// Counts an interior point with a weight below epsilon as lying on the edge.
+/// Takes an interior point with a weight below epsilon as a point of the edge.
 void without_small_weights(ClosestFaceTruth& truth, std::size_t i, double epsilon) {
   if (truth.exact.feature[i] != TriangleFeature::interior) return;
   const auto least = std::min_element(truth.weights[i].begin(), truth.weights[i].end());
@@ -371,7 +373,7 @@ void add_thresholds(std::vector<WrongForm>& forms) {
   }
 }
 
-// Forms that only the answer can show.
+// Forms that depend on the answer.
 
 ClosestFaceIn question_of(const Evidence& evidence) {
   const auto& c = case_of<ClosestFaceCase>(evidence.test.data);
@@ -388,7 +390,7 @@ bool is_needle(const ClosestFaceIn& in) {
   return Seen(in, 0).area() <= 0x1p-9 * longest;
 }
 
-/// Checks whether the answer is no number where the triangle is a needle, and right elsewhere.
+/// Checks whether the answer is NaN for a needle, and right for other triangles.
 bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);
@@ -397,7 +399,7 @@ bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   return is_nan ? is_needle(in) : agrees(evidence, authority);
 }
 
-/// Checks whether `distance` is that of the plane where the foot is not inside, and the answer is right elsewhere.
+/// Checks whether `distance` is that to the plane if the foot is outside, and the answer is right otherwise.
 bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceTruth truth = authority.closest_face(in);
@@ -408,8 +410,8 @@ bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) 
   return off <= closest_face_distance_tolerance * unit_roundoff * std::max(plane, size) || agrees(evidence, authority);
 }
 
-/// Checks whether the answer is right but for its feature, whose distance single precision cannot tell from the right
-/// one.
+/// Checks whether the answer is right except for its feature, whose distance single precision cannot distinguish from
+/// the right one.
 bool is_rounded_choice(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);

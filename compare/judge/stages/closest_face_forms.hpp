@@ -1,4 +1,4 @@
-// Lists the wrong forms of the stage closest_face: the answers that known mistakes give.
+// Declares the wrong forms of stage closest_face.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace ogc::compare {
 
-/// Returns forms that exchange weights and corners, choose an edge or a corner that is not the nearest, add up areas,
-/// use absolute thresholds, round decisions, or answer with no numbers where a triangle is a needle.
+/// Returns forms that exchange weights or corners, choose an edge or corner that is not the nearest, add areas, use
+/// absolute thresholds, round decisions, or answer NaN for needles.
 std::vector<WrongForm> closest_face_forms();
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Makes the traits of stage closest_points. The ladders' canonical frame has the first edge on the x axis, so that the
-// planes through its ends are coordinate planes, and the second edge above it.
+// Makes the traits of stage closest_points. In the canonical frame of the ladders the first edge is on the x axis, and
+// the second edge is above it. So the planes through the ends of the first edge are coordinate planes.
 #include <array>
 #include <limits>
 #include <span>
@@ -23,7 +23,7 @@ CaseData finish(const std::array<Vec3, 4>& points) {
   return ClosestPointsCase{{single(points[0]), single(points[1])}, {single(points[2]), single(points[3])}};
 }
 
-/// Swaps ends and edges at random, then places the case.
+/// Swaps ends and edges at random and places the case.
 CaseData placed(Random& random, std::array<Vec3, 4> points) {
   if (random.one_in(2)) std::swap(points[0], points[1]);
   if (random.one_in(2)) std::swap(points[2], points[3]);
@@ -41,7 +41,7 @@ CaseData uniform(Random& random) { return finish(points_in_box(random)); }
 CaseData bits(Random& random) { return finish(points_of_bits(random)); }
 CaseData lattice(Random& random) { return finish(points_on_lattice(random, 2)); }
 
-/// Returns two edges that cross (seen from above) at an angle of `sine`, anywhere in both interiors.
+/// Returns two edges that cross in both interiors, seen from above, at an angle of this sine.
 std::array<Vec3, 4> crossing(Random& random, double sine, double z) {
   const double length = random.magnitude(-1, 1), s = random.between(0.05, 0.95), t = random.between(0.05, 0.95);
   const double cosine = std::sqrt(1 - sine * sine);
@@ -49,15 +49,15 @@ std::array<Vec3, 4> crossing(Random& random, double sine, double z) {
           Vec3{(1 - t) * length * cosine, (1 - t) * length * sine, z}};
 }
 
-/// Approaches an angle of 0, with crossing interiors.
+/// Approaches an angle of 0 between edges that cross in their interiors.
 CaseData parallel(Random& random) { return placed(random, crossing(random, std::abs(random.rung()), height(random))); }
 
-/// Approaches, from both sides, the threshold of the rule for nearly parallel edges, sine² = 10⁻⁶.
+/// Approaches the limit of nearly parallel edges, sine² = 10⁻⁶, from both sides.
 CaseData threshold(Random& random) {
   return placed(random, crossing(random, 1e-3 * (1 + random.rung()), height(random)));
 }
 
-/// Makes parallel edges whose projections overlap by a rung, from far apart to one inside the other.
+/// Makes parallel or tilted edges whose projections overlap by a rung, far apart or one inside the other.
 CaseData overlap(Random& random) {
   const double length = random.magnitude(-1, 1), shift = random.one_in(2) ? 1 : -length,
                tilt = random.one_in(2) ? 0 : random.rung();
@@ -72,14 +72,14 @@ CaseData exact_parallel(Random& random) {
   return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{x, y, z}, Vec3{x + length, y, z}});
 }
 
-/// Lets the closest point of the first edge tend to its end, that of the second to anywhere.
+/// Makes the closest point of the first edge approach its end; the other closest point is anywhere.
 CaseData end(Random& random) {
   const double x = random.rung(), slope = random.one_in(2) ? 0 : random.between(-2, 2), z = height(random);
   const double low = random.one_in(3) ? random.rung() : -random.between(0.1, 1), high = random.between(0.1, 1);
   return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{x + slope * low, low, z}, Vec3{x + slope * high, high, z}});
 }
 
-/// Lets one or both lengths tend to 0.
+/// Approaches a length of 0 for one or both edges.
 CaseData zero_length(Random& random) {
   const Vec3 a = on_lattice(random, 2);
   const Vec3 short_side{random.rung(), random.one_in(2) ? 0 : random.rung(), 0};
@@ -91,7 +91,7 @@ CaseData zero_length(Random& random) {
   return placed(random, points);
 }
 
-/// Approaches a distance of 0: crossings, an end on an interior, a shared end, equal edges, edges on one line.
+/// Approaches a distance of 0: crossing edges, an end on an interior, a common end, equal edges, edges on one line.
 CaseData near(Random& random) {
   const double z = random.rung();
   switch (random.below(5)) {
@@ -105,7 +105,7 @@ CaseData near(Random& random) {
   }
 }
 
-/// Puts short edges far from the origin, where the differences of their coordinates have few bits.
+/// Puts short edges far from the origin, where differences of coordinates have few bits.
 CaseData offset(Random& random) {
   const Vec3 far = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
   std::array<Vec3, 4> points;
@@ -113,8 +113,7 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-/// Approaches a boundary: climbs a ladder towards ends, overlaps or the rule for nearly parallel edges, on its lower
-/// rungs.
+/// Takes the lower rungs of the ladders towards ends, overlaps and the limit of nearly parallel edges.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> ladders{threshold, overlap, end};
   random.be_fine();
@@ -171,8 +170,7 @@ void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestP
   if (!judge_below(out.distance_below[i], truth.exact.distance_below[i], truth.distance[i],
                    std::max(truth.distance[i], size), 2, tally))
     return;
-  // On the other side of the rule for nearly parallel edges the contact points are different ones: of the distances,
-  // only distance_below (above) can be compared.
+  // If the flags differ, the contact points differ, too. Then only distance_below (judged above) can be compared.
   if (out.nearly_parallel[i] != truth.exact.nearly_parallel[i]) {
     if (!(out.contact_distance[i] >= out.distance_below[i]))
       tally.mismatch(
@@ -210,7 +208,7 @@ namespace {
 double squared(const Vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 double squared_length(const std::array<Vec3f, 2>& edge) { return squared(difference(edge[1], edge[0])); }
 
-/// Sets the rounded answer from distance and parameters.
+/// Rounds distance and parameters into the answer.
 void round_answer(ClosestPointsTruth& truth, std::size_t i) {
   truth.exact.contact_distance[i] = static_cast<float>(truth.contact_distance[i]);
   for (std::size_t k = 0; k < 2; ++k) truth.exact.parameters[i][k] = static_cast<float>(truth.parameters[i][k]);
@@ -227,7 +225,7 @@ WrongForm points_told(std::string name, std::string meaning, Change change) {
               });
 }
 
-/// Accepts this triple of features alone.
+/// Accepts only this combination of features and flag.
 void accept(ClosestPointsTruth& truth, std::size_t i) {
   const auto& exact = truth.exact;
   truth.accepted[i] = 1u << (static_cast<unsigned>(exact.first_feature[i]) +
@@ -247,7 +245,7 @@ void without_parallel_rule(ClosestPointsTruth& truth, std::size_t i) {
   truth.exact.nearly_parallel[i] = 0;
   truth.contact_distance[i] = truth.distance[i];
   truth.parameter_condition[i] =
-      std::numeric_limits<double>::infinity();  // the rule alone picks a pair of the many closest points
+      std::numeric_limits<double>::infinity();  // only the rule chooses one pair among the many closest points
 }
 
 /// Returns ‖e × e'‖² [m⁴].
@@ -258,8 +256,7 @@ double parallelism(const std::array<Vec3f, 2>& first, const std::array<Vec3f, 2>
 
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Answers by the rule for nearly parallel edges, whatever their angle: with the middle of the overlap, where there is
-/// one.
+/// Answers by the rule for nearly parallel edges at any angle: with the middle of the overlap, if there is one.
 void with_parallel_rule(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
   const auto& [a, a_end] = in.first[i];
   const auto& [b, b_end] = in.second[i];
@@ -271,7 +268,7 @@ void with_parallel_rule(const ClosestPointsIn& in, ClosestPointsTruth& truth, st
   const Vec3 seen{s * e.x - to_b.x, s * e.y - to_b.y, s * e.z - to_b.z};
   const double t = std::clamp(dot(seen, f) / ff, 0.0, 1.0);
   truth.parameters[i] = {s, t};
-  // The parameters are dot products over squared lengths of the two edges.
+  // Parameters are dot products divided by the edges' squared lengths.
   const double size = modulus(a_end, a) + modulus(b, a) + modulus(b_end, a);
   truth.parameter_condition[i] = 1 + size * (1 / std::sqrt(ee) + 1 / std::sqrt(ff)) * (1 + std::sqrt(ee / ff));
   truth.contact_distance[i] = std::sqrt(squared({seen.x - t * f.x, seen.y - t * f.y, seen.z - t * f.z}));
@@ -280,7 +277,7 @@ void with_parallel_rule(const ClosestPointsIn& in, ClosestPointsTruth& truth, st
   accept(truth, i);
 }
 
-/// Makes the form whose rule has an absolute threshold on ‖e × e'‖² in place of one on the sine.
+/// Makes the form that has an absolute threshold on ‖e × e'‖² instead of one on the sine.
 WrongForm parallel_by_threshold(const char* text, double epsilon) {
   return told("nearly_parallel_where_cross_product_below_" + std::string(text),
               "edges count as nearly parallel by an absolute threshold: ‖e × e'‖² below " + std::string(text) + " m⁴",
@@ -299,8 +296,8 @@ EdgeFeature feature_at(double t) {
   return t <= 0 ? EdgeFeature::end_0 : t >= 1 ? EdgeFeature::end_1 : EdgeFeature::interior;
 }
 
-/// Finds the closest point of the second line to the start of the first edge, clamps it, and goes back: right for
-/// parallel edges.
+/// Finds the closest point of the second line to the start of the first edge, clamps it, and projects it back. This is
+/// right for parallel edges.
 void from_start(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
   const Vec3 e = difference(in.first[i][1], in.first[i][0]), f = difference(in.second[i][1], in.second[i][0]),
              r = difference(in.first[i][0], in.second[i][0]);
@@ -312,7 +309,7 @@ void from_start(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_
       squared({r.x + s * e.x - t * f.x, r.y + s * e.y - t * f.y, r.z + s * e.z - t * f.z}));
   truth.exact.distance_below[i] = surely_above(distance, size_of(in, i));
   truth.distance[i] = distance;
-  if (truth.exact.nearly_parallel[i]) return;  // the rule has its own points
+  if (truth.exact.nearly_parallel[i]) return;  // the rule defines other points
   truth.parameters[i] = {s, t};
   truth.parameter_condition[i] = std::numeric_limits<double>::infinity();
   truth.contact_distance[i] = distance;
@@ -453,7 +450,8 @@ struct ClosestPoints : BatchStage<ClosestPoints, &Contestant::closest_points, &A
                     out.distance_below);
   }
 
-  /// Lists the rounded part of an answer, and what the truth has in double.
+  /// Lists the rounded part of an answer, with the given parameters and contact distance, which the truth has in
+  /// double.
   static std::vector<Quantity> outputs(const Out& out, const Quantity& parameters, double contact_distance) {
     return {word("first_feature", feature_name(out.first_feature.at(0), "first")),
             word("second_feature", feature_name(out.second_feature.at(0), "second")),

@@ -7,7 +7,8 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns w of the vertex asked about: its share of its side's force, as the weights of a side sum to 1.
+/// Returns the weight w of the question's vertex: its share of the force on its side, because the weights of a side sum
+/// to 1.
 double weight_of(const ContactForceCase& c, const std::function<ForceTruth(const ContactForceIn&)>& right) {
   const bool is_first = c.own < (c.sides == ContactSides::edge_edge ? 2 : 1);
   Vec3 side{}, own{};
@@ -23,7 +24,7 @@ double weight_of(const ContactForceCase& c, const std::function<ForceTruth(const
   return squared > 0 ? (own.x * side.x + own.y * side.y + own.z * side.z) / squared : 0;
 }
 
-/// Makes the form in which powers of the weight are missing in force and block.
+/// Makes the form in which powers of the weight are missing from force and block.
 WrongForm without_weights(std::string name, std::string meaning, int of_force, int of_block) {
   return form(
       std::move(name), std::move(meaning), &Authority::contact_force,
@@ -41,8 +42,8 @@ WrongForm without_weights(std::string name, std::string meaning, int of_force, i
       });
 }
 
-/// Makes the form without a block from d = r on. Only beyond r the force and its scale are 0 where there is a block.
-/// Where d cannot be told from r the force is smaller than its error, and either block fits.
+/// Makes the form without a block for d ≥ r. A block without a force scale occurs only beyond r. If d cannot be
+/// distinguished from r, the force is below its error, and both blocks are accepted.
 WrongForm block_ends_at_radius() {
   return told("block_ends_at_radius", "no block from d = r on, where the curvature at r is asked for",
               &Authority::contact_force, [](const ContactForceIn&, ForceTruth& truth) {

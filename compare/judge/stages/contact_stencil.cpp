@@ -22,7 +22,7 @@ void check_contact(const ContactForceCase& c, FirstProblem& problem) {
   problem.vectors("a coordinate", c.vertex);
   problem.vectors("a coordinate at the detection", c.previous);
   const auto count = static_cast<std::size_t>(vertex_count(c.sides));
-  // Fourth powers of lengths enter only for triangles and pairs of edges (compare/stages/force.hpp).
+  // Fourth powers of lengths occur only for triangles and pairs of edges (compare/stages/force.hpp).
   const float least_longest = count < 4 ? 0x1p-63f : 0x1p-30f;
   check_lengths(problem, std::span(c.vertex).first(count), 0x1p-63f, least_longest);
   check_lengths(problem, std::span(c.previous).first(count), 0x1p-63f, least_longest);

@@ -12,41 +12,41 @@
 
 namespace ogc::compare {
 
-/// Returns what each vertex of a contact is, in words.
+/// Returns the role of each vertex of a contact in words.
 std::vector<std::string> contact_roles(ContactSides sides);
 
-/// Names what makes the contact illegal.
+/// Notes what makes the contact illegal.
 void check_contact(const ContactForceCase& c, FirstProblem& problem);
 
-/// Returns the vertices that a contact of these sides has: the first ones of `all`.
+/// Returns the vertices that a contact of these sides has, which are the first ones of `all`.
 template <class Vertices>
 auto vertices_of(Vertices& all, ContactSides sides) {
   return std::span(all).first(static_cast<std::size_t>(vertex_count(sides)));
 }
 
-Shape contact_shape(const ContactForceCase& c);  ///< Returns the contact's faces, with a dot at the vertex asked about.
+Shape contact_shape(const ContactForceCase& c);  ///< Returns the contact's faces, with a dot at the question's vertex.
 
-/// Throws InputError where `own` names no vertex of the contact.
+/// Throws InputError if `own` is not the number of a vertex of the contact.
 void check_own(const ContactForceCase& c);
 
-/// Returns where the contact keeps the parameter "r" or "k_c".
+/// Returns a pointer to the number that the parameter "r" or "k_c" sets.
 inline float* contact_parameter(ContactForceCase& c, std::string_view name) {
   return name == ranges::contact_radius.name ? &c.contact_radius : &c.stiffness;
 }
 
-/// A wrong order of a triangle's corners: corner k is taken for corner of[k].
+/// A wrong order of a triangle's corners: corner of[k] takes the place of corner k.
 struct CornerOrder {
   const char* name;                ///< "swapped_01"
   std::array<std::int32_t, 3> of;  ///< by corner
 };
-/// All orders but the right one.
+/// All orders except the right one.
 inline constexpr std::array<CornerOrder, 5> corner_orders{{{"swapped_01", {1, 0, 2}},
                                                            {"swapped_12", {0, 2, 1}},
                                                            {"swapped_02", {2, 1, 0}},
                                                            {"rotated_120", {1, 2, 0}},
                                                            {"rotated_201", {2, 0, 1}}}};
 
-/// Adds forms that change the contact inside a question; `contact(case)` returns that contact.
+/// Adds forms that change the contact of a question; `contact(case)` returns this contact.
 template <class In, class Contact>
 void add_contact(std::vector<WrongForm>& forms, ForceMember<In> stage, Contact contact) {
   using Case = std::decay_t<decltype(In{}.cases[0])>;
@@ -60,7 +60,7 @@ void add_contact(std::vector<WrongForm>& forms, ForceMember<In> stage, Contact c
     });
   changed("ogc_for_every_activation", "`ogc`, whichever activation is asked for",
           [](ContactForceCase& c) { c.activation = ContactActivation::ogc; });
-  // A negative square stands for no length: neither mollifier nor overlap applies, and e_k is 1.
+  // A negative square means that there is no length: neither mollifier nor overlap applies, and e_k is 1.
   changed("mollifier_missing", "e_k is 1: nearly parallel edges act in full", [](ContactForceCase& c) {
     if (c.rest_squared[0] > 0) c.rest_squared = {-1, -1};
   });

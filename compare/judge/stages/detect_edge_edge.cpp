@@ -5,8 +5,8 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns false: nearly parallel edges meet interior to interior even where an end is closest, beside the contact of
-/// that end with the same edge, which another edge at that end generates.
+/// Returns false. Nearly parallel edges make a contact of interiors even if an end is closest. Another edge at this end
+/// makes a contact of the end, and both contacts may be answered.
 bool excludes(const Topology&, const EdgeEdgeContact&, const EdgeEdgeContact&) { return false; }
 
 }  // namespace

@@ -13,7 +13,7 @@ bool is_part(const Topology& topology, const Face& a, const Face& b) {
   return a.kind == FaceKind::vertex ? has(topology.triangles[i]) : has(topology.triangle_edges[i]);
 }
 
-/// Checks whether a's block lies on the other side of a boundary of b's.
+/// Checks whether the block of a lies on the other side of a boundary of the block of b.
 bool excludes(const Topology& topology, const VertexFacetContact& a, const VertexFacetContact& b) {
   return a.vertex == b.vertex && is_part(topology, a.face, b.face);
 }

@@ -1,15 +1,14 @@
-// Holds what the two detections share: the verdict about a contact set, the traits of a stage whose case is a state,
-// and forms that change the question or cap a list. The verdict sorts both sets and compares keys:
+// Holds the common parts of both detections: the verdict about a contact set, the traits of a stage whose case is a
+// state, and forms that change the question or limit a list. The verdict sorts both sets and compares keys:
 //
-//   exact, answered            right
-//   exact, not answered        excused by a grey decision that holds it, if another contact of that decision is
-//                              answered or absence is accepted
-//   answered, not exact        excused by a grey decision that holds it
-//   a and b answered, a ⊂ b    wrong in one grey decision: on either side of the boundary, their blocks share no
-//                              point (§3.3, local exclusiveness). Two triangles across a slightly concave edge may
-//                              stand side by side; so may edge pairs, by the rule for nearly parallel ones
+//   exact, not answered        accepted if a grey decision lists it, and another contact of this decision is
+//                              answered or its absence is accepted
+//   answered, not exact        accepted if a grey decision lists it
+//   a and b answered, a ⊂ b    wrong in one grey decision, because their blocks share no point (§3.3, local
+//                              exclusiveness). Accepted for two triangles at a slightly concave edge, and for pairs
+//                              of edges, by the rule for nearly parallel ones
 //
-// The verdict names a missing contact that nothing replaces as a gap in the covering: a vertex could pass there unseen.
+// If nothing replaces a missing contact, the message names the gap in the covering, through which a vertex could pass.
 #pragma once
 
 #include <algorithm>
@@ -39,13 +38,13 @@ bool holds(const std::vector<Contact>& sorted, const Contact& contact) {
   return std::binary_search(sorted.begin(), sorted.end(), contact);
 }
 
-/// Checks whether the decision is about the contact.
+/// Checks whether the decision lists the contact.
 template <class Contact>
 bool lists(const GreyDecision<Contact>& decision, const Contact& contact) {
   return std::find(decision.contacts.begin(), decision.contacts.end(), contact) != decision.contacts.end();
 }
 
-/// Compares two sets of contacts. `excludes(topology, a, b)` tells whether a's block lies on the other side of a
+/// Compares two sets of contacts. `excludes(topology, a, b)` returns whether a's block lies on the other side of a
 /// boundary of b's block.
 template <class Contact>
 class SetVerdict {
@@ -76,7 +75,7 @@ class SetVerdict {
   }
 
  private:
-  /// Prints a contact in braces, so that its commas separate nothing outside of it.
+  /// Prints a contact in braces, which separate its commas from those of the message.
   std::string print(const Contact& contact) const { return "{" + contact_name(contact, topology_) + "}"; }
 
   std::size_t answered(const GreyDecision<Contact>& decision) const {
@@ -126,13 +125,13 @@ inline double length(const Vec3f& a, const Vec3f& b) {
   return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
 }
 
-/// Returns a scale for the error of a smallest distance. Its unit would be that of the pair which attains it, u max(d,
-/// Σ|δ|), but the judge does not know that pair. Every point of the pair lies within d + (longest sides) of the case's
-/// first vertex, which bounds each |δ| by √3 times that: three of them for a pair of four vertices.
+/// Returns a scale for the error of a smallest distance. The exact scale is that of the nearest pair, max(d, Σ|δ|), but
+/// the judge does not know this pair. All its points are within d + (longest sides) of the case's first vertex, so each
+/// |δ| is at most √3 times that. A pair of four vertices has three δ.
 inline double pair_scale(double d, double sides) { return 3 * std::sqrt(3.0) * (d + sides); }
 
 /// A stage whose answer is the contacts of a state. `S::kept(out)` returns the contacts as a set; `S::moved(out, to)`
-/// returns the same set under other numbers.
+/// returns the renumbered set.
 template <class S, auto contestant, auto authority>
 struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   using Base = MeshStage<S, contestant, authority>;
@@ -143,16 +142,16 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   /// Parameters that a problem string may set.
   static constexpr std::array parameters{ranges::contact_radius, ranges::query_radius};
 
-  /// Sets radii, which must be legal together.
+  /// Sets the radii. Returns what makes them illegal together; empty if they are legal.
   static std::string set(Case& c, std::span<const Override> values) {
     for (const Override& value : values)
       (value.name == ranges::contact_radius.name ? c.contact_radius : c.query_radius) = value.value;
     return ranges::check_radii(c.contact_radius, c.query_radius);
   }
-  /// Both detections share one table.
+  /// Returns the table of both detections.
   static std::span<const Generator> generators() { return detect_generators(); }
 
-  /// Checks the arrays by vertex, coordinates and radii.
+  /// Checks the arrays by vertex, the coordinates and the radii.
   static void check(const Case& c, FirstProblem& problem) {
     const auto n = static_cast<std::size_t>(c.topology->vertex_count);
     problem.require(c.positions.size() == n && c.rigid_groups.size() == n,
@@ -164,13 +163,13 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   /// Moves positions; mesh and radii stay.
   static void mutate(Random& random, Case& c) { mutate_points(random, c.positions); }
   static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.positions}); }
-  /// Takes a whole frame of a run, or a scene at its start.
+  /// Return a whole frame of a run, and a scene at its start.
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
     return states.whole(states.frame(index), random);
   }
   static Case of_scene(const Scene& scene, const Contestant&) { return case_at_start(scene); }
 
-  /// Writes the state, and reads it back.
+  /// Write and read the state.
   static Json write(const Case& c) { return mesh_case_to_json(c); }
   static Case read(const Json& data) { return to_mesh_case(data); }
 
@@ -186,7 +185,7 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
                   state_quantities(*c.topology, c.positions, c.rigid_groups, c.partners));
   }
 
-  /// Makes a smaller case from a part of the mesh.
+  /// Return the mesh, and the case of a part of it.
   static const Topology* mesh(const Case& c) { return c.topology.get(); }
   static Case part(const Case& c, const MeshPart& part) {
     return {part.topology,
@@ -196,24 +195,24 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
             c.query_radius,
             part.partners(c.partners)};
   }
-  /// Lists the numbers that may be shortened: coordinates, and radii that stay above 0.
+  /// Returns the numbers that may be shortened: coordinates, and radii, which stay above 0.
   static ShortenedNumbers numbers(Case& c) { return {coordinates(c), {&c.contact_radius, &c.query_radius}}; }
 
-  /// Returns a view of the case, and adds the bits of an answer.
+  /// Return a view of the case, and add the bits of an answer.
   static In question(const Case& c) { return detect_question(c); }
   static void add(Bits& bits, const Out& out) { bits.add(out); }
-  /// Says how many decisions are grey.
+  /// Returns how many decisions are grey.
   static std::string note(const Truth& truth) {
     return truth.grey.empty()
                ? ""
                : "grey: " + std::to_string(truth.grey.size()) + " decisions may go either way; the exact one is shown";
   }
-  /// Lists the exact answer as a contestant would give it.
+  /// Lists the exact answer in the form of a contestant's answer.
   static std::vector<Quantity> outputs(const In& in, const Truth& truth) { return S::outputs(in, truth.exact); }
 
-  /// Checks whether the contacts stay the same under other numbers. Left out is what numbers define (owners, generating
-  /// edges), and smallest distances, which are rounded in the order of corners and edges. The check holds for generic
-  /// cases only: where triangles or edges are collapsed, a contestant may break ties by order.
+  /// Checks whether renumbering keeps the contacts. Owners and generating edges are not compared, because they depend
+  /// on numbers. Smallest distances are not compared, because their rounding depends on the order of corners and edges.
+  /// The check holds only for generic cases: for collapsed triangles or edges a contestant may break ties by order.
   static bool is_same_renumbered(const TestCase& test, Random& random, const Contestant& c) {
     const auto& before = case_of<Case>(test.data);
     const Renumbering to(random, *before.topology);
@@ -241,7 +240,7 @@ Quantity contact_quantity(const std::vector<Contact>& all, const Topology& topol
 template <class Truth>
 using Detection = std::function<Truth(const DetectIn&)> Authority::*;
 
-/// Returns forms that change the question, and one that drops all contacts.
+/// Returns forms that change the question, and a form without contacts.
 template <class Truth>
 std::vector<WrongForm> question_forms(Detection<Truth> stage) {
   return {asked("groups_ignored", "pairs inside one rigid group are kept", stage,
@@ -258,7 +257,7 @@ std::vector<WrongForm> question_forms(Detection<Truth> stage) {
           })};
 }
 
-/// Returns the number of the list that keeps a contact: of its vertex, triangle or edge, or the same for all contacts.
+/// Returns the number of the list that holds a contact: its vertex, triangle or edge, or one number for all contacts.
 template <class Contact>
 using Owner = Index (*)(const Contact&);
 
@@ -282,8 +281,8 @@ std::size_t cap_seen(std::span<const Evidence> evidence, std::function<Out(const
   return longest;
 }
 
-/// Makes the form that keeps at most `cap` contacts a list. The answer decides which contacts are missing from a full
-/// list.
+/// Makes the form that keeps at most `cap` contacts in each list. Which contacts are missing from a full list is taken
+/// from the answer.
 template <class Out, class Truth, class Contact>
 WrongForm capped(std::string name, const std::string& list, std::size_t cap, Detection<Truth> stage,
                  std::function<Out(const DetectIn&)> Contestant::*answered, Owner<Contact> owner) {

@@ -1,4 +1,4 @@
-// Holds the wrong forms that force stages share.
+// Holds wrong forms that several force stages have.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace ogc::compare {
 template <class In>
 using ForceMember = std::function<ForceTruth(const In&)> Authority::*;
 
-/// Makes a form that asks the authority about cases changed by `change(case)`.
+/// Makes a form that changes each case of the question by `change(case)`.
 template <class In, class Change>
 WrongForm case_asked(std::string name, std::string meaning, ForceMember<In> stage, Change change) {
   return asked(std::move(name), std::move(meaning), stage, [change](In& in) {
@@ -23,7 +23,7 @@ WrongForm case_asked(std::string name, std::string meaning, ForceMember<In> stag
   });
 }
 
-/// Makes a form whose accepted answers are spoilt by `change(case, answer)`.
+/// Makes a form that changes each accepted answer by `change(case, answer)`.
 template <class In, class Change>
 WrongForm case_told(std::string name, std::string meaning, ForceMember<In> stage, Change change) {
   return told(std::move(name), std::move(meaning), stage, [change](const In& in, ForceTruth& truth) {
@@ -47,13 +47,13 @@ inline void scale_block(ForceAnswer& answer, double factor) {
 /// Returns the trace of the block.
 inline double trace(const ForceAnswer& answer) { return answer.block[0] + answer.block[3] + answer.block[5]; }
 
-/// Turns a part `coefficient` · I of the block into `coefficient` times a matrix full of ones.
+/// Replaces a part `coefficient` · I of the block by `coefficient` times a matrix of ones.
 inline void add_ones(ForceAnswer& answer, double coefficient) {
   for (const std::size_t k : {1, 2, 4}) answer.block[k] += coefficient;
   answer.block_scale = std::max(answer.block_scale, std::abs(coefficient));
 }
 
-/// Returns the mistakes that any force and block can have.
+/// Returns the mistakes that are possible for every force and block.
 template <class In>
 std::vector<WrongForm> common_forms(ForceMember<In> stage) {
   using Case = std::decay_t<decltype(In{}.cases[0])>;
@@ -82,7 +82,7 @@ std::vector<WrongForm> common_forms(ForceMember<In> stage) {
                     })};
 }
 
-/// Adds forms without damping, with a wrong amount or a part of it, or with damping of the other form.
+/// Adds forms with wrong damping: none, a wrong amount, a part of it, or the other form of damping.
 template <class In>
 void add_damping(std::vector<WrongForm>& forms, ForceMember<In> stage) {
   using Case = std::decay_t<decltype(In{}.cases[0])>;

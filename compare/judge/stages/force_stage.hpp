@@ -1,4 +1,4 @@
-// Makes a stage that answers with the force and block of one vertex of a stencil.
+// Makes a stage whose answer is the force and block of one vertex of a stencil.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace ogc::compare {
 
-/// Lists the members of a force stage's case, one after another.
+/// Lists the members of a force stage's case in order.
 class StencilInputs {
  public:
   StencilInputs(std::vector<std::string> roles, std::vector<Quantity>& inputs)
@@ -49,14 +49,14 @@ class StencilInputs {
   std::vector<Quantity>& inputs_;
 };
 
-/// Lists the symmetric block of an answer, entry by entry.
+/// Lists the entries of an answer's symmetric block.
 template <class Block>
 Quantity block_quantity(const Block& block) {
   return labelled(numbers("block", "N/m", block), {"xx", "xy", "xz", "yy", "yz", "zz"});
 }
 
-/// A force stage. `S::roles(case)` names the vertices that the stencil has; `S::checked(case)` returns a case that was
-/// read, or throws InputError.
+/// A force stage. `S::roles(case)` names the vertices of the stencil; `S::checked(case)` returns a case that was read,
+/// or throws InputError.
 template <class S, class StencilCase, auto contestant, auto authority>
 struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, ParametersOfCase<S> {
   using Base = BatchStage<S, contestant, authority>;
@@ -65,7 +65,7 @@ struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, Parameters
   using typename Base::Truth;
   using Case = StencilCase;
 
-  /// Accepts any stencil that was read; writes and reads its members.
+  /// Accept any stencil that was read; write and read its members.
   static Case checked(Case c) { return c; }
   static Json write(const Case& c) { return write_stencil(c); }
   static Case read(const Json& data) { return S::checked(read_stencil<Case>(data)); }
@@ -76,22 +76,21 @@ struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, Parameters
     return all;
   }
 
-  /// Asks about the cases as they are.
+  /// Makes the question of the unchanged cases.
   static In question(Cases cases) { return case_question(cases, &In::cases); }
   static void judge(Cases cases, const In&, const Truth& truth, const Out& out, Tally& tally) {
     judge_force(cases, truth, out, tally);
   }
-  /// Returns the arrays of an answer.
   static auto arrays(const Out& out) { return std::tie(out.force, out.block); }
 
-  /// Says how many answers are accepted, where there are several.
+  /// Returns the number of accepted answers if it is above one.
   static std::string note(const Truth& truth) {
     const std::size_t accepted = truth.accepted[0].size();
     return accepted == 1 ? ""
                          : "grey: " + std::to_string(accepted) +
                                " answers are accepted, on either side of a jump; the exact one is shown";
   }
-  /// Lists force and block, as given and exact.
+  /// Return the given and the exact force and block.
   static std::vector<Quantity> outputs(const In&, const Out& out) {
     return {points("force", "N", std::array{out.force.at(0)}), block_quantity(out.block.at(0))};
   }

@@ -1,5 +1,5 @@
-// Makes the traits of stage initial_guess. To reach a bound or just miss it, a generator sets the bound from y in
-// double, which is within a few u of every answer's own y.
+// Makes the traits of stage initial_guess. To approach a bound, a generator derives the bound from y in double, which
+// is within a few u of every contestant's y.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,14 +31,14 @@ double move_of(const InitialGuessCase& c) {
   return length(sum(y, scaled(wide(c.previous), -1)));
 }
 
-/// Returns a vertex of a scene of everyday size: cloth at up to `speed` m/s.
+/// Returns a vertex of cloth in a scene of everyday size, at up to `speed` m/s.
 InitialGuessCase falling(Random& random, double speed) {
   InitialGuessCase c;
   c.start = single(in_box(random, -1, 1));
   c.velocity = single(scaled(in_box(random, -1, 1), speed));
   c.acceleration = random.one_in(4) ? single(scaled(in_box(random, -1, 1), 20)) : Vec3f{0, -9.81f, 0};
   c.time_step = static_cast<float>(random.magnitude(-4, -1));
-  // In a later round, the vertex has gone a part of its way.
+  // In a later round, the vertex has moved a part of its step.
   const double part = random.one_in(2) ? 0 : random.unit();
   c.previous = single(sum(wide(c.start), scaled(wide(c.velocity), part * c.time_step)));
   return c;
@@ -63,7 +63,7 @@ InitialGuessCase bits(Random& random) {
   return c;
 }
 
-/// Makes moves without a rounding: powers of two and small integers, moves of rational length.
+/// Makes moves without rounding: powers of two, small integers, moves of rational length.
 InitialGuessCase lattice(Random& random) {
   constexpr std::array<Vec3, 5> steps{{{3, 4, 0}, {1, 2, 2}, {2, 3, 6}, {1, 4, 8}, {5, 0, 0}}};
   constexpr std::array<float, 5> lengths{5, 3, 7, 9, 5};
@@ -83,27 +83,27 @@ InitialGuessCase lattice(Random& random) {
   return c;
 }
 
-/// Lets b_v approach ‖y − x_prev‖.
+/// Approaches b_v = ‖y − x_prev‖.
 InitialGuessCase bound(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(-2, 2));
   c.bound = times(move_of(c), 1 + random.rung());
   return c;
 }
 
-/// Makes the same on the lower rungs.
+/// Takes the lower rungs of `bound`.
 InitialGuessCase boundary(Random& random) {
   random.be_fine();
   return bound(random);
 }
 
-/// Makes fast movers with small bounds: 10² … 10⁶ bounds a step.
+/// Makes fast vertices with small bounds: they move by 10² … 10⁶ bounds in a step.
 InitialGuessCase fast(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(0, 5));
   c.bound = times(move_of(c), random.magnitude(-6, -2));
   return c;
 }
 
-/// Puts the vertex far from the origin: the move tends to the spacing of the coordinates.
+/// Puts the vertex far from the origin, where the move nears the spacing of coordinates.
 InitialGuessCase far(Random& random) {
   InitialGuessCase c = falling(random, random.magnitude(-3, 0));
   const Vec3 shift = scaled(in_box(random, -1, 1), random.magnitude(0, 6));
@@ -113,7 +113,7 @@ InitialGuessCase far(Random& random) {
   return c;
 }
 
-/// Makes vertices at rest or almost: velocity, acceleration and bound are zero or a rung.
+/// Makes vertices nearly at rest: velocity, acceleration and bound are 0 or a rung.
 InitialGuessCase still(Random& random) {
   InitialGuessCase c = falling(random, 1);
   const auto little = [&] {
@@ -126,7 +126,6 @@ InitialGuessCase still(Random& random) {
   return c;
 }
 
-/// Turns a generator of vertices into one of cases.
 template <InitialGuessCase (*make)(Random&)>
 CaseData alone(Random& random) {
   return GuessCase{make(random), {}};
@@ -134,17 +133,17 @@ CaseData alone(Random& random) {
 
 using rod_cases::Four;
 
-/// Returns the direction with any length that a segment may have.
+/// Returns a vector of this direction, with any length that a segment may have.
 Vec3f stretched(Random& random, const Vec3& direction) {
   return single(scaled(direction, random.one_in(6) ? std::ldexp(1.0, random.below(70) - 38) : random.magnitude(-4, 0)));
 }
 
-/// Returns a segment that turns from one direction to another.
+/// Returns a case with a segment that turns from one direction to another.
 CaseData turned(Random& random, const Vec3& from, const Vec3& to, const Four& frame) {
   return GuessCase{uniform(random), TurnCase{stretched(random, from), stretched(random, to), rod_cases::single(frame)}};
 }
 
-/// Turns a segment by any angle or as a step does.
+/// Turns a segment by any angle, or by a small angle as in a step.
 CaseData turn(Random& random) {
   const Vec3 from = rod_cases::some_direction(random);
   const Four by = rod_cases::rotation(rod_cases::some_direction(random), random.magnitude(-6, 0.4));
@@ -152,7 +151,7 @@ CaseData turn(Random& random) {
   return turned(random, from, rod_cases::turned(by, from), frame);
 }
 
-/// Approaches θ = 0 and π; a direction may be without length.
+/// Approaches θ = 0 and θ = π; a direction may have length 0.
 CaseData turn_at(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Vec3 from = random.one_in(2) ? rod_cases::some_direction(random)
@@ -379,8 +378,8 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
     return all;
   }
 
-  /// Where one case has a segment, each gets one (of no length where the case has none), so that entry i of each array
-  /// belongs to case i.
+  /// If any case has a segment, every case gets one, so that entry i of each array belongs to case i. Cases without a
+  /// segment get one of length 0.
   static In question(Cases cases) {
     In in;
     const bool any = std::ranges::any_of(cases,
@@ -392,7 +391,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
     }
     return in;
   }
-  /// Returns a segment's bits only where the case has a segment: they must not depend on the other cases of the batch.
+  /// Adds a segment's bits only for cases with a segment, because bits must not depend on other cases of the batch.
   static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
     const Out out = c.initial_guess(question(cases));
     std::vector<std::string> all = bits_by_case(cases.size(), out.target, out.position, out.cut);
@@ -406,7 +405,7 @@ struct InitialGuess : BatchStage<InitialGuess, &Contestant::initial_guess, &Auth
   static bool can_judge(const Contestant& c, const Authority& a) {
     return c.initial_guess && a.initial_guess && a.truncate;
   }
-  /// Judges position and cut by the authority's truncation of the answer's own y.
+  /// Judges position and cut by the authority's truncation of the answer's y.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     const In in = question(cases);
     const Out out = asker.answer(in, c.initial_guess);

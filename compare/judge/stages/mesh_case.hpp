@@ -1,4 +1,4 @@
-// Serves the stages whose questions are about a mesh alone: the two detections and bound.
+// Helps the stages whose questions concern only a mesh: the two detections and bound.
 #pragma once
 
 #include "compare/judge/cases/cases.hpp"
@@ -8,20 +8,20 @@
 
 namespace ogc::compare {
 
-/// Judges one value: it must not be above the exact one nor negative, and its shortfall goes to the metric.
+/// Judges one value. It must be neither negative nor above the exact value; the difference is an error of the metric.
 void judge_smallest(const char* what, std::size_t i, float value, float exact, double scale, std::size_t metric,
                     Tally& tally);
 
-/// Checks whether an array has `wanted` entries; reports a mismatch where it has not.
+/// Checks whether an array has `wanted` entries; reports a mismatch if not.
 bool right_length(std::size_t length, std::size_t wanted, const char* what, Tally& tally);
 
-/// Returns the question that a state puts to both detections: a view of the case.
+/// Returns the question of a state for both detections: a view of the case.
 DetectIn detect_question(const MeshCase& c);
 
 /// Returns the state of a scene at its start, with r_q at its cap.
 MeshCase case_at_start(const Scene& scene);
 
-/// Writes and reads a saved state.
+/// Write and read a saved state.
 Json mesh_case_to_json(const MeshCase& c);
 MeshCase to_mesh_case(const Json& data);
 

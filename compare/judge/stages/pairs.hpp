@@ -1,5 +1,5 @@
-// Serves verdicts and wrong forms of the two pair stages. The scale Σ|δ| is that of method.md §2.5: it sums the moduli
-// of all coordinates relative to the case's first vertex.
+// Helps verdicts and wrong forms of closest_face and closest_points. Σ|δ| (method.md §2.5) sums the moduli of all
+// coordinates relative to the case's first vertex.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ inline double modulus(const Vec3f& p, const Vec3f& from) {
   return std::abs(double{p.x} - from.x) + std::abs(double{p.y} - from.y) + std::abs(double{p.z} - from.z);
 }
 
-/// Checks whether each array of an answer has one entry a case; reports a mismatch where one has not.
+/// Checks whether each array of an answer has one entry for each case; reports a mismatch if not.
 inline bool right_lengths(std::size_t n, std::initializer_list<std::size_t> lengths, Tally& tally) {
   for (const std::size_t length : lengths) {
     if (length == n) continue;
@@ -32,7 +32,7 @@ inline bool right_lengths(std::size_t n, std::initializer_list<std::size_t> leng
   return true;
 }
 
-/// Judges a lower bound of a distance: returns false where `below` is above the exact distance or no number.
+/// Judges a lower bound of a distance. Returns false if `below` is NaN or above the exact distance.
 inline bool judge_below(float below, float exact, double distance, double scale, std::size_t metric, Tally& tally) {
   if (!(below <= exact)) {
     tally.mismatch(text("distance_below: %.9g is above the exact distance %.17g", below, distance));
@@ -43,11 +43,11 @@ inline bool judge_below(float below, float exact, double distance, double scale,
   return true;
 }
 
-/// Checks whether more than one answer is acceptable: more than one bit is set.
+/// Checks whether several answers are accepted, that is, whether several bits are set.
 inline bool is_grey(std::uint32_t accepted) { return (accepted & (accepted - 1)) != 0; }
 
-/// Thresholds that people write. Forms of lengths use the first `length_thresholds` of them, forms of squares and
-/// products all (a length below 1e-9 m is less than any tolerance here).
+/// Absolute thresholds that programs use. Forms with lengths use the first `length_thresholds`; forms with squares and
+/// products use all. A length below 1e-9 m is below every tolerance here.
 inline constexpr std::size_t length_thresholds = 7;
 inline constexpr std::array<std::pair<const char*, double>, 10> thresholds{{{"1e-3", 1e-3},
                                                                             {"1e-4", 1e-4},
@@ -60,12 +60,12 @@ inline constexpr std::array<std::pair<const char*, double>, 10> thresholds{{{"1e
                                                                             {"1e-11", 1e-11},
                                                                             {"1e-12", 1e-12}}};
 
-/// Returns a − b, exactly.
+/// Returns a − b without rounding.
 inline Vec3 difference(const Vec3f& a, const Vec3f& b) {
   return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z};
 }
 
-/// Returns the least number that is surely above a distance known to the tolerance of `distance`.
+/// Returns the least number that is certainly above a distance whose error is within the tolerance of `distance`.
 inline float surely_above(double distance, double size) {
   const double above = distance + closest_face_distance_tolerance * unit_roundoff * std::max(distance, size);
   return std::nextafter(static_cast<float>(above), std::numeric_limits<float>::infinity());

@@ -1,4 +1,4 @@
-// Holds parameters that several stages have, with the ranges that their contracts allow.
+// Holds parameters that several stages have, with the ranges of their contracts.
 #pragma once
 
 #include "compare/judge/cases/parameters.hpp"
@@ -8,7 +8,7 @@ namespace ogc::compare::ranges {
 /// `least` and `most` limit lengths and times, `vast` limits stiffnesses and bounds.
 inline constexpr float least = 0x1p-20f, most = 0x1p20f, vast = 0x1p40f;
 
-/// The parameters, each with its name in a problem string.
+/// The parameters with their names in problem strings.
 inline constexpr ParameterInfo contact_radius{"r", "contact radius [m]", least, most},
     query_radius{"r_q", "query radius [m], at least r", least, most},
     contact_stiffness{"k_c", "contact stiffness [N/m]", 0x1p-30f, vast}, time_step{"h", "time step [s]", least, 1},
@@ -16,13 +16,13 @@ inline constexpr ParameterInfo contact_radius{"r", "contact radius [m]", least, 
     bounds_relaxation{"gamma_p", "bound relaxation, Eq. 21", 0x1p-10f, 0.5f - 0x1p-10f},
     friction{"mu", "friction coefficient", 0, 0x1p10f}, damping{"k", "damping k_d/h", 0, most};
 
-/// Says why these radii are not legal together; empty where they are.
+/// Returns why these radii are illegal together; empty if they are legal.
 inline std::string check_radii(float r, float r_q) {
   return r > r_q ? "the contact radius is above the query radius; give r_q too, at least as large as r" : "";
 }
 
-/// Returns the scene with these parameters; those of materials change in each body. A name that a scene does not have
-/// changes nothing.
+/// Returns the scene with these parameters; material parameters change in each body. Names that a scene lacks change
+/// nothing.
 std::shared_ptr<const Scene> with_parameters(const Scene& scene, std::span<const Override> values);
 
 }  // namespace ogc::compare::ranges

@@ -1,5 +1,5 @@
-// Makes the traits of stage plane. An answer is free to choose whose planes it stores: the truth follows the answer and
-// tells which pairs it holds apart, and which room it leaves to the vertices.
+// Makes the traits of stage plane. An answer may choose the pairs whose planes it stores. The truth follows the answer:
+// it tells which pairs these planes separate, and how much room vertices have.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ std::string vertex(std::size_t v) { return "vertex " + std::to_string(v); }
 
 bool has(std::span<const Index> vertices, Index v) { return std::ranges::find(vertices, v) != vertices.end(); }
 
-/// Checks whether v is part of the pair, which has no vertex on both sides.
+/// Checks whether v belongs to the pair, and the pair has no common vertex of both sides.
 bool is_part(const Topology& topology, const PrimitivePair& pair, Index v) {
   const auto is_one_of = [](Index i, auto count) { return i >= 0 && i < static_cast<Index>(count); };
   if (pair.kind == PrimitivePair::Kind::edge_edge) {
@@ -37,7 +37,7 @@ bool is_part(const Topology& topology, const PrimitivePair& pair, Index v) {
   return pair.kind == PrimitivePair::Kind::vertex_triangle && !has(t, pair.first) && (pair.first == v || has(t, v));
 }
 
-/// Checks whether there is a row for each vertex, one after another.
+/// Checks whether the rows are consecutive, one for each vertex.
 bool are_rows(const VertexPlanes& planes, std::size_t count) {
   const std::vector<Index>& offsets = planes.offsets;
   if (offsets.empty()) return planes.items.empty();
@@ -45,7 +45,7 @@ bool are_rows(const VertexPlanes& planes, std::size_t count) {
          offsets.back() == static_cast<Index>(planes.items.size());
 }
 
-/// Says what is wrong with a row; empty where it is a row of the vertex.
+/// Returns what is wrong with a row of vertex v; empty if it is valid.
 std::string problem_of_row(const PlaneIn& in, std::span<const VertexPlane> row, Index v) {
   const auto order = [](const VertexPlane& p) { return std::tuple(p.pair.kind, p.pair.first, p.pair.second); };
   if (!row.empty() && in.is_fixed[static_cast<std::size_t>(v)] != 0) return "is fixed, and bears a plane";
@@ -109,7 +109,7 @@ void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& trut
 
 namespace {
 
-/// Makes a form that asks about a question changed by `change(in)`.
+/// Makes a form that changes the question by `change(in)`.
 template <class Change>
 WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
@@ -122,8 +122,7 @@ WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   });
 }
 
-/// Makes a form in which `accept(out, freedom)` removes from the freedom what is no mistake where the answer has this
-/// form.
+/// Makes a form in which `accept(out, freedom)` removes from `freedom` what this form does not consider a mistake.
 WrongForm plane_accepted(std::string name, std::string meaning, void (*accept)(const PlaneOut&, PlaneFreedom&)) {
   return {std::move(name), std::move(meaning), [accept](const Evidence& evidence, const Authority& authority) {
             Authority wrong = authority;
@@ -223,7 +222,7 @@ struct Plane : Numbered, InEveryRun {
             std::move(is_fixed)};
   }
 
-  /// Returns the case as a state whose r is r_q.
+  /// Returns the case as a state with r = r_q.
   static MeshCase as_state(const Case& c) {
     return {c.topology, c.rigid_groups, c.positions, c.query_radius, c.query_radius, c.partners};
   }
@@ -280,7 +279,7 @@ struct Plane : Numbered, InEveryRun {
   }
   static In question_of(const TestCase& test) { return question(case_of<Case>(test.data)); }
   static bool can_judge(const Contestant& c, const Authority& a) { return c.plane && a.plane; }
-  /// Asks the contestant first, as the truth follows the answer.
+  /// Calls the contestant first, because the truth follows the answer.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const In in = question_of(test);
@@ -305,8 +304,8 @@ struct Plane : Numbered, InEveryRun {
   }
   static std::int64_t in_vertices(const TestCase& test) { return case_of<Case>(test.data).topology->vertex_count; }
 
-  /// Pairs the answer's bounds and planes with themselves; beside each wanted 0, the exact column counts what the
-  /// answer leaves out.
+  /// Lists the answer's bounds and planes in both columns. For counts that should be 0, the exact column counts what
+  /// the answer lacks.
   static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
     const In in = question_of(test);
     std::string note;

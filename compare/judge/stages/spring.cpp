@@ -1,6 +1,6 @@
-// Makes the traits of stage spring. Ladders lead to the rest length, to length 0, to a rest length of 0, and to a
-// motion across the spring, which damping does not see. Ladders of seams lead to springs between a vertex and a point
-// of an edge, with the point at the edge's ends too, and to closed ones.
+// Makes the traits of stage spring. Ladders approach the rest length, length 0, a rest length of 0, and motion across
+// the spring, which strain damping ignores. Ladders of seams approach closed springs between a vertex and a point of an
+// edge, and points at the edge's ends.
 #include <array>
 #include <cmath>
 
@@ -23,7 +23,7 @@ CaseData with_material(Random& random, SpringCase question, double rest_length) 
   return question;
 }
 
-/// Returns a spring along x of this length, which was `before` long at the start.
+/// Returns a spring of this length along x, whose length at the start is `before`.
 CaseData spring_case(Random& random, double length, double before, double rest_length, bool turned = true) {
   std::array<Vec3, 4> points{Vec3{}, Vec3{length, 0, 0}, Vec3{}, Vec3{before, 0, 0}};
   if (random.one_in(2)) points[3] = sum(points[3], scaled(in_box(random, -1, 1), 0.1 * before));
@@ -39,7 +39,7 @@ CaseData spring_case(Random& random, double length, double before, double rest_l
   return with_material(random, question, rest_length);
 }
 
-/// Returns a seam: an edge along y whose point at `ratio` is the origin, and a vertex at `length` from there.
+/// Returns a seam: an edge along y whose point at `ratio` is the origin, and a vertex at distance `length` from it.
 CaseData seam_case(Random& random, double edge, double ratio, double length, double before, double rest_length,
                    bool turned) {
   std::array<Vec3, 6> points{Vec3{length, 0, 0}, Vec3{0, -ratio * edge, 0}, Vec3{0, (1 - ratio) * edge, 0}, {}, {}, {}};
@@ -66,13 +66,13 @@ CaseData uniform(Random& random) {
   return spring_case(random, length, length * random.between(0.5, 2), length * random.magnitude(-0.7, 0.7));
 }
 
-/// Makes lengths without a rounding.
+/// Makes lengths without rounding.
 CaseData lattice(Random& random) {
   const double size = std::ldexp(1.0, random.below(9) - 8);
   return spring_case(random, size * random.below(5), size * random.below(5), size * random.below(5), false);
 }
 
-/// Takes any bits for coordinates and material.
+/// Takes random bits for coordinates and material.
 CaseData bits(Random& random) {
   const std::array<Vec3, 4> points = points_of_bits(random);
   SpringCase question;
@@ -84,7 +84,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Approaches l = l₀, where the force vanishes and the block's part across the spring sets in, and lᵗ = l.
+/// Approaches l = l₀, where the force vanishes and the block's part across the spring begins, and lᵗ = l.
 CaseData at_rest(Random& random) {
   const double length = some_length(random);
   return spring_case(random, length, length * (1 + random.rung()), length * (1 + random.rung()));
@@ -111,7 +111,7 @@ CaseData seam(Random& random) {
                    random.one_in(2) ? 0 : length * random.magnitude(-0.5, 0.5), true);
 }
 
-/// Puts the point at an end of the edge or in its middle, without a rounding, closed or not.
+/// Puts the point at an end of the edge, at its middle or its quarters, without rounding, closed or open.
 CaseData seam_lattice(Random& random) {
   const double edge = std::ldexp(1.0, random.below(9) - 8);
   const double ratio = 0.25 * random.below(5);
@@ -125,8 +125,8 @@ CaseData seam_end(Random& random) {
                    edge, 0, random.one_in(2));
 }
 
-/// Makes stitches that are closed down to the roundings of their point and beyond, beside rest lengths of any size: l
-/// and l₀ tend to 0, each by itself.
+/// Makes stitches that are closed up to the rounding of their point, with rest lengths of any size: l and l₀ approach 0
+/// independently.
 CaseData closed(Random& random) {
   const double edge = some_length(random), ratio = random.unit(), length = edge * std::abs(random.rung()),
                before = edge * std::abs(random.rung());
@@ -146,7 +146,7 @@ constexpr std::array<Generator, 11> table{{{"uniform", 40, true, uniform},
                                            {"ladder.seam", 15, false, seam_end},
                                            {"ladder.closed", 10, false, closed}}};
 
-/// Returns l of the spring in these positions [m].
+/// Returns l of the spring at these positions [m].
 double length_of(const SpringCase& c, const std::array<Vec3f, 3>& x) {
   const double s = c.ratio;
   const auto apart = [&](float Vec3f::*k) {
@@ -155,7 +155,7 @@ double length_of(const SpringCase& c, const std::array<Vec3f, 3>& x) {
   return std::hypot(apart(&Vec3f::x), apart(&Vec3f::y), apart(&Vec3f::z));
 }
 
-/// Removes the damping of strain unless the spring shortens (`sign` −1) or lengthens (1).
+/// Removes strain damping unless the spring shortens (`sign` −1) or lengthens (`sign` 1).
 void damped_alone(SpringCase& c, double sign) {
   const double change = length_of(c, c.vertex) - length_of(c, c.start);
   if (damps_strain(c.damping_form) && !(sign * change > 0)) c.damping = 0;

@@ -1,5 +1,5 @@
-// Makes the traits of a stage from a class. The class holds what is the stage's own; its bases here hold what stages of
-// one sort share. A class that lacks a member of the traits does not compile.
+// Makes the traits of a stage from a class. The class has the members of its stage; its bases in this file have members
+// of several stages. A class that lacks a member of the traits does not compile.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@
 
 namespace ogc::compare {
 
-/// Returns S::of_scene, whose case becomes data; null where the stage has none.
+/// Returns a function that stores the case of S::of_scene as data; null if the stage has none.
 template <class S>
 constexpr auto scene_maker() -> CaseData (*)(const Scene&, const Contestant&) {
   if constexpr (std::is_null_pointer_v<decltype(S::of_scene)>)
@@ -36,8 +36,8 @@ constexpr auto scene_maker() -> CaseData (*)(const Scene&, const Contestant&) {
     return [](const Scene& scene, const Contestant& contestant) -> CaseData { return S::of_scene(scene, contestant); };
 }
 
-/// Makes the traits of the stage that `S` describes: `S::Case` is the type of its cases; all other members have the
-/// names of StageTraits and take cases of that type.
+/// Makes the traits of the stage `S`. `S::Case` is the type of its cases; all other members have the names of
+/// StageTraits and take such cases.
 template <class S>
 constexpr StageTraits make_traits() {
   using Case = typename S::Case;
@@ -73,7 +73,7 @@ constexpr StageTraits make_traits() {
 
 /// A case that cannot be made smaller.
 struct TakenWhole {
-  /// Members of StageTraits for a case that stays whole.
+  /// Return the members of StageTraits for a case that stays whole.
   template <class Case>
   static const Topology* mesh(const Case&) {
     return nullptr;
@@ -88,21 +88,20 @@ struct TakenWhole {
   }
 };
 
-/// Answers that depend on the numbers of vertices and triangles, or contain no such numbers.
+/// A stage whose answers depend on the numbers of vertices and triangles, or contain no such numbers.
 struct Numbered {
-  /// Renumbering is not checked.
+  /// null: renumbering is not checked
   static constexpr std::nullptr_t is_same_renumbered = nullptr;
 };
 
-/// Benchmarks take the stage's own generic cases.
+/// A stage whose benchmarks use its own generic cases.
 struct OwnCases {
-  /// No scene makes a case.
+  /// null: no scene makes a case
   static constexpr std::nullptr_t of_scene = nullptr;
 };
 
-/// Cases without numbers that a problem string could set.
+/// A stage whose cases have no parameters.
 struct NoParameters {
-  /// No parameters, and nothing to set.
   static constexpr std::span<const ParameterInfo> parameters{};
   template <class Case>
   static std::string set(Case&, std::span<const Override>) {
@@ -110,10 +109,10 @@ struct NoParameters {
   }
 };
 
-/// Parameters that are numbers of the case: `S::parameter(case, name)` points to one.
+/// A stage whose parameters are numbers of the case: `S::parameter(case, name)` points to one.
 template <class S>
 struct ParametersOfCase {
-  /// Sets each number that the values name.
+  /// Sets each number that is named in the values.
   template <class Case>
   static std::string set(Case& c, std::span<const Override> values) {
     for (const Override& value : values) *S::parameter(c, value.name) = value.value;
@@ -121,21 +120,21 @@ struct ParametersOfCase {
   }
 };
 
-/// Every run has cases.
+/// A stage that has cases in every run.
 struct InEveryRun {
-  /// Nothing is missing.
+  /// Returns an empty text.
   static std::string missing_in(const States&) { return {}; }
 };
 
-/// Only runs with a contact have cases.
+/// A stage that has cases only in runs with a contact.
 struct OfContacts {
-  /// Says where a run's frames have no contact.
+  /// Returns why a run without contacts has no cases.
   static std::string missing_in(const States& states) {
     return states.has_contact() ? "" : "none of its frames has a contact";
   }
 };
 
-/// Returns the In of a stage whose questions are its cases as they are.
+/// Returns the question that consists of the unchanged cases.
 template <class In, class Case>
 In case_question(Cases cases, std::vector<Case> In::*questions) {
   In in;
@@ -152,7 +151,7 @@ struct SideTypes<std::function<Answered(const Asked&)> Side::*> {
   using Answer = Answered;
 };
 
-/// Returns the contestant's answer; where it fails, returns nothing and writes the reason into the note.
+/// Returns the contestant's answer. If the contestant fails, returns nothing and writes the reason into the note.
 template <class Out, class In>
 std::optional<Out> answer_or_note(const std::function<Out(const In&)>& contestant, const In& in, std::string& note) {
   try {
@@ -163,7 +162,7 @@ std::optional<Out> answer_or_note(const std::function<Out(const In&)>& contestan
   }
 }
 
-/// A stage that puts the same question to both sides. `S::outputs(in, answer)` lists an Out or a Truth by name.
+/// A stage that asks both sides the same question. `S::outputs(in, answer)` lists an Out or a Truth by name.
 template <class S, auto contestant, auto authority>
 struct SameQuestion {
   using In = typename SideTypes<decltype(contestant)>::In;
@@ -173,10 +172,10 @@ struct SameQuestion {
   /// Checks whether both sides have the stage.
   static bool can_judge(const Contestant& c, const Authority& a) { return c.*contestant && a.*authority; }
 
-  /// Returns a remark to print beside an exact answer.
+  /// Returns a remark that is printed with an exact answer.
   static std::string note(const Truth&) { return {}; }
 
-  /// Asks both sides about the case.
+  /// Returns both answers to the case.
   static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
     const In in = S::question_of(test);
     const Truth truth = (a.*authority)(in);
@@ -186,37 +185,37 @@ struct SameQuestion {
   }
 };
 
-/// A stage whose cases are single, many of them to a question. It needs `S::question(cases)`, `S::judge(cases, in,
-/// truth, out, tally)`, and `S::arrays(out)`, which ties the arrays of an answer; entry i of each belongs to case i.
+/// A stage with single cases, many in one question. It needs `S::question(cases)`, `S::judge(cases, in, truth, out,
+/// tally)`, and `S::arrays(out)`, which ties the arrays of an answer; entry i of each belongs to case i.
 template <class S, auto contestant, auto authority>
 struct BatchStage : SameQuestion<S, contestant, authority>, Numbered, OwnCases {
   using typename SameQuestion<S, contestant, authority>::In;
   using typename SameQuestion<S, contestant, authority>::Out;
 
-  /// Returns the question about one case alone.
+  /// Returns the question of a single case.
   static In question_of(const TestCase& test) { return S::question({&test, 1}); }
 
-  /// Puts one question to each side.
+  /// Asks each side one question with all cases, and judges the answer.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     const In in = S::question(cases);
     S::judge(cases, in, asker.truth(in, a.*authority), asker.answer(in, c.*contestant), tally);
   }
 
-  /// Asks one question; entry i of each array belongs to case i.
+  /// Returns the bits of the answer to one question with all cases.
   static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
     const Out out = (c.*contestant)(S::question(cases));
     return std::apply([&](const auto&... arrays) { return bits_by_case(cases.size(), arrays...); }, S::arrays(out));
   }
 
-  /// Asks about all cases at once.
+  /// Returns a benchmark of one question with all cases.
   static BenchmarkCall benchmark(Cases cases, const Contestant& c, const Authority&) {
     const auto in = std::make_shared<const In>(S::question(cases));
     return {[in, stage = c.*contestant] { stage(*in); }, static_cast<std::int64_t>(cases.size())};
   }
 };
 
-/// A stage whose cases are meshes. Each is a question of its own, a view of the case. It needs `S::question(case)`,
-/// `S::judge(test, truth, out, tally)` and `S::add(bits, out)`, which adds an answer's bits.
+/// A stage whose cases are meshes. Each case makes one question, a view of the case. The class needs
+/// `S::question(case)`, `S::judge(test, truth, out, tally)` and `S::add(bits, out)`, which adds an answer's bits.
 template <class S, auto contestant, auto authority>
 struct MeshStage : SameQuestion<S, contestant, authority> {
   using typename SameQuestion<S, contestant, authority>::In;
@@ -224,7 +223,7 @@ struct MeshStage : SameQuestion<S, contestant, authority> {
   /// Returns a view of the case.
   static In question_of(const TestCase& test) { return S::question(case_of<typename S::Case>(test.data)); }
 
-  /// Asks both sides about one mesh after another.
+  /// Asks both sides about each mesh, and judges the answers.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const In in = question_of(test);
@@ -232,7 +231,7 @@ struct MeshStage : SameQuestion<S, contestant, authority> {
     }
   }
 
-  /// Asks about one mesh after another.
+  /// Returns the bits of the answer for each mesh.
   static std::vector<std::string> bits(Cases cases, const Contestant& c, const Authority&) {
     std::vector<std::string> all;
     for (const TestCase& test : cases) {
@@ -243,13 +242,13 @@ struct MeshStage : SameQuestion<S, contestant, authority> {
     return all;
   }
 
-  /// Returns what a benchmark counts: vertices.
+  /// Returns the number of vertices, which a benchmark counts.
   template <class Case>
   static std::int64_t items(const Case& c) {
     return c.topology->vertex_count;
   }
 
-  /// Asks about the first case.
+  /// Returns a benchmark of the first case.
   static BenchmarkCall benchmark(Cases cases, const Contestant& c, const Authority&) {
     const auto test = std::make_shared<const TestCase>(cases.front());
     return {[test, in = question_of(*test), stage = c.*contestant] { stage(in); },

@@ -21,8 +21,8 @@ Quantity event_names(const std::vector<StepEventKind>& kinds) {
   return words("events", std::move(names));
 }
 
-/// Makes a form in which `change(move, is_first)` changes the move of each vertex that touches; `is_first` tells
-/// whether the round of the guess loop is the first.
+/// Makes a form in which `change(move, is_first)` changes the move of each touching vertex. `is_first` is true in the
+/// first round of the guess loop.
 template <class Change>
 WrongForm with_moves(std::string name, std::string meaning, Change change) {
   return form_of(std::move(name), std::move(meaning), [change](const Authority& authority) {
@@ -41,7 +41,7 @@ WrongForm with_moves(std::string name, std::string meaning, Change change) {
   });
 }
 
-/// Makes a form that takes `friction` for every contact's μ in the guess loop.
+/// Makes a form that uses `friction` as μ of every contact in the guess loop.
 WrongForm with_friction(std::string name, std::string meaning, float friction) {
   return form_of(std::move(name), std::move(meaning), [friction](const Authority& authority) {
     Authority wrong = authority;
@@ -121,7 +121,7 @@ struct Step : TakenWhole, Numbered {
     return c.step && a.step && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound &&
            a.initial_guess && a.truncate && a.sweep && a.volume_depth;
   }
-  /// Asks the contestant first: the truth follows the answer, and each event of the answer is a question of its own.
+  /// Calls the contestant first: the truth follows the answer, and each event of the answer makes a question.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const StepIn in = question(test);
@@ -164,8 +164,7 @@ struct Step : TakenWhole, Numbered {
     return paired(outputs(out->query_radius, kinds, points("velocity", "m/s", out->velocity)),
                   outputs(truth.query_radius, truth.events, points("velocity", "m/s", truth.velocity)), note);
   }
-  /// Lists forms of the guess loop alone: all other events are judged as stages of their own, whose forms name the
-  /// mistake.
+  /// Returns forms of the guess loop. All other events are judged as other stages, whose forms name the mistake.
   static std::vector<WrongForm> wrong_forms(std::span<const Evidence>) {
     return {with_moves("touching_vertices_stay",
                        "a vertex in contact stays where it is from the second round of the guess loop on",

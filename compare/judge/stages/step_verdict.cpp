@@ -1,6 +1,5 @@
-// Judges a step: puts each event to its own stage, from the answer's own state before it, so that the event which is
-// named is the one that is wrong. The first wrong event ends the case: what follows it may be garbage that no stage
-// should be asked about.
+// Judges a step. Each event is judged by its own stage, starting from the answer's state before it, so that the message
+// names the first wrong event. This event ends the case, because later events may be too wrong to make legal questions.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -42,7 +41,7 @@ class StepVerdict {
         start_(to_single(in.scene->mesh.positions)),
         at_(start_),
         wrong_before_(tally.mismatched) {
-    // driven volumes are at their targets from the beginning
+    // driven volumes start at their targets
     const std::vector<bool> is_volume = volume_flags(*in.scene);
     for (std::size_t v = 0; v < at_.size(); ++v)
       if (is_volume[v] && groups_[v] > 0) at_[v] = truth.prescribed_target[v];
@@ -73,7 +72,7 @@ class StepVerdict {
   std::string where(std::size_t i) const { return where_of(out_, i); }
   static std::string vertex(std::size_t v) { return ": vertex " + std::to_string(v); }
 
-  /// Judges one part of an event as its own stage is judged, and takes over the counts.
+  /// Judges one part of an event by its own stage, and adds the counts.
   template <class Judge>
   void part(const std::string& prefix, Stage stage, Judge judge) {
     Tally own(stage);
@@ -86,7 +85,7 @@ class StepVerdict {
       tally_.mismatch(prefix + " (stage " + std::string(stage_name(stage)) + "): " + item.message);
   }
 
-  /// Accepts any colouring in which no two free vertices of a stencil share a colour.
+  /// Accepts any colouring in which free vertices of one stencil have different colours.
   void judge_colours() {
     const auto& colour = out_.colour;
     for (std::size_t v = 0; v < colour.size(); ++v)
@@ -107,7 +106,7 @@ class StepVerdict {
     if (const std::string wrong = wrong_segment_colour(*in_.scene, out_); !wrong.empty()) tally_.mismatch(wrong);
   }
 
-  /// Judges frames of segments as stage initial_guess turns them.
+  /// Judges the frames of segments as turns of stage initial_guess.
   void judge_frames(const std::string& when, const TurnedFrames& frames, const std::string& wrong) {
     if (!wrong.empty()) tally_.mismatch(when + ": " + wrong);
     if (frames.in.turns.empty()) return;
@@ -184,7 +183,7 @@ class StepVerdict {
   }
 
   /// Checks that X_prev is x, that sets and smallest distances are those at X_prev, and that bounds follow from the
-  /// answer's own distances.
+  /// answer's distances.
   void judge_detection(std::size_t i) {
     const StepEvent& event = out_.events[i];
     if (policy().divides) {
@@ -218,7 +217,7 @@ class StepVerdict {
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
   }
 
-  /// Judges the volume contacts of vertices that may be pushed, at X_prev.
+  /// Judges the volume contacts, at X_prev, of vertices that may be pushed.
   void judge_volumes(std::size_t i) {
     const StepEvent& event = out_.events[i];
     if (!volumes_.has_any()) {
@@ -237,7 +236,7 @@ class StepVerdict {
 
   BoundsTraits policy() const { return traits_of(in_.scene->settings.bounds); }
 
-  /// Sets smallest distances to the truth's: with planes a contestant need not answer them.
+  /// Replaces smallest distances by those of the truth, because a contestant with planes need not give them.
   static DetectVertexFacetOut with_distances(DetectVertexFacetOut out, const DetectVertexFacetTruth& truth) {
     out.d_min_vertex = truth.exact.d_min_vertex;
     out.d_min_triangle = truth.exact.d_min_triangle;
@@ -268,13 +267,13 @@ class StepVerdict {
            std::to_string(pair.second);
   }
 
-  /// Counts of vertices that a guess cut: those that surely were, and those that may have been.
+  /// Numbers of vertices that a guess certainly cut, and may have cut.
   struct Cuts {
     Index certain = 0, doubtful = 0;
   };
 
-  /// Judges a guess: each vertex is at y, or where contacts let it go, truncated. A vertex without contacts that is not
-  /// at y was cut: no cut leads to y itself, which lies beyond the bound.
+  /// Judges a guess: each vertex is at y, or at the end of the move that its contacts leave, truncated. A vertex
+  /// without contacts that is not at y was cut, because truncation never returns a y beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
     const std::span<const HeldMove> moves = i < truth_.moves.size() ? std::span<const HeldMove>(truth_.moves[i])
@@ -290,7 +289,7 @@ class StepVerdict {
       }
       const bool is_cut = !(event.position[v] == out_.target[v]);
       cuts.certain += is_cut;
-      // in the guess loop inertia alone holds the vertex
+      // in the guess loop the block is inertia alone
       const auto planes = detection_->planes.of(static_cast<Index>(v));
       const TruncateIn question{{at_[v]},
                                 {out_.target[v]},
@@ -305,7 +304,7 @@ class StepVerdict {
                       std::to_string(cuts.certain) + " and " + std::to_string(cuts.doubtful) + " in doubt");
   }
 
-  /// Judges a prescribed vertex that touches, from the second round on: it must stay.
+  /// Judges a prescribed vertex that touches, which must stay from the second round on.
   void judge_staying(std::size_t i, std::size_t v, const HeldMove& held) {
     ++decisions_;
     grey_ += held.grey;
@@ -313,7 +312,7 @@ class StepVerdict {
       tally_.mismatch(where(i) + vertex(v) + " is prescribed, touches, and did not stay");
   }
 
-  /// Checks whether the stored position lies in the region of the last detection, exactly.
+  /// Checks exactly whether the stored position lies in the region of the last detection.
   bool is_in_region(std::size_t v, const Vec3f& x) const {
     if (!obeys_bound(x, at_[v], detection_->bound[v])) return false;
     return std::ranges::all_of(detection_->planes.of(static_cast<Index>(v)), [&](const VertexPlane& plane) {
@@ -321,7 +320,7 @@ class StepVerdict {
     });
   }
 
-  /// Returns how far X_prev + m lies inside of the region [m]; negative outside.
+  /// Returns by how much X_prev + m is inside of the region [m]; negative outside.
   double clearance(std::size_t v, const Vec3& move) const {
     double least = double{detection_->bound[v]} - std::hypot(move.x, move.y, move.z);
     for (const VertexPlane& plane : detection_->planes.of(static_cast<Index>(v))) {
@@ -340,9 +339,9 @@ class StepVerdict {
     return std::hypot(d.x - s * m.x, d.y - s * m.y, d.z - s * m.z);
   }
 
-  /// Judges a vertex at X_prev + m, truncated. The way into a ball expands no distance, so that the accuracy of m also
-  /// holds after it. Along half-spaces a vertex may slide anywhere in its region; where nothing slides, it stops on its
-  /// way.
+  /// Judges a touching vertex, which must be at X_prev + m, truncated. Truncation to a ball increases no distance, so
+  /// the accuracy of m also holds after it. With half-spaces a cut vertex may slide anywhere in its region; if sliding
+  /// is off, it stops on its way.
   void judge_held(std::size_t i, std::size_t v, const HeldMove& held, Cuts& cuts) {
     const Vec3f &x = out_.events[i].position[v], &p = at_[v];
     ++decisions_;
@@ -416,9 +415,9 @@ class StepVerdict {
   std::vector<Vec3f> start_;
   std::vector<Vec3f> at_;                 ///< x before the event
   std::vector<Quaternion> q_;             ///< of the segments, before the event
-  bool is_swept_ = false;                 ///< the guess loop is over
+  bool is_swept_ = false;                 ///< true after the guess loop
   const StepEvent* detection_ = nullptr;  ///< the last detection
-  std::vector<Vec3f> displacement_;       ///< with bounds=dat: what divides the detection's gaps
+  std::vector<Vec3f> displacement_;       ///< with bounds=dat: the displacements that divide the detection's gaps
   std::uint64_t wrong_before_, decisions_ = 0, grey_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Makes the traits of stage sweep. The judge decides about bounds by exact arithmetic of its own, and compares all else
-// with the authority's truth about this answer.
+// Makes the traits of stage sweep. The judge checks bounds by its own exact arithmetic, and compares all else with the
+// authority's truth about the answer.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,8 +37,8 @@ bool judge_half_spaces(const SweepIn& in, const SweepOut& out, std::size_t v, Ta
   return true;
 }
 
-/// Checks whether each free or prescribed vertex lies in its region; reports the first that does not. Fixed vertices
-/// and those of volumes stay, whatever their region is.
+/// Checks whether each free or prescribed vertex is in its region; reports the first that is not. Fixed vertices and
+/// vertices of volumes may be outside.
 bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Index>& groups, Tally& tally) {
   const std::vector<bool> is_volume = volume_flags(*in.scene);
   for (std::size_t v = 0; v < in.old.size(); ++v) {
@@ -54,8 +54,8 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
   return true;
 }
 
-/// Returns the number of decisions: each vertex decides whether it is cut, and for each of its stencils on which side
-/// of that stencil's jumps it lies.
+/// Returns the number of decisions: for each vertex whether it is cut, and for each of its stencils on which side of a
+/// jump it lies.
 std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
   std::uint64_t count = in.old.size();
@@ -68,8 +68,8 @@ std::uint64_t decisions(const SweepIn& in) {
   return count + in.volumes.size() + in.segment_colour.size();
 }
 
-/// Checks that held segments keep their quaternions, and that free ones lie within what is accepted of the truth about
-/// this answer.
+/// Checks that held segments keep their quaternions. Also checks that the truth about this answer accepts the
+/// quaternions of free segments.
 void judge_orientations(const SweepIn& in, const SweepTruth& truth, const SweepOut& out, Tally& tally) {
   for (std::size_t e = 0; e < in.segment_colour.size(); ++e)
     if (in.segment_colour[e] < 0 && out.orientation[e] != in.orientation[e])
@@ -139,7 +139,7 @@ void judge_sweep(const TestCase& test, const SweepIn& in, const SweepTruth& trut
 
 namespace {
 
-/// What a sweep reads, copied so that a form may change it.
+/// The inputs of a sweep, copied so that a form can change them.
 struct Read {
   SweepIn in;
   Scene scene;
@@ -233,7 +233,7 @@ std::vector<WrongForm> sweep_forms() {
                   [](Read& read) { read.in.start = read.in.old; }),
       sweep_asked("prescribed_stay", "prescribed vertices stay", [](Read& read) { read.scene.motions.clear(); })};
   for_each_of<ElementKinds>([&]<class Kind, std::size_t>() {
-    if constexpr (!std::is_same_v<Kind, SegmentKind>)  // there is a quaternion for each
+    if constexpr (!std::is_same_v<Kind, SegmentKind>)  // each segment has a quaternion
       forms.push_back(sweep_asked(std::string(Kind::plural) + "_missing", std::string("no ") + Kind::name + " acts",
                                   [](Read& read) { Kind::elements(read.scene, read.rest).clear(); }));
   });
@@ -244,7 +244,7 @@ std::vector<WrongForm> sweep_forms() {
   return forms;
 }
 
-/// Checks that exactly the free ones have a colour, which no neighbour has.
+/// Checks that free items, and no others, have a colour that differs from all neighbours' colours.
 bool are_coloured(std::span<const Index> colour, std::span<const Index> groups, const Neighbours& near) {
   bool legal = colour.size() == groups.size();
   for (std::size_t i = 0; i < groups.size() && legal; ++i) {
@@ -327,7 +327,7 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
     return c.sweep && a.sweep && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound &&
            a.volume_depth;
   }
-  /// Asks the contestant first, as the truth follows the answer.
+  /// Calls the contestant first, because the truth follows the answer.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const SweepQuestion question(case_of<Case>(test.data), a);

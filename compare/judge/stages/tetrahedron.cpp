@@ -1,6 +1,5 @@
-// Makes the traits of stage tetrahedron. Ladders lead to the rest shape, where the force cancels, to a flat
-// tetrahedron, through it to the mirror image of the rest shape, to needles whose corners coincide, and to rest shapes
-// without thickness.
+// Makes the traits of stage tetrahedron. Ladders approach the rest shape, where the force cancels; a flat tetrahedron;
+// the mirror image of the rest shape; needles whose corners coincide; and rest shapes without thickness.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,8 +23,8 @@ Vec3 outer(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Returns about the unit tetrahedron, `size` times as large and `height` times as high; on a lattice its corners have
-/// no jitter.
+/// Returns a tetrahedron like the unit one, scaled by `size`, and by `height` along z. Its corners have jitter unless
+/// they are on a lattice.
 Corners rest_corners(Random& random, double size, double height, bool lattice) {
   Corners x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (Vec3& p : x) {
@@ -35,7 +34,7 @@ Corners rest_corners(Random& random, double size, double height, bool lattice) {
   return x;
 }
 
-/// Sets what the stage reads of a rest shape with a positive volume.
+/// Sets the stage's inputs for a rest shape with positive volume.
 void set_rest(TetrahedronCase& question, const Corners& rest) {
   const Vec3 a = apart(rest[1], rest[0]), b = apart(rest[2], rest[0]), c = apart(rest[3], rest[0]);
   const std::array<Vec3, 3> inward{outer(b, c), outer(c, a), outer(a, b)};
@@ -57,8 +56,8 @@ void set_material(Random& random, TetrahedronCase& question) {
   if (random.one_in(4)) question.damping_form = another(random, DampingForm::strain);
 }
 
-/// Places corners `x` of a deformed rest shape together with the start, which in half of the cases lies near them, else
-/// at rest.
+/// Places the deformed corners `x` and the start by one rigid motion. In half of the cases the start is near x,
+/// otherwise at rest.
 CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, const Corners& x, double size,
                 bool lattice) {
   std::array<Vec3, 8> points;
@@ -76,7 +75,7 @@ CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, c
   return question;
 }
 
-/// Moves each corner of a rest shape by `deform(p)`; the shape is 10⁻³ m … 1 m large, on a lattice 2⁻⁸ m … 1 m.
+/// Moves each corner of a rest shape by `deform(p)`. The size is 10⁻³ m … 1 m, on a lattice 2⁻⁸ m … 1 m.
 template <class Deform>
 CaseData deformed(Random& random, Deform deform, bool lattice = false) {
   const double size = lattice ? std::ldexp(1.0, random.below(9) - 8) : random.magnitude(-3, 0);
@@ -93,7 +92,7 @@ CaseData deformed(Random& random, Deform deform, bool lattice = false) {
 using Rows = std::array<Vec3, 3>;
 Vec3 times(const Rows& f, const Vec3& p) { return {inner(f[0], p), inner(f[1], p), inner(f[2], p)}; }
 
-/// Stretches and shears, with or without inversion.
+/// Stretches and shears a tetrahedron, with or without inversion.
 CaseData uniform(Random& random) {
   const Rows f{in_box(random, -1.5, 1.5), in_box(random, -1.5, 1.5), in_box(random, -1.5, 1.5)};
   return deformed(random, [&](const Vec3& p) { return times(f, p); });
@@ -106,7 +105,7 @@ CaseData lattice(Random& random) {
       random, [&](const Vec3& p) { return times(f, p); }, true);
 }
 
-/// Takes any bits for coordinates and material.
+/// Takes random bits for coordinates and material.
 CaseData bits(Random& random) {
   TetrahedronCase question;
   const auto number = [&] { return static_cast<float>(random.sign()) * random.pattern(0x1p-20f, 1); };
@@ -119,7 +118,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Makes tetrahedra as large and as small as scenes may have them.
+/// Makes tetrahedra of the largest and smallest sizes that scenes may have.
 CaseData scales(Random& random) {
   TetrahedronCase question;
   const double size = std::ldexp(random.between(1, 2), random.one_in(2) ? 19 : -20);
@@ -128,7 +127,7 @@ CaseData scales(Random& random) {
   set_material(random, question);
   Corners x = rest;
   for (Vec3& p : x) p = sum(p, scaled(in_box(random, -0.5, 0.5), size));
-  // The case lies around the origin: beside a coordinate of 1 m, 2⁻²⁰ m has few bits.
+  // The case is near the origin, because 2⁻²⁰ m has few bits beside a coordinate of 1 m.
   for (std::size_t k = 0; k < 4; ++k) question.corner[k] = single(x[k]), question.start[k] = single(rest[k]);
   return question;
 }
@@ -141,14 +140,14 @@ CaseData at_rest(Random& random) {
   return deformed(random, [&](const Vec3& p) { return times(f, p); });
 }
 
-/// Returns a rung that keeps lengths legal on the grid, where corners may lie straight above each other: a length of
-/// 2⁻⁸ m at least becomes 0 or at least 2⁻³⁰ m.
+/// Returns a rung that keeps lengths legal on the grid, where corners may lie straight above each other: a length of at
+/// least 2⁻⁸ m becomes 0 or at least 2⁻³⁰ m.
 double rung_on(Random& random, bool on_grid) {
   const double rung = random.rung();
   return on_grid && std::abs(rung) < 0x1p-22 ? 0 : rung;
 }
 
-/// Approaches J = 0, and passes through it.
+/// Approaches J = 0 from both sides.
 CaseData flat(Random& random) {
   const bool on_grid = random.one_in(2);
   const double height = rung_on(random, on_grid);
@@ -166,7 +165,7 @@ CaseData mirrored(Random& random) {
   return deformed(random, [&](const Vec3& p) { return Vec3{p.x, p.y, height * p.z}; });
 }
 
-/// Moves corners onto each other, down to one point.
+/// Moves corners towards each other, down to one point.
 CaseData needle(Random& random) {
   const bool on_grid = random.one_in(2);
   const double y = rung_on(random, on_grid), z = rung_on(random, on_grid),
@@ -179,7 +178,7 @@ CaseData needle(Random& random) {
       on_grid);
 }
 
-/// Makes rest shapes that are nearly flat: weights are large, and J is a sum of small differences.
+/// Makes rest shapes that are nearly flat, for which weights are large and J is a sum of small differences.
 CaseData sliver(Random& random) {
   const double size = random.magnitude(-3, 0), height = std::abs(random.rung()), kept = height == 0 ? 1e-4 : height;
   const Corners rest = rest_corners(random, size, std::max(kept, 1e-6), true);
@@ -188,7 +187,7 @@ CaseData sliver(Random& random) {
   set_material(random, question);
   Corners x = rest;
   for (Vec3& p : x) p = sum(p, scaled(in_box(random, -1, 1), size * random.magnitude(-7, -1)));
-  question.damping = 0;  // F of a needle at rest lies beyond the strains of the contract
+  question.damping = 0;  // F of a needle at rest would exceed the contract's strains
   return placed(random, question, rest, x, size, false);
 }
 
@@ -203,7 +202,7 @@ constexpr std::array<Generator, 10> table{{{"uniform", 30, true, uniform},
                                            {"ladder.needle", 15, false, needle},
                                            {"ladder.sliver", 10, false, sliver}}};
 
-/// Limits of the contract: of weights [m], of i [1/m³], of growth and of strain.
+/// Limits of the contract: weights [m], i [1/m³], growth and strain.
 constexpr float most_weight = 0x1p60f, least_inverse = 0x1p-70f, most_inverse = 0x1p80f;
 constexpr double most_growth = 0x1p30, most_strain = 0x1p20;
 

@@ -39,7 +39,7 @@ void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, cons
 
 namespace {
 
-/// Judges a position that half-spaces hold.
+/// Judges a position with half-spaces.
 void judge_region(const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out, std::size_t i,
                   Tally& tally) {
   const Vec3f &stored = out.position[i], &previous = in.previous[i];
@@ -117,16 +117,16 @@ TruncateIn truncate_question(Cases cases) {
   return in;
 }
 
-/// Checks whether the stored position lies where the truth does, by the distance alone: a form may miss the bound,
-/// which the judge checks exactly, by a rounding.
+/// Checks whether the stored position is the exact one up to the tolerance. The bound is not checked here, because a
+/// form may miss it by a rounding.
 bool lies_there(const Vec3f& stored, const Vec3& exact, const Vec3f& previous, double bound) {
   const double error = std::hypot(stored.x - exact.x, stored.y - exact.y, stored.z - exact.z);
   const double size = std::max({std::abs(previous.x), std::abs(previous.y), std::abs(previous.z)});
   return in_units(error, size + bound) <= truncate_position_tolerance;
 }
 
-/// Makes a form in which `stored(X_prev, x, b_v, truth)` returns where a vertex that is cut is stored; the truth says
-/// which ones are cut.
+/// Makes a form in which `stored(X_prev, x, b_v, truth)` returns the stored position of a cut vertex; the truth decides
+/// which vertices are cut.
 template <class Stored>
 WrongForm stored_at(std::string name, std::string meaning, Stored stored) {
   return {std::move(name), std::move(meaning), [stored](const Evidence& evidence, const Authority& authority) {
@@ -181,7 +181,7 @@ std::vector<WrongForm> truncate_forms() {
             })};
 }
 
-/// Checks whether the vertex keeps the half-space with 2⁻⁵⁰ of its terms to spare.
+/// Checks whether the vertex obeys the half-space with a margin of 2⁻⁵⁰ of its terms.
 bool keeps_with_room(const HalfSpace& h, const Vec3f& x) {
   const double a = double{h.normal.x} * x.x, b = double{h.normal.y} * x.y, c = double{h.normal.z} * x.z;
   return a + b + c + 0x1p-50 * (std::abs(a) + std::abs(b) + std::abs(c) + std::abs(h.offset)) <= h.offset;
@@ -234,7 +234,7 @@ struct Truncate : BatchStage<Truncate, &Contestant::truncate, &Authority::trunca
   static constexpr std::array metrics{MetricInfo{"position", "u (|x_prev| + b)", truncate_position_tolerance},
                                       MetricInfo{"region", "accepted error", 1}};
   static constexpr std::array parameters{ranges::bound};
-  /// Sets another ball; the vertex moves to X_prev, which the ball surely holds.
+  /// Sets the bound, and moves the vertex to X_prev, which is always within it.
   static std::string set(Case& c, std::span<const Override> values) {
     for (const Override& value : values) c.bound = value.value;
     c.current = c.previous;
@@ -296,7 +296,6 @@ struct Truncate : BatchStage<Truncate, &Contestant::truncate, &Authority::trunca
   static constexpr auto judge = judge_truncate;
   static auto arrays(const Out& out) { return std::tie(out.position, out.cut); }
 
-  /// Takes `Out` and `Truth`, which have the same members.
   template <class Answer>
   static std::vector<Quantity> outputs(const In&, const Answer& answer) {
     return {points("position", "m", std::array{answer.position.at(0)}), flag("cut", answer.cut.at(0))};

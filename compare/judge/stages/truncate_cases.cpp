@@ -1,6 +1,6 @@
-// Makes cases of stage truncate: vertices that moved, and balls or regions with half-spaces that hold them. Ladders
-// lead to the bound, to a half-space and to where several meet, to proposals far outside, and to regions thinner than
-// the spacing of numbers.
+// Makes cases of stage truncate: vertices that moved, with balls or regions of half-spaces. Ladders approach the bound,
+// a half-space, points where several half-spaces meet, proposals far outside, and regions thinner than the spacing of
+// numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace placement;
 
-/// Returns a vertex at `previous` moved by `step`.
+/// Returns a vertex that moved from `previous` by `step`.
 CaseData moved(const Vec3& previous, const Vec3& step, float bound) {
   const Vec3f from = single(previous);
   return TruncateCase{from, single(sum({from.x, from.y, from.z}, step)), bound};
@@ -33,7 +33,7 @@ CaseData truncate_bits(Random& random) {
   return TruncateCase{a, b, random.pattern()};
 }
 
-/// Makes steps of rational length, so that ‖x − x_prev‖ is b exactly or misses it by one bit.
+/// Makes steps of rational length, so that ‖x − x_prev‖ is b exactly or differs by one bit.
 CaseData truncate_lattice(Random& random) {
   constexpr std::array<Vec3, 6> steps{{{3, 4, 0}, {1, 2, 2}, {2, 3, 6}, {1, 4, 8}, {4, 4, 7}, {5, 0, 0}}};
   constexpr std::array<double, 6> lengths{5, 3, 7, 9, 9, 5};
@@ -45,7 +45,7 @@ CaseData truncate_lattice(Random& random) {
                beside(random, static_cast<float>(lengths[k] * scale)));
 }
 
-/// Lets b approach ‖x − x_prev‖.
+/// Approaches b = ‖x − x_prev‖.
 CaseData truncate_bound(Random& random) {
   const TruncateCase c = case_of<TruncateCase>(
       moved(in_box(random, -1, 1), scaled(in_box(random, -1, 1), random.magnitude(-6, 0)), 0));
@@ -54,21 +54,21 @@ CaseData truncate_bound(Random& random) {
   return TruncateCase{c.previous, c.position, beside(random, static_cast<float>(length(step)))};
 }
 
-/// Lets a bound tend to the spacing of the coordinates and below.
+/// Makes bounds as small as the spacing of coordinates and smaller.
 CaseData truncate_far(Random& random) {
   const Vec3 step = scaled(in_box(random, -1, 1), random.magnitude(-3, 0));
   return moved(scaled(in_box(random, -1, 1), random.magnitude(0, 6)), step,
                static_cast<float>(length(step) * random.magnitude(-5, 0.5)));
 }
 
-/// Makes bounds and steps that are zero or almost zero.
+/// Makes bounds and steps that are 0 or almost 0.
 CaseData truncate_zero(Random& random) {
   const Vec3 step = random.one_in(3) ? Vec3{} : scaled(in_box(random, -1, 1), std::abs(random.rung()));
   return moved(random.one_in(2) ? Vec3{} : in_box(random, -1, 1), step,
                static_cast<float>(random.one_in(3) ? 0 : std::abs(random.rung())));
 }
 
-/// Returns 2⁻⁵⁰ (Σ|n_k x_k| + |o|) and a little more: what X_prev and the current position keep from a half-space.
+/// Returns slightly more than 2⁻⁵⁰ (Σ|n_k x_k| + |o|), the margin of X_prev and the current position to a half-space.
 double spare(const Vec3f& n, const Vec3f& x, double offset) {
   const double size = std::abs(double{n.x} * x.x) + std::abs(double{n.y} * x.y) + std::abs(double{n.z} * x.z);
   return 0x1.8p-50 * (size + std::abs(offset));
@@ -76,7 +76,7 @@ double spare(const Vec3f& n, const Vec3f& x, double offset) {
 
 double height(const Vec3f& n, const Vec3f& x) { return double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z; }
 
-/// Builds a region: X_prev, a ball, and half-spaces at a distance from X_prev.
+/// Builds a region of X_prev, a ball, and half-spaces at distances from X_prev.
 struct RegionBuilder {
   Random& random;
   TruncateCase c;
@@ -88,15 +88,15 @@ struct RegionBuilder {
     c.is_prescribed = source.one_in(4) ? 1 : 0;
   }
 
-  /// Adds a half-space; `room` is its distance from X_prev along the direction.
+  /// Adds a half-space at the distance `room` from X_prev along the direction.
   void add(const Vec3& direction, double room) {
     const double norm = std::max(length(direction), 1e-30);
     const Vec3f n = single(scaled(direction, (random.one_in(8) ? random.magnitude(-0.3, 0.3) : 1) / norm));
     const double at = height(n, c.previous), offset = at + room;
     c.half_spaces.push_back({n, std::max(offset, at + spare(n, c.previous, offset))});
   }
-  /// Sets the block: the unit matrix as inertia and contacts of this stiffness along two random directions, at a random
-  /// scale.
+  /// Sets the block at a random scale: the unit matrix as inertia, and contacts of this stiffness along two random
+  /// directions.
   void stiffness(double over_inertia) {
     std::array<double, 6> h{1, 0, 0, 1, 0, 1};
     for (int k = 0; k < 2; ++k) {
@@ -109,7 +109,8 @@ struct RegionBuilder {
     for (std::size_t i = 0; i < 6; ++i) c.block[i] = static_cast<float>(scale * h[i]);
   }
   Vec3 previous() const { return {c.previous.x, c.previous.y, c.previous.z}; }
-  /// Moves the vertex into a part of the ball about X_prev; it stays at X_prev where that lies outside of the region.
+  /// Moves the vertex within a part of the ball about X_prev; it stays at X_prev if the new position is outside of the
+  /// region.
   void set_current(double part) {
     const Vec3f x = single(sum(previous(), scaled(in_box(random, -1, 1), 0.5 * part * double{c.bound})));
     const Vec3 away{double{x.x} - c.previous.x, double{x.y} - c.previous.y, double{x.z} - c.previous.z};
@@ -118,7 +119,7 @@ struct RegionBuilder {
       inside = inside && height(h.normal, x) + spare(h.normal, x, h.offset) <= h.offset;
     if (inside) c.current = x;
   }
-  /// Returns the case, its proposal `step` from X_prev.
+  /// Returns the case with a proposal at X_prev + `step`.
   CaseData finish(const Vec3& step) {
     c.position = single(sum(previous(), step));
     return c;
@@ -130,7 +131,7 @@ Vec3 direction(Random& random) {
   return scaled(a, 1 / std::max(length(a), 0.1));
 }
 
-/// Makes one to six half-spaces at any distance within the ball, and a proposal within three times the ball.
+/// Makes one to six half-spaces at any distance within the ball; the proposal lies within three times the ball.
 CaseData regions(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -140,7 +141,7 @@ CaseData regions(Random& random) {
   return region.finish(scaled(direction(random), bound * random.between(0.1, 3)));
 }
 
-/// Makes small integers: heights and offsets are exact, steps end on half-spaces.
+/// Makes small integers: heights and offsets are exact, and steps end on half-spaces.
 CaseData regions_lattice(Random& random) {
   RegionBuilder region(random, on_lattice(random, 3), 1 + random.below(6));
   for (int k = 1 + random.below(3); k > 0; --k) {
@@ -154,7 +155,8 @@ CaseData regions_lattice(Random& random) {
   return region.finish(on_lattice(random, 4));
 }
 
-/// Puts X_prev or the vertex on a half-space or a rung before it; the proposal goes into it, along it, or away.
+/// Puts X_prev or the vertex on a half-space or a rung before it. The proposal leads through the half-space, along it,
+/// or away.
 CaseData on_plane(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -162,13 +164,13 @@ CaseData on_plane(Random& random) {
   region.add(n, bound * std::abs(random.rung()));
   if (random.one_in(3)) region.add(direction(random), bound * random.unit());
   region.set_current(random.unit());
-  // along the half-space, so that the proposal also lies next to it
+  // along the half-space, so that the proposal is also near it
   const Vec3 any = direction(random), across = scaled(n, n.x * any.x + n.y * any.y + n.z * any.z);
   const Vec3 along = scaled(sum(any, scaled(across, -1)), bound * random.between(0.1, 2));
   return region.finish(sum(random.one_in(2) ? along : Vec3{}, scaled(n, bound * random.rung())));
 }
 
-/// Makes three half-spaces through one point, a rung from X_prev: the corner of a cube, or any.
+/// Makes three half-spaces through one point, a rung from X_prev, with normals along the axes or random ones.
 CaseData corner(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -184,7 +186,7 @@ CaseData corner(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Makes a thin wedge: two half-spaces that nearly agree or nearly face each other.
+/// Makes a thin wedge of two half-spaces that nearly coincide or nearly face each other.
 CaseData wedge(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -204,7 +206,7 @@ CaseData outside(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(0, 9)));
 }
 
-/// Makes regions as thin as the spacing of the coordinates, and thinner.
+/// Makes regions as thin as the spacing of coordinates, and thinner.
 CaseData sub_ulp(Random& random) {
   const double far = random.magnitude(0, 5), bound = far * 0x1p-24 * random.magnitude(-2, 2);
   RegionBuilder region(random, scaled(in_box(random, -1, 1), far), bound);
@@ -213,7 +215,7 @@ CaseData sub_ulp(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 3)));
 }
 
-/// Makes blocks whose stiffnesses lie up to 10⁶ apart: the way out of a half-space is nowhere near its normal.
+/// Makes blocks whose eigenvalues differ by up to 10⁶, so that the way back to a half-space is far from its normal.
 CaseData stiff(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -225,7 +227,7 @@ CaseData stiff(Random& random) {
   return region.finish(scaled(direction(random), bound * random.between(0.1, 2)));
 }
 
-/// Makes as many half-spaces as a vertex has at most, and more.
+/// Makes as many half-spaces as a vertex can have, and more.
 CaseData crowded(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -235,8 +237,8 @@ CaseData crowded(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Makes vertices that do not slide and start at X_prev, as every vertex does with bounds=dat: half-spaces have hardly
-/// any room or none, proposals graze them, lead along them, or lead away.
+/// Makes vertices that start at X_prev and do not slide, as with bounds=dat. Half-spaces have hardly any room or none;
+/// proposals graze them, lead along them, or lead away.
 CaseData from_previous(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);

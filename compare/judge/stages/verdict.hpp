@@ -1,5 +1,5 @@
-// Declares the verdicts: given the question, the truth and an answer, a verdict writes what is wrong into a tally. Each
-// stage has one function; cases[i].name names case i.
+// Declares the verdicts. A verdict gets the question, the truth and an answer, and writes what is wrong into a tally.
+// Each stage has one function; cases[i].name names case i.
 #pragma once
 
 #include <functional>
@@ -15,68 +15,69 @@
 
 namespace ogc::compare {
 
-/// Checks that the feature is accepted, that weights and distances lie within their tolerances, and that distance_below
+/// Checks that the feature is accepted, that weights and distances are within their tolerances, and that distance_below
 /// is never above the exact distance.
 void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceTruth& truth, const ClosestFaceOut& out,
                         Tally& tally);
-/// Checks that the triple of features and nearly-parallel flag is accepted. Where it is not the exact one, the contact
-/// points may lie elsewhere: the verdict then looks at their ranges and the one-sided distance alone.
+/// Checks that the combination of features and nearly-parallel flag is accepted. If it is not the exact one, contact
+/// points may be elsewhere; then only their ranges and the one-sided distance are checked.
 void judge_closest_points(Cases cases, const ClosestPointsIn& in, const ClosestPointsTruth& truth,
                           const ClosestPointsOut& out, Tally& tally);
 void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth& truth, const ActivationOut& out,
                       Tally& tally);
-/// Judges one vertex that was truncated; `metric` is the number of the position's error.
+/// Judges the position of one truncated vertex; `metric` is the number of its error's metric.
 void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, const Vec3& exact, const Vec3f& stored,
                     bool cut, std::size_t metric, Tally& tally);
-/// Checks that the stored position obeys the bound exactly; the judge decides this itself.
+/// Checks exactly, by the judge's own arithmetic, that the stored position obeys the bound. Also checks `cut` and the
+/// position's error.
 void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out,
                     Tally& tally);
 
-/// Returns the question of stage truncate about an answer: X_prev, the stored y (X_prev where y is not finite) and the
-/// bound.
+/// Returns the question of stage truncate that an answer makes: X_prev, the stored y (X_prev if y is not finite) and
+/// the bound.
 TruncateIn cut_question(const InitialGuessIn& in, const InitialGuessOut& out);
-/// Checks that the frames of the question's segments lie within their tolerances.
+/// Checks that the frames of the question's segments are within their tolerances.
 void judge_turns(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth, const InitialGuessOut& out,
                  Tally& tally);
-/// Judges y, and position and cut by `cut`, the truth about cut_question, as in truncate.
+/// Judges y, position and cut. `cut` is the truth of cut_question.
 void judge_initial_guess(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth,
                          const TruncateTruth& cut, const InitialGuessOut& out, Tally& tally);
 
-/// Checks that force and block lie within the tolerances of one and the same accepted answer.
+/// Checks that force and block are within the tolerances of the same accepted answer.
 void judge_force(Cases cases, const ForceTruth& truth, const ForceOut& out, Tally& tally);
 
-/// Checks that stencils and bodies are equal and numbers lie within their tolerances; an angle that cannot be told from
-/// ±π may have either sign.
+/// Checks that stencils and bodies are equal and numbers within their tolerances. An angle that cannot be distinguished
+/// from ±π may have either sign.
 void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const RestStateOut& out, Tally& tally);
-/// Checks that answers are equal outside the grey questions.
+/// Checks that answers to all questions that are not grey are equal.
 void judge_block(const TestCase& test, const BlockTruth& truth, const BlockOut& out, Tally& tally);
 
-/// Check that sets are equal outside the grey decisions, and that smallest distances are never above the exact ones.
+/// Check that sets are equal except for grey decisions, and that smallest distances are never above the exact ones.
 void judge_detect_vertex_facet(const TestCase& test, const DetectVertexFacetTruth& truth,
                                const DetectVertexFacetOut& out, Tally& tally);
 void judge_detect_edge_edge(const TestCase& test, const DetectEdgeEdgeTruth& truth, const DetectEdgeEdgeOut& out,
                             Tally& tally);
-/// Checks whether the truth can follow the answer: it has one finite position for each vertex. Reports a mismatch where
-/// not.
+/// Checks whether the truth can follow the answer, which needs one finite position for each vertex. Reports a mismatch
+/// if not.
 bool can_judge_sweep(const TestCase& test, const SweepIn& in, const SweepOut& out, Tally& tally);
-/// Checks that each stored position obeys its bound exactly, which the judge decides itself, and that it lies within
-/// what is accepted of the truth about this answer.
+/// Checks exactly, by the judge's own arithmetic, that each stored position obeys its bound. Also checks that each
+/// position is accepted by the truth about this answer.
 void judge_sweep(const TestCase& test, const SweepIn& in, const SweepTruth& truth, const SweepOut& out, Tally& tally);
 
-/// Checks that events follow one another as Algorithm 3 prescribes. Each event is judged by its own stage (the
-/// authority is asked about it), from the answer's own state before it.
+/// Checks that events follow each other as Algorithm 3 prescribes. Each event is judged by its own stage, which starts
+/// from the answer's state before the event; the authority answers its question.
 void judge_step(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out,
                 const Authority& authority, Tally& tally);
-/// Checks whether each array by vertex has one entry a vertex. Reports a mismatch where not.
+/// Checks whether each array by vertex has one entry for each vertex. Reports a mismatch if not.
 bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, Tally& tally);
-/// Checks whether the truth can follow the answer: one row and one ball for each vertex, finite numbers, and planes of
-/// pairs that their vertex is part of. Reports a mismatch where not.
+/// Checks whether the truth can follow the answer; reports a mismatch if not. The answer needs one row and one ball for
+/// each vertex, finite numbers, and planes of pairs that contain their vertex.
 bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
-/// Checks that every pair is held apart, and no vertex held back by more than that needs.
+/// Checks that every pair is separated, and that no vertex is restricted more than this requires.
 void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);
-/// Judges each part by itself. A point inside a part of triangles has one accepted contact. A point outside has all
-/// contacts that are certain, and no others than possible ones. In a part of tetrahedra each certain sheet with a path
-/// to the boundary has its contact. Numbers must lie within their tolerances.
+/// Judges each part separately. A point inside a part of triangles has one accepted contact. A point outside has all
+/// contacts that are certain, and only possible ones. In a part of tetrahedra each certain sheet with a path to the
+/// boundary has a contact. Numbers must be within their tolerances.
 void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, const VolumeDepthOut& out, Tally& tally);
 /// Checks that bounds are never above γ_p · min(…).
 void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& out, Tally& tally);

@@ -1,4 +1,4 @@
-// Makes the traits of stage volume_depth. Each part of the volume answers by itself, so the verdict goes part by part.
+// Makes the traits of stage volume_depth. The verdict treats each part of a volume separately.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,19 +29,19 @@ std::string print(const VolumeContact& c, const Topology& topology) {
          std::to_string(c.triangle);
 }
 
-/// Returns the key by which contacts ascend.
+/// Returns the key by which contacts are sorted.
 auto key_of(const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); }
 
 std::string point_name(std::size_t i) { return "point " + std::to_string(i) + ": "; }
 
-/// Compares the contacts of one point with one part to those that are accepted.
+/// Compares the contacts between one point and one part with the accepted ones.
 class PartVerdict {
  public:
   PartVerdict(std::size_t point, const VolumePartTruth& truth, std::vector<VolumeContact> mine,
               const Topology& topology, Tally& tally)
       : point_(point), truth_(truth), mine_(std::move(mine)), topology_(topology), tally_(tally) {}
 
-  /// Counts sheets without a way: those that the contestant must report, and those that it may.
+  /// Numbers of sheets without a way that the contestant must report, and may report.
   struct Unresolved {
     std::size_t least = 0, most = 0;
   };
@@ -73,8 +73,8 @@ class PartVerdict {
     return find(sheet.accepted, c) != nullptr;
   }
 
-  /// Checks that each contact belongs to a sheet, that each certain sheet has a contact if it has a way, and that there
-  /// are no more contacts than sheets.
+  /// Checks that each contact belongs to a sheet, that each certain sheet with a way has a contact, and that there are
+  /// not more contacts than sheets.
   void judge_solid() {
     const bool inside = std::ranges::any_of(mine_, [](const VolumeContact& c) { return c.inside != 0; });
     if (inside != truth_.inside) tally_.answered_not_exactly();
@@ -164,7 +164,7 @@ class PartVerdict {
   Tally& tally_;
 };
 
-/// Checks whether the list is in order, with each contact once, and names points and triangles that exist.
+/// Checks whether the list is sorted, without duplicates, and names points and triangles that exist.
 bool is_list(const std::vector<VolumeContact>& contacts, std::size_t points, const Topology& topology, Tally& tally) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const VolumeContact& c = contacts[i];
@@ -231,7 +231,7 @@ void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, con
   std::size_t next = 0;
   for (std::size_t i = 0; i < points; ++i) {
     const std::size_t first = next;
-    std::size_t least = 0, most = 0;  // counts of sheets without a way
+    std::size_t least = 0, most = 0;  // numbers of sheets without a way
     while (next < out.contacts.size() && at(out.contacts[next].point) == i) ++next;
     for (const VolumePartTruth& part : truth.parts[i]) {
       std::vector<VolumeContact> mine;
@@ -285,13 +285,13 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     const std::string solid = solid_problem(c);
     problem.require(solid.empty(), solid.c_str());
   }
-  /// Moves points alone: a volume whose vertices move may fold. A point that was a vertex of the volume is none after
-  /// that.
+  /// Moves only points, because a volume whose vertices move may fold. A point that was a vertex of the volume is no
+  /// longer one.
   static void mutate(Random& random, Case& c) {
     mutate_points(random, c.points);
     c.own.clear();
   }
-  /// Leaves out points that are vertices: no dust moves them.
+  /// Returns the coordinates of all points that are not vertices of the volume.
   static std::vector<float*> coordinates(Case& c) {
     std::vector<float*> all;
     for (std::size_t i = 0; i < c.points.size(); ++i) {

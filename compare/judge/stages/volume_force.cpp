@@ -1,6 +1,8 @@
-// Makes the traits of stage volume_force. The canonical frame has c at the origin and n along z, so that φ and the slip
-// along n are single coordinates. Ladders lead to φ = r, to a slip of 0 and of ε_v h, to weights of 0 (edges and
-// corners of the volume), to depths of many radii, to a motion along n, and to small and large units.
+// Makes the traits of stage volume_force. In the canonical frame c is at the origin and n along z, so that φ and the
+// slip along n are single coordinates. Ladders approach
+// - φ = r, a slip of 0, a slip of ε_v h, and motion along n,
+// - weights of 0 (edges and corners of the volume),
+// - depths of many radii, and small and large units.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,13 +24,13 @@ struct Pressed {
   double size = 1, contact_radius = 1;    ///< about the length of an edge; r
   std::array<Vec3, 4> x{};                ///< x₀, and the corners
   std::array<Vec3, 4> moved{};            ///< x − xᵗ
-  std::array<float, 3> weights{1, 0, 0};  ///< weights of c
+  std::array<float, 3> weights{1, 0, 0};  ///< of c
   Vec3 direction{0, 0, 1};                ///< n
   double slip_limit = 1;                  ///< ε_v h
-  bool turned = true;                     ///< may be rotated
+  bool turned = true;                     ///< true if it may be rotated
 };
 
-/// Returns w₁, w₂, w₃ from w₂ and w₃, so that they add up to 1 but for a rounding.
+/// Returns w₁, w₂, w₃ for w₂ and w₃; they sum to 1 up to rounding.
 std::array<float, 3> weights_of(double second, double third) {
   const auto b = static_cast<float>(second), c = static_cast<float>(third);
   const float a = std::max(0.0f, 1.0f - b - c);
@@ -42,7 +44,7 @@ Vec3 some_direction(Random& random) {
   return {ring * std::cos(turn), ring * std::sin(turn), height};
 }
 
-/// Puts the triangle's point of these weights at the origin, and x₀ at `height` along n from there.
+/// Puts the triangle's point with these weights at the origin, and x₀ at `height` along n.
 void put(Random& random, Pressed& p, const std::array<float, 3>& weights, double height) {
   p.weights = weights;
   const double lean = random.between(-0.3, 1.3), width = random.magnitude(-1, 0.3);
@@ -53,7 +55,7 @@ void put(Random& random, Pressed& p, const std::array<float, 3>& weights, double
   p.x[0] = scaled(p.direction, height);
 }
 
-/// Returns weights of a point in the interior, on an edge or at a corner.
+/// Returns the weights of a point in the interior, on an edge or at a corner.
 std::array<float, 3> some_weights(Random& random) {
   const double s = random.unit(), t = random.unit();
   std::array<float, 3> weights = random.one_in(3) ? weights_of(s, 0) : weights_of(s * (1 - t), s * t);
@@ -70,8 +72,8 @@ Pressed sized(Random& random) {
   return p;
 }
 
-/// Lets x₀ slip by `along` and lift by `lift` against the triangle, in units of ε_v h; all vertices share a common
-/// motion, and the corners bend a little.
+/// Makes x₀ slip by `along` and lift by `lift` relative to the triangle, in units of ε_v h. All vertices also share a
+/// random motion.
 void move(Random& random, Pressed& p, double along, double lift) {
   const Vec3 helper = std::abs(p.direction.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n = p.direction;
   const double inner = helper.x * n.x + helper.y * n.y + helper.z * n.z;
@@ -87,14 +89,14 @@ void move(Random& random, Pressed& p, double along, double lift) {
   p.moved[0] = sum(common, scaled(slip, p.slip_limit));
 }
 
-/// Moves all vertices off the places that the detection saw, so that φ is not that of closest points.
+/// Moves all vertices away from their positions at the detection, so that φ is not the distance of closest points.
 void drift(Random& random, Pressed& p) {
   const double step = p.size * random.magnitude(-4, -1);
   for (Vec3& x : p.x) x = sum(x, scaled(in_box(random, -1, 1), step));
 }
 
-/// Takes the contact out of its canonical frame: points and direction share one symmetry and, in half of the cases, one
-/// rotation.
+/// Moves the contact out of its canonical frame, by one symmetry and, in half of the cases, one rotation of points and
+/// direction.
 VolumeForceCase placed(Random& random, const Pressed& p) {
   std::array<Vec3, 10> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -121,7 +123,7 @@ VolumeForceCase placed(Random& random, const Pressed& p) {
   return question;
 }
 
-/// Returns φ as a share of r: inside, outside or beyond r.
+/// Returns a share φ/r: inside, outside or beyond r.
 double some_share(Random& random) { return random.between(-3, 1.2); }
 
 Pressed pressed(Random& random, double share) {
@@ -137,7 +139,7 @@ CaseData uniform(Random& random) {
   return placed(random, p);
 }
 
-/// Takes any bits for coordinates, radii, stiffnesses and limits.
+/// Takes random bits for coordinates, radii, stiffnesses and limits.
 CaseData bits(Random& random) {
   VolumeForceCase question;
   const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
@@ -156,7 +158,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Makes sums without a rounding: φ = r, ‖u‖ = ε_v h and 0 are ties.
+/// Makes sums without rounding: φ = r, ‖u‖ = ε_v h and 0 are exact ties.
 CaseData lattice(Random& random) {
   Pressed p;
   p.size = std::ldexp(1.0, random.below(9) - 8);
@@ -193,21 +195,21 @@ CaseData still(Random& random) {
   return placed(random, p);
 }
 
-/// Moves along n, by up to many times the slip and ε_v h.
+/// Moves along n by many times the slip and ε_v h.
 CaseData lift(Random& random) {
   Pressed p = pressed(random, some_share(random));
   move(random, p, random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));
   return placed(random, p);
 }
 
-/// Goes down to many radii.
+/// Makes depths of many radii.
 CaseData deep(Random& random) {
   Pressed p = pressed(random, -random.magnitude(0, 3));
   move(random, p, random.between(0, 3), random.between(-1, 1));
   return placed(random, p);
 }
 
-/// Lets a weight tend to 0 and 1.
+/// Approaches weights of 0 and 1.
 CaseData corner(Random& random) {
   Pressed p = sized(random);
   std::array<float, 3> weights = weights_of(random.magnitude(-12, -1),
@@ -218,7 +220,7 @@ CaseData corner(Random& random) {
   return placed(random, p);
 }
 
-/// Scales a case by 2^±10 or 2^±20, as far as r and ε_v h stay legal.
+/// Scales a case by 2^±10 or 2^±20, within legal limits of r and ε_v h.
 CaseData units(Random& random) {
   constexpr std::array<double, 4> scales{0x1p-20, 0x1p-10, 0x1p10, 0x1p20};
   const double scale = random.pick(std::span<const double>(scales));
@@ -232,7 +234,7 @@ CaseData units(Random& random) {
   return placed(random, p);
 }
 
-/// Makes cases next to φ = r or ‖u‖ = ε_v h.
+/// Makes cases near φ = r or ‖u‖ = ε_v h.
 CaseData boundary(Random& random) {
   random.be_fine();
   return random.one_in(2) ? radius(random) : limit(random);
@@ -295,8 +297,8 @@ std::vector<WrongForm> volume_force_forms() {
   return forms;
 }
 
-/// Takes a contact of a frame: its first vertex against the others, with random weights, inside or outside of a
-/// triangle that is one of the frame's or joins vertices of two of its faces.
+/// Makes a case from a contact of a frame: its first vertex against its other vertices, with random weights. The
+/// triangle is one of the frame's, or joins vertices of two of its faces.
 VolumeForceCase of_contact(const FrictionForceCase& f, Random& random) {
   VolumeForceCase c;
   const auto count = static_cast<std::size_t>(vertex_count(f.contact.sides));

@@ -1,7 +1,7 @@
-// Declares wrong contestants that the judge must catch: each spoils the exact answer in one way. Most follow from the
-// wrong forms of a stage (compare/judge/report/wrong_forms.hpp). Others are planted by hand because no form can express
+// Declares wrong contestants that the judge must catch: each changes the exact answer in one way. Most follow from the
+// wrong forms of a stage (compare/judge/report/wrong_forms.hpp). Others are written by hand because no form can express
 // them: a last bit, a share of 0.1 %, one item of a list, the order of events, a whole step. The exact contestant must
-// pass, which checks the judge, its tolerances and its grey zone against themselves.
+// pass, which checks the judge, its tolerances and its grey zone.
 #pragma once
 
 #include <functional>
@@ -17,25 +17,25 @@ namespace ogc::tests {
 /// Returns the contestant with the authority's exact answers, rounded to single precision where the contract allows.
 compare::Contestant exact_contestant(const compare::Authority& authority);
 
-/// Returns the contestant that answers as the form does. The form must have an authority and must not be one of
-/// Stage::step, whose forms change what counts as a right guess.
+/// Returns the contestant whose answers are those of the form. The form must have an authority and must not belong to
+/// Stage::step, whose forms change which guesses are right.
 compare::Contestant contestant_of(const compare::WrongForm& form, const compare::Authority& authority);
 
-/// Returns the forms that give an answer, from each of which a contestant can be made.
+/// Returns the forms from which a contestant can be made, because they give an answer.
 std::vector<compare::WrongForm> answering_forms(compare::Stage stage);
 
 struct Fault {
   std::string name;  ///< "bound: 1 % too large"
   compare::Stage stage;
-  /// Spoils the stage of a right contestant.
+  /// Changes the stage of a right contestant.
   std::function<void(compare::Contestant&, const compare::Authority&)> plant;
-  std::string generator{};  ///< the only one whose cases can show the fault; empty: any
+  std::string generator{};  ///< the only generator whose cases can show the fault; empty: any
 };
 
-/// Returns all faults that are planted by hand.
+/// Returns all faults that are written by hand.
 std::vector<Fault> faults();
 
-/// The faults of each file: faults_pairs.cpp, faults_sets.cpp, …
+/// Return the faults of each file: faults_pairs.cpp, faults_sets.cpp, …
 std::vector<Fault> pair_faults();
 std::vector<Fault> set_faults();
 std::vector<Fault> plane_faults();
@@ -52,11 +52,10 @@ std::vector<Fault> ipc_faults();
 /// Returns the stage that a fault's name begins with.
 compare::Stage stage_of(const std::string& fault);
 
-/// A member of Contestant that answers a stage.
 template <class Out, class In>
 using Answering = std::function<Out(const In&)> compare::Contestant::*;
 
-/// Returns a fault that answers another question correctly: `change(in)` alters the question.
+/// Returns a fault that changes the question by `change(in)` and answers it correctly.
 template <class Out, class In, class Change>
 Fault asked_wrongly(const std::string& name, Answering<Out, In> stage, Change change) {
   return {name, stage_of(name), [stage, change](compare::Contestant& contestant, const compare::Authority&) {
@@ -68,7 +67,7 @@ Fault asked_wrongly(const std::string& name, Answering<Out, In> stage, Change ch
           }};
 }
 
-/// Returns a fault that spoils the right answer by `spoil(in, out)`.
+/// Returns a fault that changes the right answer by `spoil(in, out)`.
 template <class Out, class In, class Spoil>
 Fault spoiled(const std::string& name, Answering<Out, In> stage, Spoil spoil) {
   return {name, stage_of(name), [stage, spoil](compare::Contestant& contestant, const compare::Authority&) {
@@ -80,7 +79,7 @@ Fault spoiled(const std::string& name, Answering<Out, In> stage, Spoil spoil) {
           }};
 }
 
-/// Returns a fault that changes every case of the question by `change(case)` and answers that correctly.
+/// Returns a fault that changes every case of the question by `change(case)` and answers it correctly.
 template <class Out, class In, class Change>
 Fault cases_asked_wrongly(const std::string& name, Answering<Out, In> stage, Change change) {
   return asked_wrongly(name, stage, [change](In& in) {
@@ -88,7 +87,7 @@ Fault cases_asked_wrongly(const std::string& name, Answering<Out, In> stage, Cha
   });
 }
 
-/// Returns a fault that spoils force and block of every case by `spoil(case, force, block)`.
+/// Returns a fault that changes force and block of every case by `spoil(case, force, block)`.
 template <class In, class Spoil>
 Fault forces_spoiled(const std::string& name, Answering<compare::ForceOut, In> stage, Spoil spoil) {
   return spoiled(name, stage, [spoil](const In& in, compare::ForceOut& out) {

@@ -1,4 +1,4 @@
-// Holds quaternions and segments, in double, from which cases about rods are made.
+// Holds quaternions and segments, in double, for cases about rods.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace ogc::compare::rod_cases {
 
-/// The factors of i, j, k, then the real part.
+/// A quaternion: the factors of i, j, k, then the real part.
 using Four = std::array<double, 4>;
 
-/// Returns a b, the product of quaternions.
+/// Returns a b.
 inline Four product(const Four& a, const Four& b) {
   return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] + a[1] * b[3] + a[2] * b[0] - a[0] * b[2],
           a[3] * b[2] + a[2] * b[3] + a[0] * b[1] - a[1] * b[0], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
@@ -27,7 +27,7 @@ inline Four unit(Four q) {
   return q;
 }
 
-/// Scales to unit length and rounds to single precision.
+/// Returns q/‖q‖, rounded to single precision.
 inline Quaternion single(const Four& q) {
   const Four u = unit(q);
   return {static_cast<float>(u[0]), static_cast<float>(u[1]), static_cast<float>(u[2]), static_cast<float>(u[3])};
@@ -46,7 +46,7 @@ inline Four rotation(const Vec3& axis, double angle) {
   return {s * axis.x, s * axis.y, s * axis.z, std::cos(angle / 2)};
 }
 
-/// Return any direction, and any orientation.
+/// Return a random direction and a random orientation.
 inline Vec3 some_direction(Random& random) {
   for (;;) {
     const Vec3 v = placement::in_box(random, -1, 1);
@@ -63,12 +63,12 @@ inline Four some_orientation(Random& random) {
   }
 }
 
-/// Returns q turned by a rung: near q, or q itself.
+/// Returns q, or q turned by a rung.
 inline Four beside(Random& random, const Four& q) {
   return product(q, rotation(some_direction(random), random.rung()));
 }
 
-/// Returns a frame whose director is the direction of d, with any twist; any frame where d is 0.
+/// Returns a frame with a random twist whose director is the direction of d; a random frame if d is 0.
 inline Four frame_along(Random& random, const Vec3& d) {
   const double length = std::hypot(d.x, d.y, d.z);
   const Four twist = rotation({0, 0, 1}, random.between(-3, 3));
@@ -77,7 +77,8 @@ inline Four frame_along(Random& random, const Vec3& d) {
   return product(unit({half.x, half.y, half.z, 0}), twist);  // half a turn about the middle of e₃ and d
 }
 
-/// An edge of a frame of a run as a segment: about as long as at rest, and at the start of the step a little elsewhere.
+/// A segment made from an edge of a run's frame. Its rest length is about the current one, and its start is moved a
+/// little.
 struct EdgeOfState {
   std::array<Vec3f, 2> vertex, start;
   double length = 0;  ///< l [m]
@@ -96,8 +97,8 @@ struct EdgeOfState {
   }
 };
 
-/// Returns one of the 24 quaternions of the cube's rotations that single precision holds: ±1, ±i, ±j, ±k, (±1 ± i ± j ±
-/// k)/2.
+/// Returns one of the 24 unit quaternions of the cube's rotations that single precision holds exactly: ±1, ±i, ±j, ±k,
+/// (±1 ± i ± j ± k)/2.
 inline Four on_lattice(Random& random) {
   Four q{};
   if (random.one_in(2)) {
@@ -108,7 +109,7 @@ inline Four on_lattice(Random& random) {
   return q;
 }
 
-/// Returns a length as scenes have them: that of yarn in most cases, 2⁻²⁰ … 2²⁰ m in some.
+/// Returns a length: in most cases that of a yarn's segment, in a quarter 2⁻²⁰ … 2²⁰ m.
 inline double some_length(Random& random) {
   return random.one_in(4) ? std::ldexp(random.between(1, 2), random.below(40) - 20) : random.magnitude(-4, 0);
 }

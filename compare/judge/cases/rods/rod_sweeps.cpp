@@ -18,7 +18,7 @@ namespace {
 using namespace placement;
 using rod_cases::Four;
 
-/// Adds a rod with edges about `size` long, near `centre`, and its state in a sweep.
+/// Adds a rod near `centre` with edges about `size` long, and its state in a sweep.
 void add_rod(Random& random, SweepCase& test, Scene& scene, const Vec3& centre, double size) {
   Mesh mesh = rod_mesh(random, some_rod(random));
   permute(random, mesh.positions);
@@ -57,7 +57,8 @@ void add_rod(Random& random, SweepCase& test, Scene& scene, const Vec3& centre, 
   }
 }
 
-/// Returns a frame along the segment, twisted nearly as its neighbours' frames or in any way.
+/// Returns a frame along the segment ab, turned a little about a random axis. In some cases its twist is random;
+/// otherwise neighbouring segments have similar twists.
 Four frame_of(Random& random, const Vec3f& a, const Vec3f& b) {
   const Vec3 d{double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
   const double length = std::hypot(d.x, d.y, d.z);

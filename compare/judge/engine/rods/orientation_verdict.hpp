@@ -1,4 +1,4 @@
-// Measures how far a quaternion is from what the stage orientation accepts, for that stage and for sweeps.
+// Measures how far a quaternion is from the answers that stage orientation accepts, for this stage and for sweeps.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,17 @@
 
 namespace ogc::compare {
 
-/// Errors of one answer against one minimiser, each in its unit (compare/stages/orientation.hpp).
+/// Errors of an answer relative to one minimiser, each in its unit (compare/stages/orientation.hpp).
 struct OrientationErrors {
   double orientation = 0, residual = 0, energy = 0;
-  /// Returns the largest ratio of an error to its tolerance, to which `more` units are added; 1 is just accepted.
+  /// Returns the largest ratio of an error to its tolerance plus `more` units; ratios up to 1 are accepted.
   double share(double more = 0) const;
 };
 
 /// Returns the errors of a stored quaternion.
 OrientationErrors orientation_errors(const Quaternion& stored, const OrientationAnswer& exact);
 
-/// Returns the answer that the quaternion is nearest to.
+/// Returns the accepted answer that is nearest to the quaternion.
 const OrientationAnswer& nearest_answer(const Quaternion& stored, const std::vector<OrientationAnswer>& accepted);
 
 /// Returns | ‖q‖ − 1 | in units of u.

@@ -14,13 +14,13 @@ std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 
 std::string segment(std::size_t e) { return "segment " + std::to_string(e); }
 
-/// Return a − b in single precision, as every contestant forms it.
+/// Return a − b in single precision, as every contestant computes it.
 Vec3f difference(const Vec3f& a, const Vec3f& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Vec3f rounded_difference(const Vec3& a, const Vec3& b) {
   return {static_cast<float>(a.x - b.x), static_cast<float>(a.y - b.y), static_cast<float>(a.z - b.z)};
 }
 
-/// Largest error of a product of quaternions (8) and its scaling to unit length (4), in units of u.
+/// Largest error, in units of u: 8 of a quaternion product and 4 of its normalisation.
 constexpr double product_tolerance = 12;
 
 bool is_product(const Quaternion& q, const Quaternion& turn, const Quaternion& before) {

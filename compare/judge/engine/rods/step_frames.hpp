@@ -1,4 +1,4 @@
-// Judges the frames of segments in a step: at its start, after the guess loop, at its end.
+// Judges the frames of segments in a step: at the start, after the guess loop, at the end.
 #pragma once
 
 #include <string>
@@ -9,24 +9,26 @@
 
 namespace ogc::compare {
 
-/// Frames as stage initial_guess judges them: the question, and the answer's frames.
+/// Turned frames as a case of stage initial_guess: the question, and the contestant's frames.
 struct TurnedFrames {
-  InitialGuessIn in;    ///< turns alone
-  InitialGuessOut out;  ///< orientations alone
+  InitialGuessIn in;    ///< only `turns`
+  InitialGuessOut out;  ///< only `orientation`
 };
 
-/// Says what is wrong with the colours of segments; empty where nothing is.
+/// Returns what is wrong with the colours of segments; empty if nothing is wrong.
 std::string wrong_segment_colour(const Scene& scene, const StepOut& out);
 
-/// Checks whether each list of orientations has one entry a segment, also in sweeps; says what is wrong, or nothing.
+/// Checks that each list of orientations, also in sweeps, has one entry for each segment. Returns what is wrong; empty
+/// if nothing is.
 std::string wrong_orientation_count(const Scene& scene, const StepOut& out);
 
-/// Returns the frames with which the step starts: the scene's, or those of the answer's rest state, turned to where
-/// segments start. Writes into `wrong` what is wrong with frames that are given.
+/// Returns the frames that the step turns from rest to where their segments start. The other segments start with a
+/// given frame, the scene's or that of the answer's rest state; `wrong` gets what is wrong with these.
 TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wrong);
 
-/// Returns the frames after the guess loop, which ended at x: those of free segments, and of segments that a motion
-/// carries without saying how it turns. Writes into `wrong` what is wrong with others.
+/// Returns the frames that the guess loop, which ended at x, turned with their segments: those of free segments, if the
+/// scene's rod_start turns them, and of segments whose motion does not define a turn. `wrong` gets what is wrong with
+/// all others.
 TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vector<Vec3f>& x, std::string& wrong);
 
 }  // namespace ogc::compare

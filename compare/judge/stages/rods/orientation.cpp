@@ -1,6 +1,8 @@
-// Makes the traits of stage orientation. Ladders lead to t·q = 0, where a sign flips; to neighbours that ask for a
-// reversed director, and there to the balance of β₋ = 2σ; to pulls that cancel; to a stretch or neighbours that do not
-// count beside the other; to an old q whose director points the other way; and to a segment without a length.
+// Makes the traits of stage orientation. Ladders approach
+// - t·q = 0, where a sign flips,
+// - neighbours whose targets have the reversed director, and there the balance β₋ = 2σ,
+// - pulls that cancel; a stretch or neighbours that are negligible beside the other,
+// - an old q whose director is opposite; a segment without length.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,13 +31,13 @@ using namespace rod_cases;
 using placement::single;
 using rod_cases::single;
 
-/// A segment under construction: D and the neighbours' targets are given relative to its frame `aim`.
+/// A segment to be built: D and the neighbours' targets are given relative to its frame `aim`.
 struct Draft {
-  double length = 1;              ///< l [m]
-  Four aim{0, 0, 0, 1};           ///< D has its director, apart from the strain
-  Four old{0, 0, 0, 1};           ///< the old q
+  double length = 1;     ///< l [m]
+  Four aim{0, 0, 0, 1};  ///< D has its director, except for the strain
+  Four old{0, 0, 0, 1};
   Four start{0, 0, 0, 1};         ///< qᵗ
-  Vec3 strain{}, strain_start{};  ///< strain of D against aim, of Dᵗ against qᵗ
+  Vec3 strain{}, strain_start{};  ///< strain of D relative to aim, of Dᵗ relative to qᵗ
 };
 
 void set_material(Random& random, OrientationCase& question) {
@@ -43,7 +45,7 @@ void set_material(Random& random, OrientationCase& question) {
   question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
 }
 
-/// Returns a neighbour that asks for t across one end; p is its turn at rest, its quaternion has either sign.
+/// Returns a neighbour whose target for this segment is t; p is its turn at rest. Its quaternion has a random sign.
 RodNeighbour asks(Random& random, bool is_ahead, const Four& t, const Four& p, double weight) {
   RodNeighbour f;
   Four now = product(t, is_ahead ? p : conjugate(p));
@@ -73,10 +75,10 @@ OrientationCase placed(Random& random, const Draft& draft) {
   return question;
 }
 
-/// Returns σ of a segment that is not damped and as long as at rest [N m].
+/// Returns σ of an undamped segment at its rest length [N m].
 double stiffness_of(const OrientationCase& question) { return 2.0 * question.stretch * question.rest_length; }
 
-/// Returns a weight that counts beside the segment's σ.
+/// Returns a weight of similar size to the segment's σ.
 double some_weight(Random& random, const OrientationCase& question) {
   return std::clamp(stiffness_of(question) * random.magnitude(-1.5, 1.5), 0x1p-39, 0x1p40);
 }
@@ -85,7 +87,7 @@ Four some_rest(Random& random) {
   return random.one_in(2) ? rotation(some_direction(random), random.between(0, 1)) : some_orientation(random);
 }
 
-/// Makes frames of a bent rod, each near its neighbours.
+/// Makes frames of a bent rod, each near the aim.
 Draft near_rest(Random& random) {
   Draft draft;
   draft.length = some_length(random);
@@ -97,12 +99,12 @@ Draft near_rest(Random& random) {
   return draft;
 }
 
-/// Returns a frame near the aim, for a neighbour to ask for.
+/// Returns a frame near the aim, as a neighbour's target.
 Four near_aim(Random& random, const Draft& draft) {
   return product(draft.aim, rotation(some_direction(random), random.between(-0.7, 0.7)));
 }
 
-/// Makes segments as in a rod under load.
+/// Makes segments of a rod under load.
 CaseData bent(Random& random) {
   const Draft draft = near_rest(random);
   OrientationCase question = placed(random, draft);
@@ -112,7 +114,7 @@ CaseData bent(Random& random) {
   return question;
 }
 
-/// Makes any frames and neighbours.
+/// Makes random frames and neighbours.
 CaseData uniform(Random& random) {
   Draft draft = near_rest(random);
   draft.old = some_orientation(random);
@@ -138,7 +140,8 @@ CaseData ends(Random& random) {
   return question;
 }
 
-/// Makes one side of a ring of three segments, whose ends are each other's neighbours; frames turn by up to a radian.
+/// Makes one side of a ring of three segments, where both neighbours are also each other's neighbours. Frames turn by
+/// up to a radian.
 CaseData ring(Random& random) {
   std::array<Vec3, 3> corner;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -151,7 +154,7 @@ CaseData ring(Random& random) {
     const Vec3 &a = corner[k], &b = corner[(k + 1) % 3];
     const Vec3 d{b.x - a.x, b.y - a.y, b.z - a.z};
     const double length = std::hypot(d.x, d.y, d.z);
-    const Vec3 half = sum(scaled(d, 1 / length), {0, 0, 1});  // twice the middle of e₃ and d: the axis of a half turn
+    const Vec3 half = sum(scaled(d, 1 / length), {0, 0, 1});  // twice the middle of e₃ and d, the axis of a half turn
     rest[k] = unit({half.x, half.y, half.z, 0});
     now[k] = product(product(common, rest[k]), rotation(some_direction(random), random.between(0, 1)));
     start[k] = product(now[k], rotation(some_direction(random), random.between(0, 0.1)));
@@ -170,7 +173,7 @@ CaseData ring(Random& random) {
   return question;
 }
 
-/// Makes cases without a rounding: orientations of the cube, ends on a grid.
+/// Makes cases without rounding: orientations of the cube, ends on a lattice.
 CaseData lattice(Random& random) {
   OrientationCase question;
   const double size = std::ldexp(1.0, random.below(9) - 8);
@@ -191,7 +194,7 @@ CaseData lattice(Random& random) {
   return question;
 }
 
-/// Takes any bits for coordinates and constants, as far as the contract lets a segment grow.
+/// Takes random bits for coordinates and constants, as far as the contract allows a segment to grow.
 CaseData bits(Random& random) {
   auto question = case_of<OrientationCase>(uniform(random));
   const std::array<Vec3, 4> points = points_of_bits(random);
@@ -204,7 +207,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Makes segments as long as scenes may have them, and as short.
+/// Makes segments of the largest and smallest sizes that scenes may have.
 CaseData scales(Random& random) {
   Draft draft = near_rest(random);
   draft.length = std::ldexp(random.between(1, 2), random.one_in(2) ? 19 : -20);
@@ -215,7 +218,7 @@ CaseData scales(Random& random) {
   return question;
 }
 
-/// Approaches t·q = 0: a neighbour asks for a half turn from the old q.
+/// Approaches t·q = 0: the target of a neighbour is a half turn away from the old q.
 CaseData sign(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = near_rest(random);
@@ -232,7 +235,7 @@ CaseData sign(Random& random) {
   return question;
 }
 
-/// Returns what asks for the director −D: the aim after a half turn about an axis across it, but for a rung.
+/// Returns a target with the director −D: the aim after a half turn about an axis across it, except for a rung.
 Four against(Random& random, const Draft& draft) {
   const double angle = random.between(0, 2 * std::numbers::pi);
   const Four half{std::cos(angle), std::sin(angle), 0, 0};
@@ -245,7 +248,7 @@ Draft straight(Random& random) {
   return draft;
 }
 
-/// Approaches β₊ = 0: all neighbours ask for the reversed director.
+/// Approaches β₊ = 0: all targets have the reversed director.
 CaseData reversed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = straight(random);
@@ -262,7 +265,7 @@ CaseData reversed(Random& random) {
   return question;
 }
 
-/// Approaches β₋ = 2σ at a reversed director, where the neighbours' pull balances the stretch.
+/// Approaches β₋ = 2σ at a reversed director, where the neighbours balance the stretch.
 CaseData balance(Random& random) {
   const Draft draft = straight(random);
   OrientationCase question = placed(random, draft);
@@ -272,7 +275,7 @@ CaseData balance(Random& random) {
   return question;
 }
 
-/// Approaches b = 0: both neighbours ask for nearly opposite rotations, the same way from the old q.
+/// Approaches b = 0: the targets of both neighbours are nearly half turns from the old q in opposite senses.
 CaseData opposed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = near_rest(random);
@@ -287,7 +290,7 @@ CaseData opposed(Random& random) {
   return question;
 }
 
-/// Makes ‖b‖ ≪ σ and ‖b‖ ≫ σ, by up to twelve powers of ten.
+/// Makes ‖b‖ ≪ σ and ‖b‖ ≫ σ, with ratios of up to 10¹⁴.
 CaseData stiff(Random& random) {
   const Draft draft = near_rest(random);
   OrientationCase question = placed(random, draft);
@@ -298,7 +301,7 @@ CaseData stiff(Random& random) {
   return question;
 }
 
-/// Lets the old director tend to −D, with or without neighbours.
+/// Makes the old director approach −D, with or without neighbours.
 CaseData antiparallel(Random& random) {
   Draft draft = straight(random);
   draft.old = against(random, draft);
@@ -309,10 +312,10 @@ CaseData antiparallel(Random& random) {
   return question;
 }
 
-/// Lets σ tend to 0: D tends to 0, or c does, as its damping part cancels e₃.
+/// Approaches σ = 0: D nears 0, or c does, because its damping part cancels e₃.
 CaseData soft(Random& random) {
   Draft draft = near_rest(random);
-  draft.length = random.magnitude(-2, 0);  // a rung of this is still a length
+  draft.length = random.magnitude(-2, 0);  // so that a rung times this length is a legal length
   const bool is_damped = random.one_in(3);
   const double rung = random.rung();
   if (is_damped) {
@@ -372,7 +375,7 @@ void judge_case(const TestCase& test, const std::vector<OrientationAnswer>& acce
   tally.error(3, length_error(q), both);
 }
 
-/// Makes a form that asks the authority about cases changed by `change(case)`.
+/// Makes a form that changes each case of the question by `change(case)`.
 template <class Change>
 WrongForm changed(const char* name, const char* meaning, Change change) {
   return asked(name, meaning, &Authority::orientation, [change](OrientationIn& in) {
@@ -380,7 +383,8 @@ WrongForm changed(const char* name, const char* meaning, Change change) {
   });
 }
 
-/// Makes a form that replaces each answer's q by what the form minimises; residual and energy are not compared then.
+/// Makes a form that replaces the q of each answer by the minimiser of another function; residual and energy are then
+/// not compared.
 template <class Change>
 WrongForm replaced(const char* name, const char* meaning, Change change) {
   return told(name, meaning, &Authority::orientation, [change](const OrientationIn& in, OrientationTruth& truth) {

@@ -1,6 +1,5 @@
-// Makes the traits of stage rod. Ladders lead to the rest shape, where the force cancels, to a start that the segment
-// has not left, where damping vanishes, to segments without a length, to directors that point the other way, and to a q
-// that is just within unit length.
+// Makes the traits of stage rod. Ladders approach the rest shape, where the force cancels; a rigid motion since the
+// start, where damping vanishes; segments without length; opposite directors; and a q that is barely of unit length.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -25,7 +24,7 @@ void set_material(Random& random, RodCase& question) {
   question.own = random.below(2);
 }
 
-/// Returns a segment that starts anywhere and runs along D, after it ran along Dᵗ.
+/// Returns a segment at a random place that runs along D, and ran along Dᵗ at the start.
 CaseData placed(Random& random, double rest_length, const Vec3& apart, const Vec3& before, const Four& q,
                 const Four& start, bool around = true) {
   RodCase question;
@@ -41,7 +40,7 @@ CaseData placed(Random& random, double rest_length, const Vec3& apart, const Vec
   return question;
 }
 
-/// Returns R(q) (strain + e₃) l, a D with this strain against q.
+/// Returns R(q) (strain + e₃) l, a D with this strain relative to q.
 Vec3 strained(const Four& q, double length, const Vec3& strain) {
   return scaled(rod_cases::turned(q, {strain.x, strain.y, strain.z + 1}), length);
 }
@@ -54,14 +53,14 @@ CaseData uniform(Random& random) {
                 strained(start, length, in_box(random, -1, 2)), q, start);
 }
 
-/// Makes exact cases: on the lattice, with orientations of the cube.
+/// Makes cases without rounding: ends on a lattice, orientations of the cube.
 CaseData lattice(Random& random) {
   const double size = std::ldexp(1.0, random.below(9) - 8);
   return placed(random, size, scaled(on_lattice(random, 3), size), scaled(on_lattice(random, 3), size),
                 rod_cases::on_lattice(random), rod_cases::on_lattice(random), false);
 }
 
-/// Takes any bits for coordinates and material.
+/// Takes random bits for coordinates and material.
 CaseData bits(Random& random) {
   RodCase question;
   const std::array<Vec3, 4> points = points_of_bits(random);
@@ -70,12 +69,12 @@ CaseData bits(Random& random) {
   question.orientation = rod_cases::single(rod_cases::some_orientation(random));
   question.orientation_start = rod_cases::single(rod_cases::some_orientation(random));
   set_material(random, question);
-  question.rest_length = random.pattern(0x1p-7f, 0x1p20f);  // not shorter: the contract ends at 2³⁰ times its length
+  question.rest_length = random.pattern(0x1p-7f, 0x1p20f);  // The contract allows growth up to 2³⁰ times this length.
   question.stretch = random.pattern();
   return question;
 }
 
-/// Makes segments as long as scenes may have them, and as short.
+/// Makes segments of the largest and smallest sizes that scenes may have.
 CaseData scales(Random& random) {
   const double length = std::ldexp(random.between(1, 2), random.one_in(2) ? 19 : -20);
   const Four q = rod_cases::some_orientation(random), start = rod_cases::beside(random, q);
@@ -92,7 +91,7 @@ CaseData at_rest(Random& random) {
                 start);
 }
 
-/// Turns a segment as a rigid body since the start, but for a rung: damping vanishes.
+/// Turns a segment since the start as a rigid body, except for a rung, so that damping vanishes.
 CaseData turned_rigidly(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::some_orientation(random);
   const double length = rod_cases::some_length(random);
@@ -103,14 +102,14 @@ CaseData turned_rigidly(Random& random) {
 /// Approaches D = 0 and Dᵗ = 0.
 CaseData short_one(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::some_orientation(random);
-  const double length = random.magnitude(-2, 0);  // a rung of this is still a length
+  const double length = random.magnitude(-2, 0);  // so that a rung times this length is a legal length
   const Vec3 before = random.one_in(2) ? strained(start, length, {})
                                        : scaled(rod_cases::some_direction(random), length * random.rung());
   return placed(random, length, scaled(rod_cases::some_direction(random), length * random.rung()), before, q, start,
                 false);
 }
 
-/// Approaches R(q) e₃ = −D/‖D‖, and half turns about the axes, where w is 0.
+/// Approaches R(q) e₃ = −D/‖D‖, and half turns about the axes, for which w is 0.
 CaseData reversed(Random& random) {
   const Vec3 axis = rod_cases::some_direction(random);
   Four q = rod_cases::product(rod_cases::rotation({1, 0, 0}, std::numbers::pi),

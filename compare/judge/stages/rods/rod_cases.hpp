@@ -1,5 +1,4 @@
-// Serves the stages rod and orientation: checks what their contracts require of a segment, and lists the parameters
-// that may be set.
+// Helps the stages rod and orientation: checks the contract of a segment and lists its parameters.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +13,7 @@
 
 namespace ogc::compare::rod_cases {
 
-/// Checks what the contract requires of a segment's ends, at present or at the start of the step.
+/// Checks the contract of a segment's ends, now or at the start of the step.
 inline void check_ends(FirstProblem& problem, std::span<const Vec3f> ends, float rest_length) {
   problem.vectors("a coordinate", ends);
   check_lengths(problem, ends, 0x1p-50f, 0x0p0f);
@@ -23,7 +22,7 @@ inline void check_ends(FirstProblem& problem, std::span<const Vec3f> ends, float
   problem.require(length <= 0x1p30 * rest_length, "it has grown beyond the contract");
 }
 
-/// Checks all that both stages have of a segment.
+/// Checks the members that segments of both stages have.
 template <class Case>
 void check_segment(FirstProblem& problem, const Case& c) {
   problem.number("a rest length", c.rest_length, least_length, most_length);
@@ -35,7 +34,7 @@ void check_segment(FirstProblem& problem, const Case& c) {
   problem.number("a damping", c.damping, 0, most_length);
 }
 
-/// Parameters of a segment that may be set.
+/// Parameters that both stages have.
 inline constexpr std::array segment_parameters{ParameterInfo{"k_s", "stiffness of stretch [N]", 0x1p-30f, ranges::vast},
                                                ParameterInfo{"l", "rest length [m]", ranges::least, ranges::most},
                                                ranges::damping};

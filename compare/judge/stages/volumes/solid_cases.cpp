@@ -1,7 +1,8 @@
-// Makes blocks of cells of six tetrahedra each: as they are, bent round until they overlap, and crushed until
-// tetrahedra turn inside out. Points stand about their surface and deep inside, on the lines and planes of the cells
-// (so that ways lead along and through edges and vertices), on medial axes, where the body lies in itself several
-// times, and on vertices of the body, which ask without their own sheet.
+// Makes blocks of cells, each of six tetrahedra: unchanged, bent until they overlap, or crushed until tetrahedra turn
+// inside out. Points are
+// - near the surface and deep inside, and on medial axes,
+// - on lines and planes of the cells, so that ways lead along and through edges and vertices,
+// - where the body overlaps itself, and at its vertices (a vertex's own sheet does not count).
 #include "compare/judge/stages/volumes/solid_cases.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ using Cells = std::array<int, 3>;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns cells of edges 1 from the origin on, each of six tetrahedra about its diagonal.
+/// Returns cells of side 1 from the origin on, each of six tetrahedra about its diagonal.
 VolumeBody block(const Cells& cells) {
   constexpr std::array<std::array<std::size_t, 3>, 6> ways{
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
@@ -53,7 +54,7 @@ void jitter(Random& random, VolumeBody& body, double size) {
   for (Vec3& p : body.x) p = sum(p, in_box(random, -size, size));
 }
 
-/// Moves the middle of the body to the origin, and scales it to a size of about 1.
+/// Moves the middle of the body to the origin and scales it to a size of about 1.
 void centre(VolumeBody& body) {
   Vec3 low = body.x.front(), high = low;
   for (const Vec3& p : body.x) {
@@ -65,7 +66,7 @@ void centre(VolumeBody& body) {
   for (Vec3& p : body.x) p = scaled(minus(p, scaled(sum(low, high), 0.5)), scale);
 }
 
-/// Returns a bar bent round by this many turns, with a pitch; with more than one turn its ends lie in each other.
+/// Returns a bar bent by this many turns, with a pitch. With more than one turn its ends overlap.
 VolumeBody coil(Random& random, double turns, double pitch) {
   const int length = 6 + random.below(5);
   VolumeBody body = block({1, 1, length});
@@ -74,7 +75,7 @@ VolumeBody coil(Random& random, double turns, double pitch) {
     const double a = angle * p.z, r = inner_radius + p.x;
     p = {r * std::cos(a), p.y + pitch * p.z / length, r * std::sin(a)};
   }
-  // the map from x, y, z to radius, pitch, angle keeps volumes positive
+  // The map from x, y, z to radius, pitch, angle keeps volumes positive.
   centre(body);
   return body;
 }
@@ -88,7 +89,7 @@ VolumeBody some_solid(Random& random) {
   return body;
 }
 
-/// Makes points at these heights over places of a body.
+/// Makes points at these heights above places of a body.
 template <class HeightOf>
 CaseData beside(Random& random, VolumeBody body, HeightOf height_of) {
   const double radius = some_radius(random);
@@ -100,7 +101,7 @@ CaseData beside(Random& random, VolumeBody body, HeightOf height_of) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Returns a point somewhere in one of the tetrahedra.
+/// Returns a random point in one of the tetrahedra.
 Vec3 within(Random& random, const VolumeBody& body) {
   const Tetrahedron& t = body.tetrahedra[at(random.below(static_cast<int>(body.tetrahedra.size())))];
   std::array<double, 4> w{};
@@ -111,7 +112,7 @@ Vec3 within(Random& random, const VolumeBody& body) {
   return x;
 }
 
-/// Makes points anywhere about and in a body.
+/// Makes points at random near and in a body.
 CaseData solid(Random& random) {
   VolumeBody body = some_solid(random);
   jitter(random, body, 0.02);
@@ -122,7 +123,7 @@ CaseData solid(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Makes cells and points of small integers and halves: points on vertices, edges and sides, ways through them.
+/// Makes cells and points of small integers and halves: points on vertices, edges and sides, with ways through them.
 CaseData grid(Random& random) {
   VolumeBody body = some_block(random, 3);
   if (random.one_in(3)) body.append(some_block(random, 2), 1, on_lattice(random, 1));
@@ -136,8 +137,8 @@ CaseData grid(Random& random) {
                 std::ldexp(1.0, random.below(21) - 10));
 }
 
-/// Makes ways that lead along the lines of the cells and through their vertices, or pass by a rung off: the body is low
-/// along one axis, and the points stand over corners and lines of cells.
+/// Makes ways along the lines of the cells and through their vertices, or one rung from them. The body is low along one
+/// axis, and the points are above corners and lines of cells.
 CaseData ray(Random& random) {
   const int height = 2 + random.below(3);
   VolumeBody body = block({3, 3, height});
@@ -152,7 +153,7 @@ CaseData ray(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Makes a block without its middle cell, with points in the wall, in the void, and at the faces of both.
+/// Makes a block without its middle cell, with points in the wall, in the void, and at both surfaces.
 CaseData hollow(Random& random) {
   VolumeBody body = block({3, 3, 3});
   const auto middle = body.tetrahedra.begin() + 6 * 13;
@@ -170,7 +171,7 @@ CaseData hollow(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Makes points where the body lies in itself several times.
+/// Makes points where the body overlaps itself.
 CaseData sheets(Random& random) {
   VolumeBody body = coil(random, random.between(1.1, 2.8), random.between(-0.6, 0.6));
   Points points;
@@ -178,8 +179,8 @@ CaseData sheets(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Draws vertices through the sides opposite to them, or into their planes: some tetrahedra have no positive volume.
-/// Where the vertices inside of a large block move far, some sheets have no way.
+/// Moves vertices through the opposite sides of tetrahedra, or into their planes, so that some volumes are not
+/// positive. If the interior vertices of a large block move far, some sheets have no way.
 VolumeBody crushed(Random& random) {
   if (random.one_in(3)) {
     VolumeBody body = block({3, 3, 3});
@@ -222,8 +223,8 @@ CaseData inverted(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Makes a tetrahedron with one more behind each of its sides, most of these turned inside out. If all are, no point in
-/// the first one has a way; else all ways lead through those that are not.
+/// Makes a tetrahedron with another one behind each of its sides, most of them inside out. If all are, no point in the
+/// first one has a way. Otherwise all ways lead through those that are not.
 CaseData lost(Random& random) {
   VolumeBody body;
   body.x = {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}};
@@ -250,7 +251,7 @@ CaseData lost(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Makes vertices of a body that lies in itself, or does not, ask it.
+/// Makes points that are vertices of the body or near them; most bodies overlap themselves.
 CaseData own(Random& random) {
   VolumeBody body = random.one_in(4) ? some_solid(random)
                                      : coil(random, random.between(0.9, 2.5), random.between(-1, 1));
@@ -270,7 +271,7 @@ CaseData own(Random& random) {
                 std::move(asking));
 }
 
-/// Approaches the surface of a body from both sides, and d = r.
+/// Approaches d = 0 from both sides, and d = r.
 CaseData surface(Random& random) {
   return beside(random, some_solid(random), [](Random& r, const Place& place, double radius) {
     return r.one_in(2) ? place.edge * r.rung() : radius * (1 + r.rung());
@@ -289,7 +290,7 @@ CaseData medial(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Makes a solid beside and in parts of triangles and other solids.
+/// Makes a solid near or in parts of triangles and other solids.
 CaseData mixed(Random& random) {
   VolumeBody body = some_solid(random);
   VolumeBody shell = block({1, 1, 1});
@@ -301,7 +302,7 @@ CaseData mixed(Random& random) {
                 [](Random& r, const Place&, double radius) { return r.sign() * radius * r.between(0, 1.1); });
 }
 
-// A plug-in is asked about triangles alone, as compare/plugin/geometry.h has no tetrahedra.
+// Not for plug-ins: compare/plugin/geometry.h has no tetrahedra.
 constexpr Stage volumes = Stage::volume_depth;
 constexpr std::array<Generator, 11> table{{{"solid", 12, true, solid, 0, volumes},
                                            {"solid.grid", 8, false, grid, 0, volumes},

@@ -1,4 +1,4 @@
-// Declares cases of volume_depth about tetrahedra: where they come from, and which are legal.
+// Declares cases of volume_depth with tetrahedra: their generators and which of them are legal.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace ogc::compare {
 
-/// Returns their rows of the stage's table.
+/// Returns the generators of these cases, as rows of the stage's table.
 std::span<const Generator> solid_depth_generators();
 
-/// Says why a volume may not have these tetrahedra: a corner that is not a vertex, a triangle with three of them or
-/// with two on one side, a part whose triangles are not their boundary. Says also why `own` is illegal: a vertex that
-/// is not on the surface or does not lie where its point does. Empty where nothing is wrong.
+/// Returns why a volume may not have these tetrahedra; empty if it may. Reasons are a corner that is no vertex, a
+/// triangle of three tetrahedra or of two on one side, and a part whose triangles are not the tetrahedra's boundary.
+/// Also returns why `own` is illegal: a vertex is not on the surface, or not where its point is.
 std::string solid_problem(const VolumeDepthCase& c);
 
 }  // namespace ogc::compare

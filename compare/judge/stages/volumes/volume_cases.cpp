@@ -1,7 +1,8 @@
-// Makes cases of volume_depth: closed surfaces, surfaces with rims and of several parts, and points beside their faces.
-// Ladders lead across a triangle, to the ends of the blocks of ridges, valleys and vertices of all kinds, to rims, to
-// the medial axis, to d = r, into plates down to no thickness, into parts that overlap, touch or hold each other, and
-// into voids.
+// Makes cases of volume_depth: closed surfaces, surfaces with rims and of several parts, and points near their faces.
+// Ladders approach
+// - a height of 0, d = r, and the medial axis,
+// - the ends of the blocks of ridges, valleys, vertices of all kinds and rims,
+// - plates without thickness, parts that overlap, touch or contain each other, and voids.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +23,7 @@ using namespace volume_bodies;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns a box of n × m × l cells of this size about the origin, its quads cut along one diagonal.
+/// Returns a box of n × m × l cells about the origin, of this size; its quads are cut along one diagonal.
 VolumeBody box(const std::array<int, 3>& cells, const Vec3& size) {
   VolumeBody body;
   std::map<std::array<int, 3>, Index> numbers;
@@ -58,15 +59,15 @@ VolumeBody box(const std::array<int, 3>& cells, const Vec3& size) {
   return body;
 }
 
-/// Returns a cube's surface with each vertex drawn out to a radius of its own: ridges, valleys, saddles and reentrant
-/// vertices.
+/// Returns a cube's surface with each vertex moved to a random radius, which gives ridges, valleys, saddles and
+/// reentrant vertices.
 VolumeBody star(Random& random, int cells, double roughness) {
   VolumeBody body = box({cells, cells, cells}, {2, 2, 2});
   for (Vec3& p : body.x) p = scaled(unit(p), 1 + roughness * random.between(-1, 1));
   return body;
 }
 
-/// Returns a torus of m × n quads, which has saddles inside.
+/// Returns a torus of m × n quads, with saddles at its inner side.
 VolumeBody torus(int m, int n) {
   VolumeBody body;
   constexpr double turn = 6.283185307179586;
@@ -111,7 +112,7 @@ void open(Random& random, VolumeBody& body) {
   if (other != t) body.triangles.erase(body.triangles.begin() + std::min(t, other));
 }
 
-/// Makes points anywhere about a body of one part or two, with or without a rim.
+/// Makes points at random near a body of one or two parts, with or without a rim.
 CaseData uniform(Random& random) {
   VolumeBody body = some_body(random);
   if (random.one_in(3)) body.append(some_body(random), random.between(0.3, 1), in_box(random, -1, 1));
@@ -125,7 +126,7 @@ CaseData uniform(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Returns a bipyramid about the z axis; of three vertices a triangle, of fewer a body without an inside.
+/// Returns a bipyramid about the z axis. Three vertices give a triangle, fewer give a body without an inside.
 VolumeBody of_vertices(int count) {
   VolumeBody body;
   const int ring = count < 5 ? count : count - 2;
@@ -144,7 +145,7 @@ VolumeBody of_vertices(int count) {
   return body;
 }
 
-/// Makes bodies of few vertices, and of none.
+/// Makes bodies of few vertices or none.
 CaseData few(Random& random) {
   constexpr std::array<int, 8> counts{0, 1, 2, 3, 5, 6, 10, 50};
   VolumeBody body = of_vertices(random.pick(std::span<const int>(counts)));
@@ -159,8 +160,8 @@ bool has_area(const std::vector<Vec3f>& x, const Triangle& t) {
   return volume_bodies::has_area(wide(t[0]), wide(t[1]), wide(t[2]));
 }
 
-/// Takes any bits over eight octaves for coordinates, at any scale: a tetrahedron, in the sense that has positive
-/// volume.
+/// Takes random bits over eight octaves for coordinates at any scale: a tetrahedron, oriented so that its volume is
+/// positive.
 CaseData bits(Random& random) {
   const double scale = std::ldexp(1.0, random.below(25) - 12);
   const auto some = [&] {
@@ -185,7 +186,7 @@ CaseData bits(Random& random) {
   return placed(random, std::move(body), std::move(points), scale * random.pattern(0x1p-6f, 0x1p3f), false, 1);
 }
 
-/// Makes boxes and points of small integers: every tie is exact.
+/// Makes boxes and points of small integers, where every tie is exact.
 CaseData lattice(Random& random) {
   VolumeBody body = box({1 + random.below(2), 1 + random.below(2), 1 + random.below(2)},
                         {2, 2, random.one_in(2) ? 2.0 : 1.0});
@@ -196,7 +197,7 @@ CaseData lattice(Random& random) {
                 std::ldexp(1.0, random.below(21) - 10));
 }
 
-/// Makes points at these heights over places of a body.
+/// Makes points at these heights above places of a body.
 template <class PlaceOf, class HeightOf>
 CaseData beside(Random& random, VolumeBody body, PlaceOf place_of, HeightOf height_of) {
   const double radius = some_radius(random);
@@ -212,27 +213,27 @@ double any_height(Random& random, const Place&, double radius) {
   return random.sign() * radius * random.between(0, 1.1);
 }
 
-/// Approaches a height of 0 over a triangle, an edge, a vertex.
+/// Approaches a height of 0 above a triangle, an edge and a vertex.
 CaseData surface(Random& random) {
   return beside(random, some_body(random), any_place,
                 [](Random& r, const Place& place, double) { return place.edge * r.rung(); });
 }
-/// Makes points over ridges and valleys.
+/// Makes points above ridges and valleys.
 CaseData edge(Random& random) { return beside(random, some_body(random), over_edge, any_height); }
-/// Makes points over convex, saddle and reentrant vertices.
+/// Makes points above convex, saddle and reentrant vertices.
 CaseData vertex(Random& random) { return beside(random, star(random, 2, 0.5), over_vertex, any_height); }
 /// Approaches d = r.
 CaseData radius(Random& random) {
   return beside(random, some_body(random), any_place,
                 [](Random& r, const Place&, double whole) { return whole * (1 + r.rung()); });
 }
-/// Makes points about rims.
+/// Makes points near rims.
 CaseData rim(Random& random) {
   VolumeBody body = some_body(random);
   open(random, body);
   return beside(random, std::move(body), any_place, any_height);
 }
-/// Makes plates down to a thickness of nearly nothing, with points on both sides and in the middle.
+/// Makes plates down to almost no thickness, with points on both sides and in the middle.
 CaseData plate(Random& random) {
   const double thickness = random.magnitude(-4, -0.5);
   return beside(random, box({2, 2, 1}, {1, 1, thickness}), any_place,
@@ -250,7 +251,7 @@ CaseData medial(Random& random) {
   }
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
-/// Makes parts that overlap, touch or hold each other, with points at faces of each.
+/// Makes parts that overlap, touch or contain each other, with points at faces of each.
 CaseData parts(Random& random) {
   VolumeBody body = some_body(random);
   const int more = 1 + random.below(3);
@@ -259,9 +260,9 @@ CaseData parts(Random& random) {
                 random.one_in(3) ? Vec3{} : in_box(random, -1, 1));
   return beside(random, std::move(body), any_place, any_height);
 }
-/// Makes a body with a void of its own shape, behind a wall that may be hardly anything. The void may hold one more
-/// body like it, with or without a void; another part may lie across all of them. Points lie in the void, at all faces,
-/// and where both sides of the wall are equally near.
+/// Makes a body with a void of the same shape, behind a wall that may be very thin. The void may contain another body,
+/// with or without a void; another part may overlap all of them. Points are in the void, at all faces, and where both
+/// sides of the wall are equally near.
 CaseData cavity(Random& random) {
   const auto hollow = [&](const VolumeBody& solid, double share) {
     VolumeBody body = solid;
@@ -283,14 +284,14 @@ CaseData cavity(Random& random) {
   }
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
-/// Puts points many radii deep in fine meshes: a search no farther than r finds nothing.
+/// Puts points many radii deep in fine meshes, where a search up to r finds nothing.
 CaseData deep(Random& random) {
   VolumeBody body = star(random, 3 + random.below(3), random.between(0, 0.1));
   Points points;
   for (int i = 0; i < points_a_volume; ++i) points.push_back(scaled(in_box(random, -1, 1), 0.55));
   return placed(random, std::move(body), std::move(points), random.magnitude(-3, -1), true, some_scale(random));
 }
-/// Makes units of 2^±18, as far as r stays legal.
+/// Scales cases by 2^±18, within legal limits of r.
 CaseData units(Random& random) {
   VolumeBody body = some_body(random);
   const double small = 0x1p-18, large = 0x1p18, radius = random.between(0.3, 1.2);
@@ -303,7 +304,7 @@ CaseData units(Random& random) {
   const bool is_small = random.one_in(2);
   return placed(random, std::move(body), std::move(points), radius, !is_small, is_small ? small : large);
 }
-/// Makes cases next to the end of an answer: heights and directions on the lowest rungs.
+/// Takes the lowest rungs of heights and directions, where answers change.
 CaseData boundary(Random& random) {
   random.be_fine();
   switch (random.below(4)) {

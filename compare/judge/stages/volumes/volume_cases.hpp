@@ -1,4 +1,4 @@
-// Declares cases of volume_depth: where they come from, and which are legal.
+// Declares cases of volume_depth: their generators and which of them are legal.
 #pragma once
 
 #include <span>
@@ -13,12 +13,12 @@ namespace ogc::compare {
 /// Returns the stage's table.
 std::span<const Generator> volume_depth_generators();
 
-/// Says what makes the surface no volume: a triangle without area or lower than 2⁻²⁰ of its longest side, an edge that
-/// two triangles run through in one sense, or an edge of no triangle. Empty where nothing does.
+/// Returns why the surface is no volume; empty if it is one. Reasons are a triangle without area or lower than 2⁻²⁰ of
+/// its longest side, two triangles that run through an edge in the same direction, and an edge without a triangle.
 std::string volume_problem(const Topology& topology, const std::vector<Vec3f>& positions);
 
-/// Makes a volume with rims of those triangles of a frame that fit together; its points are vertices of the frame,
-/// moved by up to r.
+/// Makes a volume with rims from triangles of a frame that fit together. Its points are vertices of the frame, moved by
+/// up to r.
 VolumeDepthCase volume_of_state(const MeshCase& state, Random& random);
 
 }  // namespace ogc::compare

@@ -34,7 +34,7 @@ Index vertex_count(const TestCase& test) {
   return -1;
 }
 
-/// Returns whether any of the stage's first 20 cases has coordinates that dust may make small.
+/// Returns whether any of the stage's first 20 cases has coordinates that may be made tiny.
 bool has_coordinates(Stage stage) {
   for (std::uint64_t i = 0; i < 20; ++i) {
     TestCase test = generate({stage, std::string(generators(stage)[0].name), 1, i, "", {}});
@@ -43,7 +43,7 @@ bool has_coordinates(Stage stage) {
   return false;
 }
 
-/// Holds the numbers of the models that cases of a stage have, one set for each enumeration.
+/// Collects the models in the cases of a stage, one set for each enumeration.
 struct ModelsSeen {
   std::set<std::size_t> membrane, bending, activation, damping;
   void add(const Scene& scene) {
@@ -125,7 +125,7 @@ TEST_CASE("seed, index, stage and generator each give other numbers", "[property
   REQUIRE(seen.size() == static_cast<std::size_t>(count));
 }
 
-// Fails for a model that is added to the enumerations and their names, but that no case has.
+// Fails if a model is added to an enumeration and its names, but no case has it.
 TEST_CASE("each model that has a name is among the cases of the stages that read it", "[property]") {
   const auto all = [](std::span<const std::string_view> names) {
     std::set<std::size_t> numbers;

@@ -32,7 +32,7 @@ Scene full_scene() {
   scene.bodies[0].fixed = false;
   scene.bodies[2].fixed = true;
   scene.springs.push_back({1, 5, 20, 0.5, 0.001});
-  scene.settings.contact_radius = 2;  // all frames lie within it
+  scene.settings.contact_radius = 2;  // larger than the distances in all frames
   return scene;
 }
 
@@ -52,8 +52,8 @@ std::filesystem::path write_solid_run(const std::filesystem::path& folder) {
   return folder;
 }
 
-/// Returns squares of four cells a side: two one above the other at half of r, and a third far away. The upper one
-/// falls at 1 mm/s and is turned, because contacts of parallel edges have no stiffness.
+/// Returns three squares of four cells a side: two at a distance of half of r, one above the other, and a third far
+/// away. The upper one falls at 1 mm/s and is turned, because contacts of parallel edges have no stiffness.
 Scene facing_sheets() {
   Scene scene;
   scene.name = "facing_sheets";

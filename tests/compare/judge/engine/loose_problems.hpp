@@ -46,10 +46,9 @@ inline std::string numbers(const Seen& seen) {
 }  // namespace loose
 
 /// Returns one message for each tolerance that is loose in these reports and not listed, or listed and not loose.
-/// Reports of one stage count together. A generator's first cases are the same in a longer run, so errors only grow
-/// with the cases: a tolerance that is not loose here is not loose in any longer run of the seed. One that is loose
-/// here may only lack cases; then the report of the nearest cases, which longer runs found, must be among the reports
-/// (tests/experiments/nearest.txt).
+/// Reports of one stage count together. Errors of a longer run with the same seed are at least as large, because it
+/// contains these cases. So a tolerance that is not loose here is not loose there. A tolerance that is loose here may
+/// only lack cases. So reports must include the nearest cases that longer runs found (tests/experiments/nearest.txt).
 inline std::vector<std::string> loose_problems(std::span<const StageReport> reports) {
   std::vector<std::string> problems;
   for (const auto& [name, seen] : loose::seen_in(reports)) {

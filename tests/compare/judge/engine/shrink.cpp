@@ -9,7 +9,6 @@ using namespace ogc::compare;
 
 namespace {
 
-/// Returns whether the mesh has a triangle at these points.
 bool has_triangle(const MeshCase& mesh, const std::array<Vec3f, 3>& points) {
   return std::any_of(mesh.topology->triangles.begin(), mesh.topology->triangles.end(), [&](const Triangle& t) {
     return mesh.positions[t[0]] == points[0] && mesh.positions[t[1]] == points[1] && mesh.positions[t[2]] == points[2];

@@ -91,7 +91,7 @@ TEST_CASE("the mesh of a saved case is one that an audit takes, whatever degener
         CHECK(describe(validate(mesh)).empty());
         const auto* whole = std::any_cast<MeshCase>(&test.data);
         if (whole && mesh.positions.size() == whole->positions.size() &&
-            text.find('#') == std::string::npos)  // nothing is left out or added
+            text.find('#') == std::string::npos)  // nothing is omitted or added
           CHECK(to_single(mesh.positions) == whole->positions);
       }
 }

@@ -16,7 +16,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// Returns the report of a stage with a mismatch, errors and a loose metric, and of one that was skipped.
+/// Returns the report of a stage with a mismatch, errors and a loose metric, and the report of a skipped stage.
 std::vector<StageReport> two_reports() {
   StageReport wrong{Tally(Stage::closest_face)}, skipped{Tally(Stage::bound)};
   wrong.tally.begin({Stage::closest_face, "uniform", 1, 2, "", {}});

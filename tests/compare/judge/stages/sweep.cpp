@@ -1,4 +1,4 @@
-// Tests the judge's own part in the sweep: legal positions, and verdicts on answers whose truth is given by hand.
+// Tests the judge of a sweep: legal positions, and verdicts on answers with a truth written by hand.
 #include "compare/judge/engine/sweep_question.hpp"
 
 #include <cmath>
@@ -29,7 +29,7 @@ TEST_CASE("a position brought back to its bound obeys it exactly and is not far 
 
 namespace {
 
-/// Holds two free vertices of a question without stencils and a right answer, in which the second vertex was cut.
+/// Holds two free vertices of a question without stencils, and a right answer in which the second vertex is cut.
 struct Judged {
   Scene scene;
   RestStateOut rest;

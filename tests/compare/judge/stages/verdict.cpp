@@ -1,4 +1,4 @@
-// Tests verdicts on answers made by hand: what the grey zone excuses and what it does not.
+// Tests verdicts on answers written by hand, with and without grey decisions.
 #include "compare/judge/stages/verdict.hpp"
 
 #include <cmath>
@@ -14,8 +14,8 @@ constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 std::string first_message(const Tally& tally) { return tally.mismatches.empty() ? "" : tally.mismatches[0].message; }
 
-/// A point 1 above the corner (0, 0, 0) of a right triangle lies in the planes of both edges there; the exact answer is
-/// the corner.
+/// A point at distance 1 above the corner (0, 0, 0) of a right triangle. It lies in the planes of both edges there; the
+/// exact answer is the corner.
 struct FaceFixture {
   std::vector<TestCase> cases{{{Stage::closest_face, "uniform", 0, 0, "", {}}, ClosestFaceCase{}}};
   ClosestFaceIn in{{{0, 0, 1}}, {{Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}}}};

@@ -1,4 +1,4 @@
-// Tests verdicts of rest_state, block and initial_guess on answers made by hand.
+// Tests verdicts of rest_state, block and initial_guess on answers written by hand.
 #include <cmath>
 #include <functional>
 #include <limits>
