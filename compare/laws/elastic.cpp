@@ -1,5 +1,4 @@
-// Differentiates by the rules of sums and products: a `Moving` number carries its rate along d.
-//
+// Differentiates by the rules of sums and products: a `Moving` number contains its rate along d.
 // The membrane's energy needs tr G and ‖G‖² of the Green strain G. Let g hold the products of a triangle's two edges,
 // and ḡ those at rest. Then C = ḡ⁻¹ (g − ḡ)/2 has tr C = tr G and tr C² = ‖G‖².
 #include "compare/laws/elastic.hpp"
