@@ -1,5 +1,5 @@
-// Tests that cutting keeps area, orientation and corners, and that leaving out and merging keep the rest in place and
-// report what they changed.
+// Tests that triangulation keeps area, orientation and corners. Tests that removed and merged elements are reported and
+// leave the other elements in place.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
@@ -37,7 +37,8 @@ double area(const std::vector<Vec3>& positions, std::span<const Index> corners) 
   return sum;
 }
 
-/// Checks that the cut has n − 2 triangles of the polygon's orientation and total area, and each side once.
+/// Checks that the cut has n − 2 triangles with the polygon's orientation and total area, and has each side of the
+/// polygon once.
 void check_cut(const std::vector<Vec3>& positions) {
   const std::vector<Index> corners = in_order(positions.size());
   const std::vector<Triangle> triangles = triangulate(corners, positions);
