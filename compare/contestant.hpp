@@ -54,11 +54,11 @@ struct IterationMetrics {
 /// (reference/ledger.md). Except for energy_start all energies [J] are changes. Momenta and motions [kg m/s] are sums
 /// over free vertices.
 struct StepLedger {
-  double energy_start = 0;                         ///< E at xᵗ with vᵗ
-  double energy_guess = 0, energy_detection = 0;   ///< changes by guess rounds and by new contacts
+  double energy_start = 0;                        ///< E at xᵗ with vᵗ
+  double energy_guess = 0, energy_detection = 0;  ///< changes by guess rounds and by new contacts
   /// changes from x to the proposals, and from the proposals to the new x
   double energy_sweep = 0, energy_truncation = 0;
-  double energy_commit = 0;                        ///< change from the last x to the start of the next step
+  double energy_commit = 0;  ///< change from the last x to the start of the next step
   Vec3 momentum_start, momentum_guess, momentum_sweep, momentum_truncation;  ///< Σ m v at the start, and its changes
   double motion_proposed = 0, motion_taken = 0;  ///< motion that sweeps propose, and the part that truncation takes
   /// parts of motion_taken along, and away from, the nearest pair

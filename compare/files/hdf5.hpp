@@ -78,7 +78,7 @@ class Hdf5File {
   /// Reserves disk space from byte `from` to byte `to` of the file. Throws ResourceError.
   void reserve(std::size_t from, std::size_t to) const;
 
-  /// Writes a text, not empty, as one string of fixed length.
+  /// Writes a text as one string of fixed length; it must not be empty.
   void write_text(const std::string& name, std::string_view text);
 
   /// Returns all values of a dataset, row after row, converted to T.

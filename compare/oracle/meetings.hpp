@@ -22,9 +22,9 @@ struct Meeting {
 
 /// The meetings of a motion.
 struct MeetingsResult {
-  std::vector<Meeting> meetings;   ///< pairs with vertices first, then ascending
-  std::size_t count = 0;           ///< number of all meetings
-  std::size_t pairs_tested = 0;    ///< pairs whose swept boxes meet, without excluded ones
+  std::vector<Meeting> meetings;  ///< pairs with vertices first, then ascending
+  std::size_t count = 0;          ///< number of all meetings
+  std::size_t pairs_tested = 0;   ///< pairs whose swept boxes meet, without excluded ones
   /// tested pairs that no rounded direction separates, so that they are decided exactly
   std::size_t pairs_in_doubt = 0;
 };

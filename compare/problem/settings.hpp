@@ -54,27 +54,27 @@ constexpr bool turns(RodStart start) {
 
 /// The settings of a scene; `setting_table` has their units, ranges and defaults.
 struct Settings {
-  double time_step = 0.01;          ///< h [s]
-  std::int64_t steps = 100;         ///< steps of the run
-  std::int64_t iterations = 40;     ///< sweeps a step
-  double contact_radius = 0.005;    ///< r [m]
-  double detection_radius_cap = 4;  ///< cap of r_q, in units of r (method.md §5.3)
-  Bounds bounds = Bounds::ball;     ///< what keeps vertices from passing through others between two detections
-  double bounds_relaxation = 0.45;  ///< γ_p, Eq. 21
-  double contact_margin = 0;        ///< contacts are listed up to this far beyond r, in units of r
+  double time_step = 0.01;           ///< h [s]
+  std::int64_t steps = 100;          ///< steps of the run
+  std::int64_t iterations = 40;      ///< sweeps a step
+  double contact_radius = 0.005;     ///< r [m]
+  double detection_radius_cap = 4;   ///< cap of r_q, in units of r (method.md §5.3)
+  Bounds bounds = Bounds::ball;      ///< what keeps vertices from passing through others between two detections
+  double bounds_relaxation = 0.45;   ///< γ_p, Eq. 21
+  double contact_margin = 0;         ///< contacts are listed up to this far beyond r, in units of r
   double detection_fraction = 0.01;  ///< γ_e, Alg. 3 line 29
   std::int64_t detection_every = 0;  ///< number of iterations after which contacts are detected again; 0: no limit
-  std::int64_t guess_rounds = 16;   ///< rounds of the guess loop (method.md §5.2); 1: as printed in Eq. 28
-  double friction_velocity = 0.01;  ///< ε_v [m/s]
-  std::int64_t frame_steps = 0;     ///< steps between stored frames; 0: max(1, round(1/(60 h)))
+  std::int64_t guess_rounds = 16;    ///< rounds of the guess loop (method.md §5.2); 1: as printed in Eq. 28
+  double friction_velocity = 0.01;   ///< ε_v [m/s]
+  std::int64_t frame_steps = 0;      ///< steps between stored frames; 0: max(1, round(1/(60 h)))
   /// W, width of the sums of the sweep: 2, 4, 8 or 16; 0: by mesh size
   std::int64_t lanes = 0;
   ContactActivation contact_activation = ContactActivation::ogc;  ///< contact energy over distance
   /// `per_vertex` is the authors' form, which also damps translation
   DampingForm damping = DampingForm::strain;
-  std::int64_t seed = 0;                                     ///< seed of all random numbers of the scene
-  RodOrientation rod_orientation = RodOrientation::exact;    ///< how a sweep sets segments' orientations
-  RodStart rod_start = RodStart::turned;                     ///< segments' orientations at the start of a step
+  std::int64_t seed = 0;                                   ///< seed of all random numbers of the scene
+  RodOrientation rod_orientation = RodOrientation::exact;  ///< how a sweep sets segments' orientations
+  RodStart rod_start = RodStart::turned;                   ///< segments' orientations at the start of a step
   /// Values of settings that contestants declare, if not the default; a choice is stored as its index. Written by
   /// set_setting.
   std::map<std::string, double, std::less<>> declared;

@@ -18,11 +18,11 @@ namespace ogc::compare {
 
 /// Limits of a queue.
 struct QueueLimits {
-  std::size_t jobs = 64;                       ///< jobs that wait or are in progress
+  std::size_t jobs = 64;  ///< jobs that wait or are in progress
   /// bytes of all jobs together; a larger job waits until the queue is empty
   std::size_t bytes = std::size_t{256} << 20;
-  double sync_seconds = 1;                     ///< from the first write after a sync to the next sync [s]
-  unsigned threads = 0;                        ///< threads that prepare; 0: half of the machine's, at most 8
+  double sync_seconds = 1;  ///< from the first write after a sync to the next sync [s]
+  unsigned threads = 0;     ///< threads that prepare; 0: half of the machine's, at most 8
 };
 
 /// Queue of jobs, filled by one thread.

@@ -90,10 +90,10 @@ struct VolumeSheetTruth {
 /// What is accepted for one part. If x is grey between faces, the combination of side and contact that each grey face
 /// gives is accepted.
 struct VolumePartTruth {
-  Index component = -1;                  ///< number of the component (joined_components of the part's vertices)
-  bool inside = false;                   ///< whether x is inside in the exact answer
-  bool may_be_inside = false;            ///< whether a grey face gives inside; then `held` is not empty
-  bool may_be_outside = false;           ///< whether a grey face gives outside; then only `touching` counts
+  Index component = -1;         ///< number of the component (joined_components of the part's vertices)
+  bool inside = false;          ///< whether x is inside in the exact answer
+  bool may_be_inside = false;   ///< whether a grey face gives inside; then `held` is not empty
+  bool may_be_outside = false;  ///< whether a grey face gives outside; then only `touching` counts
   /// contacts if x is inside: any one of them may be the only one; the exact one comes first
   std::vector<VolumeAnswer> held;
   std::vector<VolumeAnswer> touching;    ///< contacts if x is outside: any of them may be in the answer
@@ -101,7 +101,7 @@ struct VolumePartTruth {
   std::vector<std::uint8_t> is_exact;    ///< of `touching`: 1 where the contact is in the exact answer
   /// x is outside and certainly nearer than r, so the answer must contain at least one of `touching` (covering)
   bool needs_contact = false;
-  bool is_solid = false;       ///< part of tetrahedra: `sheets` replaces `held`
+  bool is_solid = false;                 ///< part of tetrahedra: `sheets` replaces `held`
   std::vector<VolumeSheetTruth> sheets;  ///< of a part of tetrahedra
 };
 

@@ -19,10 +19,10 @@ namespace ogc::compare {
 /// precision is within 2⁻²³); ε_v h of at least 2⁻³⁸ m. Squares of slips below 2⁻⁶³ m are not normal numbers, but there
 /// f₁(y)/y is 2/ε within 2⁻²⁵. Coordinates are arbitrary; vertices may coincide.
 struct VolumeForceCase {
-  std::int32_t own = 0;  ///< vertex whose force and block are returned: 0 the point, 1, 2, 3 the corners
-  std::array<Vec3f, 4> vertex, start;       ///< x, xᵗ [m]: the point, then the corners of the triangle
-  std::array<float, 3> weights{};           ///< w of c, by corner [1]
-  std::array<float, 3> direction{};         ///< n, out of the volume [1]
+  std::int32_t own = 0;                ///< vertex whose force and block are returned: 0 the point, 1, 2, 3 the corners
+  std::array<Vec3f, 4> vertex, start;  ///< x, xᵗ [m]: the point, then the corners of the triangle
+  std::array<float, 3> weights{};      ///< w of c, by corner [1]
+  std::array<float, 3> direction{};    ///< n, out of the volume [1]
   float contact_radius = 0, stiffness = 0;  ///< r [m], k [N/m]
   float friction = 0;                       ///< μ [1]
   float slip_limit = 0;                     ///< ε_v h [m]
