@@ -31,8 +31,8 @@ enum StepStatus : std::uint32_t {
   step_met = 32,  ///< faces met during the step, although bounds forbid it (compare/oracle/meetings.hpp)
 };
 
-/// One row of iterations.csv, from solvers that keep one. A row describes the state at the start of its iteration; the
-/// last row of a step describes the state at the step's end.
+/// One row of iterations.csv, which solvers with iteration rows fill. A row describes the state at the start of its
+/// iteration; the last row of a step describes the state at the step's end.
 struct IterationMetrics {
   std::int64_t step = 0, iteration = 0;  ///< step from 1; iteration from 0 in each step
   double wall_ms = 0;                    ///< since the step began
@@ -83,7 +83,7 @@ struct StepMetrics {
   std::int64_t continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0;
   std::int64_t vertices_cut = 0;                          ///< vertices cut in the last iteration
-  double share_cut = 0;                                   ///< vertices_cut / K
+  double share_cut = 0;                                   ///< vertices_cut / K, K free and prescribed vertices
   double momentum_lost_guess = 0, momentum_lost_end = 0;  ///< ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ (method.md §5.3)
   double largest_lag = 0;   ///< largest distance of a prescribed vertex behind its target [m]
   double query_radius = 0;  ///< r_q of the step [m]

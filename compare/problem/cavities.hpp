@@ -24,9 +24,8 @@ struct Shell {
 
 /// Returns for each shell of one body the shell whose cavity it is, or −1. A shell of negative volume is a cavity of
 /// the shell of positive volume that winds around all of its vertices; if there are several, of the shell of least
-/// volume. It is not a cavity if another cavity of the same shell also winds around it, since a void has no voids.
-/// Positions [m] are rounded to single precision; then all is decided exactly. A vertex on a shell counts as moved
-/// beside it.
+/// volume. It is no cavity if another cavity of the same shell winds around it, too. Positions [m] are rounded to
+/// single precision; then all is decided exactly. A vertex on a shell counts as moved beside it.
 std::vector<int> enclosing_shells(const Mesh& mesh, std::span<const Shell> shells);
 
 }  // namespace ogc::compare

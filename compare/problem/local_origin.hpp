@@ -1,5 +1,5 @@
-// Moves meshes near the origin if their coordinates are large compared with their size, as in surveys and city models.
-// Single precision would distort them where they are. Coordinates are then relative to a point near the mesh.
+// Moves meshes near the origin if their coordinates are large compared with their size, as in surveys and city models,
+// because single precision would bend their edges. Coordinates are then relative to a point near the mesh.
 #pragma once
 
 #include <string>
@@ -9,11 +9,10 @@
 
 namespace ogc::compare {
 
-/// Returns a point near the centre of the positions' bounding box, or 0 in each coordinate in which that is not needed.
-/// A coordinate is needed if the box's centre is at least 16 times the box's length from 0. It is then a multiple of
-/// the largest power of two that is not above that length, so that differences from it are exact in double. Single
-/// precision resolves the length to at least 20 bits if the coordinate is 0, and to 23 bits relative to the point. The
-/// point is 0 for positions that are not finite.
+/// Returns an origin near the centre of the positions' bounding box. Along an axis it is 0, unless the box's centre is
+/// at least 16 times the box's length from 0. Then it is a multiple of the largest power of two that is not above that
+/// length, so that differences from it are exact in double. Relative to it, single precision resolves the length with
+/// 23 bits; along the other axes with at least 20. The origin is 0 for positions that are not finite.
 Vec3 local_origin(const std::vector<Vec3>& positions);
 
 /// Returns x − o of all positions [m].

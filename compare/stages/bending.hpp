@@ -50,8 +50,8 @@ inline constexpr double bending_block_tolerance = 2 * bending_gradient + 4;
 /// angle plus and minus 2π are then accepted, too.
 inline constexpr double bending_grey = 16;
 /// A triangle may count as collapsed if, at either end of the edge, the sine between the edge and a side is below this
-/// many u. The normal of rounded differences has an error of 4 u. A kernel whose limit is an eighth of this decides at
-/// 32 u within that error; the factor 2 is a margin.
+/// many u. The normal of rounded differences has an error of 4 u. A kernel that requires a sine of eight times this
+/// error changes over at 32 u, within that error; twice 32 u leaves it room.
 inline constexpr double bending_needle = 64;
 /// Errors of the isometric quadratic model without damping; its scales are multiplied by the ratio to the tolerances
 /// above. Force: a difference (1), a product (1), two sums, the weight of x0 (2), c w (1), the product (1). Block: the

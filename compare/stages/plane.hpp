@@ -74,9 +74,9 @@ struct PlaneOut {
 inline constexpr std::size_t planes_of_vertex = 16;
 
 /// Counts where the answer fails to keep pairs apart, decided exactly. A pair is *separated* if one of its planes
-/// divides its sides: each of its movable vertices has the plane and keeps it at X, and the two offsets leave room (for
-/// a fixed vertex its position counts). Every other pair within r_q must be *covered*: b_v ≤ γ_p d for each of its
-/// movable vertices. Normals and offsets are free otherwise.
+/// divides its sides. That means that each movable vertex of the pair has the plane and is on its side at X, and that
+/// the two offsets leave a gap; for a fixed vertex its position counts. Every other pair within r_q must be *covered*:
+/// b_v ≤ γ_p d for each of its movable vertices. Normals and offsets are free otherwise.
 struct PlaneGuarantee {
   std::size_t separated = 0;  ///< separated pairs within r_q
   std::size_t uncovered = 0;  ///< pairs that are neither separated nor covered
@@ -90,13 +90,13 @@ struct PlaneGuarantee {
 /// Measures how far the vertices may still move. Planes exist to give back freedom that balls take. So a pair is *due*,
 /// and must have a plane, if two conditions hold:
 ///
-/// - For each of its movable vertices it is nearer than the vertex's 17th nearest pair by `detect_below_tolerance`;
-///   rounding may decide which pair is the 17th.
-/// - Single precision can hold its plane: d ≥ 2⁻¹⁸ Σ|δ|, and γ_p d and (1 − 2γ_p) d are at least 2⁻⁴⁵ of the largest
-///   modulus of a coordinate. δ are the coordinates relative to the pair's first vertex.
+/// - For each of its movable vertices, it is nearer than the vertex's 17th nearest pair by more than
+///   `detect_below_tolerance`, since rounding may decide which pair is the 17th.
+/// - Single precision can represent its plane: d ≥ 2⁻¹⁸ Σ|δ|, and γ_p d and (1 − 2γ_p) d are at least 2⁻⁴⁵ of the
+///   largest modulus of a coordinate. δ are the coordinates relative to the pair's first vertex.
 ///
-/// Rounding turns n by u, which moves the pair's projection on n by at most u Σ|δ|; a gap of 64 times that keeps nearly
-/// all of its width. Heights n·x and offsets err by a few 2⁻⁵³ of the coordinates.
+/// Rounding turns n by u and thus moves the pair's projection on n by at most u Σ|δ|, which is at most d/64. Heights
+/// n·x and offsets err by a few 2⁻⁵³ of the coordinates.
 struct PlaneFreedom {
   std::size_t pairs = 0;        ///< pairs within r_q
   std::size_t due = 0;          ///< pairs that must have a plane
@@ -129,9 +129,9 @@ struct PlaneTruth {
   PlaneFreedom freedom;      ///< whether they leave the vertices their freedom
 };
 
-/// Largest narrowing in units of u · max(d, Σ|δ|). The three roundings, doubled, count with the factor γ_p < 1/2: n
-/// (1), which turns so that points other than the closest ones face each other; its length (1); the offsets and the
-/// judge in double (less than 1 together). A direction computed in single precision exceeds this.
+/// Largest narrowing in units of u · max(d, Σ|δ|): 2γ_p < 1 times the sum of three errors, each at most 1. They are
+/// those of n, which turns so that points other than the closest ones face each other; of its length; and of the
+/// offsets and the judge in double (less than 1 together). A direction computed in single precision exceeds this.
 inline constexpr double plane_narrowing_tolerance = 3;
 /// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and that of s < 1.
 /// a and b are three products in single precision, off by 4 u W; so s is off by 4 u W/(a + b) of 2γ_p d < d.

@@ -58,17 +58,18 @@ struct SweepOut {
   std::vector<Quaternion> orientation{};  ///< by segment; held segments keep the old one
 };
 
-/// The exact update of each vertex from the answer's own lower colours, and the largest accepted error [m] in the
-/// direction of this answer. That error sums up the errors of f and H within the tolerances of their stages through
+/// The exact update of each vertex, computed from the answer's own lower colours, and the largest accepted error [m] in
+/// the direction of this answer. That error sums up the errors of f and H within the tolerances of their stages through
 /// H⁻¹, of the solve, of the truncation and of storing. It is 0 if the answer must be `position` bit for bit.
 ///
 /// A vertex is `grey` if a stencil has more than one accepted answer; `position` then comes from the combination
 /// nearest to the answer. It is also grey if it is *ill-conditioned*: the errors of H alone could make H singular,
-/// ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then no single-precision solve has a position within a bound, and a solver may use a gradient step
-/// instead. So `accepted` is infinite, but 0 if the vertex was not cut and moved against its force beyond all error.
+/// ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve has no bound, and a solver may take a step down the
+/// gradient instead. So `accepted` is infinite; but it is 0 if the vertex was not cut and moved against its force
+/// beyond all error.
 ///
-/// `accepted` is also infinite if half-spaces cut a free vertex, or may cut it: the judge then only requires that it
-/// lies in its region. Stage truncate judges how it slides.
+/// `accepted` is also infinite if half-spaces cut a free vertex, or may cut it. The judge then only requires that the
+/// vertex lies in its region. Stage truncate judges how it slides.
 struct SweepTruth {
   std::vector<Vec3> position;          ///< computed from the answer's own neighbours [m]
   std::vector<double> accepted;        ///< largest error [m]
