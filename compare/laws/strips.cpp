@@ -5,7 +5,7 @@
 //
 // A row of cells supports the weight of all vertices below it. The equation gives its stretch, and the sum of the
 // stretches gives the length. A bar of tetrahedra with λ = 0 (method.md §8.1) has 2 μ A (s − 1), except for terms of
-// second order in the strain, which balance the sideways stress μ (s − 1)² A.
+// second order in the strain, which the sideways stress μ (s − 1)² A balances.
 //
 // Tolerances. Inside a row masses and forces of vertices are distributed differently, because diagonals alternate. The
 // error is below that of one row more or less, of n: (1/n)².

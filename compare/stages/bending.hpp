@@ -37,8 +37,8 @@ struct BendingIn {
 };
 
 /// Largest error in units of u · scale. A difference (1), a normal (a product and a difference, twice where it is
-/// squared), its square (3), the edge's length (4), a foot (4), a quotient (2), two such products and their sum (3),
-/// the angle (4 u of at most π, against a scale of at least 1: 12), moment and force (4).
+/// squared), its square (3), the edge's length (4), a closest point on the edge (4), a quotient (2), two such products
+/// and their sum (3), the angle (4 u of at most π, against a scale of at least 1: 12), moment and force (4).
 inline constexpr double bending_force_tolerance = 36;
 /// Error of the gradient ∇θ alone: the count above without angle, moment and force.
 inline constexpr double bending_gradient = 20;

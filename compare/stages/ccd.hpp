@@ -36,8 +36,8 @@ struct CcdTruth {
   /// the largest double that is not above the exact first time at which the faces share a point; infinite if they never
   /// do
   std::vector<double> impact;
-  /// a time until which the faces are farther apart than ccd_gap_left of their distance at the start plus
-  /// ccd_resolution · u S, as shown by ccd_fewest_steps of conservative advancement
+  /// a time until which the faces stay farther apart than ccd_gap_left of their first distance plus ccd_resolution · u
+  /// S; ccd_fewest_steps of conservative advancement find it
   std::vector<double> early;
 };
 

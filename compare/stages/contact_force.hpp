@@ -54,14 +54,16 @@ struct ContactForceIn {
   std::vector<ContactForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. On the longest way from an input to the force lie a difference (1), the first
-/// parameter of two edges (two cross products (4), their product (3) over the square of the one (2 + 3), a quotient
-/// (1)), from it the second (two products of vectors (6), a product, a difference, a quotient (3), the other square
-/// (3)), its complement (1), the vector between the contact points (a product, two sums), its length (3 + 1), the
-/// normal (2), the slope (4; of ipc_log 9), its products with weight and normal (2): 47. For e_k: a difference, a cross
-/// product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15. For e_k as a share of the
-/// overlap: a difference, two products of vectors (6), a quotient for each end, their difference, the root of a
-/// quotient of squares (6 / 2 + 2), two products: 16.
+/// Largest error in units of u · scale. The numbers count roundings on the longest way from an input to the force; the
+/// largest sum decides.
+///
+/// - Force: a difference (1); the first parameter of two edges: two cross products (4), their product (3) over a square
+///   (2 + 3), a quotient (1); the second parameter: two products of vectors (6), a product, a difference, a quotient
+///   (3), the other square (3); its complement (1); the vector between the contact points: a product, two sums (3); its
+///   length (3 + 1); the normal (2); the slope (4; of ipc_log 9); its products with weight and normal (2): 47.
+/// - e_k: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15.
+/// - e_k as a share of the overlap: a difference, two products of vectors (6), a quotient for each end, their
+///   difference, the root of a quotient of squares (6 / 2 + 2), two products: 16.
 inline constexpr double contact_force_tolerance = 47;
 /// Up to the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the curvature
 /// (2), an outer product (2).

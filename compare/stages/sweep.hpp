@@ -1,5 +1,6 @@
-// Stage sweep: one iteration of Algorithm 4 with all energies, colour by colour, each new position truncated before it
-// is written (method.md §5.2, §7), after the orientations of the segments of rods (compare/rods.md).
+// Stage sweep: one iteration of Algorithm 4 with all energies (method.md §5.2, §7). It updates prescribed vertices,
+// then the orientations of rods' segments (compare/rods.md), then free vertices colour by colour. Each new position is
+// truncated before it is written.
 //
 // Answers are judged vertex by vertex. The truth about a vertex is the update from the answer's own new positions at
 // vertices of lower colour and the old positions elsewhere. If each update is right, the sweep is right, by induction

@@ -33,12 +33,14 @@ struct VolumeForceIn {
   std::vector<VolumeForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. The slip: a difference (1), its product with a weight and three sums (4), the
-/// product of vectors with n (3), a product, a difference: 10. Its length (a square: 10 + 3, halved with those of the
-/// slip by the root, the root: 1; together 12.5, of which 10 are the slip's own): 4 more. f₁/y (a quotient, a
-/// difference, a quotient): 3; μ λ and its product with f₁/y (2); the products with weight and slip (2); the sum with
-/// the normal force (1): 22 in all. Through λ: a difference, a product and two sums (4), the product with n (3), r − φ
-/// and k (2), then 7: 16. If ‖n‖² is off by 2⁻²², u keeps a part along n that the energy's slope lacks: 4.
+/// Largest error in units of u · scale; the largest sum plus the last item decides:
+///
+/// - The slip: a difference (1), its product with a weight and three sums (4), the product of vectors with n (3), a
+///   product, a difference: 10. Its length (a square: 10 + 3, halved with those of the slip by the root, the root: 1;
+///   together 12.5, of which 10 are the slip's own): 4 more. f₁/y (a quotient, a difference, a quotient): 3; μ λ and
+///   its product with f₁/y (2); the products with weight and slip (2); the sum with the normal force (1): 22 in all.
+/// - Through λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2), then 7: 16.
+/// - If ‖n‖² is off by 2⁻²², u keeps a part along n that the energy's slope lacks: 4.
 inline constexpr double volume_force_tolerance = 26;
 /// Up to the strength 19; w² and its product (2), an outer product (2), the difference from I (1), the sum with the
 /// normal block (1).
