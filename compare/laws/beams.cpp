@@ -64,7 +64,7 @@ using namespace law_shapes;
 constexpr Vec3 down{0, -standard_gravity, 0};
 constexpr double flap_side = 0.1, flap_bending = 2e-3;
 
-/// Returns θ of (1).
+/// Returns θ of (1), by fixed-point iteration.
 double hinge_angle(const Scene& scene) {
   // e² over the sum of both areas is 1, since both triangles are as high as they are long.
   const double load = masses(scene)[3] * standard_gravity * flap_side / (3 * flap_bending);

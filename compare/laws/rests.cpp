@@ -38,7 +38,7 @@ double vertical_energy(const Scene& scene, LawState state) {
   return kinetic_energy(scene, state);
 }
 
-/// Reads the run's last quarter.
+/// Adds readings of the last quarter of the run, when the sheets are at rest.
 void add_rest(std::vector<Reading>& readings, const Trajectory& run, const std::string& how) {
   double mass = 0, kinetic = 0;
   for (const double m : masses(run.scene)) mass += m;

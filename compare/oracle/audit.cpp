@@ -152,8 +152,8 @@ class Auditor {
   std::span<const Vec3> positions_;
   ExclusionView exclusions_;
   BoxTree tree_;
-  std::vector<Index> loose_;  ///< edges that belong to no triangle
-  BoxTree loose_tree_;        ///< over the loose edges
+  std::vector<Index> loose_;
+  BoxTree loose_tree_;
 };
 
 }  // namespace

@@ -112,7 +112,7 @@ class Paths {
 
   MeetingKind kind_;
   std::array<Path, 4> points_;
-  std::array<Path, 4> areas_;  ///< area of each triple
+  std::array<Path, 4> areas_;
 };
 
 }  // namespace

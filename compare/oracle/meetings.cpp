@@ -107,7 +107,7 @@ class MotionAuditor {
   const Topology& topology_;
   std::span<const Vec3> from_, to_;
   ExclusionView exclusions_;
-  BoxTree triangles_, edges_;  ///< over swept faces
+  BoxTree triangles_, edges_;
 };
 
 constexpr std::size_t sample_size = 2000;

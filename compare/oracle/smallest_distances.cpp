@@ -47,7 +47,6 @@ double square_above(const LeastSquare& square) {
   return CGAL::to_interval(Rational(square.numerator) / Rational(square.denominator)).second;
 }
 
-/// The nearest pair that one thread has found.
 struct Nearest {
   LeastSquare square;
   Index first = -1, second = -1;

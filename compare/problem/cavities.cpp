@@ -23,7 +23,6 @@ int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
 }
 
-/// A shell with its positions.
 class PlacedShell {
  public:
   PlacedShell(const Mesh& mesh, std::span<const Vec3> positions, std::span<const Index> triangles)
@@ -83,7 +82,7 @@ class PlacedShell {
 
   std::span<const Vec3> positions_;
   std::vector<Index> vertices_;
-  std::vector<Reach> from_below_;  ///< ascending by bottom
+  std::vector<Reach> from_below_;
   double tallest_ = 0;
   Vec3 low_, high_;
 };

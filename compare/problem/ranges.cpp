@@ -30,7 +30,6 @@ std::string range_text(const SettingInfo& info) {
 
 namespace {
 
-/// Returns whether a row allows the value.
 template <class Info>
 bool holds(const Info& info, double value) {
   return value >= info.minimum && value <= info.maximum && !vanishes_in_single(value);

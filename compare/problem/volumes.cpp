@@ -20,8 +20,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 /// An edge in the direction in which one of its triangles runs through it. The order puts sides of one edge next to
 /// each other.
 struct Side {
-  Edge edge{};            ///< the smaller vertex first
-  Index triangle = -1;    ///< the triangle
+  Edge edge{};  ///< the smaller vertex first
+  Index triangle = -1;
   bool ascending = true;  ///< whether the direction is from the smaller vertex to the larger one
   friend auto operator<=>(const Side&, const Side&) = default;
 };
@@ -40,7 +40,6 @@ std::vector<Side> sorted_sides(const Scene& scene, std::span<const Index> triang
   return sides;
 }
 
-/// Calls visit(sides) with the sides of each edge.
 template <class Visit>
 void visit_edges(std::span<const Side> sides, const Visit& visit) {
   for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {

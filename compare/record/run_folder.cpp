@@ -61,7 +61,6 @@ std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folde
   return frames;
 }
 
-/// Removes the unfinished files of a killed run.
 void remove_partial_frames(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder / "frames"))

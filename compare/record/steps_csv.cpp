@@ -77,7 +77,6 @@ std::vector<StepColumn> common_columns(const StepGroups& groups) {
   return all;
 }
 
-/// One column of a ledger.
 struct LedgerColumn {
   std::string_view name, unit;
   double& (*of)(StepLedger& row);
@@ -195,7 +194,6 @@ StepTable parse_header(const std::string& file, std::string_view line) {
   return table;
 }
 
-/// Returns the number of values in a row.
 std::size_t width_of(const StepTable& table) {
   return common_columns(table.groups).size() + (table.groups.ledger ? ledger_columns.size() : 0) +
          table.stage_names.size();

@@ -99,7 +99,6 @@ void after_keyword(std::string_view text, std::string_view keyword, Digits& digi
   }
 }
 
-/// The vertices in a PLY header.
 struct PlyVertices {
   std::size_t before = 0, count = 0;  ///< number of lines of elements before the vertices, and of vertices
   std::vector<std::size_t> places{};  ///< places of x, y and z in a line

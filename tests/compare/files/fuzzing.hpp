@@ -30,7 +30,6 @@ inline constexpr bool limits_memory = true;
 #endif
 inline constexpr std::size_t most_memory = 100'000'000;  ///< limit beyond the program's memory [bytes]
 
-/// A whole file.
 struct Sample {
   std::string name, bytes;
 };

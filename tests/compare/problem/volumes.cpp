@@ -26,7 +26,6 @@ Mesh cube(const Vec3& corner = {}) {
   return mesh;
 }
 
-/// Returns both meshes as one.
 Mesh joined(Mesh mesh, const Mesh& more) {
   const auto first = static_cast<Index>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
@@ -152,7 +151,6 @@ TEST_CASE("a sheet that faces inward in nothing, across a part, in a void or in 
   Mesh open = cube_of(4);
   open.triangles.resize(open.triangles.size() - 2);
   CHECK_THAT(said(scene_of(joined(open, void_of(2)))), Contains(inside_out));
-  // The cavity belongs to another body.
   Scene two = scene_of(cube_of(4));
   append_body(two, {.name = "void", .fixed = true, .material = {}, .contact = BodyContact::volume}, void_of(2));
   CHECK_THAT(said(two), Contains("triangle 0 of body 'void'") && Contains(inside_out));

@@ -19,7 +19,6 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a strip of `vertices` vertices.
 Scene strip_scene(Index vertices) {
   Scene scene;
   scene.name = "strip";

@@ -105,7 +105,7 @@ TEST_CASE("a quad is cut from its first corner to its third, a concave one from 
   CHECK(cut({{0, 0, 0.3}, {1, 0, 0}, {1, 1, 0.3}, {0, 1, 0}}) == usual);  // not in a plane
   CHECK(cut({{0, 0, 0}, {1, 0, 6e-17}, {1 - 1e-16, 1, 0}, {0, 1 + 1e-16, 0}}) == usual);
   CHECK(cut({{0, 0, 0}, {2, 0, 0}, {0.2, 0.2, 0}, {0, 2, 0}}) == usual);   // points inwards at its third corner
-  CHECK(cut({{2, 0, 0}, {0.2, 0.2, 0}, {0, 2, 0}, {0, 0, 0}}) == turned);  // at its second
+  CHECK(cut({{2, 0, 0}, {0.2, 0.2, 0}, {0, 2, 0}, {0, 0, 0}}) == turned);  // points inwards at its second corner
   CHECK(cut({{0, 0, 0}, {1, 0, 0}, {2, 1e-17, 0}, {1, 1, 0}}) == turned);  // its second corner lies on a straight side
   CHECK(cut({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).empty());        // crosses itself
   CHECK(cut({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}}).empty());        // no area
