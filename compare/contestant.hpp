@@ -1,5 +1,5 @@
-// A contestant has a name, a callable for each of its stages, and a resident simulation. The judge drives two of them
-// through the same cases and never learns which is which.
+// Defines what the judge compares: a contestant has a name, a callable for each of its stages, and a resident
+// simulation. The judge drives two contestants through the same cases and never learns which is which.
 #pragma once
 
 #include <cstdint>
@@ -17,121 +17,126 @@
 
 namespace ogc::compare {
 
-/// Reasons that a step is not clean; bits of StepMetrics::status.
+/// Reasons why a step is not clean; bits of StepMetrics::status.
 enum StepStatus : std::uint32_t {
   step_clean = 0,
   step_list_grew = 1,       ///< a list was too small: it grew and the step was repeated
-  step_not_finite = 2,      ///< a position became NaN or infinite: the run stops, the last good state stays
+  step_not_finite = 2,      ///< a position became NaN or infinite: the run stops and keeps the last good state
   step_bound_violated = 4,  ///< the motion certificate failed: ‖x − x_prev‖ > b_v in double
-  /// the solver's iterations ended above its tolerance: the run stops, the last good state stays
+  /// the solver's iterations ended above its tolerance: the run stops and keeps the last good state
   step_not_converged = 8,
-  /// the solver's matrix is not positive definite, or no step lowers the energy: the run stops, the last good state
-  /// stays
+  /// the solver's matrix is not positive definite, or no step lowers the energy: the run stops and keeps the last good
+  /// state
   step_indefinite = 16,
-  step_met = 32,  ///< faces met on the way, though bounds forbid it (compare/oracle/meetings.hpp)
+  step_met = 32,  ///< faces met during the step, although bounds forbid it (compare/oracle/meetings.hpp)
 };
 
-/// One row of iterations.csv, from solvers that keep one. The state is the one that the iteration begins with or, in
-/// the last row of a step, ends at.
+/// One row of iterations.csv, which solvers with iteration rows fill. A row describes the state at the start of its
+/// iteration; the last row of a step describes the state at the step's end.
 struct IterationMetrics {
   std::int64_t step = 0, iteration = 0;  ///< step from 1; iteration from 0 in each step
   double wall_ms = 0;                    ///< since the step began
   double residual = 0;                   ///< Eq. 29 with the contacts of the last detection
   double energy = 0;                     ///< incremental potential with these contacts [J]
   double largest_change = 0;             ///< ‖δ‖_∞ of the solve, before any truncation [m]
-  double share = 0;                      ///< share of δ' that the line search took, 0 where no step was taken
+  double share = 0;                      ///< share of δ' that the line search took; 0 if no step was taken
   std::int64_t vertices_cut = 0;         ///< vertices cut in this iteration
-  std::int64_t detected = 0;             ///< 1 where contacts were detected anew for this state
-  double condition_number = 0;           ///< of the matrix; not-a-number unless requested
-  /// Condition numbers of the matrix without friction, and without contact and friction; stencils are projected where
-  /// the rest is not positive definite.
+  std::int64_t detected = 0;             ///< 1 if contacts were detected anew for this state
+  double condition_number = 0;           ///< condition number of the matrix; not-a-number unless requested
+  /// Condition numbers of the matrix without friction, and of the matrix without contact and friction. Stencils are
+  /// projected if the matrix of the other terms is not positive definite.
   double condition_without_friction = 0, condition_without_contact = 0;
-  /// counts of this iteration, defined as in StepMetrics
+  /// counts of this iteration; StepMetrics defines them
   std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;
 };
 
-/// What the parts of a step do to energy and momentum: columns of steps.csv with `ogc run --ledger`
-/// (reference/ledger.md). All energies [J] but the start's are changes; momenta and motions are of free vertices [kg
-/// m/s].
+/// Holds what each part of a step does to energy and momentum: columns of steps.csv with `ogc run --ledger`
+/// (reference/ledger.md). Except for energy_start all energies [J] are changes. Momenta and motions [kg m/s] are sums
+/// over free vertices.
 struct StepLedger {
-  double energy_start = 0;                         ///< E at xᵗ with vᵗ
-  double energy_guess = 0, energy_detection = 0;   ///< changes by guess rounds; by new contacts
-  double energy_sweep = 0, energy_truncation = 0;  ///< changes from x to proposals; from these to the new x
-  double energy_commit = 0;                        ///< change to the start of the next step
-  Vec3 momentum_start, momentum_guess, momentum_sweep, momentum_truncation;  ///< Σ m v, and changes of it
-  double motion_proposed = 0, motion_taken = 0;                  ///< by sweeps; the part that truncation took
-  double motion_taken_tangential = 0, motion_taken_leaving = 0;  ///< parts along and away from the nearest pair
-  double motion_taken_unpaired = 0;                              ///< part of vertices without a pair within r_q
-  /// number of vertices that end where they began; of those that truncation held there
+  double energy_start = 0;                        ///< E at xᵗ with vᵗ
+  double energy_guess = 0, energy_detection = 0;  ///< changes by guess rounds and by new contacts
+  /// changes from x to the proposals, and from the proposals to the new x
+  double energy_sweep = 0, energy_truncation = 0;
+  double energy_commit = 0;  ///< change from the last x to the start of the next step
+  Vec3 momentum_start, momentum_guess, momentum_sweep, momentum_truncation;  ///< Σ m v at the start, and its changes
+  double motion_proposed = 0, motion_taken = 0;  ///< motion that sweeps propose, and the part that truncation takes
+  /// parts of motion_taken along, and away from, the nearest pair
+  double motion_taken_tangential = 0, motion_taken_leaving = 0;
+  double motion_taken_unpaired = 0;  ///< part of motion_taken at vertices without a pair within r_q
+  /// number of vertices that end where they began, and of vertices that truncation held there
   double vertices_still = 0, vertices_held = 0;
 };
 
-/// One row of steps.csv. Times in ms; not-a-number where a quantity was not requested.
+/// One row of steps.csv. Times are in ms. A quantity that was not requested is not-a-number.
 struct StepMetrics {
-  std::int64_t step = 0;  ///< number of the step that this row ends, from 1
+  std::int64_t step = 0;  ///< number of the step that this row describes, from 1
   /// CPU: steady clock; CUDA: device events over the frame, divided by its steps
   double wall_ms = 0;
   std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
-  /// how often trees were brought up to date (built or refitted) and searched once for all pairs
+  /// number of passes that built or refitted the trees and searched them once for all pairs
   std::int64_t broad_phases = 0;
-  /// how often contacts or distances of all pairs were found at one state; a check that only guards a search is not
-  /// counted
+  /// number of times that contacts or distances of all pairs were found at one state; a check that only guards a search
+  /// is not counted
   std::int64_t discrete_detections = 0;
-  /// how often the first contact of all pairs, or of the active ones, was found along one motion
+  /// number of times that the first contact of all pairs, or of the active pairs, was found along one motion
   std::int64_t continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0;
   std::int64_t vertices_cut = 0;                          ///< vertices cut in the last iteration
-  double share_cut = 0;                                   ///< vertices_cut / K
+  double share_cut = 0;                                   ///< vertices_cut / K, K free and prescribed vertices
   double momentum_lost_guess = 0, momentum_lost_end = 0;  ///< ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ (method.md §5.3)
   double largest_lag = 0;   ///< largest distance of a prescribed vertex behind its target [m]
   double query_radius = 0;  ///< r_q of the step [m]
   double residual = 0;      ///< Eq. 29
-  /// √(Σ m ‖Δx‖²) of free vertices in the last sweep or iteration, over that of the step; 0 where nothing moves [1]
+  /// √(Σ m ‖Δx‖²) of free vertices in the last sweep or iteration, divided by its value for the whole step; 0 if
+  /// nothing moves [1]
   double last_motion = std::numeric_limits<double>::quiet_NaN();
-  /// Eq. 29 with the step's own contacts, over free vertices that no bound holds; the part of it that may come from
-  /// rounded positions [1]; number of free vertices that a bound holds. Only in some steps (method.md §6).
+  /// Three quantities of some steps only (method.md §6): Eq. 29 with the contacts of the step, over free vertices that
+  /// no bound holds; the part of it that rounded positions may cause [1]; the number of free vertices that a bound
+  /// holds.
   double left_residual = std::numeric_limits<double>::quiet_NaN(),
          left_rounding = std::numeric_limits<double>::quiet_NaN(), left_held = std::numeric_limits<double>::quiet_NaN();
   double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
-  double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q where nothing is near) [m]
+  double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q if no pair is near) [m]
   std::int64_t inverted_tetrahedra = 0;  ///< tetrahedra with J ≤ 0 at the end of the step
-  /// at the last detection: contacts with volumes, tested vertices that are inside one, largest distance of these from
-  /// the surface [m], and sheets of tetrahedra around them without any way out
+  /// at the last detection: contacts with volumes; tested vertices inside a volume; their largest distance from the
+  /// surface [m]; sheets of tetrahedra around them that have no way out
   std::int64_t volume_contacts = 0, vertices_inside = 0;
   double deepest = 0;
   std::int64_t depth_unresolved = 0;
-  /// pairs of faces that shared a point on the way (compare/meetings.md)
+  /// pairs of faces that shared a point during the step (compare/meetings.md)
   double meetings = std::numeric_limits<double>::quiet_NaN();
-  /// in scenes with rods, at the end: smallest distance of active contacts (not-a-number without any) [m], mean and
-  /// largest ‖D‖/l − 1 of the segments [1]
+  /// at the end of a step of a scene with rods: smallest distance of active contacts (not-a-number if there are none)
+  /// [m], mean and largest ‖D‖/l − 1 of the segments [1]
   double smallest_contact_distance = 0, mean_stretch = 0, largest_stretch = 0;
   std::int64_t repeats = 0;  ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
   std::optional<StepLedger> ledger{};  ///< filled if requested
-  /// what the solver ran into, by name, and how it continued; shown to the user, not in steps.csv
+  /// problems that the solver met, by name, and how it continued; shown to the user, not in steps.csv
   std::vector<std::string> notes;
   std::vector<IterationMetrics> iteration_rows;  ///< with SimulationOptions::iterations
   /// with profile: time of each stage, in the order of Simulation::stage_names()
   std::vector<double> stage_ms;
 };
 
-/// Holds the state at the end of a step, with what the motion certificate needs.
+/// Holds the state at the end of a step and the data that the motion certificate needs.
 struct Snapshot {
   std::int64_t step = 0;                     ///< number of the step
   std::vector<Vec3f> positions, velocities;  ///< [m], [m/s]
   std::vector<Vec3f> previous;               ///< X_prev of the last detection
   std::vector<float> bounds;                 ///< b_v of the last detection
   float query_radius = 0;                    ///< r_q of the last detection
-  /// capacities of lists that grow, in the contestant's own order: they decide which step is repeated, and no position
+  /// capacities of growing lists, in the contestant's own order; they decide which step is repeated, but change no
+  /// position
   std::vector<std::int64_t> capacities{};
-  /// for a solver with a state in double: the numbers that positions and velocities are rounded from; otherwise empty
+  /// unrounded positions and velocities of a solver with a state in double; otherwise empty
   std::vector<Vec3> exact_positions{}, exact_velocities{};
-  VertexPlanes planes{};  ///< of the last detection, with bounds of planes
+  VertexPlanes planes{};  ///< planes of the last detection; empty unless bounds are planes
   /// orientations of the segments of rods, in the order of rod_segments (compare/problem/rods.hpp)
   std::vector<Quaternion> orientations{};
 };
 
-/// Selects what a simulation records beside its states.
+/// Selects what a simulation records besides its states.
 struct SimulationOptions {
   bool profile = false;     ///< times by stage (adds synchronisations)
   bool energies = true;     ///< energies of StepMetrics
@@ -143,40 +148,42 @@ struct SimulationOptions {
 class Simulation {
  public:
   virtual ~Simulation() = default;
-  /// Runs `steps` steps (a frame) and returns one row for each. Stops early after a row whose status ends the run, as
-  /// not_finite and bound_violated do.
+  /// Runs `steps` steps (a frame) and returns one row for each. Stops early after a row whose status ends the run, for
+  /// example step_not_finite or step_bound_violated.
   virtual std::vector<StepMetrics> advance(std::int64_t steps) = 0;
   virtual Snapshot snapshot() = 0;
-  /// Continues from positions, velocities, orientations and step number, with room for `capacities` if there are any;
-  /// everything else in a snapshot is recomputed.
+  /// Continues from the positions, velocities, orientations and step number of a snapshot. Reserves room for
+  /// `capacities` unless they are empty. Everything else in a snapshot is recomputed.
   virtual void restore(const Snapshot& snapshot) = 0;
   virtual std::vector<std::string> stage_names() const { return {}; }
   /// Returns one line about the device: "NVIDIA H200, CUDA 13.0" or "2 threads".
   virtual std::string device() const = 0;
 };
 
-/// Reports a contestant that gave no answer: it crashed, hung, or wrote outside its arrays. The judge searches for the
-/// case that caused it and goes on; any other exception of a contestant ends the comparison.
+/// Reports a contestant that gave no answer because it crashed, hung, or wrote outside its arrays. The judge then
+/// searches for the case that caused it and continues. Any other exception of a contestant ends the comparison.
 struct ContestantFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds a contestant's stages; an empty function means that the contestant lacks the stage. Code that makes or calls a
-/// stage includes its header. Questions and answers are only declared here, so that a change of one stage recompiles
-/// the code of that stage and not all code that holds a contestant.
+/// Holds a contestant's stages; an empty function means that the contestant lacks the stage. Inputs and outputs are
+/// only forward declared here, so that a change of one stage recompiles only the code of that stage. Code that makes or
+/// calls a stage includes its header.
 struct Contestant {
   std::string name;  ///< name in reports
-  /// Whether its steps implement bounds=planes and bounds=dat. A plug-in's do not: compare/plugin.h has no planes in
-  /// its trace.
+  /// Whether its steps implement bounds=planes and bounds=dat. False for plug-ins: the trace in compare/plugin.h has no
+  /// planes.
   bool has_steps_with_planes = true;
-  /// Whether its planes divide gaps by approach. A plug-in's do not: compare/plugin.h has no displacements.
+  /// Whether its planes divide gaps by approach. False for plug-ins: compare/plugin.h has no displacements.
   bool divides_by_approach = true;
-  /// Whether the judge asks it about volumes with cavities. Not a plug-in: compare/plugin.h describes none.
+  /// Whether the judge tests it with volumes that have cavities. False for plug-ins: compare/plugin.h cannot describe
+  /// cavities.
   bool has_cavities = true;
-  /// Whether its sweeps and steps handle volumes. A plug-in's do not: compare/plugin.h has no contacts with them there.
+  /// Whether its sweeps and steps handle volumes. False for plug-ins: sweeps and steps in compare/plugin.h have no
+  /// contacts with volumes.
   bool has_volumes = true;
-  /// Whether its rest states, guesses, sweeps and steps handle rods. A plug-in's do not: compare/plugin.h has no
-  /// segments there.
+  /// Whether its rest states, guesses, sweeps and steps handle rods. False for plug-ins: these stages have no segments
+  /// in compare/plugin.h.
   bool has_rods = true;
   /// One function for each stage; compare/stages/STAGE.hpp has its contract.
   std::function<ClosestFaceOut(const ClosestFaceIn&)> closest_face;
@@ -238,7 +245,7 @@ constexpr void visit_stages(Visit visit) {
   visit("step", &Contestant::step);
 }
 
-/// Holds the contestant that is right: its answers contain what the judge needs to decide about grey cases and
+/// Holds the contestant that is right. Its answers also contain what the judge needs to decide about grey cases and
 /// conditioning.
 struct Authority {
   std::string name;  ///< name in reports

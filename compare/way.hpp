@@ -1,4 +1,4 @@
-// Lets a simulation report the way that a step took, for the proof of its motion (compare/meetings.md).
+// Lets a simulation report the motion of a step, for the proof that no faces met during it (compare/meetings.md).
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace ogc::compare {
 
-/// A simulation that can report its way. For any other the trace of a step is taken (Contestant::step), which starts
-/// another simulation for each step.
+/// A simulation that can report the motion of its steps. For any other simulation the trace of a step is used
+/// (Contestant::step), which starts another simulation for each step.
 class WayTeller {
  public:
   virtual ~WayTeller() = default;

@@ -6,9 +6,9 @@
 
 namespace ogc::compare {
 
-/// Takes one group of four characters off `text`, with the blanks before it, and appends its bytes; padding ends a
-/// part, and decoding continues after it. Returns false if there is no whole group. Throws InputError that begins with
-/// `where` for any other character.
+/// Takes one group of four characters off `text`, with the blanks before it, and appends its bytes. Padding ends a
+/// part; decoding continues after it. Returns false if there is no whole group. For any other character throws
+/// InputError whose message begins with `where`.
 bool decode_base64_group(std::string_view& text, std::string& bytes, const std::string& where);
 
 /// Returns the bytes of the whole text; throws as decode_base64_group does.

@@ -1,4 +1,4 @@
-// Reads a binary file from its first byte to its last; errors name the file and the byte.
+// Reads a binary file from its first to its last byte; errors name the file and the byte.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace ogc::compare {
 
-/// Takes numbers and lines off a file's bytes. The bytes and the name must outlive it.
+/// Takes numbers and lines off a file's bytes. The bytes and the name must outlive the cursor.
 class ByteCursor {
  public:
   /// Starts at byte `at`; `name` is the file's, for errors.
@@ -21,9 +21,9 @@ class ByteCursor {
   std::size_t at() const { return at_; }                    ///< position of the next byte, from 0
   std::size_t left() const { return bytes_.size() - at_; }  ///< number of bytes left
   std::endian order() const { return order_; }              ///< byte order of numbers
-  void skip(std::size_t count) { take(count, "data"); }     ///< skips bytes, which must be there
+  void skip(std::size_t count) { take(count, "data"); }     ///< skips bytes; fails if the file ends before that
 
-  /// Returns the next number; if the file ends before it the error calls it `what`.
+  /// Returns the next number. If the file ends before it, the error calls it `what`.
   template <class Number>
   Number number(const std::string& what) {
     return number_at<Number>(take(sizeof(Number), what).data(), order_);
@@ -38,7 +38,7 @@ class ByteCursor {
     return bytes_.substr(at_ - count, count);
   }
 
-  /// Checks a number of entries of `size` bytes each: fails if the file has fewer bytes left.
+  /// Returns a number of entries of `size` bytes each; fails if the file has fewer bytes left.
   std::size_t counted(double count, std::size_t size, const std::string& what) const {
     if (!(count >= 0 && count <= static_cast<double>(left() / size)))
       fail(shortest(count) + " " + what + " can't stand in the " + std::to_string(left()) +

@@ -1,4 +1,4 @@
-// Streams report a full disk only when they are flushed, so writing ends with a checked close.
+// Writing ends with a checked close, because streams report a full disk only when they are flushed.
 #include "compare/files/bytes.hpp"
 
 #include <algorithm>
@@ -17,18 +17,18 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns a path; a long one loses its middle.
+/// Returns a path as text; the middle of a long path is left out.
 std::string shown_path(const std::filesystem::path& path) {
   constexpr std::size_t most_shown = 160, kept = 60;
   const std::string text = path.string();
   if (text.size() <= most_shown) return text;
   std::size_t tail = text.size() - kept;
   while (tail < text.size() && (static_cast<unsigned char>(text[tail]) & 0xc0) == 0x80)
-    ++tail;  // do not cut inside a UTF-8 character
+    ++tail;  // does not cut inside a UTF-8 character
   return shown(text) + text.substr(tail);
 }
 
-/// Returns whether the user can solve the error by another path or other rights.
+/// Returns whether another path or other rights would solve the error.
 bool is_input(std::error_code error) {
   constexpr std::array reasons{std::errc::no_such_file_or_directory,
                                std::errc::not_a_directory,

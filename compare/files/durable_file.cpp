@@ -14,15 +14,15 @@
 namespace ogc::compare {
 namespace {
 
-/// Throws for a failed action. A missing folder or a read-only disk was fine when the program began to write, so the
-/// machine failed, not the user: ResourceError.
+/// Throws for a failed action. Throws ResourceError for a missing folder or a read-only disk: both were fine when the
+/// program began to write, so the machine failed, not the user.
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* action, int error) {
   if (error != ENOENT && error != EROFS) refuse_path(path, action, {error, std::generic_category()});
   throw ResourceError(path.string() + ": can't " + action + " (" + std::strerror(error) +
                       "): its folder or disk was taken away");
 }
 
-/// Owns an open file and closes it on every way out.
+/// Owns an open file; the destructor closes it.
 class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, int flags) : number(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {

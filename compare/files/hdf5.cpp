@@ -32,7 +32,7 @@ void silence() {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
-/// Deflate packs at most 1,032 bytes into one; shuffling changes no size.
+/// Deflate packs at most 1,032 bytes into one; shuffling keeps the size.
 constexpr std::size_t most_unpacked = 1032;
 
 std::vector<hsize_t> shape_of(hid_t dataset) {
@@ -45,16 +45,16 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
 
 std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// Returns the rows of a chunk of a dataset that is written `part` rows at a time: a whole number of small parts, or a
-/// large part cut evenly.
+/// Returns the rows of a chunk of a dataset that is written `part` rows at a time: several whole parts if they are
+/// small, otherwise an even share of one part.
 std::size_t rows_in_chunk(std::size_t part) {
   return part < smallest_chunk_rows ? part * divide_up(smallest_chunk_rows, part) : even_chunk_rows(part);
 }
 
-/// Returns a creation list, chunked and compressed where that pays.
+/// Returns a creation list, chunked and compressed if that saves space.
 Hdf5Handle creation_list(const std::vector<hsize_t>& shape, std::size_t part) {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  // Without times the same content always makes the same file.
+  // Without times equal contents give equal files.
   H5Pset_obj_track_times(list.id(), false);
   std::vector<hsize_t> chunk = shape;
   chunk[0] = rows_in_chunk(part);
@@ -160,9 +160,9 @@ void Hdf5File::create_dataset(const std::string& name, std::size_t rows, std::si
   if (!dataset.valid()) refuse_write(name);
 }
 
-// A chunk that does not shrink is stored as it is, the last one is stored whole. In the index a node of 64 chunks has
-// at most 4 KiB (keys of 3 extents) and is at least half full: 128 B a chunk, and as much again covers the levels
-// above. Object header, group entry and attributes: 4 KiB.
+// A chunk that does not shrink is stored as it is; the last chunk is stored whole. In the index a node of 64 chunks has
+// at most 4 KiB (keys of 3 extents) and is at least half full: 128 B a chunk. The same again covers the levels above.
+// Object header, group entry and attributes take 4 KiB.
 std::size_t Hdf5File::largest_size(std::size_t rows, std::size_t row_bytes, std::size_t part) {
   const std::size_t in_chunk = rows_in_chunk(part), chunks = divide_up(rows, in_chunk);
   return chunks * (in_chunk * row_bytes + 256) + 8192;

@@ -1,4 +1,4 @@
-// Writes and reads chunks as other threads packed them, bypassing HDF5's own filters.
+// Writes and reads packed chunks as they are, bypassing HDF5's own filters.
 #include <hdf5.h>
 
 #include <array>
@@ -10,14 +10,14 @@ namespace ogc::compare {
 namespace {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
-using Extents = std::array<hsize_t, 2>;  // rows, columns; a one-dimensional dataset has no second
+using Extents = std::array<hsize_t, 2>;  // rows, columns; a one-dimensional dataset uses only the first
 
-/// Masks with a bit for each filter that was not applied to a chunk: shuffle, deflate.
+/// Masks with one bit for each filter that was not applied to a chunk: shuffle, deflate.
 constexpr std::uint32_t no_filter = 0, every_filter = 3;
 
 int rank_of(const PackedArray& array) { return array.columns > 0 ? 2 : 1; }
 
-/// Returns a creation list for chunks that are shuffled and deflated as `pack` does it.
+/// Returns a creation list for chunks that are shuffled and deflated as `pack` does.
 Hdf5Handle packed_list(std::size_t columns, std::size_t chunk_rows) {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(list.id(), false);
@@ -28,7 +28,7 @@ Hdf5Handle packed_list(std::size_t columns, std::size_t chunk_rows) {
   return list;
 }
 
-/// Returns whether a dataset of this creation list stores its chunks as `pack` makes them.
+/// Returns whether a dataset with this creation list stores its chunks in the form that `pack` makes.
 bool is_packed_so(hid_t list, int rank, std::size_t columns, std::size_t chunk_rows) {
   Extents chunk{};
   if (H5Pget_layout(list) != H5D_CHUNKED || H5Pget_chunk(list, 2, chunk.data()) != rank) return false;
@@ -53,7 +53,7 @@ bool write_chunks(hid_t dataset, std::size_t first_row, const PackedArray& array
   return true;
 }
 
-/// Reads all chunks; returns false if one is missing or only one of the filters was applied to it.
+/// Reads all chunks. Returns false if a chunk is missing or only one of both filters was applied to it.
 bool read_chunks(hid_t dataset, PackedArray& array) {
   for (std::size_t row = 0; row < array.rows; row += array.chunk_rows) {
     const Extents offset{row, 0};

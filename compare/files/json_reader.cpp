@@ -1,5 +1,5 @@
-// Keeps JSON's own distinction of numbers: 40 is a whole number, 40.0 is not, so that a fractional count is a wrong
-// type and is not truncated.
+// Keeps JSON's distinction of numbers: 40 is a whole number, 40.0 is not. So a fractional count is an error of type and
+// is not truncated.
 #include "compare/files/json_reader.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace ogc::compare {
 
 Json parse_json(std::string_view text, const std::string& file) {
-  // Far above what our formats need; visiting a value recurses, so its depth must have a limit.
+  // Far above what our formats need. Visiting a value recurses, so the depth must have a limit.
   constexpr int most_levels = 64;
   std::vector<std::set<std::string>> open_objects;
   const auto refuse_repeated_keys = [&](int level, Json::parse_event_t event, Json& parsed) {
@@ -31,7 +31,7 @@ Json parse_json(std::string_view text, const std::string& file) {
   try {
     return Json::parse(text, refuse_repeated_keys);
   } catch (const Json::exception& error) {
-    constexpr std::size_t most_shown = 200;  // the library's message repeats a number of any length
+    constexpr std::size_t most_shown = 200;  // the library's message repeats the number, which may have any length
     throw InputError(file + ": no valid JSON: " + shown(error.what(), most_shown));
   }
 }

@@ -1,5 +1,5 @@
-// Reads JSON strictly: an unknown key is an error, and every error gives its place. Problems are collected, so that one
-// run lists them all.
+// Reads JSON strictly: an unknown key is an error, and every error names its place. Problems are collected, so that one
+// run lists all of them.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ namespace ogc::compare {
 
 using Json = nlohmann::ordered_json;
 
-/// Parses one JSON document. Throws InputError that names `file` and the line: bad syntax, a repeated key in one
-/// object, a number beyond double, more than 64 levels of arrays and objects.
+/// Parses one JSON document. Throws InputError that names `file` and the line for bad syntax, a repeated key in one
+/// object, a number beyond double, or more than 64 levels of arrays and objects.
 Json parse_json(std::string_view text, const std::string& file);
 
 /// A value, its path in the document ("/bodies/0/material"), and the list for its problems.
@@ -29,7 +29,7 @@ class JsonNode {
   std::string where() const;
   const std::string& path() const { return path_; }
 
-  /// Each reads the value into `target`; for a wrong type it adds a problem and leaves the target unchanged.
+  /// Read the value into `target`. For a wrong type they add a problem and leave the target unchanged.
   void read(bool& target) const;
   void read(std::string& target) const;
   void read(double& target) const;
@@ -53,14 +53,14 @@ class JsonNode {
   std::vector<Problem>* problems_;
 };
 
-/// Reads the keys of an object one after the other; `finish` reports keys that were not read.
+/// Reads the keys of an object one after another; `finish` reports keys that were not read.
 class JsonObject {
  public:
   explicit JsonObject(const JsonNode& node);
 
-  /// Calls `use` with the key's value if it exists.
+  /// Calls `use` with the key's value if the key exists.
   void optional(const std::string& key, const std::function<void(const JsonNode&)>& use);
-  /// The same; adds a problem if it does not exist.
+  /// Calls `use` with the key's value; adds a problem if the key does not exist.
   void required(const std::string& key, const std::function<void(const JsonNode&)>& use);
   template <class Target>
   void optional_value(const std::string& key, Target& target) {

@@ -1,4 +1,4 @@
-// Reads numbers in text files strictly: the whole word or nothing.
+// Reads numbers in text files strictly: a word must be one number as a whole.
 #pragma once
 
 #include <charconv>
@@ -6,8 +6,8 @@
 
 namespace ogc::compare {
 
-/// Returns whether `word` is exactly one number; a leading '+' is allowed, as printf writes it. Overflow and underflow
-/// to zero are not accepted.
+/// Returns whether `word` is exactly one number, which it stores in `number`. A leading '+' is allowed, because printf
+/// writes it. Overflow and underflow to zero are errors.
 template <class Number>
 bool parse_number(std::string_view word, Number& number) {
   if (word.starts_with('+')) word.remove_prefix(1);

@@ -12,7 +12,7 @@ constexpr int level = 1;
 
 std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// Returns the bytes as HDF5's shuffle filter orders them: the first bytes of all values, then all second ones, …
+/// Returns the bytes in the order of HDF5's shuffle filter: the first bytes of all values, then all second bytes, ….
 std::string shuffled(std::string_view bytes) {
   constexpr std::size_t size = sizeof(float);
   const std::size_t count = bytes.size() / size;
@@ -22,7 +22,7 @@ std::string shuffled(std::string_view bytes) {
   return result;
 }
 
-/// Returns zlib's format, as HDF5's filter writes it; empty if it is no shorter.
+/// Returns the bytes in zlib's format, as HDF5's filter writes them; empty if that is no shorter.
 std::string deflated(const std::string& bytes) {
   std::string result(bytes.size(), '\0');
   uLongf size = result.size();

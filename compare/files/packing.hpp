@@ -10,20 +10,21 @@
 
 namespace ogc::compare {
 
-/// Returns the CRC-32 (ISO 3309, as in zlib and PNG) of bytes that follow those with the CRC `before`. It detects
+/// Returns the CRC-32 (ISO 3309, as in zlib and PNG) of `bytes`, appended to bytes with the CRC `before`. It detects
 /// damage, but no forgery.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
-/// Largest and smallest number of rows of a chunk: 3 floats a row make 768 KiB, which fits HDF5's default chunk cache
-/// of 1 MiB. With fewer rows than the smallest number the index of the chunks takes more than compression saves.
+/// Largest and smallest number of rows of a chunk. The largest has 768 KiB with 3 floats a row, which fits HDF5's
+/// default chunk cache of 1 MiB. With fewer rows than the smallest the index of the chunks takes more space than
+/// compression saves.
 inline constexpr std::size_t largest_chunk_rows = 1 << 16, smallest_chunk_rows = 1 << 10;
 
-/// Returns the rows of each chunk of an array of so many rows, cut evenly; at least 1.
+/// Returns the rows of each chunk if `rows` rows are cut evenly; at least 1.
 std::size_t even_chunk_rows(std::size_t rows);
 
-/// A part of an array as a file holds it.
+/// A part of an array as a file stores it.
 struct PackedChunk {
-  bool packed = false;  ///< shuffled and deflated; otherwise plain values
+  bool packed = false;  ///< true: shuffled and deflated; false: plain values
   std::string bytes;    ///< bytes in the file
 };
 
@@ -36,8 +37,8 @@ struct PackedArray {
 };
 
 /// Packs rows of `columns` values (0: single values). Each chunk is shuffled (the first bytes of all values, then all
-/// second bytes, …: exponents lie side by side) and deflated at level 1; higher levels take longer and gain 2 % on
-/// positions. A chunk stays plain if packing makes it no shorter, or if the array has few rows.
+/// second bytes, …, so that exponents are adjacent) and deflated at level 1. Higher levels take longer and save only 2
+/// % on positions. A chunk stays plain if packing makes it no shorter, or if the array has few rows.
 PackedArray pack(std::span<const float> values, std::size_t columns = 0);
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Reads numbers as other programs store them: any width, either byte order.
+// Reads numbers in the binary formats of other programs, of any width and byte order.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ enum class ScalarType { int8, uint8, int16, uint16, int32, uint32, int64, uint64
 inline constexpr std::array<std::size_t, 10> scalar_sizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};  ///< by ScalarType [bytes]
 /// Returns the bytes of one number.
 inline std::size_t size_of(ScalarType type) { return scalar_sizes[static_cast<std::size_t>(type)]; }
-/// Returns whether the numbers are floating-point ones.
+/// Returns whether the type is a floating-point type.
 inline bool is_floating(ScalarType type) { return type == ScalarType::float32 || type == ScalarType::float64; }
 
 /// Returns the number of this type at `bytes`, in byte order `order`.

@@ -1,4 +1,4 @@
-// Takes lines and words off a mesh file in text; errors name the file and the line.
+// Takes lines and words off a text file of a mesh; errors name the file and the line.
 #pragma once
 
 #include <cstdint>
@@ -7,50 +7,51 @@
 
 namespace ogc::compare {
 
-/// Takes the first word off `text`, with the blanks before it; empty if only blanks are left. Ends of lines are blanks.
+/// Takes the first word off `text`, with the blanks before it; empty if only blanks are left. Line ends are blanks.
 std::string_view next_word(std::string_view& text);
 
-/// Returns whether the '#' at `place` belongs to a word of Windows programs that is no number ("-1.#IND", "1.#INF",
-/// "1.#QNAN", "1.#R"), and begins no comment.
+/// Returns whether the '#' at `place` belongs to a non-number that Windows programs print ("-1.#IND", "1.#INF",
+/// "1.#QNAN", "1.#R"); then it begins no comment.
 bool is_hash_of_number(std::string_view text, std::size_t place);
 
-/// Returns the error for a word in place of a finite number: "'nan' is no finite coordinate; give three numbers [m]".
+/// Returns the error for a word that should be a finite number: "'nan' is no finite coordinate; give three numbers
+/// [m]".
 std::string no_coordinate(std::string_view word);
 
 /// Rules for reading a format's lines.
 struct LineRules {
-  char comment = '\0';           ///< begins a comment up to the end of the line; none: '\0'
-  bool backslash_joins = false;  ///< a line that ends in a backslash continues in the next one
+  char comment = '\0';           ///< character that begins a comment up to the line's end; '\0': none
+  bool backslash_joins = false;  ///< whether a line that ends in a backslash continues in the next one
 };
 
-/// Reads a text line by line, and each line word by word; lines end with a line feed, a carriage return or both. The
-/// text and the name must outlive it.
+/// Reads a text line by line, and each line word by word. Lines end with a line feed, a carriage return or both. The
+/// text and the name must outlive the reader.
 class TextLines {
  public:
   /// Starts before the first line; `name` is the file's, for errors.
   TextLines(std::string_view text, const std::string& name, LineRules rules = {})
       : text_(text), name_(name), rules_(rules) {}
 
-  bool next();                                             ///< goes to the next line; false after the last
+  bool next();                                             ///< goes to the next line; false after the last line
   bool next_filled();                                      ///< goes to the next line that has a word
   std::string_view word();                                 ///< the line's next word; empty at its end
   std::string_view far_word();                             ///< the next word of this line or of a later one
-  std::string_view rest() const { return line_; }          ///< rest of the line, after the words taken so far
-  double coordinate();                                     ///< the next word [m]; fails where it isn't finite
-  double coordinate(std::string_view found) const;         ///< the same for a word that was taken
+  std::string_view rest() const { return line_; }          ///< rest of the line after the words that were read
+  double coordinate();                                     ///< the next word [m]; fails if it is no finite number
+  double coordinate(std::string_view found) const;         ///< the same for a word that was already read
   std::size_t number() const { return number_; }           ///< number of the line, from 1; 0 before the first
   std::size_t bytes_left() const { return text_.size(); }  ///< bytes after this line
 
-  /// Returns the next word as a whole number; fails if it is none, and calls the expected word `what`.
+  /// Returns the next word as a whole number. If it is none, fails with an error that names `what`.
   std::int64_t integer(const std::string& what) { return integer(word(), what); }
-  std::int64_t integer(std::string_view found, const std::string& what) const;  ///< the same for a word that was taken
-  /// Returns a number of entries that follow, of `least` bytes each: fails if the file has fewer bytes left.
+  /// the same for a word that was already read
+  std::int64_t integer(std::string_view found, const std::string& what) const;
+  /// Returns a number of entries of at least `least` bytes each; fails if the file has fewer bytes left.
   std::size_t count(std::string_view found, const std::string& what, std::size_t least = 1) const;
 
-  /// Goes to the next line that has a word; throws InputError if the file ends before it, and calls the expected line
-  /// `what`.
+  /// Goes to the next line that has a word. If the file ends before it, throws InputError that names `what`.
   void expect_filled(const std::string& what);
-  /// Returns the next word of this line or a later one; throws in the same way.
+  /// Returns the next word of this line or of a later line. Throws in the same way.
   std::string_view expect_word(const std::string& what);
   /// Throws InputError: the file ends before `what`.
   [[noreturn]] void fail_truncated(const std::string& what) const;
@@ -59,13 +60,13 @@ class TextLines {
   [[noreturn]] void fail_at(std::size_t number, const std::string& what) const;
 
  private:
-  bool step();  ///< goes to the next line, also if it is joined to this one
+  bool step();  ///< goes to the next line, even if it is joined to this one
 
   std::string_view text_, line_;
   const std::string& name_;
   LineRules rules_;
   std::size_t number_ = 0;
-  bool goes_on_ = false;  ///< whether this line is joined to the next one
+  bool goes_on_ = false;  ///< whether the next line is joined to this one
 };
 
 }  // namespace ogc::compare

@@ -1,49 +1,50 @@
 // Tests clamped beams, a pendulum, and the energy of a swinging sheet.
 //
-// Hinge. Two triangles share an edge of length e; one is held level, and the other turns about the edge under the
-// weight m g of its free corner, which is b away from it and carries a third of its mass. The edge is a torsion spring,
+// Hinge. Two triangles share an edge of length e. One is held level; the other turns about the edge under the weight m
+// g of its free corner, which is b away from the edge and has a third of the triangle's mass. The edge is a torsion
+// spring,
 //
 //     c θ = m g b cos θ,   c = 3 k_b e²/(A₀ + A₁),                                                            (1)
 //
 // at any angle, except for the stretch of the membranes, m g over E e/2.
 //
 // Tetrahedron. Three corners are held, and the fourth hangs from them. J is affine in one corner and ‖F‖² is quadratic,
-// so the force on it is linear (method.md §8.1): it goes down by exactly
+// so the force on the corner is linear (method.md §8.1). The corner sinks by exactly
 //
 //     H⁻¹ m g,   H = μ V ‖∇N‖² I + (λ + μ) V ∇N ∇Nᵀ,                                                         (2)
 //
-// with ∇N its own gradient; the part with μ is Σ w_k over the others, as gradients add up to nothing.
+// where ∇N is its gradient. The term with μ is Σ w_k over the other corners, since all gradients add up to 0.
 //
 // Bar. With λ = 0 tetrahedra have E = 2 μ and G = μ. The mean deflection of a clamped bar of side t under its weight is
 // (Euler and Bernoulli, and shear with 5/6 of the area)
 //
 //     w = q L⁴/(20 E I) + q L²/(3 (5/6) G A) = ρ g L⁴ 12/(20 E t²) + ρ g L²/(2.5 G).                          (3)
 //
-// The deflection minimises energy minus work, and linear tetrahedra allow only some of all displacements: their mean
-// deflection is less, and it is more with cells half as large, whose displacements include those of large cells.
+// The deflection minimises energy minus work, and linear tetrahedra allow only some of all displacements. So their mean
+// deflection is less. With cells half as large it grows, since their displacements include those of the large cells.
 //
 // Pendulum. A triangle hung by a corner is rigid but for its strain. Implicit Euler takes the rotation nearest, in the
 // norm of masses, to y = 2 x_n − x_{n−1} + h² g. In the plane, with x = r e^{iθ},
 //
 //     θ_{n+1} = arg(I (2 e^{iθ_n} − e^{iθ_{n−1}}) + h² γ Σ m r̄),   γ = −i g,                                   (4)
 //
-// for any swing. The weight's strain ε makes the pendulum longer, so its phase ω t is late by ε/2 of itself.
+// for any swing. The strain ε by the weight makes the pendulum longer, so its phase ω t lags by a share of ε/2.
 //
-// Energy. With f the force that a step leaves, inertia's included, Δ = x' − x and E the sum of kinetic energy, elastic
-// energy U and gravity's (method.md §7.8),
+// Energy. Let f be the force that a step leaves, inertia's included, Δ = x' − x, and E the sum of kinetic energy,
+// elastic energy U and gravity's energy (method.md §7.8):
 //
 //     E' − E = −f·Δ − ‖v' − v‖²_M/2 − c,   c = U(x) − U(x') + ∇U(x')·Δ,   −f·Δ = (M (v' − v)/h − M a + ∇U(x'))·Δ. (5)
 //
-// c ≥ 0 where U is convex. U is not: where a hinge turns or a triangle shrinks c may be below 0. The law still claims
-// that E gains no more than (5) without c. Its limit is that sum, computed from the states; so a wrong U, or a wrong
-// energy in a row, breaks it.
+// c ≥ 0 where U is convex. Turning hinges and shrinking triangles make U non-convex, so c may be negative. The law
+// claims that E rises by at most (5) without c. It computes this limit from the states, so a wrong U, or a wrong energy
+// in a row, breaks the law.
 //
-// A solved step has f = 0, and no step gains. Few sweeps leave f, and may gain up to the limit. N = D ln(101)/2 sweeps
-// leave a hundredth of a stretch (method.md §7.7), so that f is a hundredth of the elastic force; on its way f takes
-// less than that part of U, which stays below the largest kinetic energy. So N sweeps have no limit, nor has Newton. In
-// D = 1 + h² q, q is a third of the trace of a vertex's stiffness over its mass. A membrane's corner has A (λ + 3μ)
-// ‖∇N‖², which in a lattice of spacing a adds up to 4 (λ + 3μ) a vertex. A hinge's corner has c ‖∇θ‖²: up to 18 k_b/a²
-// for each of two sides and 48 k_b/a² for a diagonal.
+// A solved step has f = 0, and its energy does not rise. With few sweeps f remains, and the energy may rise up to the
+// limit. N = D ln(101)/2 sweeps leave a hundredth of a stretch (method.md §7.7), so f is a hundredth of the elastic
+// force. On its way f takes less than that part of U, which stays below the largest kinetic energy. So N sweeps need no
+// limit, and neither does Newton. In D = 1 + h² q, q is a third of the trace of a vertex's stiffness over its mass. A
+// membrane's corner has A (λ + 3μ) ‖∇N‖², which in a lattice of spacing a adds up to 4 (λ + 3μ) a vertex. A hinge's
+// corner has c ‖∇θ‖²: up to 18 k_b/a² for each of two sides and 48 k_b/a² for a diagonal.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -63,16 +64,17 @@ using namespace law_shapes;
 constexpr Vec3 down{0, -standard_gravity, 0};
 constexpr double flap_side = 0.1, flap_bending = 2e-3;
 
-/// Returns the angle of (1).
+/// Returns θ of (1), by fixed-point iteration.
 double hinge_angle(const Scene& scene) {
-  // e² over both areas is 1, as both triangles are as high as they are long.
+  // e² over the sum of both areas is 1, since both triangles are as high as they are long.
   const double load = masses(scene)[3] * standard_gravity * flap_side / (3 * flap_bending);
   double angle = 0;
   for (int round = 0; round < 200; ++round) angle = load * std::cos(angle);
   return angle;
 }
 
-/// Returns two right triangles about an edge along z, the first level and held, the second at the angle of (1).
+/// Returns two right triangles with a common edge along z: the first is level and held, the second is at the angle of
+/// (1).
 std::vector<Scene> hinge_scenes(LawSize) {
   Scene scene = empty_scene("cantilever_hinge", 0.005, 200, 40);
   scene.gravity = down;
@@ -105,7 +107,8 @@ std::vector<Reading> read_hinge(std::span<const Trajectory> runs) {
 
 constexpr double tetrahedron_side = 0.1, tetrahedron_mu = 2e4, tetrahedron_lambda = 3e4;
 
-/// Returns one corner of a cube with its three neighbours; those in the plane x = 0 are held, the one along x is free.
+/// Returns one corner of a cube with its three neighbours. The corners in the plane x = 0 are held, the one along x is
+/// free.
 std::vector<Scene> tetrahedron_scenes(LawSize) {
   Scene scene = empty_scene("cantilever_tetrahedron", 0.005, 100, 40);
   scene.gravity = {1, -standard_gravity, 2};
@@ -124,7 +127,7 @@ std::vector<Scene> tetrahedron_scenes(LawSize) {
   return {scene};
 }
 
-/// Reads the corner, which is a above the plane x = 0 of the others: ∇N = (1/a, 0, 0), so H is diagonal.
+/// Reads the free corner, which is a above the plane x = 0: ∇N = (1/a, 0, 0), so H is diagonal.
 std::vector<Reading> read_tetrahedron(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const double a = tetrahedron_side, volume = a * a * a / 6, m = masses(run.scene)[1];
@@ -204,13 +207,14 @@ std::vector<Scene> swing_scenes(LawSize) {
   return {scene};
 }
 
-/// Returns the angle of the two lower corners' middle from straight down.
+/// Returns the angle between straight down and the middle of the two lower corners.
 double swing_angle(const LawState& state) {
   const Vec3 x = plus(state.positions[1], state.positions[2]);
   return std::atan2(x.x, -x.y);
 }
 
-/// Returns the angles of (4), from the start angle and the rest shape; x + i y, turned so that straight down is 0.
+/// Returns the angles of (4), from the start angle and the rest shape. Points are x + i y, turned so that straight down
+/// is 0.
 std::vector<double> swings(const Trajectory& run) {
   using Complex = std::complex<double>;
   const double h = run.scene.settings.time_step;
@@ -252,22 +256,22 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
 
 constexpr double arc_cell = 0.03, arc_density = 0.3, arc_lame = 500, arc_bending = 0.005;
 
-/// Returns N of (5).
+/// Returns N, the number of sweeps that the text below (5) derives.
 double solving_sweeps(double time_step) {
   const double trace = 16 * arc_lame + 84 * arc_bending / (arc_cell * arc_cell);
   const double mass = arc_density * arc_cell * arc_cell;
   return (1 + time_step * time_step * trace / (3 * mass)) * std::log(101) / 2;
 }
 
-/// Returns a sheet that is curved at rest, 11 × 11 vertices of a cylinder of 0.2 m, held at one corner. Nothing
-/// touches.
+/// Returns a sheet that is curved at rest: 11 × 11 vertices of a cylinder of 0.2 m, held at one corner, without
+/// contacts.
 Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) {
   Scene scene = empty_scene("pinned_sheet", time_step, steps, iterations);
   scene.gravity = down;
   scene.settings.contact_radius = 0.002;
   Material material = cloth(0);
   material.density = arc_density;
-  material.membrane = MembraneModel::st_venant_kirchhoff;  // N of (5) is derived from its block
+  material.membrane = MembraneModel::st_venant_kirchhoff;  // the derivation of N uses its block
   material.lame_mu = material.lame_lambda = arc_lame;
   material.bending = BendingModel::discrete_hinge;
   material.bending_stiffness = arc_bending;
@@ -282,7 +286,7 @@ Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) 
   return scene;
 }
 
-/// Returns runs with few sweeps, and with N of a shorter step, until the sheet has swung down.
+/// Returns two runs until the sheet has swung down: one with few sweeps, one with N sweeps of a shorter step.
 std::vector<Scene> pinned_scenes(LawSize size) {
   constexpr double brief = 1. / 480;
   const Scene solved = pinned_arc(brief, 240, std::lround(std::ceil(solving_sweeps(brief))));

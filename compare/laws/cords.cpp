@@ -1,17 +1,19 @@
-// Rods (compare/rods.md). With n_j the force in segment j, which bears the weight of all nodes beyond it, d_j its
-// director and D_j the way from end to end, its energies are at rest where
+// Tests rods (compare/rods.md). Let n_j be the force in segment j, which is the weight of all nodes beyond it, d_j its
+// director and D_j the vector from end to end. The rod is at rest if
 //
 //     D_j = l (d_j + n_j/k_s),    M_j − M_{j+1} = l d_j × n_j,    M_j = 2 k_b/l sin(θ_j/2)                    (1)
 //
-// with θ_j between d_{j−1} and d_j. A clamped rod in a plane: φ_j = φ_{j−1} + 2 asin(M_j l/(2 k_b)), from φ_0 = 0, with
-// M_j = Σ_{i ≥ j} l cos φ_i W_i, W_i the weight beyond segment i. Without bending d_j lies along n_j = (H, V_j): a
-// chain of springs whose vertical forces grow by the weights of its nodes, and whose H is the one that spans the gap,
+// with θ_j between d_{j−1} and d_j. A clamped rod in a plane has φ_j = φ_{j−1} + 2 asin(M_j l/(2 k_b)), from φ_0 = 0,
+// with M_j = Σ_{i ≥ j} l cos φ_i W_i, where W_i is the weight beyond segment i.
+//
+// Without bending d_j lies along n_j = (H, V_j). The rod is a chain of springs: V_j grows by the weights of the nodes,
+// and H is the one that spans the gap,
 //
 //     Σ_j l (1 + ‖n_j‖/k_s) H/‖n_j‖ = span,                                                                   (2)
 //
-// the discrete catenary. A cord in a groove of two planes that stand at a right angle rests on both, its nodes' springs
-// bearing m g/√2 on each side, and without friction keeps its speed along the groove: nothing acts there. (For solvers
-// whose contacts are barriers the rest is read, but no spring.)
+// the discrete catenary. A cord in a groove of two perpendicular planes rests on both: the contacts of a node have the
+// force m g/√2 on each side. Without friction no force acts along the groove, so the cord keeps its speed. For solvers
+// whose contacts are barriers, rest is tested, but not the force of springs.
 //
 // Tolerances are law_measures::force_left of the weight. Sums over nodes are exact for any number of nodes.
 #include <algorithm>
@@ -38,7 +40,7 @@ Material cord(double bend) {
   return material;
 }
 
-/// Returns a rod along x, `count` segments, its first node at `start`.
+/// Returns a rod along x with `count` segments; its first node is at `start`.
 Mesh straight(std::size_t count, const Vec3& start) {
   std::vector<Vec3> nodes;
   for (std::size_t k = 0; k <= count; ++k) nodes.push_back(plus(start, {static_cast<double>(k) * segment, 0, 0}));
@@ -92,7 +94,7 @@ std::vector<Reading> read_clamped(std::span<const Trajectory> runs) {
 
 constexpr double span = 0.08;
 
-/// Returns the nodes of a chain that hangs by both ends according to (2).
+/// Returns the nodes of a chain that hangs by both ends as in (2).
 std::vector<Vec3> hanging(const std::vector<double>& m, double across) {
   const auto chain_of = [&](double pull) {
     double inner = 0;
@@ -142,7 +144,7 @@ std::vector<Reading> read_catenary(std::span<const Trajectory> runs) {
            .side = Side::at_most}};
 }
 
-/// Returns a stiff cord of two segments that is thrown: it moves as a point does (falls.cpp).
+/// Returns a thrown stiff cord of two segments, which moves as a point does (falls.cpp).
 std::vector<Scene> thrown_scenes(LawSize) {
   Scene scene = empty_scene("cord_falls", 1. / 240, 60, 20);
   scene.gravity = down;
@@ -178,7 +180,7 @@ std::vector<Scene> channel_scenes(LawSize) {
   Scene scene = rod_scene("cord_in_channel", straight(segments, {0, 0, 0}), rod_bend);
   const double r = scene.settings.contact_radius, k = scene.bodies[0].material.contact_stiffness;
   const std::vector<double> m = masses(scene);
-  // Both planes are at a distance of r minus the depth: the node is √2 of that above the line in which they meet.
+  // Both planes are at the distance r − depth: the node is √2 times that above the line in which they meet.
   for (std::size_t v = 0; v <= segments; ++v) {
     const double depth = m[v] * standard_gravity / std::numbers::sqrt2 / k;
     scene.mesh.positions[v] = {segment * (static_cast<double>(v) - 0.5 * segments), std::numbers::sqrt2 * (r - depth),

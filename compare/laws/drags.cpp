@@ -1,11 +1,11 @@
-// Tests what friction holds or drags. Between two plates at the depth δ on either side a sheet of n vertices creeps
-// under its weight as derived in slopes.cpp,
+// Tests bodies that friction holds or drags. A sheet of n vertices between two plates, at the depth δ on either side,
+// creeps under its weight as derived in slopes.cpp,
 //
-//     f₁(v/ε_v) = M g/(2 n μ k_c δ),
+//     f₁(v/ε_v) = M g/(2 n μ k_c δ).
 //
-// and a floor that moves with u drags: w = v − u obeys w' = w − h μ g f₁(|w'|/ε_v) sign w'.
+// A floor that moves with velocity u drags a body: w = v − u obeys w' = w − h μ g f₁(|w'|/ε_v) sign w'.
 //
-// Tolerances are those of slopes.cpp. The depth is rounded as r is.
+// Tolerances are derived in slopes.cpp. The depth has the rounding error of r.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -69,7 +69,7 @@ std::vector<Reading> read_conveyor(std::span<const Trajectory> runs) {
     relative = slid(relative, 0, mu * standard_gravity, run.scene.settings.friction_velocity, h);
     way += h * (relative + belt);
   }
-  // Lag of one step and the error of λ that sweeps leave, as in slopes.cpp, times the lead of the belt.
+  // The lag of one step and the error of λ that sweeps leave (slopes.cpp), times the lead of the belt.
   const double ahead = belt * h * static_cast<double>(run.rows.size()) - way;
   const double dragged = belt / (mu * standard_gravity), share = 2 * lagged_steps(run) * h / dragged + force_left(run);
   return {{.what = "way",

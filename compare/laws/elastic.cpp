@@ -1,5 +1,4 @@
-// Differentiates by the rules of sums and products: a `Moving` number carries its rate along d.
-//
+// Differentiates by the rules of sums and products: a `Moving` number contains its rate along d.
 // The membrane's energy needs tr G and ‖G‖² of the Green strain G. Let g hold the products of a triangle's two edges,
 // and ḡ those at rest. Then C = ḡ⁻¹ (g − ḡ)/2 has tr C = tr G and tr C² = ‖G‖².
 #include "compare/laws/elastic.hpp"
@@ -25,7 +24,6 @@ Moving root(Moving a) {
   const double value = std::sqrt(a.value);
   return {value, a.rate / (2 * value)};
 }
-/// Returns the angle of the point (c, s).
 Moving angle(Moving s, Moving c) {
   return {std::atan2(s.value, c.value),
           (c.value * s.rate - s.value * c.rate) / (c.value * c.value + s.value * s.value)};
@@ -38,7 +36,6 @@ struct MovingVec {
 MovingVec operator-(const MovingVec& a, const MovingVec& b) {
   return {plus(a.value, b.value, -1), plus(a.rate, b.rate, -1)};
 }
-/// Returns a · b.
 Moving inner(const MovingVec& a, const MovingVec& b) {
   return {dot(a.value, b.value), dot(a.rate, b.value) + dot(a.value, b.rate)};
 }

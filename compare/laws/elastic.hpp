@@ -1,4 +1,4 @@
-// Computes the elastic energy of cloth from method.md: laws of energy do not use a solver's own, as they judge it.
+// Computes the elastic energy of cloth from method.md. Laws of energy judge a solver's energy, so they do not use it.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ struct Elastic {
   double change = 0;  ///< ∇U(x)·d [J]
 };
 
-/// Adds up all bodies that are not fixed: St. Venant–Kirchhoff membranes (method.md §4.6) and discrete hinges (§4.7).
-/// `along` is d by vertex [m]. Throws InputError if a body has another membrane or bending model.
+/// Returns the sum over all bodies that are not fixed: St. Venant–Kirchhoff membranes (method.md §4.6) and discrete
+/// hinges (§4.7). `along` is d by vertex [m]. Throws InputError if a body has another membrane or bending model.
 Elastic elastic(const Scene& scene, const std::vector<Vec3>& x, const std::vector<Vec3>& along);
 
 }  // namespace ogc::compare::law_measures

@@ -2,9 +2,9 @@
 //
 //     x_n = x_0 + n h v_0 + h² g n (n + 1)/2,
 //
-// which is the parabola of Galilei and g h t/2 more: an error of first order, which halves with h. No vertex moves
-// against another one, so that no energy acts, and only rounding remains (flight_rounding). Newton's method ends where
-// it begins, as y has no force.
+// which differs from Galileo's parabola by g h t/2, an error of first order that halves with h. Vertices do not move
+// relative to each other, so no elastic forces act, and only rounding remains (flight_rounding). Newton's method ends
+// where it begins, since no force acts at y.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -33,7 +33,7 @@ Vec3 discrete_flight(const Scene& scene, const Vec3& start, const Vec3& velocity
   return plus(plus(start, velocity, t), scene.gravity, (t * t + t * h) / 2);
 }
 
-/// Returns the largest distance of any vertex from the discrete law at any step, in units of the rounding error up to
+/// Returns the largest distance of a vertex from the discrete law at any step, in units of the rounding error up to
 /// then.
 double largest_miss(const Trajectory& run) {
   const double largest = largest_coordinate(run);
@@ -54,7 +54,7 @@ std::vector<Scene> fall_scenes(LawSize size) {
 }
 
 std::vector<Reading> read_fall(std::span<const Trajectory> runs) {
-  // √3: each of three coordinates may be off by that much.
+  // √3: each of three coordinates may be off by one rounding error.
   return {{.what = "distance from the discrete law",
            .unit = "roundings",
            .measured = largest_miss(runs[0]),
@@ -75,7 +75,7 @@ double error_of_fall(const Trajectory& run) {
 }
 
 std::vector<Reading> read_order(std::span<const Trajectory> runs) {
-  // The error is g h t/2; a relative rounding of it in each of the two is one of the ratio.
+  // The error is g h t/2. A relative rounding error of either error is a relative error of the ratio.
   std::vector<Reading> readings;
   for (std::size_t k = 1; k < runs.size(); ++k) {
     const double coarse = error_of_fall(runs[k - 1]), fine = error_of_fall(runs[k]);

@@ -1,20 +1,20 @@
-// Tests bodies on which nothing acts from outside. With the forces f of a step at xᵗ⁺¹, m (vᵗ⁺¹ − vᵗ) = h f. Inner
-// forces come from energies that neither translation nor rotation changes: Σ f = 0 and Σ x × f = 0 at xᵗ⁺¹. So
+// Tests bodies without outer forces. With the forces f of a step at xᵗ⁺¹, m (vᵗ⁺¹ − vᵗ) = h f. Translation and rotation
+// do not change the energies of inner forces, so Σ f = 0 and Σ x × f = 0 at xᵗ⁺¹. Hence
 //
 //     Σ m vᵗ⁺¹ = Σ m vᵗ,      Lᵗ⁺¹ = Σ m xᵗ⁺¹ × vᵗ = Lᵗ + h Σ m vᵗ⁺¹ × vᵗ                                   (1)
 //
-// whatever the body does. A rigid body that turns by φ_n in step n about an axis through its centre has at radius R v_n
-// = (x_n − x_{n−1})/h, and y = 2 x_n − x_{n−1} lies at the angle atan(sin φ_n/(2 − cos φ_n)) ahead of x_n. The rotation
-// nearest to y in the norm of the masses is that one:
+// for any motion. Let a rigid body turn by φ_n in step n about an axis through its centre. At radius R it has v_n =
+// (x_n − x_{n−1})/h, and y = 2 x_n − x_{n−1} lies at the angle atan(sin φ_n/(2 − cos φ_n)) ahead of x_n. The rotation
+// nearest to y in the norm of the masses has this angle:
 //
 //     tan φ_{n+1} = sin φ_n/(2 − cos φ_n),   φ_1 = atan(h ω),   L_n = I sin φ_n/h                            (2)
 //
-// so that L loses about φ² of itself a step. A sheet turns out by a strain of ρ ω² R²/E, which is R's and enters L
+// so L loses a share of about φ² a step. A sheet extends by a strain of ρ ω² R²/E, which changes R, and R enters L
 // twice.
 //
-// A step that is not solved leaves a force. Newton leaves newton_tolerance of the mean |f*|, the force after the guess,
-// and sweeps leave what they have not yet removed: the tolerances below are shares of the impulses that inner forces
-// exchange, Σ ‖m Δv‖, 10⁻⁴ (newton_tolerance) and 10⁻² (the most that sweeps of a stiff body may leave).
+// A step that is not solved leaves a force. Newton leaves newton_tolerance of the mean |f*|, the force after the guess;
+// sweeps leave what they have not yet removed. So the tolerances below are shares of the impulses that inner forces
+// exchange, Σ ‖m Δv‖: 10⁻⁴ (newton_tolerance) and 10⁻² (the most that sweeps of a stiff body may leave).
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -29,7 +29,7 @@ using namespace law_shapes;
 
 double left_over(const Trajectory& run) { return run.by.is_solved ? 1e-4 : 1e-2; }
 
-/// Σ over steps and vertices of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖, which inner forces exchange.
+/// Sums over steps and vertices of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖, which inner forces exchange.
 struct Exchange {
   double impulse = 0, turn = 0;
 };
@@ -45,8 +45,8 @@ Exchange exchanged(const Trajectory& run) {
   return sum;
 }
 
-/// Returns the rounding error of Σ m v: velocities (x' − x)/h are off by 2 u |x|/h in each of n steps, all of one sign;
-/// with the lever |x| it is that of Σ m x × v.
+/// Returns the rounding error of Σ m v. Velocities (x' − x)/h are off by 2 u |x|/h in each of n steps, in the worst
+/// case with one sign. Multiplied by the lever |x| it is the error of Σ m x × v.
 double momentum_rounding(const Trajectory& run) {
   const double x = largest_coordinate(run), steps = static_cast<double>(run.rows.size());
   double mass = 0;

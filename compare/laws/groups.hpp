@@ -1,4 +1,4 @@
-// Declares the groups of laws, one for each file; laws() puts them together.
+// Declares the groups of laws, one for each file; laws() joins them.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@ std::vector<Law> free_bodies();  ///< momentum and angular momentum without oute
 std::vector<Law> slopes();       ///< sliding, sticking, stopping
 std::vector<Law> rests();        ///< bodies at rest
 std::vector<Law> releases();     ///< lifting off and bouncing
-std::vector<Law> drags();        ///< what friction holds or carries
+std::vector<Law> drags();        ///< bodies that friction holds or drags
 std::vector<Law> strips();       ///< hanging strips and bars
 std::vector<Law> beams();        ///< clamped beams, and pendulums
 std::vector<Law> cords();        ///< rods
-std::vector<Law> invariances();  ///< changes that must not change a motion
+std::vector<Law> invariances();  ///< changes that do not change a motion
 
 }  // namespace ogc::compare

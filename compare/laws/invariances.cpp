@@ -1,14 +1,14 @@
 // Tests changes that must not change a motion.
 //
-// Another body, farther away than any contact, exchanges nothing, but its speed sets the query radius of all vertices,
-// and it counts in means that end a solve. (IPC's barriers are as stiff as the whole scene makes them, unless κ is
-// given.) So a resting sheet stays in place except for rounding (flight_rounding) and the force that a step leaves,
-// law_measures::force_left of h² g.
+// A second body farther away than any contact exchanges no forces with the first. But its speed sets the query radius
+// of all vertices, and it enters means that end a solve. (The stiffness of IPC's barriers depends on the whole scene,
+// unless κ is given.) So a resting sheet stays in place except for rounding (flight_rounding) and the force that a step
+// leaves, law_measures::force_left of h² g.
 //
-// Lengths are scaled by 2ᵏ, masses and times are not: lengths, velocities, gravity, radii and ε_v are multiplied by 2ᵏ,
-// densities per square metre by 4⁻ᵏ, energies of bending by 4ᵏ; stiffnesses [N/m] stay. Every number of a step is
-// multiplied by a power of two, which rounds nothing, and every decision is about a sign or a ratio: the motion is the
-// same to the bit, times 2ᵏ.
+// Lengths are scaled by 2ᵏ, masses and times are not. Lengths, velocities, gravity, radii and ε_v are multiplied by 2ᵏ,
+// densities per square metre by 4⁻ᵏ, energies of bending by 4ᵏ; stiffnesses [N/m] stay. So every number of a step is
+// multiplied by a power of two, which causes no rounding, and every decision depends on a sign or a ratio. The motion
+// is the same to the bit, times 2ᵏ.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ namespace {
 using namespace law_measures;
 using namespace law_shapes;
 
-/// Returns a sheet that falls on a floor askew, with friction and hinges.
+/// Returns a sheet that falls askew on a floor, with friction and hinges.
 Scene falling(const char* name, std::int64_t steps) {
   Scene scene = empty_scene(name, 0.005, steps, 20);
   scene.gravity = {0, -standard_gravity, 0};
@@ -40,7 +40,7 @@ Scene falling(const char* name, std::int64_t steps) {
 std::vector<Scene> apart_scenes(LawSize) {
   Scene alone = falling("far_apart", 40);
   alone.settings.iterations = 40;
-  // Each vertex begins at the depth at which it rests by itself, so that the start disturbs nothing.
+  // Each vertex starts at the depth at which its own contact supports it, so that the start disturbs nothing.
   const std::vector<double> m = masses(alone);
   for (std::size_t v = 0; v < static_cast<std::size_t>(alone.bodies[0].vertex_count); ++v) {
     const double depth = m[v] * standard_gravity / alone.bodies[0].material.contact_stiffness;
@@ -58,8 +58,8 @@ std::vector<Scene> apart_scenes(LawSize) {
   return {alone, beside};
 }
 
-/// Returns the largest distance of a vertex of the first body from `scale` times its position in the other run, at any
-/// step.
+/// Returns the largest distance, at any step, of a vertex of the first body from `scale` times its position in the
+/// other run.
 double largest_difference(const Trajectory& run, const Trajectory& other, double scale) {
   const auto count = static_cast<std::size_t>(run.scene.bodies[0].vertex_count);
   double most = 0;

@@ -12,7 +12,7 @@
 namespace ogc::compare {
 namespace {
 
-/// Returns how far a reading is beyond its answer, on the side that counts; not-a-number stays one.
+/// Returns how far a reading is beyond its answer, on the side that counts. Not-a-number gives not-a-number.
 double excess(const Reading& reading) {
   const double off = reading.measured - reading.answer;
   return reading.side == Side::both ? std::abs(off) : off;

@@ -1,5 +1,5 @@
-// A law of motion has small scenes whose motion is known in closed form, the answer, and its tolerance. A law reads
-// states and rows of steps alone, and never learns the solver; compare/laws.md lists the laws.
+// Defines laws of motion: small scenes whose motion is known in closed form, the answer, and its tolerance. A law reads
+// only states and rows of steps, and never learns the solver. compare/laws.md lists the laws.
 #pragma once
 
 #include <span>
@@ -12,12 +12,13 @@
 
 namespace ogc::compare {
 
-/// State at the end of a step, or at the start: doubles of a solver with a state in double, otherwise widened floats.
+/// State at the start or at the end of a step: the doubles of a solver with a state in double, otherwise widened
+/// floats.
 struct LawState {
   std::vector<Vec3> positions, velocities;  ///< by vertex [m], [m/s]
 };
 
-/// What a law must know of the solver.
+/// What a law must know about the solver.
 struct Answerer {
   bool is_solved = false;           ///< steps are solved to a tolerance, in double; otherwise `iterations` sweeps
   bool has_contact_energy = false;  ///< contacts are springs within r (method.md §4.2); otherwise they are barriers
@@ -28,7 +29,7 @@ struct Trajectory {
   Scene scene;                    ///< the law's scene, rounded to single precision
   Answerer by;                    ///< properties of the solver
   std::vector<LawState> states;   ///< the start, then the end of each step
-  std::vector<StepMetrics> rows;  ///< rows[n − 1] is of the step that ends in states[n]
+  std::vector<StepMetrics> rows;  ///< rows[n − 1] describes the step that ends in states[n]
 };
 
 /// How a number is compared with the answer.
@@ -43,8 +44,8 @@ struct Reading {
   double measured = 0;     ///< from the trajectories; not-a-number breaks the law
   double answer = 0;       ///< in closed form
   double tolerance = 0;    ///< in the same unit; the law's file derives it
-  Side side = Side::both;  ///< whether a lower number is right, too
-  /// Largest error that a derived limit of the method allows; 0: no limit is derived.
+  Side side = Side::both;  ///< whether lower numbers are right, too
+  /// Largest error that the method can cause by a derived limit; 0: no limit is derived.
   double limit = 0;
   std::string why{};  ///< reason of the limit, and the setting that changes it
 };
@@ -60,20 +61,20 @@ enum class Verdict {
 Verdict verdict(const Reading& reading);
 /// Returns the worst verdict; holds if there is none.
 Verdict verdict(std::span<const Reading> readings);
-/// Returns the reading that is farthest out, in units of its tolerance; null if there is none.
+/// Returns the reading with the largest error in units of its tolerance; null if there is none.
 const Reading* worst(std::span<const Reading> readings);
 
-/// How much is run: the least that can show the law broken, for CI, or everything.
+/// How much is run: the least that can show a broken law, for CI, or everything.
 enum class LawSize { least, whole };
 
 /// A law with its name, scenes and readings.
 struct Law {
   std::string_view name, group;  ///< "slope_slides", "slopes"
-  std::string_view meaning;      ///< clause: what it proves
-  std::string_view answer;       ///< line: the closed answer
-  /// only for solvers with contact energy (Answerer); for others the row says that it was left out
+  std::string_view meaning;      ///< a clause: what the law tests
+  std::string_view answer;       ///< a line: the closed answer
+  /// Whether the law needs a solver with contact energy (Answerer); other solvers leave it out, and the row states that
   bool needs_springs = false;
-  /// Returns the scenes to move; settings.steps gives the length.
+  /// Returns the scenes to run; settings.steps gives the length.
   std::vector<Scene> (*scenes)(LawSize size) = nullptr;
   /// Reads the whole trajectories of these scenes, in their order.
   std::vector<Reading> (*read)(std::span<const Trajectory> runs) = nullptr;

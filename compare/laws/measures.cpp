@@ -12,7 +12,6 @@ const Vec3& at(const std::vector<Vec3>& values, Index v) { return values[static_
 
 double area(const Vec3& a, const Vec3& b, const Vec3& c) { return length(cross(plus(b, a, -1), plus(c, a, -1))) / 2; }
 
-/// Calls visit(vertex) for each vertex of the body.
 template <class Visit>
 void each_vertex(const Body& body, Visit visit) {
   for (Index v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v) visit(static_cast<std::size_t>(v));

@@ -1,5 +1,5 @@
-// Measures trajectories, and solves the scalar recursions that several laws share. Masses and energies are written from
-// method.md once more: a law borrows nothing from the solvers that it judges.
+// Measures trajectories, and solves scalar recursions that several laws share. Masses and energies are implemented
+// again from method.md, because a law must not use code of the solvers that it judges.
 #pragma once
 
 #include <string>
@@ -16,20 +16,20 @@ double dot(const Vec3& a, const Vec3& b);
 Vec3 cross(const Vec3& a, const Vec3& b);
 double length(const Vec3& a);
 
-/// Returns the share of a body's weight that a step may leave unbalanced. Newton ends at 10⁻⁴ of the force after the
-/// guess (newton_tolerance), which is the weight of a body at rest; sweeps, as many as a scene has, must reach 1/40.
+/// Returns the share of a body's weight that a step may leave unbalanced. Newton ends at 10⁻⁴ (newton_tolerance) of the
+/// force after the guess, which is the weight of a body at rest. The sweeps of a scene must reach 1/40.
 double force_left(const Trajectory& run);
 
-/// Returns the number of steps by which friction's normal force may be late: one solve, and with barriers, whose force
-/// begins at 0, also the first step.
+/// Returns the number of steps by which friction's normal force may lag: one solve, and with barriers the first step,
+/// too, since their force begins at 0.
 double lagged_steps(const Trajectory& run);
 
 /// Returns m_v [kg]: a third of each triangle's, a quarter of each tetrahedron's, half of each segment's mass at rest
 /// (method.md §4.10, §8.4); 0 on fixed bodies.
 std::vector<double> masses(const Scene& scene);
 
-/// Return the total mass of a body [kg]; the mean of its positions and velocities weighted by mass; Σ m v of everything
-/// that moves.
+/// Return the total mass of a body [kg]; its centre of mass and the velocity of that centre; Σ m v of everything that
+/// moves [kg m/s].
 double mass_of(const Scene& scene, std::size_t body);
 Vec3 centre(const Scene& scene, std::size_t body, const LawState& state);
 Vec3 centre_velocity(const Scene& scene, std::size_t body, const LawState& state);
@@ -41,9 +41,9 @@ double kinetic_energy(const Scene& scene, const LawState& state);
 /// Returns the largest coordinate of any state [m].
 double largest_coordinate(const Trajectory& run);
 
-/// Returns the largest error of positions in single precision after n steps of free flight [m]. Each step rounds x and
-/// v = (x' − x)/h, the first by u |x|, the second by 2 u |x|/h, and a wrong v is carried on: n + 2 (1 + … + n) such
-/// roundings, in the worst case all of one sign.
+/// Returns the largest error of positions in single precision after n steps of free flight [m]. Each step rounds x by u
+/// |x|, and v = (x' − x)/h by 2 u |x|/h. Errors of v accumulate: n + 2 (1 + … + n) roundings, in the worst case all of
+/// one sign.
 double flight_rounding(std::int64_t n, double largest_coordinate);
 
 /// Returns the velocity v' after a step of implicit Euler of a body that slides with velocity v against friction
@@ -51,8 +51,9 @@ double flight_rounding(std::int64_t n, double largest_coordinate);
 /// root.
 double slid(double velocity, double drive, double brake, double friction_velocity, double time_step);
 
-/// Implicit Euler of a height x above a plane at 0 that repels below r with k_c (r − x), x ≥ r/2, per mass: the
-/// minimiser of ‖x' − y‖²/(2h²) + (k/m)/2 max(0, r − x')² with y = x + h v + h² a.
+/// `bounced` returns the state after a step of implicit Euler of a mass at height x above a plane at 0. The plane
+/// repels below r with k_c (r − x), x ≥ r/2: x' minimises ‖x' − y‖²/(2h²) + (k_c/m)/2 max(0, r − x')², y = x + h v + h²
+/// a.
 struct Height {
   double x = 0, v = 0;  ///< [m], [m/s]
 };

@@ -1,17 +1,18 @@
-// Tests leaving a contact. At d = r there is no force, and none may appear: a body that leaves moves freely
-// (falls.cpp), or as it would without the floor, also if `contact_margin` lists its contact before it acts.
+// Tests bodies that leave a contact. At d = r there is no force, and none may appear: the body moves freely
+// (falls.cpp), or as it would without the floor. This also holds if `contact_margin` lists its contact before the
+// contact acts.
 //
-// A triangle of three equal vertices that falls flat on a floor of one triangle stays flat: each vertex is a mass on a
-// spring of its own, and implicit Euler's step is the minimiser of ‖x − y‖²/(2h²) + (k_c/m)/2 max(0, r − x)² with
-// y = x + h v + h² a,
+// A triangle of three equal vertices that falls flat on a floor of one triangle stays flat. Each vertex is a mass on
+// its own spring, and implicit Euler's step minimises ‖x − y‖²/(2h²) + (k_c/m)/2 max(0, r − x)² with y = x + h v + h²
+// a,
 //
 //     x' = y where y ≥ r, otherwise (y + κ r)/(1 + κ), κ = h² k_c/m                 (law_measures::bounced).   (1)
 //
-// With a convex potential U implicit Euler loses at least (v' − v)²/2 in each step, so that m v²/2 + m g x + U never
-// rises. That needs a contact that is listed in the step that brings it below r. A detection lists contacts below r at
-// the start of the step: then the step of the impact goes as deep as h v without paying k_c (h v)²/2 for it, and the
-// bounce gains up to that. With v² = 2 g H after a fall of H it is κ of the fall's energy, a limit that
-// `contact_margin` changes.
+// With a convex potential U implicit Euler loses at least (v' − v)²/2 in each step, so m v²/2 + m g x + U never rises.
+// That requires that a contact is listed in the step in which its distance falls below r. But a detection lists
+// contacts below r at the start of the step. So the step of the impact goes as deep as h v without paying k_c (h v)²/2,
+// and the bounce gains up to that energy. With v² = 2 g H after a fall of H the gain is a share κ of the fall's energy.
+// This limit is derived, and `contact_margin` changes it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,7 +31,7 @@ constexpr double spacing = 0.05, reach = 0.5;
 constexpr Index sheet_vertices = 25;
 constexpr Vec3 down{0, -standard_gravity, 0};
 
-/// Returns a scene with a sheet at d = r and another gravity.
+/// Returns a scene with a sheet at d = r and the given gravity.
 Scene leaving(const char* name, const Vec3& gravity, double floor_speed) {
   Scene scene = empty_scene(name, 0.005, 20, 40);
   scene.gravity = gravity;
@@ -69,14 +70,14 @@ std::vector<Reading> read_leaving(std::span<const Trajectory> runs) {
   return {distance_from_flight(runs[0]), distance_from_flight(runs[1])};
 }
 
-/// Returns the scene, and the same with contacts listed from 2 r on.
+/// Returns the scene, and the same scene with contacts listed from 2 r on.
 std::vector<Scene> with_early_lists(const Scene& scene) {
   Scene early = scene;
   early.settings.contact_margin = 1;
   return {scene, early};
 }
 
-/// Returns a sheet at d = r that is thrown up askew, so that it stretches, with a floor and without.
+/// Returns two scenes, with a floor and without: a sheet at d = r is thrown up askew, so that it stretches.
 std::vector<Scene> beyond_scenes(LawSize) {
   Scene with = leaving("beyond_contact", {0, 0, 0}, 0);
   with.settings.contact_margin = 1;
@@ -93,7 +94,7 @@ std::vector<Scene> beyond_scenes(LawSize) {
   return {with, without};
 }
 
-/// Reads the difference; steps may leave force_left of what bends the sheet off its free way.
+/// Reads the difference. Steps may leave force_left of the force that changes the sheet's free motion.
 std::vector<Reading> read_beyond(std::span<const Trajectory> runs) {
   const Trajectory &with = runs[0], &without = runs[1];
   double most = 0, elastic = 0;
@@ -135,8 +136,8 @@ std::vector<Height> heights_by_law(const Trajectory& run) {
   return heights;
 }
 
-/// Returns the largest distance of the centre's height from (1). A step leaves up to 10⁻⁴ of its force, forty sweeps of
-/// one spring for each vertex no more, and fewer than ten steps are in contact; rounding is that of flight.
+/// Returns the largest distance of the centre's height from (1). A step leaves up to 10⁻⁴ of its force, and forty
+/// sweeps of one spring for each vertex leave no more. Fewer than ten steps are in contact; rounding is that of flight.
 Reading distance_of_height(const Trajectory& run) {
   const std::vector<Height> law = heights_by_law(run);
   double most = 0, way = 0;
@@ -155,7 +156,7 @@ Reading distance_of_height(const Trajectory& run) {
 
 std::vector<Reading> read_heights(std::span<const Trajectory> runs) { return {distance_of_height(runs[0])}; }
 
-/// Returns the kinetic energy, gravity's and the springs' energy of the triangle [J].
+/// Returns the sum of the triangle's kinetic energy, gravity's energy and the springs' energy [J].
 double energy_of_bounce(const Trajectory& run, const LawState& state) {
   const double r = run.scene.settings.contact_radius;
   double energy = kinetic_energy(run.scene, state) -
@@ -165,7 +166,7 @@ double energy_of_bounce(const Trajectory& run, const LawState& state) {
   return energy;
 }
 
-/// Returns the largest rise of energy over that of the fall.
+/// Returns the largest rise of energy over the energy of the fall.
 double energy_gained(const Trajectory& run) {
   double least = std::numeric_limits<double>::infinity(), rise = 0;
   for (const LawState& state : run.states) {

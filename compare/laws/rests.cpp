@@ -1,14 +1,14 @@
-// Tests rest. A floor of one triangle has no edge and no vertex near a body, so that each vertex of a sheet above it
-// has one contact with it, a spring k_c (r − d) along the normal with d its height. At rest these bear the weight,
+// Tests rest. A floor of one triangle has no edge and no vertex near a body. So each vertex of a sheet above it has one
+// contact with it, a spring k_c (r − d) along the normal with d its height. At rest the contacts balance the weight,
 //
 //     Σ k_c (r − d_v) = M g,
 //
-// whatever lies on top of what, and nothing moves along the normal; along the floor sticking vertices may creep
+// however bodies are stacked, and nothing moves along the normal. Along the floor sticking vertices may creep
 // (slopes.cpp). A sheet that is dropped by a fifth of r also comes to rest: implicit Euler takes at least (v' − v)²/2
 // from it in each step.
 //
-// Tolerances are law_measures::force_left of the weight. That force changes a vertex's velocity by that share of g h in
-// a step, and its energy is the square of it.
+// Tolerances are law_measures::force_left of the weight. Such a force changes a vertex's velocity by that share of g h
+// in a step, and its energy by the square of it.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ namespace {
 using namespace law_measures;
 using namespace law_shapes;
 
-/// Returns Σ k_c (r − d) over the vertices of the lowest sheet [N]; no other one is within r of the floor.
+/// Returns Σ k_c (r − d) over the vertices of the lowest sheet [N]; no other sheet is within r of the floor.
 double borne(const Trajectory& run, const LawState& state) {
   const Body& of = run.scene.bodies[0];
   double sum = 0;
@@ -32,13 +32,13 @@ double borne(const Trajectory& run, const LawState& state) {
   return sum;
 }
 
-/// Returns Σ m v_y²/2: sticking vertices may creep along the floor, as ε_v allows.
+/// Returns Σ m v_y²/2. Motion along the floor is left out, since sticking vertices may creep as ε_v allows.
 double vertical_energy(const Scene& scene, LawState state) {
   for (Vec3& v : state.velocities) v = {0, v.y, 0};
   return kinetic_energy(scene, state);
 }
 
-/// Reads the run's last quarter.
+/// Adds readings of the last quarter of the run, when the sheets are at rest.
 void add_rest(std::vector<Reading>& readings, const Trajectory& run, const std::string& how) {
   double mass = 0, kinetic = 0;
   for (const double m : masses(run.scene)) mass += m;
@@ -75,9 +75,9 @@ std::vector<Scene> weight_scenes(LawSize) {
   return {scene, dropped};
 }
 
-/// Runs a hundred sweeps. The sheets have ten contacts a vertex with each other and one with the floor, so that the
-/// stack sinks and rises as one body against blocks that are many times as stiff: a sweep removes about 7 % of that,
-/// while for a single sheet one removes nearly all.
+/// Runs a hundred sweeps. The sheets have ten contacts a vertex with each other and one with the floor. So the stack
+/// sinks and rises as one body against blocks that are many times as stiff. A sweep removes about 7 % of that motion;
+/// for a single sheet it removes nearly all.
 std::vector<Scene> stack_scenes(LawSize size) {
   Scene scene = stacked_sheets("stack_at_rest", 3, size == LawSize::least ? 200 : 400);
   scene.settings.iterations = 100;

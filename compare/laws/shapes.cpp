@@ -24,8 +24,8 @@ Mesh sheet(Index rows, Index columns, double spacing, double height) {
 }
 
 Mesh floor_triangle(double reach, double height) {
-  // An equilateral triangle's corners are twice as far out as its inscribed circle; half as much again keeps edges
-  // away.
+  // An equilateral triangle's corners are twice as far out as its inscribed circle. The factor 3/2 keeps edges away
+  // from bodies.
   const double corner = 3 * reach;
   return {.positions = {{corner, height, 0},
                         {-corner / 2, height, -corner * std::numbers::sqrt3 / 2},
@@ -35,8 +35,7 @@ Mesh floor_triangle(double reach, double height) {
 }
 
 Mesh box(const std::array<Index, 3>& cells, double spacing, const Vec3& low) {
-  // The six orders in which a way along the axes leads from a cube's lowest to its highest corner; odd ones are
-  // mirrored.
+  // The six orders of axes on a way from a cube's lowest to its highest corner; odd orders are mirrored.
   constexpr std::array<std::array<std::size_t, 3>, 6> orders{
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   const std::array<Index, 3> count{cells[0] + 1, cells[1] + 1, cells[2] + 1};
@@ -101,7 +100,7 @@ Scene stacked_sheets(const char* name, int sheets, std::int64_t steps) {
   for (int k = 0; k < sheets; ++k) {
     height += scene.settings.contact_radius - (sheets - k) * each;
     Mesh mesh = sheet(5, 5, spacing, height);
-    // Each sheet is moved by a part of a cell, so that no vertex lies above another one.
+    // Each sheet is shifted by a part of a cell, so that no vertex lies above another one.
     for (Vec3& x : mesh.positions) x = {x.x + 0.3 * k * spacing, x.y, x.z + 0.2 * k * spacing};
     append_body(scene, {.name = "sheet", .material = material}, mesh);
   }

@@ -1,21 +1,21 @@
-// Tests slopes: gravity is tilted by α over a level floor, so that x runs down the slope. A body in contact has the
-// normal force m g cos α, at rest, and in the mean of every motion along the floor, since its momentum along the normal
-// stays bounded. So along the slope its centre obeys Coulomb's law as method.md §4.4 smooths it, and implicit Euler
-// turns it into one equation for each step (law_measures::slid):
+// Tests slopes: gravity is tilted by α over a level floor, so that x points down the slope. A body in contact has the
+// normal force m g cos α, at rest and in the mean of every motion along the floor, since its momentum along the normal
+// is bounded. So along the slope its centre obeys Coulomb's law, smoothed as in method.md §4.4. Implicit Euler turns
+// that into one equation for each step (law_measures::slid):
 //
 //     v' = v + h (g sin α − μ g cos α f₁(v'/ε_v)),   x' = x + h v',   f₁(y) = 2 y − y² for y < 1, else 1.
 //
-// Beyond ε_v that is x = ½ (g sin α − μ g cos α) t² and h t/2 (…) more. Where tan α < μ there is a velocity at which
-// friction takes all, f₁(v/ε_v) = tan α/μ, the creep
+// Beyond ε_v, x is ½ (g sin α − μ g cos α) t² plus h t/2 times the same acceleration. For tan α < μ friction balances
+// gravity at one velocity, f₁(v/ε_v) = tan α/μ, the creep
 //
 //     v = ε_v (1 − √(1 − tan α/μ)).
 //
-// Tolerances. Friction acts with a normal force λ that is lagged by up to one solve or sweep, and barriers, which have
-// no force where a body starts, take another step to have any (law_measures::lagged_steps). So over a slide of T
-// friction misses up to n h m g cos α, a velocity of n μ g cos α h: n h/T of what friction takes, and 2 n h/T of the
-// way that it takes. Sweeps end with an error of λ; the requirement on them is force_left of the weight. An error e of
-// λ is one of e μ cos α over (sin α − μ cos α) of the acceleration. Without friction nothing acts along the floor but
-// what the guess loop may leave cut when it ends, γ_e = 1 % of the vertices.
+// Tolerances. The normal force λ of friction lags by up to one solve or sweep. Barriers have no force at the start of a
+// motion, so their λ lags by another step (law_measures::lagged_steps). If λ lags by n steps, friction misses up to n h
+// m g cos α over a slide of T, a velocity of n μ g cos α h. That is a share n h/T of friction's velocity change, and 2
+// n h/T of its share of the way. Sweeps end with an error of λ; they are required to reach force_left of the weight. An
+// error e of λ changes the acceleration by the share e μ cos α over (sin α − μ cos α). Without friction nothing acts
+// along the floor but cuts that the guess loop may leave when it ends, at γ_e = 1 % of the vertices.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -36,12 +36,12 @@ constexpr double radius = 0.01, sheet_side = 0.2, block_side = 0.1;
 
 Vec3 tilted(double angle) { return {standard_gravity * std::sin(angle), -standard_gravity * std::cos(angle), 0}; }
 
-/// Adds a floor of 49 vertices a metre apart: bodies cross its edges and vertices.
+/// Adds a floor of 49 vertices a metre apart; bodies cross its edges and vertices.
 void add_floor(Scene& scene, const Material& material) {
   append_body(scene, {.name = "floor", .fixed = true, .material = material}, sheet(7, 7, 1, 0));
 }
 
-/// Returns a sheet at the depth at which `vertices` springs bear its weight.
+/// Returns a sheet at the depth at which `vertices` springs support its weight.
 Scene sheet_on(const char* name, const Slope& slope, std::int64_t steps) {
   Scene scene = empty_scene(name, 0.005, steps, 40);
   scene.gravity = tilted(slope.angle);
@@ -57,7 +57,7 @@ Scene sheet_on(const char* name, const Slope& slope, std::int64_t steps) {
   return scene;
 }
 
-/// Returns a block of soft rubber, 27 vertices, nine of them on the floor.
+/// Returns a block of soft rubber with 27 vertices, nine of which are on the floor.
 Scene block_on(const char* name, const Slope& slope, std::int64_t steps) {
   Scene scene = empty_scene(name, 0.005, steps, 40);
   scene.gravity = tilted(slope.angle);
@@ -76,7 +76,7 @@ Scene block_on(const char* name, const Slope& slope, std::int64_t steps) {
   return scene;
 }
 
-/// Way [m] and velocity [m/s] after all steps by the discrete law, from the scene's own numbers.
+/// Way [m] and velocity [m/s] by the discrete law, computed from the scene's own numbers.
 struct Slid {
   double way = 0, velocity = 0;
 };
@@ -91,8 +91,8 @@ Slid slid_down(const Trajectory& run, std::size_t steps) {
   return now;
 }
 
-/// Errors that friction's lag and sweeps may leave in a velocity that friction alone changes, in shares of it; a way
-/// has twice the lag. `seconds`: time of sliding.
+/// Errors that the lag of friction and sweeps may cause in a velocity that friction alone changes, and in the way, as
+/// shares; a way has twice the lag.
 struct Share {
   double way = 0, velocity = 0;
 };
@@ -130,7 +130,7 @@ std::vector<Reading> read_slide(std::span<const Trajectory> runs) {
   return readings;
 }
 
-/// Reads the second half, when the disturbance of the start has decayed.
+/// Reads the second half of the run, when the disturbance of the start has decayed.
 std::vector<Reading> read_stick(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const std::size_t last = run.states.size() - 1, half = last / 2;
@@ -138,7 +138,7 @@ std::vector<Reading> read_stick(std::span<const Trajectory> runs) {
   const double way = centre(run.scene, 0, run.states[last]).x - centre(run.scene, 0, run.states[half]).x;
   const double share = run.scene.gravity.x / (-run.scene.gravity.y * run.scene.bodies[0].material.friction);
   const double creep = run.scene.settings.friction_velocity * (1 - std::sqrt(1 - share));
-  // An error e of λ changes f₁ by e f₁, and y by e f₁/(2 (1 − y)); rounding is at worst one of x in each step.
+  // An error e of λ changes f₁ by e f₁, and y by e f₁/(2 (1 − y)). Rounding is at worst one of x in each step.
   const double error = (lagged_steps(run) / static_cast<double>(run.rows.size()) + force_left(run)) * share /
                        (2 * std::sqrt(1 - share)) * run.scene.settings.friction_velocity;
   return {{.what = "creep",
@@ -159,7 +159,7 @@ std::vector<Reading> read_frictionless(std::span<const Trajectory> runs) {
            .tolerance = share * law.velocity}};
 }
 
-/// Reads the way until it rests, after v/(μ g), and that it rests.
+/// Reads the way until the body rests, after v/(μ g), and checks that it rests.
 std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const Slid law = slid_down(run, run.rows.size());
@@ -177,8 +177,8 @@ std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
 
 constexpr Slope steep{degrees(20), 0.2, 0}, gentle{degrees(2), 1, 0}, smooth{degrees(20), 0, 0}, level{0, 0.2, 0.5};
 
-/// Returns the scene, and at the whole size also with five times the sweeps, and with half of h: both obey the law of
-/// their own h.
+/// Returns the scene. At the whole size also returns it with five times the sweeps, and with half of h; both obey the
+/// law of their own h.
 std::vector<Scene> at_sizes(Scene scene, LawSize size) {
   if (size == LawSize::least) return {scene};
   Scene swept = scene, fine = scene;

@@ -1,22 +1,25 @@
 // Tests hanging strips and bars. A strip of membrane with λ = 0 does not get narrower as it is drawn (St.
-// Venant–Kirchhoff, method.md §4.6): with a stretch s along gravity ψ = μ (s² − 1)²/4, so the force across a width w is
+// Venant–Kirchhoff, method.md §4.6). With a stretch s along gravity ψ = μ (s² − 1)²/4, so the force across a width w is
 //
 //     T = μ w s (s² − 1).
 //
-// A row of cells bears the weight of all vertices below it; that equation gives its stretch, and the sum of the
-// stretches the length. A bar of tetrahedra with λ = 0 (method.md §8.1) has 2 μ A (s − 1) but for terms of second order
-// in the strain, which sideways stress μ (s − 1)² A balances.
+// A row of cells supports the weight of all vertices below it. The equation gives its stretch, and the sum of the
+// stretches gives the length. A bar of tetrahedra with λ = 0 (method.md §8.1) has 2 μ A (s − 1), except for terms of
+// second order in the strain, which the sideways stress μ (s − 1)² A balances.
 //
-// Tolerances. Inside a row masses and forces of vertices are not spread alike, as diagonals alternate: a row more or
-// less, of n, would be too much by (1/n)². Sweeps: at rest a step starts h² g too low and goes from there towards the
-// solution of the step, which is a = (m/h²)/(m/h² + k₁) times as far from rest as the step's start was. N sweeps leave
-// ρᴺ of the way, so that the strip rests where z = a z + ρᴺ (z + h² g − a z), too low by
+// Tolerances. Inside a row masses and forces of vertices are distributed differently, because diagonals alternate. The
+// error is below that of one row more or less, of n: (1/n)².
+//
+// Sweeps: at rest a step starts h² g too low and moves towards the solution of the step, which is a = (m/h²)/(m/h² +
+// k₁) times as far from rest as the step's start was. N sweeps leave ρᴺ of the way. So the strip rests where z = a z +
+// ρᴺ (z + h² g − a z), too low by
 //
 //     z = (4/π) h² g ρᴺ/((1 − ρᴺ)(1 − a)),    ρ = (2 k cos q/(m/h² + 2 k))²,   q = π/(2 n + 1),   k₁ = 2 k (1 − cos q),
 //
 // with m of a row, k = E w/a between two rows, ρ the factor of Gauss–Seidel for the longest wave of a chain, k₁ that
-// wave's stiffness, and 4/π its part of a uniform load. A vertex's block has its shear stiffness, too, E/4 for each E
-// along: sweeps of the plane are as good as half as many of the chain at least, so that z with N/2 is the limit.
+// wave's stiffness, and 4/π its part of a uniform load. A vertex's block also has the shear stiffness, E/4 for each E
+// along the strip. So sweeps of the plane are at least as good as half as many sweeps of the chain, and z with N/2 is
+// the limit.
 #include <algorithm>
 #include <cmath>
 
@@ -42,14 +45,14 @@ double stretch(double load) {
   return low;
 }
 
-/// Returns the mass of the vertices from row `first` on, `width` vertices in a row.
+/// Returns the mass of the vertices from row `first` on, with `width` vertices in a row.
 double mass_below(const std::vector<double>& m, std::size_t first, std::size_t width) {
   double sum = 0;
   for (std::size_t v = first * width; v < m.size(); ++v) sum += m[v];
   return sum;
 }
 
-/// Hangs the scene's first body along x: row i goes to its place in the closed answer, row 0 stays.
+/// Hangs the scene's first body along x: row i moves to its place in the closed answer, row 0 stays.
 template <class Stretch>
 void hang(Scene& scene, std::size_t width, Stretch stretch_under) {
   const std::vector<double> m = masses(scene);
@@ -71,7 +74,7 @@ Scene strip(Index rows, std::int64_t iterations, std::int64_t steps) {
   Scene scene = empty_scene("hanging_strip", 0.005, steps, iterations);
   Material material = cloth(0);
   material.density = strip_density;
-  material.membrane = MembraneModel::st_venant_kirchhoff;  // T above belongs to this model
+  material.membrane = MembraneModel::st_venant_kirchhoff;  // the formula of T assumes this model
   material.lame_mu = strip_mu;
   material.lame_lambda = 0;
   append_body(scene, {.name = "strip", .material = material}, sheet(rows, 3, cell, 0));
@@ -79,7 +82,7 @@ Scene strip(Index rows, std::int64_t iterations, std::int64_t steps) {
   return scene;
 }
 
-/// Returns how much lower sweeps may leave the end, as derived above.
+/// Returns how much too low sweeps may leave the end, as derived at the head of this file.
 double swept_sag(const Trajectory& run, double young, double density, double area, double rows) {
   const double h = run.scene.settings.time_step, m = density * area * cell, k = young * area / cell;
   const double q = std::numbers::pi / (2 * rows + 1), rho = std::pow(2 * k * std::cos(q) / (m / (h * h) + 2 * k), 2);
@@ -88,7 +91,7 @@ double swept_sag(const Trajectory& run, double young, double density, double are
   return 4 / std::numbers::pi * h * h * standard_gravity * left / ((1 - left) * kept);
 }
 
-/// Reads the extension at the end over that of the closed answer, at which the run began.
+/// Reads the extension at the end relative to that of the closed answer, at which the run began.
 Reading read_hanging(const Trajectory& run, std::size_t width, double young, double density, double area) {
   const auto end = [&](const std::vector<Vec3>& x) {
     double sum = 0;

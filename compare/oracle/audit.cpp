@@ -1,5 +1,5 @@
-// Culls by boxes, then decides each pair exactly. Findings are collected by thread and sorted, so that the answer never
-// depends on threads.
+// Culls pairs by boxes, then decides each remaining pair exactly. Each thread collects findings; these are sorted, so
+// that the answer does not depend on threads.
 #include "compare/oracle/audit.hpp"
 
 #include <tbb/blocked_range.h>
@@ -45,7 +45,7 @@ class Auditor {
       all.pairs_tested += share.pairs_tested;
     }
     std::sort(all.intersections.begin(), all.intersections.end());
-    // The same two edges may be found through several triangles.
+    // Several triangles may lead to the same two edges.
     const auto [first, last] = std::ranges::unique(all.intersections);
     all.intersections.erase(first, last);
     return all;
@@ -112,8 +112,8 @@ class Auditor {
 
   std::array<Vec3, 2> segment(const Edge& e) const { return {positions_[at(e[0])], positions_[at(e[1])]}; }
 
-  /// Tests an edge against the side of a triangle that lies opposite to their one common vertex: they may cross in the
-  /// plane of both, with no end on any triangle.
+  /// Tests an edge against the side of a triangle that is opposite to their only common vertex. The edge and the side
+  /// may cross in a common plane, and then no end is on a triangle.
   void test_opposite(Index edge, const Box& box, const Edge& side, Findings& found) const {
     const std::array<Vec3, 2> others = segment(side);
     if (!box.meets(box_of({others[0], others[1]}))) return;
@@ -125,8 +125,8 @@ class Auditor {
     found.intersections.push_back({IntersectionKind::edge_edge, std::min(edge, other), std::max(edge, other)});
   }
 
-  /// Returns whether two edges meet, beyond the vertex that they share if they do: an end of one then lies on the
-  /// other.
+  /// Returns whether two edges meet. If they share a vertex, only other common points count: then an end of one edge
+  /// lies on the other.
   bool meet(const Edge& first, const Edge& second) const {
     const auto lies_on = [&](Index v, const Edge& other) {
       return v != other[0] && v != other[1] && segments_meet(segment({v, v}), segment(other));
@@ -152,8 +152,8 @@ class Auditor {
   std::span<const Vec3> positions_;
   ExclusionView exclusions_;
   BoxTree tree_;
-  std::vector<Index> loose_;  ///< edges that belong to no triangle
-  BoxTree loose_tree_;        ///< over the loose edges
+  std::vector<Index> loose_;
+  BoxTree loose_tree_;
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ BoxTree::BoxTree(std::span<const Box> boxes) {
 }
 
 void BoxTree::build(std::span<const Box> boxes, std::span<Item> items, Index number) {
-  constexpr std::size_t alone = 4096;  // with fewer items a task of its own costs more than it saves
+  constexpr std::size_t alone = 4096;  // for fewer items a task costs more time than it saves
   Node& node = nodes_[static_cast<std::size_t>(number)];
   if (items.size() == 1) {
     node.item = items[0].box;

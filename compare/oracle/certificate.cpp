@@ -1,7 +1,7 @@
-// ‖x − x_prev‖² − b² is a sum of 19 doubles without any rounding: a difference of two floats is two doubles, a product
-// of two such doubles is two more (fma), and every term is a multiple of 2⁻²⁹⁸ below 2²⁶⁰, so nothing under- or
-// overflows. Its sign is that of the last of the components which Shewchuk's "grow expansion" leaves (Adaptive
-// Precision Floating-Point Arithmetic, 1997, Theorem 10).
+// ‖x − x_prev‖² − b² is a sum of 19 doubles without rounding: a difference of two floats is two doubles, and a product
+// of two such doubles is two more (fma). Every term is a multiple of 2⁻²⁹⁸ below 2²⁶⁰, so nothing under- or overflows.
+// The sign of the sum is that of the last component left by Shewchuk's "grow expansion" (Adaptive Precision
+// Floating-Point Arithmetic, 1997, Theorem 10).
 #include "compare/oracle/certificate.hpp"
 
 #include <array>
@@ -24,7 +24,7 @@ TwoParts two_sum(double a, double b) {
   return {sum, (a - a_part) + (b - b_part)};
 }
 
-/// Keeps a sum of doubles without rounding, components ascending in size and not overlapping.
+/// Keeps a sum of doubles without rounding, as components that ascend in size and do not overlap.
 class ExactSum {
  public:
   void add(double value) {

@@ -1,5 +1,5 @@
-// Checks the motion certificate (method.md §5.5): two states without intersections do not prove that the way between
-// them was free; bounds that are kept do.
+// Checks the motion certificate (method.md §5.5). Two states without intersections do not prove that the motion between
+// them was free of intersections. Bounds that all vertices keep do.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace ogc::compare {
 
-/// Holds whether stored positions satisfy Eq. 27. It is kept if no vertex moved further than its bound.
+/// Holds whether stored positions satisfy Eq. 27. The certificate is kept if no vertex moved farther than its bound.
 struct MotionCertificate {
-  /// vertices with ‖x − x_prev‖ > b_v, or with a number that is not finite, or with b_v < 0
+  /// number of vertices with ‖x − x_prev‖ > b_v, with a number that is not finite, or with b_v < 0
   std::size_t violations = 0;
-  Index worst_vertex = -1;  ///< vertex of the largest ratio, the first of equals; -1 if no vertex moved
-  /// largest ‖x − x_prev‖ / b_v, rounded; infinite if a vertex moved against b_v = 0 or is not finite
+  Index worst_vertex = -1;  ///< vertex of the largest ratio, the lowest-numbered of equals; −1 if no vertex moved
+  /// largest ‖x − x_prev‖ / b_v, rounded; infinite if a vertex moved although b_v = 0, or is not finite
   double worst_ratio = 0;
   bool kept() const { return violations == 0; }
 };

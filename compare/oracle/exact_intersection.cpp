@@ -1,5 +1,6 @@
-// Projects points of a plane along a coordinate axis on which the plane does not become a line, which is one-to-one,
-// and compares points of a line coordinate by coordinate. Dropping coordinates rounds nothing.
+// Compares points of a plane in a projection along a coordinate axis, chosen so that the plane does not become a line;
+// then the projection is one-to-one. Compares points of a line coordinate by coordinate. Dropping coordinates causes no
+// rounding.
 #include "compare/oracle/exact_intersection.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -45,7 +46,7 @@ bool planar_segments_meet(const Point2& p, const Point2& q, const Point2& a, con
          (aq == 0 && within(a, b, q));
 }
 
-/// Returns whether a proper, closed triangle holds the point.
+/// Returns whether a proper, closed triangle contains the point.
 bool planar_triangle_holds(const std::array<Point2, 3>& t, const Point2& p) {
   const int s0 = CGAL::orientation(t[0], t[1], p), s1 = CGAL::orientation(t[1], t[2], p),
             s2 = CGAL::orientation(t[2], t[0], p);
@@ -60,7 +61,7 @@ bool planar_segment_meets_triangle(const std::array<Vec3, 2>& segment, const std
          planar_segments_meet(p, q, t[2], t[0]);
 }
 
-/// Returns whether the segments meet; all four points lie on one line, or are the same.
+/// Returns whether the segments meet. All four points must lie on one line, or be equal.
 bool collinear_segments_meet(const std::array<Vec3, 2>& first, const std::array<Vec3, 2>& second) {
   const auto overlap = [](double a, double b, double c, double d) {
     return std::max(std::min(a, b), std::min(c, d)) <= std::min(std::max(a, b), std::max(c, d));

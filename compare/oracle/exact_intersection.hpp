@@ -1,4 +1,4 @@
-// Decides whether a segment meets a triangle or a segment, by exact predicates alone, for any points. Degenerate
+// Decides for any points whether a segment meets a triangle or a segment, with exact predicates only. Degenerate
 // configurations are not rare in an audit.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace ogc::compare {
 
-/// Returns whether closed segment pq and closed triangle abc share a point. Either may be degenerate: p = q is a point,
-/// a collinear triangle is the segment or point that it covers. Coordinates must be finite.
+/// Returns whether closed segment pq and closed triangle abc share a point. Either may be degenerate: for p = q the
+/// segment is a point, and a collinear triangle is the segment or point that it covers. Coordinates must be finite.
 bool segment_meets_triangle(const std::array<Vec3, 2>& segment, const std::array<Vec3, 3>& triangle);
 
 /// Returns whether closed segments share a point; either may be a point. Coordinates must be finite.

@@ -27,10 +27,10 @@ class Paths {
     for (std::size_t k = 0; k < 4; ++k) areas_[k] = area(triples[k]);
   }
 
-  /// Returns six times the volume of the four points: 0 whenever the faces share a point.
+  /// Returns six times the volume of the four points, which is 0 whenever the faces share a point.
   Polynomial volume() const { return dot(areas_[0], minus(points_[3], points_[0])); }
 
-  /// Returns all polynomials whose sign `meets` reads.
+  /// Returns all polynomials of which `meets` uses the sign.
   std::vector<Polynomial> questions() const {
     std::vector<Polynomial> all;
     const auto add = [&](const Path& v) {
@@ -64,18 +64,19 @@ class Paths {
     return beyond(i) * beyond(j) <= 0;
   }
 
-  /// Returns whether k, seen along an axis, lies in the box of i and j: for collinear points, on the closed segment.
+  /// Returns whether k, seen along an axis, lies in the box of i and j. For collinear points that is the closed
+  /// segment.
   bool within(Moment& time, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     return between(time, i, j, k, (axis + 1) % 3) && between(time, i, j, k, (axis + 2) % 3);
   }
 
-  /// Returns whether the edges meet. Points of a plane are projected along an axis on which it becomes no line:
-  /// one-to-one.
+  /// Returns whether the edges meet. Points of a plane are projected along an axis on which the plane does not become a
+  /// line, so the projection is one-to-one.
   bool edges_meet(Moment& time) const {
     for (const Triple& t : triples)
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (side(time, t[0], t[1], t[2], axis) != 0) return planar_edges_meet(time, axis);
-    for (std::size_t axis = 0; axis < 3; ++axis)  // all four on one line
+    for (std::size_t axis = 0; axis < 3; ++axis)  // all four points are on one line
       if (!overlap(time, axis)) return false;
     return true;
   }
@@ -88,8 +89,7 @@ class Paths {
            (s0 == 0 && within(time, 2, 3, 0, axis)) || (s1 == 0 && within(time, 2, 3, 1, axis));
   }
 
-  /// Returns whether the ranges of a coordinate on both edges share a number: an end of one is in the range of the
-  /// other.
+  /// Returns whether the ranges of a coordinate on both edges overlap: an end of one range is in the other.
   bool overlap(Moment& time, std::size_t axis) const {
     return between(time, 0, 1, 2, axis) || between(time, 0, 1, 3, axis) || between(time, 2, 3, 0, axis) ||
            between(time, 2, 3, 1, axis);
@@ -112,7 +112,7 @@ class Paths {
 
   MeetingKind kind_;
   std::array<Path, 4> points_;
-  std::array<Path, 4> areas_;  ///< area of each triple
+  std::array<Path, 4> areas_;
 };
 
 }  // namespace
@@ -136,7 +136,7 @@ std::optional<MeetingTime> first_meeting(const MovingPair& pair) {
       const MomentBracket found = time.bracket();
       first = first ? MeetingTime{std::min(first->low, found.low), std::min(first->high, found.high)}
                     : MeetingTime{found.low, found.high};
-      break;  // later roots of this polynomial come later
+      break;  // later roots of this polynomial are later times
     }
   return first;
 }

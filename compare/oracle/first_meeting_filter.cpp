@@ -1,13 +1,13 @@
-// One direction is a proof: if every vertex of one face is above every vertex of the other along it at the begin and at
-// the end of a span of time, it is so in between, since heights are linear in time, and the hulls never meet. Any
-// direction may serve, so it comes from rounded guesses; only heights have an error, bounded below.
+// Proves that two faces do not meet, by one direction: along it every vertex of one face is above every vertex of the
+// other, at the begin and at the end of a span of time. Heights are linear in time, so that holds in between, too, and
+// the hulls never meet. Any direction may serve, so it comes from rounded guesses. Only the heights' error matters; its
+// bound follows.
 //
-// Height h = d·(p − q), u = 2⁻⁵³, M = Σ|d_k||p_k − q_k| as computed: the difference carries one rounding, its product
-// one, two sums two, together less than 4.001 u M; a span's end (1 − s) h₀ + s h₁ with dyadic s of few bits carries two
-// more and a sum, less than 2.001 u max(|h₀|, |h₁|), and |h| ≤ M(1 + 4u). 8 u max(M₀, M₁) is more than all of it and
-// than the rounding of M itself. A product that underflows loses at most 2⁻¹⁰⁷⁴: 2⁻¹⁰⁰⁰ is more than five of those.
-// Contraction to fused operations leaves roundings out. Infinity and NaN prove nothing: each comparison with them
-// fails.
+// Height h = d·(p − q), u = 2⁻⁵³, M = Σ|d_k||p_k − q_k| as computed. The difference has one rounding, its product one,
+// two sums two, together less than 4.001 u M. A span's end (1 − s) h₀ + s h₁ with dyadic s of few bits has two more and
+// a sum, less than 2.001 u max(|h₀|, |h₁|), and |h| ≤ M(1 + 4u). 8 u max(M₀, M₁) is more than the sum of these and the
+// rounding of M. A product that underflows loses at most 2⁻¹⁰⁷⁴; 2⁻¹⁰⁰⁰ is more than five times that. Contraction to
+// fused operations only reduces roundings. Infinity and NaN prove nothing, since each comparison with them fails.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ using Vector = DistanceVector<double>;
 using Points = std::array<Vector, 4>;
 
 constexpr double height_error = 0x1p-50, underflow_error = 0x1p-1000;
-constexpr int most_halvings = 5;  // with more of them the exact answer is as cheap
+constexpr int most_halvings = 5;  // with more halvings the exact answer is as cheap
 
 Vector along(const Vector& a, const Vector& b, double s) {
   return {a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.z + s * (b.z - a.z)};
@@ -85,7 +85,7 @@ class Filter {
     return {dot(d, w), std::abs(d.x * w.x) + std::abs(d.y * w.y) + std::abs(d.z * w.z)};
   }
 
-  /// Returns whether along d every vertex of the first face is above every one of the second, from `begin` to `end`.
+  /// Returns whether along d every vertex of the first face is above every vertex of the second, from `begin` to `end`.
   bool above(const Vector& d, double begin, double end) const {
     for (std::size_t i = 0; i < split_; ++i)
       for (std::size_t j = split_; j < 4; ++j) {

@@ -1,5 +1,5 @@
-// Boxes of swept faces hold all of their positions, since corners move straight, so every pair that meets is visited. A
-// proof in floating point then keeps a pair apart; pairs without one are decided exactly.
+// The box of a swept face contains all of its positions, since corners move along straight lines; so every pair that
+// meets is visited. A proof in floating point then excludes most pairs, and the others are decided exactly.
 #include "compare/oracle/meetings.hpp"
 
 #include <tbb/blocked_range.h>
@@ -33,7 +33,7 @@ class MotionAuditor {
   /// Returns the number of vertices and edges that search for partners.
   std::size_t asking() const { return at(topology_.vertex_count) + topology_.edges.size(); }
 
-  /// Returns the meetings of every `stride`-th of them.
+  /// Returns the meetings of every `stride`-th of these vertices and edges.
   MeetingsResult run(std::size_t stride = 1) const {
     tbb::enumerable_thread_specific<MeetingsResult> shares;
     const std::size_t count = (asking() + stride - 1) / stride;
@@ -107,7 +107,7 @@ class MotionAuditor {
   const Topology& topology_;
   std::span<const Vec3> from_, to_;
   ExclusionView exclusions_;
-  BoxTree triangles_, edges_;  ///< over swept faces
+  BoxTree triangles_, edges_;
 };
 
 constexpr std::size_t sample_size = 2000;

@@ -1,5 +1,5 @@
-// Finds the faces that share a point on the straight way between two states of a mesh (method.md §5.5): states cannot
-// show that curves passed each other; this proves a motion. compare/meetings.md has the construction.
+// Finds the faces that share a point on the straight motion between two states of a mesh (method.md §5.5). States alone
+// cannot show that curves passed through each other; this proves a motion. compare/meetings.md explains how.
 #pragma once
 
 #include <cstddef>
@@ -16,31 +16,32 @@ namespace ogc::compare {
 struct Meeting {
   MeetingKind kind = MeetingKind::vertex_triangle;  ///< kind of the faces
   Index first = -1, second = -1;                    ///< vertex and triangle, or edges, the smaller first
-  double time = 0;                                  ///< time of the first such point, in [0, 1], rounded down
+  double time = 0;                                  ///< time of the first common point, in [0, 1], rounded down
   friend auto operator<=>(const Meeting&, const Meeting&) = default;
 };
 
 /// The meetings of a motion.
 struct MeetingsResult {
-  std::vector<Meeting> meetings;   ///< of vertices first, then ascending
-  std::size_t count = 0;           ///< number of all meetings
-  std::size_t pairs_tested = 0;    ///< pairs whose swept boxes meet, without excluded ones
-  std::size_t pairs_in_doubt = 0;  ///< tested pairs that no rounded direction separates: decided without rounding
+  std::vector<Meeting> meetings;  ///< pairs with vertices first, then ascending
+  std::size_t count = 0;          ///< number of all meetings
+  std::size_t pairs_tested = 0;   ///< pairs whose swept boxes meet, without excluded ones
+  /// tested pairs that no rounded direction separates, so that they are decided exactly
+  std::size_t pairs_in_doubt = 0;
 };
 
-/// Finds the meetings of a motion in which vertex v moves from from[v] at time 0 straight to to[v] at time 1 [m], with
-/// edges of triangles and loose edges. The answer is exact on any number of threads; touching counts, also at time 0
-/// and 1, so that a pair that touches in a state counts in the motion to it and in the one from it. Left out as in
-/// `audit`: pairs with a common vertex, pairs of `exclusions`, isolated vertices, and everything off the surface. At
-/// most `limit` are listed. Throws InputError if a position is not finite or sizes do not fit.
+/// Finds the meetings of a motion in which each vertex v moves straight from from[v] at time 0 to to[v] at time 1 [m],
+/// including those of loose edges. The answer is exact on any number of threads. Touching counts, also at times 0 and
+/// 1; so a pair that touches in a state counts in the motion before it and in the motion after it. As in `audit`, pairs
+/// with a common vertex, pairs of `exclusions`, isolated vertices and everything off the surface are left out. At most
+/// `limit` meetings are listed. Throws InputError if a position is not finite or sizes do not match.
 MeetingsResult meetings(const Topology& topology, std::span<const Vec3> from, std::span<const Vec3> to,
                         const ExclusionView& exclusions = {}, std::size_t limit = 1000);
 
-/// Estimated cost of `meetings` of a motion, from a sample of at most 2,000 of its vertices and edges.
+/// Estimated cost of `meetings` for a motion, from a sample of at most 2,000 of its vertices and edges.
 struct MeetingsCost {
   double pairs = 0;       ///< estimate of pairs_tested
   double seconds = 0;     ///< with the caller's threads
-  std::size_t bytes = 0;  ///< largest memory besides the mesh's own
+  std::size_t bytes = 0;  ///< largest memory besides that of the mesh
 };
 
 /// Estimates the cost of `meetings`; throws the same errors.

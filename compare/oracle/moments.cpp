@@ -1,8 +1,8 @@
-// Roots are separated by Descartes' rule in Bernstein form: the coefficients on an open interval have as many changes
-// of sign as there are roots, or an even number more; none and one are exact, and halving ends if no root is multiple
-// (Obreshkoff; Mourrain, Rouillier, Roy 2005). The greatest common divisor of two polynomials decides whether they
-// share a root, so that a sign of 0 is found, not approached. Coefficients are dyadic numbers, and only ring operations
-// are used.
+// Separates roots by Descartes' rule in Bernstein form: the coefficients on an open interval have as many changes of
+// sign as there are roots, or an even number more. Counts of none and one are exact. Halving ends if no root is
+// multiple (Obreshkoff; Mourrain, Rouillier, Roy 2005). The greatest common divisor of two polynomials decides whether
+// they share a root, so a sign of 0 is found exactly. Coefficients are dyadic numbers, and only ring operations are
+// used.
 #include "compare/oracle/moments.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Polynomial derivative(const Polynomial& p) {
   return Polynomial(std::move(c));
 }
 
-/// Returns the largest double that is not above x ≥ 0; CGAL's interval may begin a unit earlier.
+/// Returns the largest double that is not above x ≥ 0; CGAL's interval may begin one unit lower.
 double double_below(const Exact& x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double below = x.to_interval().first;
@@ -41,7 +41,7 @@ struct Division {
   Polynomial quotient, remainder;
 };
 
-/// Divides: factor · a = quotient · b + remainder with a factor that is not 0; b is not 0.
+/// Divides with a remainder: factor · a = quotient · b + remainder, where factor is not 0. b must not be 0.
 Division divide(Polynomial a, const Polynomial& b) {
   std::vector<Exact> quotient;
   while (!a.is_zero() && a.c.size() >= b.c.size()) {
@@ -57,7 +57,7 @@ Division divide(Polynomial a, const Polynomial& b) {
   return {Polynomial(std::move(quotient)), std::move(a)};
 }
 
-/// Returns the greatest common divisor up to a factor; not both are 0.
+/// Returns the greatest common divisor up to a factor; a and b must not both be 0.
 Polynomial common_divisor(Polynomial a, Polynomial b) {
   while (!b.is_zero()) {
     Polynomial rest = divide(std::move(a), b).remainder;
@@ -158,7 +158,7 @@ Moment::Moment(Exact time) : is_dyadic_(true), low_(time), high_(std::move(time)
 
 Moment::Moment(Polynomial square_free, Exact low, Exact high)
     : square_free_(std::move(square_free)), low_(std::move(low)), high_(std::move(high)) {
-  // Next to `high` the polynomial has the sign of its last Bernstein coefficient that is not 0.
+  // Near `high` the polynomial has the sign of its last Bernstein coefficient that is not 0.
   const std::vector<Exact> b = bernstein(square_free_, low_, high_);
   for (std::size_t k = b.size(); k-- > 0 && sign_after_ == 0;) sign_after_ = sign_of(b[k]);
 }
@@ -177,7 +177,7 @@ int Moment::sign(const Polynomial& p) {
   if (p.is_zero()) return 0;
   if (is_dyadic_) return sign_of(p.at(low_));
   if (p.degree() == 0) return sign_of(p.c[0]);
-  // A common divisor has no root in the interval but this time, and that one once.
+  // In the interval a common divisor can only have this time as a root, and only as a simple one.
   const Polynomial common = common_divisor(square_free_, p);
   if (common.degree() > 0 && changes_of_sign(bernstein(common, low_, high_)) % 2 == 1) return 0;
   while (!is_dyadic_) {

@@ -1,5 +1,5 @@
-// Holds exact polynomials of time, and the moments at which they vanish; the oracle decides motions with them. Only
-// .cpp files of this room include this header, since it exposes CGAL's number types.
+// Defines exact polynomials of time and the moments at which they vanish; the oracle decides motions with them. Only
+// .cpp files of compare/oracle include this header, since it exposes CGAL's number types.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -8,17 +8,17 @@
 
 namespace ogc::compare {
 
-/// The exact polynomial c₀ + c₁ t + …; the last coefficient is not 0, and the polynomial 0 has none.
+/// The exact polynomial c₀ + c₁ t + …. The last coefficient is not 0; the zero polynomial has no coefficients.
 struct Polynomial {
   std::vector<CGAL::Mpzf> c;  ///< coefficients, ascending
 
   Polynomial() = default;
   explicit Polynomial(std::vector<CGAL::Mpzf> coefficients);
-  /// Returns the line from `begin` at t = 0 to `end` at t = 1; both are finite.
+  /// Returns the line from `begin` at t = 0 to `end` at t = 1; both must be finite.
   static Polynomial line(double begin, double end);
 
   bool is_zero() const { return c.empty(); }
-  std::size_t degree() const { return c.size() - 1; }  ///< only if it is not 0
+  std::size_t degree() const { return c.size() - 1; }  ///< not defined for the zero polynomial
   CGAL::Mpzf at(const CGAL::Mpzf& t) const;            ///< value at t
 };
 
@@ -27,18 +27,18 @@ Polynomial operator+(const Polynomial& a, const Polynomial& b);
 Polynomial operator-(const Polynomial& a, const Polynomial& b);
 Polynomial operator*(const Polynomial& a, const Polynomial& b);
 
-/// Two doubles around a moment: low ≤ t ≤ high, equal or next to each other.
+/// Two doubles around a moment: low ≤ t ≤ high, equal or adjacent.
 struct MomentBracket {
   double low = 0, high = 0;  ///< shares of the motion
 };
 
-/// A time in [0, 1] at which a polynomial vanishes, exactly: a dyadic number, or the only root of `square_free` in the
+/// An exact time in [0, 1] at which a polynomial vanishes: a dyadic number, or the only root of `square_free` in the
 /// open interval (low, high).
 class Moment {
  public:
   /// Makes a moment of a given time.
   explicit Moment(CGAL::Mpzf time);
-  /// Makes a moment of the only root in the open interval of a polynomial without multiple roots.
+  /// Makes a moment of the only root of a polynomial in the open interval; the polynomial must not have multiple roots.
   Moment(Polynomial square_free, CGAL::Mpzf low, CGAL::Mpzf high);
 
   /// Returns the sign of a polynomial at this time: −1, 0, 1.
@@ -54,7 +54,7 @@ class Moment {
   int sign_after_ = 0;  ///< sign of the polynomial between the root and high_
 };
 
-/// Returns the times in [0, 1] at which a polynomial that is not 0 vanishes, ascending, each once.
+/// Returns the times in [0, 1] at which a polynomial vanishes, ascending, each once. The polynomial must not be 0.
 std::vector<Moment> moments(const Polynomial& p);
 
 }  // namespace ogc::compare

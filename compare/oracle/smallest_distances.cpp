@@ -1,6 +1,6 @@
-// Boxes cull by the smallest distance found so far, then intervals, and exact numbers compare pairs that may be nearer
-// or as near: most pairs in a regular stack. Threads share that distance. It decides how early a pair is culled, but
-// neither the nearest pair nor its name.
+// Culls pairs by boxes and the smallest distance found so far, then by intervals. Exact numbers compare the remaining
+// pairs; in a regular stack these are most pairs, since many distances are equal. Threads share the smallest distance.
+// It decides how early a pair is culled, but neither which pair is the nearest nor its name.
 #include "compare/oracle/smallest_distances.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -42,17 +42,17 @@ double root_rounded_down(const Rational& square) {
   return root;
 }
 
-/// Returns a double that is not below the square.
+/// Returns a double that is not below the square of the distance.
 double square_above(const LeastSquare& square) {
   return CGAL::to_interval(Rational(square.numerator) / Rational(square.denominator)).second;
 }
 
-/// The nearest pair that one thread has found.
 struct Nearest {
   LeastSquare square;
   Index first = -1, second = -1;
 
-  /// Returns whether this pair is nearer than the pair (i, j) with that square, or as near with smaller numbers.
+  /// Returns whether this pair is nearer than the pair (i, j), whose square is `other`, or equally near with smaller
+  /// numbers.
   bool keeps(const LeastSquare& other, Index i, Index j) const {
     if (first < 0) return false;
     const Exact difference = other.numerator * square.denominator - square.numerator * other.denominator;
@@ -63,7 +63,7 @@ struct Nearest {
   }
 };
 
-/// Shares between threads that no pair beyond the root of `limit` is the nearest.
+/// Searches for the nearest pair on all threads. They share `limit_`: a pair beyond its root is not the nearest.
 class Search {
  public:
   template <std::size_t A, std::size_t B>
@@ -79,8 +79,8 @@ class Search {
     if (nearer) lower(square_above(square));
   }
 
-  /// Returns `box` grown by at least the nearest distance: the root and the sums are each off by at most half a unit in
-  /// the last place, and two steps outwards are more than that.
+  /// Returns `box` grown by at least the nearest distance. The root and the sums are each off by at most half a unit in
+  /// the last place; two steps outwards are more than that.
   Box search_box(Box box) const {
     const double reach = std::nextafter(std::sqrt(limit_.load(std::memory_order_relaxed)), infinity);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// Finds how near a state is to touching: the exact smallest distances, for audits and for the figure that shows them.
+// Finds how near a state is to touching: the exact smallest distances, for audits and figures.
 #pragma once
 
 #include <limits>
@@ -8,8 +8,8 @@
 
 namespace ogc::compare {
 
-/// Holds the smallest distances over pairs that share no vertex and are not excluded, without isolated vertices [m];
-/// infinite, with -1, if there is no pair.
+/// Holds the smallest distances over pairs that share no vertex and are not excluded [m]; infinite, with −1, if there
+/// is no pair. Isolated vertices are left out.
 struct SmallestDistances {
   double vertex_triangle = std::numeric_limits<double>::infinity();  ///< [m]
   Index vertex = -1, triangle = -1;                                  ///< the pair; −1 if there is none
@@ -17,9 +17,9 @@ struct SmallestDistances {
   Index edge = -1, other_edge = -1;                                  ///< edge < other_edge
 };
 
-/// Returns the smallest distances. The nearest pairs are found exactly; of equally near pairs the one with the smallest
-/// numbers is named. Distances are the exact ones rounded down. `exclusions`: pairs that are left out besides adjacent
-/// ones. Throws InputError for positions that are not finite.
+/// Returns the smallest distances, rounded down. The nearest pairs are found exactly; of equally near pairs the one
+/// with the smallest numbers is returned. Adjacent pairs and those of `exclusions` are left out. Throws InputError for
+/// positions that are not finite.
 SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions,
                                      const ExclusionView& exclusions = {});
 

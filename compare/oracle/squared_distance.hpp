@@ -1,8 +1,8 @@
 // Computes squared distances of points, triangles and segments as quotients, without a division and without a wrong
-// case: every feature whose region can't be excluded offers the distance to its point, line or plane. For exact numbers
-// these are the right features, for intervals a superset; a distance to a line or plane is never above the distance to
-// the feature in it, so the least offer is the distance, or a lower bound of it. Only .cpp files of this room include
-// this header, since it exposes CGAL's number types.
+// case. Every feature whose region can't be excluded offers the distance to its point, line or plane. For exact numbers
+// these are the right features, for intervals a superset. A distance to a line or plane is never above the distance to
+// a feature in it, so the least offer is the distance, or a lower bound of it. Only .cpp files of compare/oracle
+// include this header, since it exposes CGAL's number types.
 #pragma once
 
 #include <CGAL/Interval_nt.h>
@@ -15,11 +15,11 @@
 
 namespace ogc::compare {
 
-/// Interval numbers; they need CGAL::Protect_FPU_rounding<true> as long as they are used.
+/// Interval numbers; CGAL::Protect_FPU_rounding<true> must exist while they are used.
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// Return whether the number can have this sign: an exact number if it has it, an interval if it holds such a number.
+/// Return whether the number can have this sign: an exact number has it, or an interval contains a number that has it.
 inline bool may_be_positive(const Exact& x) { return static_cast<int>(x.sign()) > 0; }
 inline bool may_be_negative(const Exact& x) { return static_cast<int>(x.sign()) < 0; }
 inline bool may_be_zero_or_more(const Exact& x) { return static_cast<int>(x.sign()) >= 0; }

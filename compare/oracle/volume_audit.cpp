@@ -1,6 +1,6 @@
-// Computes the winding number from the crossings of a ray from (x, y + ε, z + ε²) along +x with vanishing ε: the ray
-// meets no edge, and where x is not on the surface the number there is that at x. The ray crosses a triangle if its
-// foot lies inside the triangle's projection along x, and the triangle's plane lies ahead.
+// Computes winding numbers from the crossings of a ray along +x. The ray starts at (x, y + ε, z + ε²) with vanishing ε,
+// so that it meets no edge; if x is not on the surface, the winding number there is that at x. The ray crosses a
+// triangle if x lies inside the triangle's projection along the x axis, and the triangle's plane lies ahead.
 #include "compare/oracle/volume_audit.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -37,7 +37,7 @@ int crossing(const Corners& t, const Vec3& x) {
   const int seen = side_seen(t[0], t[1], x);
   if (seen == 0 || side_seen(t[1], t[2], x) != seen || side_seen(t[2], t[0], x) != seen) return 0;
   const auto point = [](const Vec3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
-  // the normal's x component has the sign `seen`: the plane lies ahead if x is on the side against it
+  // the normal's x component has the sign `seen`; the plane lies ahead if x is on the side opposite to it
   const int above = CGAL::orientation(point(t[0]), point(t[1]), point(t[2]), point(x));
   return above == -seen ? seen : 0;
 }
@@ -56,8 +56,8 @@ double to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   return std::hypot(w.x - s * e.x, w.y - s * e.y, w.z - s * e.z);
 }
 
-/// Returns the distance to a triangle in rounded numbers. If the foot on the plane is in doubt the outline decides,
-/// which is as near there.
+/// Returns the rounded distance to a triangle. If it is in doubt whether the closest point of the plane is inside, the
+/// outline is as near and decides.
 double to_triangle(const Vec3& x, const Corners& t) {
   const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   const double square = dot(n, n);
@@ -68,7 +68,7 @@ double to_triangle(const Vec3& x, const Corners& t) {
   return std::min({to_segment(x, t[0], t[1]), to_segment(x, t[1], t[2]), to_segment(x, t[2], t[0])});
 }
 
-/// Sorts edges of one triangle into closed rims, each against the sense of its triangle.
+/// Sorts edges of one triangle each into closed rims, each edge against the direction of its triangle.
 std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   std::map<Index, Index> root;
   const auto find = [&](Index v) {
@@ -83,7 +83,7 @@ std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   return closed;
 }
 
-/// The triangles of a part and of the fans that close it, and its tetrahedra, at given positions.
+/// The triangles of a part and of the fans that close it, and its tetrahedra, at the given positions.
 class PlacedPart {
  public:
   PlacedPart(std::span<const Triangle> triangles, std::span<const std::vector<Edge>> rims,
@@ -114,7 +114,7 @@ class PlacedPart {
     return least;
   }
 
-  /// Returns whether the part's own vertex lies in the part.
+  /// Returns whether a vertex of the part lies inside the part.
   bool holds_own(Index vertex) const {
     const Vec3& x = positions_[at(vertex)];
     bool is_inside = false;
@@ -125,8 +125,8 @@ class PlacedPart {
     return is_inside;
   }
 
-  /// Returns the distance from the part's own vertex to the part, without the triangles that have a vertex in common
-  /// with those around it; 0 if none is left.
+  /// Returns the distance from a vertex of the part to the part's triangles; 0 if none is left. Left out are triangles
+  /// that share a vertex with one of the triangles around the vertex.
   double distance_of_own(Index vertex) const {
     std::vector<Index> around;
     for (const Triangle& t : triangles_)
@@ -170,7 +170,7 @@ class PlacedPart {
     return result;
   }
 
-  /// Returns whether a closed tetrahedron of positive volume holds the point.
+  /// Returns whether a closed tetrahedron of positive volume contains the point.
   bool holds(const Tetrahedron& t, const Vec3& x) const {
     const auto sign = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
       const auto point = [](const Vec3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
@@ -189,7 +189,7 @@ class PlacedPart {
   BoxTree tree_, tetrahedron_tree_;
 };
 
-/// Returns how many of the edges meet one of the triangles with which they have no vertex in common.
+/// Returns how many of the edges meet a triangle with which they share no vertex.
 std::size_t count_meeting(const Topology& topology, std::span<const Index> edges, std::span<const Index> triangles,
                           std::span<const Vec3> positions) {
   std::vector<Box> boxes;

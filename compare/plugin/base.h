@@ -1,4 +1,4 @@
-/* Holds what all parts of the interface share: version, description of a library, points, meshes. */
+/* Defines what all parts of the interface share: version, description of a library, points, meshes. */
 #ifndef OGC_COMPARE_PLUGIN_BASE_H
 #define OGC_COMPARE_PLUGIN_BASE_H
 
@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* Version of this interface. A library that was built for another one is refused by name: its structures have another
- * layout. */
+/* Version of this interface. A library that was built for another version is rejected with a message, because its
+ * structures have another layout. */
 #define OGC_PLUGIN_VERSION 9
 
 #define OGC_HOST_MEMORY 0
@@ -28,7 +28,7 @@ typedef struct ogc_plugin_info {
   const char* name; /* name in the report */
 } ogc_plugin_info;
 
-/* The one function that every library has; the macro defines it. */
+/* The only function that every library must have; the macro OGC_PLUGIN defines it. */
 OGC_PLUGIN_EXPORT const ogc_plugin_info* ogc_plugin(void);
 
 #ifdef __cplusplus
@@ -64,7 +64,7 @@ typedef struct ogc_topology {
   const int32_t (*triangles)[3];                              /* [triangle_count] */
   const int32_t (*triangle_edges)[3];                         /* [triangle_count] from corner k to corner k+1 */
   ogc_rows vertex_edges, vertex_triangles, vertex_neighbours; /* rows by vertex */
-  ogc_rows edge_triangles, edge_opposite; /* rows by edge; edge_opposite: opposite vertices of its triangles */
+  ogc_rows edge_triangles, edge_opposite; /* rows by edge; edge_opposite: vertices of its triangles opposite to it */
 } ogc_topology;
 
 #ifdef __cplusplus

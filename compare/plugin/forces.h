@@ -52,7 +52,7 @@ enum { OGC_BENDING_NONE, OGC_DISCRETE_HINGE, OGC_ISOMETRIC_QUADRATIC };
 enum { OGC_DAMPING_OF_STRAIN, OGC_DAMPING_PER_VERTEX };
 
 typedef struct ogc_membrane_case {
-  ogc_vec3 corner[3], start[3]; /* the question is about corner 0 */
+  ogc_vec3 corner[3], start[3]; /* the answer is about corner 0 */
   float gradient[2][2];         /* of N_1, N_2; the gradient of N_0 is minus their sum */
   float area, lame_lambda, lame_mu, damping;
   int32_t model;
@@ -67,7 +67,7 @@ typedef struct ogc_membrane_in {
 typedef struct ogc_bending_case {
   ogc_vec3 vertex[4], start[4];
   float stiffness, rest_angle, damping;
-  int32_t own; /* the vertex of the question */
+  int32_t own; /* the vertex whose force and block are returned */
   int32_t model;
   float weight[3]; /* isometric quadratic: of x1, o0, o1; the weight of x0 is minus their sum */
   int64_t damping_form;
@@ -82,7 +82,7 @@ typedef struct ogc_spring_case {
   ogc_vec3 vertex[3], start[3];
   float stiffness, rest_length, damping;
   float ratio; /* s: between vertex 0 and the point (1 - s) vertex 1 + s vertex 2; 0: vertex 2 is not read */
-  int32_t own; /* the vertex of the question */
+  int32_t own; /* the vertex whose force and block are returned */
   int64_t damping_form;
 } ogc_spring_case;
 
@@ -92,7 +92,7 @@ typedef struct ogc_spring_in {
 } ogc_spring_in;
 
 typedef struct ogc_tetrahedron_case {
-  ogc_vec3 corner[4], start[4]; /* the question is about corner 0; at rest det(x1 - x0, x2 - x0, x3 - x0) > 0 */
+  ogc_vec3 corner[4], start[4]; /* the answer is about corner 0; at rest det(x1 - x0, x2 - x0, x3 - x0) > 0 */
   float weight[3];              /* V grad N_k . grad N_0 for corners 1, 2, 3 */
   float inverse;                /* 1 / (6 V) */
   float gradient[3][3];         /* of N_1, N_2, N_3, for damping; the gradient of N_0 is minus their sum */
@@ -114,10 +114,10 @@ typedef struct ogc_force_out {
 OGC_PLUGIN_EXPORT int ogc_membrane(const ogc_membrane_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_bending(const ogc_bending_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_spring(const ogc_spring_in* in, ogc_force_out* out);
-/* If a library has it, the judge also asks it about scenes with solids. */
+/* A library with this function also gets scenes with solids from the judge. */
 OGC_PLUGIN_EXPORT int ogc_tetrahedron(const ogc_tetrahedron_in* in, ogc_force_out* out);
 
-/* The faces that meet in a contact, and their vertices: first side | second side. */
+/* The kinds of the faces in contact, and their vertices: first side | second side. */
 enum {
   OGC_POINT_POINT /* 0 | 1 */,
   OGC_POINT_EDGE /* 0 | 1 2 */,
@@ -155,10 +155,10 @@ typedef struct ogc_friction_force_in {
 OGC_PLUGIN_EXPORT int ogc_contact_force(const ogc_contact_force_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_friction_force(const ogc_friction_force_in* in, ogc_force_out* out);
 
-/* A point, vertex 0, and the triangle of a volume that pushes it out, vertices 1 2 3; the answer is force and block of
- * contact and friction together: compare/stages/volume_force.hpp. */
+/* A point, vertex 0, and the triangle of a volume that pushes it out, vertices 1 2 3. The answer is the sum of contact
+ * and friction, force and block: compare/stages/volume_force.hpp. */
 typedef struct ogc_volume_force_case {
-  int32_t own; /* the vertex of the question */
+  int32_t own; /* the vertex whose force and block are returned */
   ogc_vec3 vertex[4], start[4];
   float weights[3];   /* of the closest point, by corner */
   float direction[3]; /* n, out of the volume */

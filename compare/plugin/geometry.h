@@ -8,10 +8,10 @@
 extern "C" {
 #endif
 
-/* ---- closest_face: which face of a closed triangle holds the point closest to a given point ---------------------- */
+/* ---- closest_face: the face of a closed triangle that contains the point closest to a given point ---------------- */
 
-/* Values of `feature`: corners, edges from corner k to corner k+1, the interior. On the boundary of two of them the
- * lower-dimensional one wins. */
+/* Values of `feature`: corners, edges from corner k to corner k+1, the interior. If two features are equally near, the
+ * lower-dimensional one is the answer. */
 enum { OGC_CORNER_0, OGC_CORNER_1, OGC_CORNER_2, OGC_EDGE_01, OGC_EDGE_12, OGC_EDGE_20, OGC_INTERIOR };
 
 typedef struct ogc_closest_face_in {
@@ -62,7 +62,7 @@ typedef struct ogc_detect_in {
   const ogc_vec3* positions;   /* [vertex_count] */
   float contact_radius;        /* r */
   float query_radius;          /* r_q >= r */
-  const uint8_t* inside_solid; /* [vertex_count] 1: inside a solid, takes no part */
+  const uint8_t* inside_solid; /* [vertex_count] 1: inside a solid, so that it has no contacts */
 } ogc_detect_in;
 
 typedef struct ogc_vertex_facet_contact {
@@ -71,19 +71,20 @@ typedef struct ogc_vertex_facet_contact {
   int32_t owner;      /* the lowest-numbered triangle that contains the face */
 } ogc_vertex_facet_contact;
 
-/* `contacts` has room for `capacity`; set `count` to the number found. If that is more than the capacity, nothing
- * need be written: the function is called once more with room for as many. Contacts may have any order, each once. */
+/* `contacts` has room for `capacity` contacts; set `count` to the number found. If that is more than the capacity,
+ * nothing need be written, and the function is called again with enough room. Contacts may have any order; list each
+ * once. */
 typedef struct ogc_detect_vertex_facet_out {
   ogc_vertex_facet_contact* contacts;
   int64_t capacity, count;
   float* d_min_vertex;   /* [vertex_count] over non-adjacent triangles, at most r_q, never above the exact value */
-  float* d_min_triangle; /* [triangle_count] over non-adjacent vertices, in the same way */
+  float* d_min_triangle; /* [triangle_count] over non-adjacent vertices, otherwise as d_min_vertex */
 } ogc_detect_vertex_facet_out;
 
 OGC_PLUGIN_EXPORT int ogc_detect_vertex_facet(const ogc_detect_in* in, ogc_detect_vertex_facet_out* out);
 
-/* Two faces of the edge-only manifold, vertices or edges, the lower (by kind, then number) first; the lowest-numbered
- * edges that generate the pair. */
+/* Two faces of the edge-only manifold, vertices or edges, the lower one (by kind, then number) first; and the
+ * lowest-numbered edges that generate the pair. */
 typedef struct ogc_edge_edge_contact {
   int32_t first_kind, first_face;
   int32_t second_kind, second_face;
@@ -91,7 +92,7 @@ typedef struct ogc_edge_edge_contact {
 } ogc_edge_edge_contact;
 
 typedef struct ogc_detect_edge_edge_out {
-  ogc_edge_edge_contact* contacts; /* with room for `capacity`, as above */
+  ogc_edge_edge_contact* contacts; /* room for `capacity`, as in ogc_detect_vertex_facet_out */
   int64_t capacity, count;
   float* d_min_edge; /* [edge_count] over non-adjacent edges, at most r_q, never above the exact value */
 } ogc_detect_edge_edge_out;
@@ -103,13 +104,13 @@ OGC_PLUGIN_EXPORT int ogc_detect_edge_edge(const ogc_detect_in* in, ogc_detect_e
 typedef struct ogc_bound_in {
   ogc_topology topology;
   const float *d_min_vertex, *d_min_edge, *d_min_triangle; /* [vertex_count], [edge_count], [triangle_count] */
-  float bounds_relaxation;                                  /* gamma_p */
+  float bounds_relaxation;                                 /* gamma_p */
   const uint8_t* inside_solid;                             /* [vertex_count] as in ogc_detect_in */
 } ogc_bound_in;
 
 typedef struct ogc_bound_out {
   float* bound; /* [vertex_count] never above gamma_p times the smallest distance of the vertex, its edges and its
-                   triangles; the largest finite number for a vertex inside a solid, which nothing bounds */
+                   triangles; the largest finite number for a vertex inside a solid, which needs no bound */
 } ogc_bound_out;
 
 OGC_PLUGIN_EXPORT int ogc_bound(const ogc_bound_in* in, ogc_bound_out* out);
@@ -121,26 +122,27 @@ typedef struct ogc_plane_in {
   const int32_t* rigid_groups; /* as in ogc_detect_in */
   ogc_rows excluded_partners;  /* as in ogc_detect_in */
   const ogc_vec3* positions;   /* [vertex_count] */
-  const uint8_t* is_fixed;     /* [vertex_count] 1: the vertex never moves, and bears no plane */
+  const uint8_t* is_fixed;     /* [vertex_count] 1: the vertex never moves, and has no plane */
   float query_radius;          /* r_q */
-  float bounds_relaxation;      /* gamma_p */
+  float bounds_relaxation;     /* gamma_p */
   const uint8_t* inside_solid; /* [vertex_count] as in ogc_detect_in */
 } ogc_plane_in;
 
 /* Values of `kind` of a pair: `first` is a vertex and `second` a triangle, or both are edges, first < second. */
 enum { OGC_VERTEX_TRIANGLE_PAIR, OGC_EDGE_EDGE_PAIR };
 
-/* normal . x <= offset, borne by a vertex of the pair: the vertices of one side have a normal n, those of the other -n,
- * bit by bit. */
+/* A half-space normal . x <= offset of a vertex of the pair. The vertices of one side have a normal n, those of the
+ * other side -n, bit by bit. */
 typedef struct ogc_vertex_plane {
   int32_t vertex;
   int32_t kind, first, second;
   ogc_vec3 normal;
 } ogc_vertex_plane;
 
-/* Pairs nearer than the 17th nearest of each of their vertices need a plane; more may have one. `planes` and `offset`
- * have room for `capacity`, as lists of contacts do; in any order, each vertex of each pair once. A bound is never
- * above gamma_p r_q, and never above gamma_p times the distance of a pair of the vertex that no plane separates. */
+/* A pair needs a plane if it is nearer than the 17th nearest pair of each of its vertices; other pairs may have one.
+ * `planes` and `offset` have room for `capacity`, as lists of contacts have; list each vertex of each pair once, in any
+ * order. A bound is never above gamma_p r_q, and never above gamma_p times the distance of a pair of the vertex that no
+ * plane separates. */
 typedef struct ogc_plane_out {
   ogc_vertex_plane* planes;
   double* offset; /* of each plane */
@@ -158,7 +160,7 @@ typedef struct ogc_half_space {
   double offset;
 } ogc_half_space;
 
-/* The judge asks libraries without ogc_plane only about balls. */
+/* Libraries without ogc_plane only get cases without half-spaces from the judge. */
 typedef struct ogc_truncate_in {
   int64_t n;
   const ogc_vec3 *previous, *position; /* [n] */
@@ -171,7 +173,7 @@ typedef struct ogc_truncate_in {
 } ogc_truncate_in;
 
 typedef struct ogc_truncate_out {
-  ogc_vec3* position; /* [n] as stored, |position - previous| <= bound and each half-space kept exactly; the given
+  ogc_vec3* position; /* [n] as stored, exactly within the bound of `previous` and each half-space; the given
                          position bit for bit if nothing is cut */
   uint8_t* cut;       /* [n] 1 if the given position was farther than the bound, or beyond a half-space */
 } ogc_truncate_out;
@@ -245,7 +247,7 @@ typedef struct ogc_ccd_out {
 
 OGC_PLUGIN_EXPORT int ogc_ccd(const ogc_ccd_in* in, ogc_ccd_out* out);
 
-/* ---- volume_depth: which parts of a closed surface hold a point, or are nearer to it than r --------------------- */
+/* ---- volume_depth: the parts of a closed surface that contain a point, or are nearer to it than r --------------- */
 
 typedef struct ogc_volume_depth_in {
   ogc_topology topology;     /* of the volume: each edge has two triangles, or one at a rim */
@@ -258,7 +260,7 @@ typedef struct ogc_volume_depth_in {
 /* A contact of a point with a part, that is, with a connected component of the volume; no component is a cavity. */
 typedef struct ogc_volume_contact {
   int32_t point;
-  int32_t inside;     /* 1: the part holds the point */
+  int32_t inside;     /* 1: the part contains the point */
   int32_t triangle;   /* the lowest-numbered triangle that contains the face */
   int32_t kind, face; /* the face whose interior holds the closest point, by kind (OGC_FACE_VERTEX, ...) and number */
 } ogc_volume_contact;
@@ -269,7 +271,7 @@ typedef struct ogc_volume_numbers {
   float depth;        /* distance + r inside, r - distance outside */
 } ogc_volume_numbers;
 
-/* `contacts` and `numbers` have room for `capacity`, as lists of contacts do; in any order. */
+/* `contacts` and `numbers` have room for `capacity`, as lists of contacts have; any order is allowed. */
 typedef struct ogc_volume_depth_out {
   ogc_volume_contact* contacts;
   ogc_volume_numbers* numbers; /* of each contact */

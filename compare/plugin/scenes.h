@@ -1,4 +1,4 @@
-/* Stages whose questions are about a whole scene. */
+/* Stages whose input is a whole scene. */
 #ifndef OGC_COMPARE_PLUGIN_SCENES_H
 #define OGC_COMPARE_PLUGIN_SCENES_H
 
@@ -57,8 +57,8 @@ typedef struct ogc_scene {
 
 /* ---- rest_state: what is computed once from the rest shape ------------------------------------------------------- */
 
-/* The rest state as sweep reads it; lists in the order of the topology, without fixed bodies and without models `none`.
- * The triangles of solids are left out; tetrahedra are in the order of the scene. */
+/* The rest state as stage sweep reads it. Lists have the order of the topology, without fixed bodies, models `none` and
+ * triangles of solids; tetrahedra have the order of the scene. */
 typedef struct ogc_rest {
   const float* mass; /* [vertex_count] */
   int32_t triangle_count, hinge_count, tetrahedron_count;
@@ -81,7 +81,7 @@ typedef struct ogc_rest {
   const void* reserved[8];             /* null */
 } ogc_rest;
 
-/* The rest state, to be written. A list has room for its capacity; set its count, as with contacts. */
+/* The rest state to write. Each list has room for its capacity; set its count, as for contacts. */
 typedef struct ogc_rest_state_out {
   float* mass;
   int64_t triangle_capacity, triangle_count, hinge_capacity, hinge_count, tetrahedron_capacity, tetrahedron_count;
@@ -136,8 +136,8 @@ typedef struct ogc_step_in {
 /* Values of `kind` of an event. */
 enum { OGC_DETECTION, OGC_GUESS, OGC_SWEEP };
 
-/* Lists have room for their capacities; set their counts, as with contacts. The i-th detection is the i-th event of
- * that kind. The two lists of contacts hold those of all detections; each detection's part ends at its
+/* Lists have room for their capacities; set their counts, as for contacts. The i-th detection is the i-th event of that
+ * kind. The two lists of contacts contain the contacts of all detections; those of a detection end at its
  * `vertex_facet_end` and `edge_edge_end`. */
 typedef struct ogc_step_out {
   ogc_rest_state_out rest;                /* of the sweeps */

@@ -1,5 +1,5 @@
-// Computes the winding number from the crossings of a ray from (x, y + ε, z + ε²) along +x with vanishing ε, which
-// meets no edge.
+// Computes winding numbers from the crossings of a ray along +x. The ray starts at (x, y + ε, z + ε²) with vanishing ε,
+// so that it meets no edge.
 #include "compare/problem/cavities.hpp"
 
 #include <algorithm>
@@ -14,16 +14,15 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns the sign of the area of a, b and a point beside p, seen against the x axis.
+/// Returns the sign of the area of the triangle of a, b and a point infinitesimally beside p, seen along the x axis.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   const int side = orientation({0, a.y, a.z}, {0, b.y, b.z}, {0, p.y, p.z}, {1, p.y, p.z});
   if (side != 0) return side;
-  // p is moved by (ε, ε²): −(b.z − a.z) decides, then b.y − a.y
+  // moving p by (ε, ε²) lets −(b.z − a.z) decide, then b.y − a.y
   if (a.z != b.z) return b.z < a.z ? 1 : -1;
   return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
 }
 
-/// A shell with its positions.
 class PlacedShell {
  public:
   PlacedShell(const Mesh& mesh, std::span<const Vec3> positions, std::span<const Index> triangles)
@@ -48,7 +47,7 @@ class PlacedShell {
     std::ranges::sort(from_below_, {}, &Reach::bottom);
   }
 
-  /// Returns whether it winds around all vertices of the other one.
+  /// Returns whether the shell winds around all vertices of the other shell.
   bool holds(const PlacedShell& other) const {
     const bool may_hold = low_.x <= other.low_.x && low_.y <= other.low_.y && low_.z <= other.low_.z &&
                           other.high_.x <= high_.x && other.high_.y <= high_.y && other.high_.z <= high_.z;
@@ -64,7 +63,7 @@ class PlacedShell {
 
   int winding(const Vec3& p) const {
     int count = 0;
-    // tallest_ is a difference that may have been rounded down; twice of it is above the true height
+    // Twice tallest_ is above the true height, although tallest_ is a rounded difference.
     auto reach = std::ranges::lower_bound(from_below_, p.y - 2 * tallest_, {}, &Reach::bottom);
     for (; reach != from_below_.end() && reach->bottom <= p.y; ++reach) count += crossing(reach->corners, p);
     return count;
@@ -83,7 +82,7 @@ class PlacedShell {
 
   std::span<const Vec3> positions_;
   std::vector<Index> vertices_;
-  std::vector<Reach> from_below_;  ///< ascending by bottom
+  std::vector<Reach> from_below_;
   double tallest_ = 0;
   Vec3 low_, high_;
 };

@@ -1,5 +1,5 @@
 // Finds the cavities of a volume of triangles (§3.9): closed shells whose normals point into a void, inside a shell
-// that faces outward. The solid between them is one part.
+// whose normals point outward. The solid between both shells is one part.
 //
 //        + + + + + + + + +      +  the shell of a part, normals outward
 //        +  - - - - - -  +      -  a cavity of it, normals into the void
@@ -19,13 +19,13 @@ namespace ogc::compare {
 /// A connected component of a body's triangles.
 struct Shell {
   std::span<const Index> triangles;  ///< numbers of triangles of the mesh
-  double volume = 0;  ///< enclosed volume, times any positive factor; 0 where it has rims or encloses none
+  double volume = 0;  ///< enclosed volume, times any positive factor; 0 if the shell has rims or encloses no volume
 };
 
 /// Returns for each shell of one body the shell whose cavity it is, or −1. A shell of negative volume is a cavity of
-/// the shell of positive volume that winds around all of its vertices; if there are several, of the one of least
-/// volume. It is none if another cavity of the same shell also winds around it, since a void in a void is no cavity.
-/// Positions [m] are rounded to single precision, then all is decided exactly; a vertex on a shell is moved beside it.
+/// the shell of positive volume that winds around all of its vertices; if there are several, of the shell of least
+/// volume. It is no cavity if another cavity of the same shell winds around it, too. Positions [m] are rounded to
+/// single precision; then all is decided exactly. A vertex on a shell counts as moved beside it.
 std::vector<int> enclosing_shells(const Mesh& mesh, std::span<const Shell> shells);
 
 }  // namespace ogc::compare

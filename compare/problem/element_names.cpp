@@ -23,7 +23,8 @@ std::string lines(const std::vector<std::size_t>& lines, std::initializer_list<I
   return (elements.size() == 1 ? "line " : "lines ") + text;
 }
 
-/// Returns where an element stands in its file: its line; in a scene, whose bodies have several files, the file, too.
+/// Returns the place of an element in its file: its line. For a scene, whose bodies have several files, the file comes
+/// first.
 std::string file_and_line(const std::string& body, const MeshSource& source, const std::string& line) {
   if (body.empty()) return line;
   return source.file + (line.empty() ? "" : ", " + line);
@@ -53,7 +54,7 @@ const ElementNames::NamedBody& ElementNames::body_at(Index vertex) const {
   return after == bodies_.begin() || (after - 1)->last_vertex < vertex ? none : *(after - 1);
 }
 
-// A body without triangles has the same first triangle as the body behind it; upper_bound finds the last of them, which
+// A body without triangles has the same first triangle as the body after it; upper_bound finds the last of them, which
 // has the triangle.
 const ElementNames::NamedBody& ElementNames::body_of_triangle(Index t) const {
   static const NamedBody none;
@@ -104,7 +105,7 @@ std::string ElementNames::triangle(Index t, const Triangle& corners) const {
   const Index local = t - body.first_triangle;
   const std::string in_scene = local == t ? "" : std::to_string(t) + " in the scene";
   if (body.source == nullptr) return name("triangle " + std::to_string(local), body, {vertices(corners), in_scene});
-  if (!body.source->tetrahedra.empty())  // a tetrahedron's face is derived, the file has no number for it
+  if (!body.source->tetrahedra.empty())  // the faces of tetrahedra are derived, so the file has no numbers for them
     return name("boundary triangle", body, {vertices(corners), file_and_line(body.name, *body.source, {}), in_scene});
   const Index number = file_number(body.source->faces, local);
   return name(

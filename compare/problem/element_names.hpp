@@ -1,4 +1,4 @@
-// Names the elements of a mesh in messages: with the numbers, lines and bodies of its file, so that a user finds them
+// Names the elements of a mesh in messages by the numbers, lines and bodies of its file, so that a user finds them
 // there.
 #pragma once
 
@@ -13,17 +13,17 @@ namespace ogc::compare {
 
 struct Scene;
 
-/// Where the elements of a mesh stand in the file that it was read from. A "number in the file" counts from 0 here;
+/// Holds where the elements of a mesh are in the file that it was read from. A "number in the file" counts from 0 here;
 /// messages add `first`.
 struct MeshSource {
   std::string file;             ///< path of the file
   Index first = 0;              ///< the number that the file gives its first vertex and face: 1 in OBJ
-  bool shares_vertices = true;  ///< false: faces have corners of their own (STL), and no vertex has a number
-  std::vector<Index> vertices;  ///< number in the file, by vertex, ascending; empty: the same as in the mesh
+  bool shares_vertices = true;  ///< false: each face has its own corners (STL), and vertices have no numbers
+  std::vector<Index> vertices;  ///< number in the file by vertex, ascending; empty: the same as in the mesh
   std::vector<Index>
-      /// number in the file of the first face that has the vertex, by vertex; only without shared vertices
+      /// by vertex: number in the file of the first face that has the vertex; only if !shares_vertices
       first_faces;
-  /// number in the file, by triangle; triangles of one polygon share it. Empty: the same as in the mesh
+  /// number in the file by triangle; triangles of one polygon share it. Empty: the same as in the mesh
   std::vector<Index> faces;
   std::vector<std::size_t> vertex_lines, face_lines,
       edge_lines;  ///< from 1, by number in the file; empty in files without lines
@@ -32,10 +32,11 @@ struct MeshSource {
   std::vector<std::size_t> tetrahedron_lines{};
 };
 
-/// One source for each body of a scene; null or missing where the body's mesh comes from no file.
+/// One source for each body of a scene; null or missing if the body's mesh comes from no file.
 using MeshSources = std::vector<std::shared_ptr<const MeshSource>>;
 
-/// Names elements by their number in the mesh or scene. An element that no body covers has its number alone.
+/// Names elements by their number in the mesh or scene. An element that belongs to no body is named by its number
+/// alone.
 class ElementNames {
  public:
   ElementNames() = default;
@@ -46,10 +47,10 @@ class ElementNames {
   explicit ElementNames(const Scene& scene, const MeshSources& sources = {});
 
   std::string vertex(Index v) const;  ///< "vertex 3", with its line in the file
-  /// Returns "vertices 3, 4"; empty where the file gives vertices no numbers.
+  /// Returns "vertices 3, 4"; empty if the file numbers no vertices.
   std::string vertices(std::span<const Index> list) const;
   std::string triangle(Index t, const Triangle& corners) const;
-  /// Returns "edge (vertices 3, 4; lines 4, 5)", as no file numbers edges.
+  /// Returns "edge (vertices 3, 4; lines 4, 5)", since no file numbers edges.
   std::string edge(const Edge& ends) const;
   std::string loose_edge(Index e, const Edge& ends) const;
   /// Returns "tetrahedron 7 (vertices 1, 2, 3, 4; line 40)".
@@ -57,8 +58,8 @@ class ElementNames {
 
  private:
   struct NamedBody {
-    std::string name;                          ///< empty for a mesh that stands alone
-    Index first_vertex = 0, last_vertex = -1;  ///< no vertices if last is below first
+    std::string name;                          ///< empty for a mesh outside of a scene
+    Index first_vertex = 0, last_vertex = -1;  ///< no vertices if last < first
     Index first_triangle = 0, first_edge = 0, first_tetrahedron = 0;
     std::shared_ptr<const MeshSource> source;
   };

@@ -6,12 +6,13 @@
 
 namespace ogc::compare {
 
-/// Reports wrong usage or bad input: what, where (file, path or element) and what to do about it. Exit status 2.
+/// Reports wrong usage or bad input. The message tells what is wrong, where (file, path or element) and how to correct
+/// it. Exit status 2.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reports memory, disk or a device that ran out or is missing. Exit status 3.
+/// Reports that memory, disk space or a device is missing or used up. Exit status 3.
 struct ResourceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -1,5 +1,5 @@
-// Holds which pairs of faces are excluded (method.md §2.3): they are no contacts, do not enter d_min, and are not
-// audited. The rules stand here as data; detections and audits apply them.
+// Defines which pairs of faces are excluded (method.md §2.3). Excluded pairs are no contacts, do not enter d_min, and
+// are not audited. The rules are data here; detections and audits apply them.
 #pragma once
 
 #include <span>
@@ -11,10 +11,10 @@ namespace ogc::compare {
 
 /// The excluded pairs of a mesh or scene.
 struct Exclusions {
-  /// Group of each vertex; may be empty. A pair whose vertices all have one number ≥ 0 is excluded.
+  /// Group of each vertex; may be empty. A pair is excluded if all of its vertices have the same number ≥ 0.
   std::vector<Index> groups;
-  /// Partners of each vertex, both ways; no rows if no vertex has any. A pair is excluded if a vertex of one side is a
-  /// partner of a vertex of the other.
+  /// Partners of each vertex; each pair of partners is listed both ways. No rows if there are no partners. A pair is
+  /// excluded if a vertex of one side is a partner of a vertex of the other side.
   CompressedRows partners{};
   friend bool operator==(const Exclusions& a, const Exclusions& b) {
     return a.groups == b.groups && a.partners.offsets == b.partners.offsets && a.partners.items == b.partners.items;
@@ -24,7 +24,7 @@ struct Exclusions {
 /// Refers to exclusions that another object owns, which must outlive the view.
 struct ExclusionView {
   std::span<const Index> groups;             ///< Exclusions::groups
-  const CompressedRows* partners = nullptr;  ///< Exclusions::partners, or null where there are none
+  const CompressedRows* partners = nullptr;  ///< Exclusions::partners; null if there are none
 
   ExclusionView() = default;
   ExclusionView(std::span<const Index> by_group, const CompressedRows* by_partner = nullptr)
@@ -34,8 +34,8 @@ struct ExclusionView {
       : groups(all.groups), partners(all.partners.rows() > 0 ? &all.partners : nullptr) {}
 };
 
-/// Returns the rows of partners of `count` vertices: each pair both ways, ascending and without repetition; no rows if
-/// there is no pair. Indices are valid.
+/// Returns the rows of partners of `count` vertices: each pair both ways, ascending, without repetition; no rows if
+/// there are no pairs. Indices must be valid.
 CompressedRows partner_rows(std::size_t count, std::span<const std::array<Index, 2>> pairs);
 
 /// Returns the pairs in rows of partners, smaller vertex first, ascending.

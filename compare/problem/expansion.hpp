@@ -7,8 +7,9 @@
 
 namespace ogc::compare {
 
-/// Holds a sum as a non-overlapping expansion of at most `capacity` components (Shewchuk 1997, Grow-Expansion); the
-/// last component that is not zero has the sum's sign. No product may overflow, nor its rounding error underflow.
+/// Holds a sum as a non-overlapping expansion of at most `capacity` components (Shewchuk 1997, Grow-Expansion). The
+/// last component that is not zero has the sum's sign. Products must not overflow, and their rounding errors must not
+/// underflow.
 template <std::size_t capacity>
 class Expansion {
  public:

@@ -12,7 +12,7 @@ namespace ogc::compare {
 namespace {
 
 constexpr std::array<double Vec3::*, 3> axes{&Vec3::x, &Vec3::y, &Vec3::z};
-constexpr double far = 16;  ///< in lengths of the box
+constexpr double far = 16;  ///< multiple of the box's length
 
 struct Box {
   Vec3 low, high;

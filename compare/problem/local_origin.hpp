@@ -1,5 +1,5 @@
-// Moves meshes whose coordinates are large against their size, as in surveys and city models, near the origin: single
-// precision would bend their edges. Coordinates are taken relative to a point near the mesh.
+// Moves meshes near the origin if their coordinates are large compared with their size, as in surveys and city models,
+// because single precision would bend their edges. Coordinates are then relative to a point near the mesh.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace ogc::compare {
 
-/// Returns a point near the centre of the positions' bounding box. A coordinate of it is not 0 where the box's centre
-/// lies at least 16 times the box's length from 0; there it is a multiple of the largest power of two that is not above
-/// that length, so that differences from it are exact in double. For positions that are not finite the point is 0.
-/// Single precision keeps at least 20 bits of the length where it is 0, and 23 relative to such a point.
+/// Returns an origin near the centre of the positions' bounding box. Along an axis it is 0, unless the box's centre is
+/// at least 16 times the box's length from 0. Then it is a multiple of the largest power of two that is not above that
+/// length, so that differences from it are exact in double. Relative to it, single precision resolves the length with
+/// 23 bits; along the other axes with at least 20. The origin is 0 for positions that are not finite.
 Vec3 local_origin(const std::vector<Vec3>& positions);
 
 /// Returns x − o of all positions [m].
 std::vector<Vec3> relative_to(const Vec3& origin, std::vector<Vec3> positions);
 
 /// Returns the double with the fewest decimal digits whose distance from `origin` rounds to `local` in single
-/// precision: the number that stood in the file from which `local` was read.
+/// precision. That is the number in the file from which `local` was read.
 double typed_at(double origin, float local);
 
-/// Returns local positions as coordinates of the file; unchanged if `origin` is 0.
+/// Returns local positions in the coordinates of the file; unchanged if `origin` is 0.
 std::vector<Vec3> in_file(const Vec3& origin, const std::vector<Vec3f>& local);
 
 /// Returns "coordinates lie 5e+06 m from 0, 1e+05 times the mesh's size; REMEDY" for a mesh with that origin, as a note

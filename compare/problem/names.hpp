@@ -1,5 +1,5 @@
-// Names the choices in scene files, `--set` and messages. Each name comes from a `switch` without `default`, so that an
-// enumerator without a name does not compile; code that draws, lists or reads a choice takes the names from here.
+// Names the choices of scene files, `--set` and messages. Each name comes from a `switch` without `default`, so that an
+// enumerator without a name does not compile. All code that prints, lists or reads a choice takes its name from here.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace ogc::compare {
 
-// Each function returns the name as users type it, or "" for a number that is no enumerator.
+// Each function returns the name that users type, or "" if the value is no enumerator.
 
 constexpr std::string_view name_of(MembraneModel model) {
   switch (model) {

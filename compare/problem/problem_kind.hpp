@@ -1,4 +1,4 @@
-// Keeps the list of `validate` short: a mesh with a million bad triangles is described by ten of them and a number.
+// Keeps the messages of `validate` short: a mesh with a million bad triangles gets ten messages and a count.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// Lists the first `limit` problems of one kind; the destructor adds how many more there are.
+/// Lists the first `limit` problems of one kind; the destructor adds the number of further problems.
 class ProblemKind {
  public:
   ProblemKind(std::vector<Problem>& problems, std::size_t limit, std::string what, std::string remedy)

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double least_single = std::numeric_limits<float>::denorm_min();
 
-/// Returns the text of a range. `is_rounded`: values are rounded to single precision, where a number between 0 and the
-/// least vanishes.
+/// Returns the text of a range. `is_rounded`: values are rounded to single precision, which has no number between 0 and
+/// the least one.
 std::string range(double minimum, double maximum, bool is_rounded) {
   return (is_rounded && minimum == 0 ? "0, or " + shortest(least_single) : shortest(minimum)) + " to " +
          shortest(maximum);
@@ -30,7 +30,6 @@ std::string range_text(const SettingInfo& info) {
 
 namespace {
 
-/// Returns whether a row of constants allows the value.
 template <class Info>
 bool holds(const Info& info, double value) {
   return value >= info.minimum && value <= info.maximum && !vanishes_in_single(value);

@@ -9,11 +9,11 @@
 namespace ogc::compare {
 namespace {
 
-/// A setting at one value, or at any but its default (""), and the solvers that read it then.
+/// One row: the solvers that read a setting if it has this value or, for "", any value but its default.
 struct Readers {
   std::string_view setting, value;
   std::array<std::string_view, 4> solvers;  ///< "" after the last one
-  std::string_view why;                     ///< reason that others do not read it
+  std::string_view why;                     ///< reason why other solvers do not read it
   bool has(std::string_view solver) const { return std::ranges::find(solvers, solver) != solvers.end(); }
 };
 
@@ -34,7 +34,7 @@ constexpr auto required = std::to_array<RequiredSetting>({
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// Returns whether the setting has the row's value. Settings of a contestant that a program lacks are at their default.
+/// Returns whether the setting has the row's value. Settings of contestants that are not linked have their default.
 bool is_asked(const Settings& settings, const SettingInfo& info, const Readers& row) {
   if (!row.value.empty()) return setting_text(settings, info) == row.value;
   return get_setting(settings, info) != get_setting(Settings{}, info);

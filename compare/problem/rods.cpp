@@ -1,5 +1,5 @@
-// Checks of a rest shape need no rounding: a segment reverses onto its neighbour if both leave their common vertex
-// along one line (zero_area.hpp) to the same side.
+// Checks rods exactly: a segment reverses onto its neighbour if both leave their common vertex on one line
+// (zero_area.hpp) in the same direction.
 #include "compare/problem/rods.hpp"
 
 #include <algorithm>
@@ -56,10 +56,10 @@ struct Vertices {
   }
 };
 
-/// Returns whether two segments leave a vertex at rest in one direction; only signs decide, exactly.
+/// Returns whether two segments leave a vertex at rest in one direction. Only signs decide, so the result is exact.
 bool leaves_to_one_side(const Vec3& from, const Vec3& a, const Vec3& b) {
   if (!has_zero_area(from, a, b)) return false;
-  // on one line every coordinate has the same sign, or is 0
+  // on one line the products of all coordinates have the same sign, or are 0
   return (a.x - from.x) * (b.x - from.x) + (a.y - from.y) * (b.y - from.y) + (a.z - from.z) * (b.z - from.z) > 0;
 }
 
@@ -131,7 +131,7 @@ bool says_turn(const PrescribedMotion& motion) { return motion.keyframes.empty()
 
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to) {
   const auto elapsed = [&](double t) { return std::clamp(t, motion.start, motion.end) - motion.start; };
-  // Rounded first, so that times counted from another start give the same turn.
+  // Rounded first, so that times relative to another start give the same turn.
   const auto half = static_cast<float>(motion.angular_velocity * (elapsed(to) - elapsed(from)) / 2);
   const double size = std::hypot(motion.axis.x, motion.axis.y, motion.axis.z), sine = std::sin(double{half});
   return {static_cast<float>(sine * motion.axis.x / size), static_cast<float>(sine * motion.axis.y / size),

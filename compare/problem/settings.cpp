@@ -1,4 +1,4 @@
-// Bounds are numbers that single precision holds exactly, so that rounding a setting can't take it out of its range.
+// The limits of ranges are exact in single precision, so that rounding a setting can't move it out of its range.
 #include "compare/problem/settings.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 constexpr double most_count = 1 << 30, most_seed = 0x1p53;
 constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
-/// Number of the last enumerator of a choice.
+/// The index of the last enumerator of a choice.
 template <class Choice>
 constexpr double last = choice_count<Choice> - 1;
 
@@ -83,7 +83,7 @@ constexpr auto problem_table = std::to_array<SettingInfo>({
      0, last<RodStart>, &Settings::rod_start, choice_names<RodStart>},
 });
 
-/// Names that settings had before, each with the one that replaces it.
+/// Former names of settings, each with the present name.
 constexpr auto renamed = std::to_array<std::pair<std::string_view, std::string_view>>({
     {"activation", "contact_activation"},
     {"bound_relaxation", "bounds_relaxation"},
@@ -102,7 +102,7 @@ constexpr auto renamed = std::to_array<std::pair<std::string_view, std::string_v
     {"truncation", "newton_truncation"},
 });
 
-/// Holds the problem's settings, and those that contestants have declared.
+/// Holds the problem's settings and those that contestants have declared.
 struct Table {
   std::map<std::string_view, std::span<const SettingInfo>> declared;  ///< by contestant
   std::vector<SettingInfo> rows;
@@ -114,8 +114,8 @@ struct Table {
   }
 };
 
-/// The table is made at its first use, as declarations of other files may be constructed before the objects of this
-/// one.
+/// Makes the table at its first use, because declarations in other files may be constructed before the objects of this
+/// file.
 Table& known() {
   static Table table;
   return table;

@@ -1,4 +1,4 @@
-// Edit distance over a handful of short names: clarity before speed.
+// The edit distance compares a few short names, so the code is simple rather than fast.
 #include "compare/problem/text.hpp"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Returns the number of typing errors that lead from one to the other (Damerau's, each pair of letters swapped at most
-/// once), with rows i − 2, i − 1 and i of the usual table.
+/// Returns the number of typing errors between both words (Damerau's distance; each pair of letters is swapped at most
+/// once). Only rows i − 2, i − 1 and i of the usual table are kept.
 std::size_t typing_errors(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, above, row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -82,7 +82,7 @@ std::string joined(std::span<const std::string_view> names) {
 std::string shown(std::string_view text, std::size_t most) {
   if (text.size() <= most) return std::string(text);
   std::size_t end = most;
-  // do not cut inside a UTF-8 character
+  // does not cut inside a UTF-8 character
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
   return std::string(text.substr(0, end)) + "…";
 }

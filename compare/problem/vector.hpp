@@ -1,5 +1,5 @@
-// Holds plain coordinates. This room holds facts, never an algorithm, so the types carry no operators: each contestant
-// brings its own arithmetic, and none can borrow the other's.
+// Defines plain coordinates. compare/problem contains facts and no algorithms, so the types have no operators: each
+// contestant brings its own arithmetic, and none can use the other's.
 #pragma once
 
 #include <array>
@@ -7,21 +7,21 @@
 
 namespace ogc::compare {
 
-/// A point or vector of the problem, in double [unit given where it is used].
+/// A point or vector of the problem, in double. The unit is given at each use.
 struct Vec3 {
   double x = 0, y = 0, z = 0;  ///< coordinates
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-/// A point or vector as a stage sees it: single precision, so that both contestants answer the same question.
+/// A point or vector of a stage, in single precision, so that both contestants get the same input.
 struct Vec3f {
   float x = 0, y = 0, z = 0;  ///< coordinates
   friend bool operator==(const Vec3f&, const Vec3f&) = default;
 };
 
-/// A quaternion as a stage sees it: the factors of i, j, k, then the real part.
+/// A quaternion of a stage: the factors of i, j, k, then the real part.
 using Quaternion = std::array<float, 4>;
-/// Largest deviation of ‖q‖² of a unit quaternion from 1: a quaternion whose length was found in single precision is
+/// Largest accepted deviation of ‖q‖² from 1 for a unit quaternion. A quaternion normalised in single precision is
 /// within 2⁻²² of unit length (orientation_length_tolerance in compare/stages/orientation.hpp).
 inline constexpr double unit_quaternion_slack = 0x1p-21;
 
@@ -38,7 +38,7 @@ enum class FaceKind : std::uint8_t { vertex = 0, edge = 1, triangle = 2 };
 
 /// Names one face by kind and number within its kind; ordered by kind, then number.
 struct Face {
-  FaceKind kind = FaceKind::vertex;  ///< the kind that `index` counts
+  FaceKind kind = FaceKind::vertex;  ///< whether `index` numbers a vertex, an edge or a triangle
   Index index = -1;                  ///< −1: none
   friend auto operator<=>(const Face&, const Face&) = default;
 };

@@ -17,12 +17,12 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// An edge in the sense in which one of its triangles runs through it; sides of one edge stand next to each other in
-/// order.
+/// An edge in the direction in which one of its triangles runs through it. The order puts sides of one edge next to
+/// each other.
 struct Side {
-  Edge edge{};            ///< the smaller vertex first
-  Index triangle = -1;    ///< triangle that has it
-  bool ascending = true;  ///< it runs from the smaller vertex to the larger one
+  Edge edge{};  ///< the smaller vertex first
+  Index triangle = -1;
+  bool ascending = true;  ///< whether the direction is from the smaller vertex to the larger one
   friend auto operator<=>(const Side&, const Side&) = default;
 };
 
@@ -40,7 +40,6 @@ std::vector<Side> sorted_sides(const Scene& scene, std::span<const Index> triang
   return sides;
 }
 
-/// Calls visit(sides) with the sides of each edge.
 template <class Visit>
 void visit_edges(std::span<const Side> sides, const Visit& visit) {
   for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
@@ -49,7 +48,7 @@ void visit_edges(std::span<const Side> sides, const Visit& visit) {
   }
 }
 
-/// Holds sets of numbers that can be united; the smallest number of a set stands for it.
+/// Holds sets of numbers that can be united; the smallest number of a set represents it.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
@@ -72,7 +71,7 @@ std::vector<VolumePart> shells_of(const Scene& scene, std::size_t number) {
   Sets sets(scene.mesh.positions.size());
   const auto triangles = std::span(scene.mesh.triangles).subspan(at(body.first_triangle), at(body.triangle_count));
   for (const auto& [a, b, c] : triangles) sets.unite(at(a), at(b)), sets.unite(at(a), at(c));
-  std::map<std::size_t, std::size_t> place;  // place of a set's shell
+  std::map<std::size_t, std::size_t> place;  // place of a set's shell, by the set's smallest number
   std::vector<VolumePart> shells;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto [entry, is_new] = place.try_emplace(sets.root(at(triangles[i][0])), shells.size());
@@ -110,13 +109,13 @@ struct SignedVolume {
     ++count;
   }
   /// Returns a bound of the error of `value`. A term goes through at most n + 12 roundings (three differences, two
-  /// products, four sums inside a determinant, those of n determinants), each a factor of 1 + δ with |δ| ≤ 2⁻⁵³; twice
-  /// that covers what the moduli themselves lose, and the higher orders.
+  /// products, four sums inside a determinant, the sums of n determinants), each a factor of 1 + δ with |δ| ≤ 2⁻⁵³.
+  /// Twice that covers rounding of the moduli and higher orders.
   double error() const { return static_cast<double>(count + 12) * 0x1p-52 * modulus; }
 };
 
-/// Returns six times the volume that a part encloses, with each of its rims (connected edges of one triangle) closed by
-/// a fan about the mean of its vertices.
+/// Returns six times the volume that a part encloses. A fan about the mean of its vertices closes each rim (connected
+/// edges of one triangle each).
 SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
   const auto position = [&](Index v) -> const Vec3& { return scene.mesh.positions[at(v)]; };
   const Vec3& origin = position(scene.mesh.triangles[at(part.triangles[0])][0]);
@@ -133,7 +132,7 @@ SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
     double count = 0;
   };
   std::map<std::size_t, Mean> means;
-  // each vertex of a rim ends as many of its edges as it begins, so the first ends are all vertices
+  // each vertex of a rim ends as many of the rim's edges as it begins, so the first ends are all vertices
   for (const auto& [a, b] : part.rims) {
     Mean& mean = means[sets.root(at(a))];
     const Vec3& x = position(a);
@@ -171,7 +170,7 @@ void unite_by_tetrahedra(const Scene& scene, const std::vector<VolumePart>& shel
   Sets sets(scene.mesh.positions.size());
   for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t)
     for (const Index v : scene.mesh.tetrahedra[at(t)]) sets.unite(at(scene.mesh.tetrahedra[at(t)][0]), at(v));
-  std::map<std::size_t, std::size_t> shell_of;  // first shell of a set
+  std::map<std::size_t, std::size_t> shell_of;  // first shell of a set, by the set's smallest number
   for (std::size_t i = 0; i < shells.size(); ++i) {
     const std::size_t set = sets.root(at(scene.mesh.triangles[at(shells[i].triangles[0])][0]));
     parts.unite(shell_of.try_emplace(set, i).first->second, i);
@@ -190,7 +189,7 @@ std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
       if (enclosing[i] >= 0) sets.unite(i, at(enclosing[i]));
   }
   std::vector<VolumePart> parts;
-  std::map<std::size_t, std::size_t> place;  // place of a set's part
+  std::map<std::size_t, std::size_t> place;  // place of a set's part, by the set's smallest number
   for (std::size_t i = 0; i < shells.size(); ++i) {
     const auto [entry, is_new] = place.try_emplace(sets.root(i), parts.size());
     if (is_new) parts.push_back({number, {}, {}});
@@ -202,7 +201,7 @@ std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
   return parts;
 }
 
-/// Returns whether each edge of the body has an inner side or belongs to one triangle; lists the others.
+/// Returns whether each edge of the body has an inner side or belongs to one triangle. Lists the edges that do not.
 bool check_edges(std::vector<Problem>& problems, const Scene& scene, const Body& body, const ElementNames& names,
                  std::size_t limit) {
   ProblemKind threefold(problems, limit, "of a volume has more than two triangles",
@@ -228,7 +227,8 @@ bool check_edges(std::vector<Problem>& problems, const Scene& scene, const Body&
   return threefold.count() + misoriented.count() == 0;
 }
 
-/// Lists parts that are inside out or enclose nothing. `is_sound`: by body, whether its parts can be examined.
+/// Lists parts that are inside out or enclose no volume. `is_sound` holds for each body whether its parts can be
+/// examined.
 void check_parts(std::vector<Problem>& problems, const Scene& scene, const std::vector<bool>& is_sound,
                  const ElementNames& names, std::size_t limit) {
   ProblemKind inside_out(problems, limit, "begins a part of a volume that is turned inside out",

@@ -1,5 +1,5 @@
-// Finds the volumes (§3.9) of a scene: bodies that others may enter and that push them out. Lists their parts and
-// surfaces, and checks that each surface has an inner side.
+// Finds the volumes (§3.9) of a scene: bodies that push out vertices that enter them. Lists their parts and surfaces,
+// and checks that each surface has an inner side.
 #pragma once
 
 #include <cstddef>
@@ -12,34 +12,36 @@
 
 namespace ogc::compare {
 
-/// A part of a volume, which stages treat by itself: a connected component of its surface, or of its tetrahedra, with
+/// A part of a volume, which stages treat separately: a connected component of its surface, or of its tetrahedra, with
 /// its cavities (compare/problem/cavities.hpp). Triangles that share a vertex are connected.
 struct VolumePart {
-  std::size_t body = 0;          ///< body that it belongs to
+  std::size_t body = 0;          ///< number of its body
   std::vector<Index> triangles;  ///< numbers in the scene, ascending
-  std::vector<Edge> rims;        ///< edges of one triangle each, in its sense, by triangle, then corner
+  std::vector<Edge> rims;        ///< edges of one triangle each, in the triangle's direction, by triangle, then corner
 };
 
-/// Returns the parts of all volumes of a scene, by body, then by their first triangle. Indices are valid, and bodies
+/// Returns the parts of all volumes of a scene, by body, then by first triangle. Indices must be valid, and bodies must
 /// cover the scene.
 std::vector<VolumePart> volume_parts(const Scene& scene);
 
-/// Returns the cavities of a scene's volumes of triangles, as VolumeDepthIn::cavities has them: for each a vertex of
-/// its own and one of the surface around it.
+/// Returns the cavities of a scene's volumes of triangles in the form of VolumeDepthIn::cavities: for each cavity one
+/// of its vertices and one of the surface around it.
 std::vector<Edge> volume_cavities(const Scene& scene);
 
-/// Holds the surfaces of all volumes of a scene as one question of the stage volume_depth; vertices keep their numbers.
+/// Holds the surfaces of all volumes of a scene as one input of stage volume_depth; vertices keep their numbers.
 struct VolumeSurface {
-  Topology topology;                    ///< of their triangles alone
+  Topology topology;                    ///< topology of the volumes' triangles alone
   std::vector<Index> triangles;         ///< number in the scene of each triangle, ascending
-  std::vector<Tetrahedron> tetrahedra;  ///< of the volumes that have any, body by body
-  std::vector<Edge> cavities;           ///< volume_cavities
+  std::vector<Tetrahedron> tetrahedra;  ///< tetrahedra of all volumes that have any, body by body
+  std::vector<Edge> cavities;           ///< as volume_cavities returns them
 };
 
-/// Returns it; a scene without volumes gives no triangle. Indices are valid, and bodies cover the scene.
+/// Returns the surface of all volumes; it has no triangles if the scene has no volumes. Indices must be valid, and
+/// bodies must cover the scene.
 VolumeSurface volume_surface(const Scene& scene);
 
-/// Returns the face of the scene, with topology `scene`, for a face of `volumes`; the order of faces is the same.
+/// Returns the face of the scene, whose topology is `scene`, that is `face` of `volumes`; the order of faces is the
+/// same.
 Face scene_face(const VolumeSurface& volumes, const Topology& scene, const Face& face);
 
 /// Returns whether any body is a volume.
@@ -48,23 +50,23 @@ bool has_volumes(const Scene& scene);
 /// Returns for each vertex whether its body is a volume.
 std::vector<bool> volume_flags(const Scene& scene);
 
-/// Returns for each body whether it is a *free* volume, one with vertices that no motion moves; only volumes of
-/// tetrahedra may be free.
+/// Returns for each body whether it is a *free* volume, that is, a volume with vertices that no motion moves. Only
+/// volumes of tetrahedra may be free.
 std::vector<bool> free_volumes(const Scene& scene);
 
 /// Returns the vertices that each detection tests against all volumes, ascending: the free vertices of surfaces and
-/// those on the boundary of free volumes. If there is a free volume, prescribed vertices are tested as well, since they
-/// may push it. `topology`: of the scene.
+/// those on the boundary of free volumes. If there is a free volume, prescribed vertices are tested, too, since they
+/// may push it. `topology` is that of the scene.
 std::vector<Index> volume_askers(const Scene& scene, const Topology& topology);
 
-/// Adds what is wrong with the scene's volumes, body by body: loose edges, no triangles, free triangles without
-/// tetrahedra, edges of three triangles or of two that run through it in one sense, parts that are inside out or
-/// enclose nothing. Indices are valid, and bodies cover the scene; coordinates may be bad.
+/// Adds the problems of the scene's volumes, body by body: loose edges; no triangles; free triangles without
+/// tetrahedra; edges of three triangles; edges that two triangles run through in the same direction; parts that are
+/// inside out or enclose no volume. Indices must be valid, and bodies must cover the scene; coordinates may be bad.
 void check_volume_bodies(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names,
                          std::size_t limit);
 
-/// Throws InputError that names the scene's first volume if it has any: `solver` does not simulate them, and `remedy`
-/// tells the user what to do.
+/// Throws InputError that names the scene's first volume if it has any, because `solver` does not simulate volumes.
+/// `remedy` tells the user what to do.
 void refuse_volumes(const Scene& scene, std::string_view solver, std::string_view remedy);
 
 }  // namespace ogc::compare

@@ -1,12 +1,12 @@
-// Decides without rounding the one geometric question of validation: do three points lie on a line?
+// Decides the one geometric question of validation without rounding: do three points lie on a line?
 #pragma once
 
 #include "compare/problem/vector.hpp"
 
 namespace ogc::compare {
 
-/// Returns whether the triangle has exactly zero area. Coordinates are zero or within 2⁻⁴⁵⁰ … 2⁴⁵⁰ m, as numbers of
-/// single precision and meshes without dust are: then no product overflows, and no rounding error, a multiple of
+/// Returns whether the triangle has exactly zero area. Coordinates must be zero or within 2⁻⁴⁵⁰ … 2⁴⁵⁰ m, as numbers of
+/// single precision and meshes without dust are. Then no product overflows, and no rounding error, a multiple of
 /// 2⁻¹⁰⁰⁴, underflows.
 bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -54,7 +54,7 @@ struct Stored {
   std::string digest, scene_digest;
 };
 
-/// Throws InputError if a newer program wrote it.
+/// Throws InputError if a newer program wrote the file.
 void check_version(const Hdf5File& file, const std::string& path) {
   const auto version = file.attribute<std::int64_t>("format_version");
   if (version > checkpoint_format_version)

@@ -1,6 +1,6 @@
-// Stores in checkpoint.h5 the state from which a run can continue to the same bits. It is one file, replaced as a
-// whole; its digest detects damage. Everything else that a run needs is in run.json and scene/; the checkpoint keeps
-// the digest of the scene, so that a scene edited by hand is refused.
+// Stores in checkpoint.h5 the state from which a run can continue to the same bits. The file is replaced as a whole,
+// and its digest detects damage. Everything else that a run needs is in run.json and scene/. The checkpoint contains
+// the digest of the scene, so that an edited scene is rejected.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace ogc::compare {
 
-/// Version of the format; a newer file is refused by name. Format 3 holds `orientations` [segments × 4] if there are
-/// rods.
+/// Version of the format. A newer file is rejected with a message. Format 3 has `orientations` [segments × 4] if there
+/// are rods.
 inline constexpr std::int64_t checkpoint_format_version = 3;
 
-/// The state to continue from; in runs that audit states, an audited one.
+/// The state to continue from. In runs that audit states it is an audited one.
 struct Checkpoint {
-  /// step, positions, velocities, bounds, capacities; from version 2 on the exact positions and velocities of solvers
-  /// that have them; from version 3 on orientations
+  /// step, positions, velocities, bounds, capacities; since version 2 also the exact positions and velocities of
+  /// solvers that have them; since version 3 also orientations
   Snapshot state;
   std::int64_t audited_states = 0;  ///< number of states audited so far
 };
@@ -26,8 +26,8 @@ struct Checkpoint {
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint,
                       const std::string& scene_digest);
 
-/// Reads it. Throws InputError with a remedy if it is missing, damaged, of a newer format, has an orientation that is
-/// no unit quaternion, or belongs to a scene with another digest.
+/// Reads `folder`/checkpoint.h5. Throws InputError with a remedy if it is missing, damaged, of a newer format, has an
+/// orientation that is no unit quaternion, or belongs to a scene with another digest.
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const std::string& scene_digest);
 
 /// Returns the digest of the files of a run's scene, by name and content. Throws InputError.

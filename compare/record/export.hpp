@@ -9,15 +9,15 @@ namespace ogc::compare {
 
 enum class ExportFormat { obj, ply, vtp, vtu };  ///< formats of a sequence of meshes
 
-/// Returns the format called "obj", "ply", "vtp" or "vtu". Throws InputError that lists them.
+/// Returns the format called "obj", "ply", "vtp" or "vtu". Throws InputError that lists these names.
 ExportFormat parse_export_format(std::string_view text);
 
-/// Writes one mesh for each frame, `out`/frame_000025.EXT with the number of the frame's step, and makes `out` if it is
-/// missing. OBJ and PLY hold positions, triangles and loose edges; VTP (XML PolyData) also velocity [m/s], bound [m]
-/// and body, VTU (XML UnstructuredGrid) also tetrahedra and their J (compare/record/vtu.hpp); both get an index with
-/// the frames' times, `out`/NAME.pvd, where NAME is the scene's. Positions are in the coordinates of the mesh's file
-/// (Provenance::origin). Returns all files, the index last. Throws InputError if the run has no frame, ResourceError if
-/// the disk fails.
+/// Writes each frame as a mesh `out`/frame_000025.EXT, where the number is that of the frame's step. Creates `out` if
+/// it is missing. OBJ and PLY contain positions, triangles and loose edges. VTP (XML PolyData) also contains velocity
+/// [m/s], bound [m] and body; VTU (XML UnstructuredGrid) also tetrahedra and their J (compare/record/vtu.hpp). VTP and
+/// VTU get an index of the frames' times, `out`/NAME.pvd, where NAME is the scene's. Positions are in the coordinates
+/// of the mesh's file (Provenance::origin). Returns all files, the index last. Throws InputError if the run has no
+/// frame, ResourceError if the disk fails.
 std::vector<std::filesystem::path> export_run(const std::filesystem::path& folder, ExportFormat format,
                                               const std::filesystem::path& out);
 

@@ -22,7 +22,7 @@ std::int64_t checksum(const Frame& frame) {
   };
   add(frame.positions), add(frame.velocities), add(frame.bounds);
   add(std::array{frame.step}), add(std::array{frame.time});
-  // zlib would begin a new sum for no bytes at null
+  // for a null pointer zlib would start a new sum
   if (!frame.orientations.empty()) add(as_floats(frame.orientations));
   return sum;
 }

@@ -1,5 +1,5 @@
-// Writes iterations.csv: one row for each iteration of the solvers that keep rows of iterations. Columns are named as
-// in steps.csv: "name [unit]".
+// Writes iterations.csv: one row for each iteration of the solvers that report iterations. Columns are named as in
+// steps.csv: "name [unit]".
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@ namespace ogc::compare {
 /// Returns the header line.
 std::string iteration_header();
 
-/// Returns the iteration rows of all steps; numbers read back as the same double, "nan" if a quantity was not
-/// requested. Empty if there are none.
+/// Returns the iteration rows of all steps; empty if there are none. Numbers read back as the same double; "nan" stands
+/// for a quantity that was not requested.
 std::string iteration_lines(std::span<const StepMetrics> steps);
 
 }  // namespace ogc::compare

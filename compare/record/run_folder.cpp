@@ -27,7 +27,7 @@ fs::path frame_path(const fs::path& folder, std::int64_t step) {
   return folder / "frames" / (frame_name(step) + ".h5");
 }
 
-/// Returns the step in the name of a frame's file; none for another file.
+/// Returns the step in the name of a frame's file; none for other files.
 std::optional<std::int64_t> frame_step_of(const std::string& name) {
   constexpr std::string_view prefix = "frame_", suffix = ".h5";
   if (!name.starts_with(prefix) || !name.ends_with(suffix)) return std::nullopt;
@@ -37,8 +37,8 @@ std::optional<std::int64_t> frame_step_of(const std::string& name) {
   return parsed.ec == std::errc{} && parsed.ptr == end ? std::optional(step) : std::nullopt;
 }
 
-/// Returns the length of a table with its header and its whole rows of steps up to `step`. A row begins with the number
-/// of its step.
+/// Returns the length of a table up to the last whole row of step `step`, its header included. A row begins with the
+/// number of its step.
 std::size_t length_until(const fs::path& table, std::int64_t step) {
   const std::string text = read_bytes(table);
   std::size_t kept = text.find('\n') + 1;
@@ -50,7 +50,7 @@ std::size_t length_until(const fs::path& table, std::int64_t step) {
   return kept;
 }
 
-/// Returns finished frames by step.
+/// Returns finished frames in the order of their steps.
 std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folder) {
   if (!fs::is_directory(folder / "frames"))
     throw InputError((folder / "frames").string() + ": is missing: name a folder that `ogc run` has written");
@@ -61,7 +61,6 @@ std::vector<std::pair<std::int64_t, fs::path>> list_frames(const fs::path& folde
   return frames;
 }
 
-/// Removes the unfinished files of a killed run.
 void remove_partial_frames(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder / "frames"))
@@ -88,7 +87,7 @@ void refuse_used_folder(const fs::path& folder) {
                        "): name another folder, or remove this one");
 }
 
-/// Writes the scene under a temporary name and moves it to its place as a whole. Returns its file relative to `folder`.
+/// Writes the scene under a temporary name, then renames it as a whole. Returns the scene's file relative to `folder`.
 std::string store_scene(const fs::path& folder, const Scene& scene) {
   const fs::path target = folder / "scene", partial = partial_name(target);
   fs::remove_all(partial);
@@ -153,7 +152,7 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, std::int64_t step, con
   if (fs::exists(folder_ / "iterations.csv"))
     iterations_.emplace(folder_ / "iterations.csv", length_until(folder_ / "iterations.csv", step));
   remove_partial_frames(folder_);
-  fs::remove(folder_ / "trajectory.vtkhdf");  // it ends where the run was cut off
+  fs::remove(folder_ / "trajectory.vtkhdf");  // it ends at the state where the run was cut off
   for (const auto& [stored, path] : list_frames(folder_))
     if (stored <= step) written_step_ = stored;
   Provenance& provenance = manifest_.provenance;

@@ -1,25 +1,26 @@
 // Writes and reads run folders: run.json, steps.csv, frames/, trajectory.vtkhdf.
 //
-//   run.json            written last when a run begins, again when it ends: "status" says which
-//   scene/NAME.json     the scene, meshes beside it (compare/files/scenes/scene_files.hpp)
+//   run.json            written last when a run begins, and again when it ends; its "status" tells which
+//   scene/NAME.json     the scene, with its meshes beside it (compare/files/scenes/scene_files.hpp)
 //   steps.csv           compare/record/steps_csv.hpp
 //   frames/frame_000025.h5   the state after step 25 (compare/record/frame_file.hpp)
-//   checkpoint.h5       where the run can go on (compare/record/checkpoint.hpp)
-//   trajectory.vtkhdf   all frames, for viewers (compare/record/trajectory.hpp); while the run goes on it grows as
+//   checkpoint.h5       the state from which the run can continue (compare/record/checkpoint.hpp)
+//   trajectory.vtkhdf   all frames, for viewers (compare/record/trajectory.hpp); during the run it is called
 //                       trajectory.vtkhdf.growing
 //
-// Frames and checkpoints are packed and written by threads of their own (compare/record/writing_queue.hpp). Guarantees:
+// Separate threads pack and write frames and checkpoints (compare/record/writing_queue.hpp). Guarantees:
 //
-//   - A file that has its name is whole, whatever ends the program or the machine: it is written under another name,
-//     synced, renamed. steps.csv grows by lines; readers ignore an incomplete last line.
-//   - No later than a second after something was written, and at the end, all of it is synced by one call; then frames
-//     get their names. So a power cut loses the last second, and what waited for a disk that is slower than that.
-//   - kill -9 loses nothing that `written()` counts: frames that have their names. Rows are in the file when add_steps
-//     returns, which is enough for kill -9.
+//   - A file under its final name is complete, however the program or the machine ends: it is written under another
+//     name, synced, then renamed. steps.csv grows by lines; readers ignore an incomplete last line.
+//   - At most a second after a write, and at the end, one call syncs everything that was written; then frames get their
+//     names. So a power cut loses the last second, and more only if the disk is too slow.
+//   - kill -9 loses no frame that `written()` counts. Rows are in the file when add_steps returns, so kill -9 does not
+//     lose them.
 //   - A checkpoint is written after all frames and rows up to its step are synced, so a run continued from it has them.
-//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are in progress; then add_frame and save wait.
-//   - A failure on another thread (a full disk) is thrown by the next call; everything written before is kept.
-//   - A growing trajectory that a kill left behind is useless; a continued run makes it anew from the frames.
+//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are in progress; beyond that add_frame and save
+//     wait.
+//   - The next call throws a failure of another thread (a full disk); everything written until then is kept.
+//   - A killed run leaves a useless growing trajectory; a continued run makes it again from the frames.
 #pragma once
 
 #include <atomic>
@@ -41,21 +42,21 @@
 
 namespace ogc::compare {
 
-/// Throws InputError if no new run can be written to the folder: it holds one, a file has its name, or it can't be
-/// made. To be called before anything is computed.
+/// Throws InputError if no new run can be written to the folder: it contains a run, a file has its name, or it can't be
+/// created. Call it before anything is computed.
 void expect_new_run_folder(const std::filesystem::path& folder);
 
 /// Writes a run. Throws ResourceError with the path if the disk is full or not writable.
 class RunWriter {
  public:
-  /// Makes the folder and everything that a run has before its first step; status "running". An empty `started` is set
-  /// to now. steps.csv gets columns for each stage name (none for a run without profile), for the extra entry "ledger"
-  /// if it is "yes", and for the extra entry "meetings". Throws InputError if the folder already holds a run, or files
-  /// that a run would overwrite.
+  /// Creates the folder and all files that a run has before its first step; status "running". An empty `started` is set
+  /// to now. steps.csv gets a column for each stage name (none for a run without profile), and more columns for the
+  /// extra entries "ledger", if it is "yes", and "meetings". Throws InputError if the folder already contains a run, or
+  /// files that a run would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance,
             std::vector<std::string> stage_names);
-  /// Continues the run of the folder after `step` of a checkpoint: rows of later steps are cut off, as they are written
-  /// again; status "running", and run.json gets the time of the restart, with `note`. `scene` is the folder's. Throws
+  /// Continues the run of the folder after `step` of a checkpoint. Rows of later steps are removed, since these steps
+  /// run again; status "running". run.json gets the time of the restart, with `note`. `scene` is the folder's. Throws
   /// InputError if another process writes the run, or if it can't be read.
   RunWriter(std::filesystem::path folder, const Scene& scene, std::int64_t step, const std::string& note);
   /// Removes the frames of steps for which `keep` is false.
@@ -63,31 +64,31 @@ class RunWriter {
   /// Appends rows to steps.csv in one write, and their iteration rows, if there are any, to iterations.csv. Throws
   /// std::invalid_argument if a row has times for another number of stages.
   void add_steps(const std::vector<StepMetrics>& rows);
-  /// Stores a state and replaces one of the same step. Throws std::invalid_argument if an array has not one entry for
-  /// each vertex.
+  /// Stores a state; replaces a stored state of the same step. Throws std::invalid_argument if an array does not have
+  /// one entry for each vertex.
   void add_frame(Frame frame);
   /// Replaces checkpoint.h5. Rows and frames up to its step must be added first.
   void save(Checkpoint checkpoint);
   /// Waits until everything that was added is on the disk.
   void flush() { queue_.drain(); }
-  /// Sets an entry of Provenance::extra; the next manifest (at the latest the one that finish writes) has it.
+  /// Sets an entry of Provenance::extra; the next manifest contains it, at the latest the one that finish writes.
   void set_extra(const std::string& key, const std::string& value) { manifest_.provenance.extra[key] = value; }
-  /// Replaces Provenance::warnings; the next manifest has them.
+  /// Replaces Provenance::warnings; the next manifest contains them.
   void set_warnings(std::vector<std::string> warnings) { manifest_.provenance.warnings = std::move(warnings); }
   /// Flushes and, if there is a frame, completes trajectory.vtkhdf. Nothing may be added afterwards.
   void close();
   /// Closes, then writes the final run.json.
   void finish(const std::string& status);
-  /// Keeps and completes what is possible after an error, then writes the final run.json.
+  /// Completes as much as possible after an error, then writes the final run.json.
   void give_up(const std::string& status);
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// What is on the disk under its name, synced.
+  /// Counts frames that are synced on the disk under their names.
   struct Written {
     std::int64_t frames = 0;      ///< number of frames of this writer
-    std::int64_t last_step = -1;  ///< step of the last of them, or of the last frame of the continued run
+    std::int64_t last_step = -1;  ///< step of the last frame of this writer, or of the continued run
   };
-  Written written() const { return {written_frames_, written_step_}; }  ///< what is safe on disk
+  Written written() const { return {written_frames_, written_step_}; }  ///< what is synced on the disk
   /// Returns the time that calls waited for the disk [s].
   double waited_seconds() const { return queue_.waited_seconds() + closing_seconds_; }
 
@@ -102,22 +103,22 @@ class RunWriter {
   Manifest manifest_;
   std::string scene_digest_;
   std::optional<LineAppender> steps_, iterations_;
-  // The writing thread uses these; after a flush, the caller's.
-  std::vector<std::filesystem::path> uncommitted_;  ///< frames without their names
-  std::int64_t uncommitted_step_ = -1;              ///< step of the last of them
+  // Used by the writing thread; by the caller's thread only after a flush.
+  std::vector<std::filesystem::path> uncommitted_;  ///< frames that do not have their final names yet
+  std::int64_t uncommitted_step_ = -1;              ///< step of the last uncommitted frame
   std::optional<TrajectoryWriter> trajectory_;
-  bool disordered_ = false;  ///< a frame came out of order for the trajectory
+  bool disordered_ = false;  ///< whether a frame was added out of order, so that the trajectory can't be appended to
   std::atomic<std::int64_t> written_frames_ = 0, written_step_ = -1;
   double closing_seconds_ = 0;
   bool closed_ = false;
-  WritingQueue queue_;  ///< last, so that its threads end before the members that they use
+  WritingQueue queue_;  ///< last, so that its threads end before the members that they use are destroyed
 };
 
 /// Reads the finished part of a run. Throws InputError that names the file.
 class RunReader {
  public:
   explicit RunReader(std::filesystem::path folder);
-  const Scene& scene() const { return scene_; }                                          ///< as it was run
+  const Scene& scene() const { return scene_; }                                          ///< the scene of the run
   const Provenance& provenance() const { return manifest_.provenance; }                  ///< provenance in run.json
   const std::vector<std::string>& stage_names() const { return manifest_.stage_names; }  ///< columns of `--profile`
   std::size_t frame_count() const { return frames_.size(); }                             ///< number of finished frames
@@ -125,7 +126,7 @@ class RunReader {
   std::int64_t frame_step(std::size_t i) const { return frames_.at(i).first; }
   /// Returns a frame. Throws InputError also if it does not fit the scene.
   Frame frame(std::size_t i) const;
-  /// Returns a frame as it is stored, checked in the same way.
+  /// Returns a frame as it is stored. Checks it in the same way.
   PackedFrame packed_frame(std::size_t i) const;
 
  private:

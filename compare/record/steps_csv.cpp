@@ -65,7 +65,7 @@ constexpr std::array<StepColumn, 4> convergence_columns{{
     {"left_held", "1", &StepMetrics::left_held},
 }};
 
-/// Returns all columns before those of a ledger.
+/// Returns all columns except those of a ledger.
 std::vector<StepColumn> common_columns(const StepGroups& groups) {
   std::vector<StepColumn> all(columns.begin(), columns.end());
   if (groups.solids) all.insert(all.end(), solid_columns.begin(), solid_columns.end());
@@ -77,13 +77,12 @@ std::vector<StepColumn> common_columns(const StepGroups& groups) {
   return all;
 }
 
-/// One column of a ledger.
 struct LedgerColumn {
   std::string_view name, unit;
   double& (*of)(StepLedger& row);
 };
 
-/// Columns of runs with a ledger, after the others.
+/// Columns of runs with a ledger, after all others.
 constexpr std::array<LedgerColumn, 25> ledger_columns{{
     {"energy_start", "J", [](StepLedger& l) -> double& { return l.energy_start; }},
     {"energy_guess", "J", [](StepLedger& l) -> double& { return l.energy_guess; }},
@@ -117,7 +116,7 @@ constexpr std::string_view stage_prefix = "stage_", stage_unit = " [ms]";
 template <class T>
 void print(std::string& text, T value) {
   if (value != value) {
-    text += "nan";  // std::to_chars would print the sign of a not-a-number
+    text += "nan";  // std::to_chars would print the sign of not-a-number
     return;
   }
   std::array<char, 32> digits;
@@ -155,7 +154,7 @@ bool is_titled(const StepColumn& column, std::string_view title) {
          (!column.former_name.empty() && title == title_of(column.former_name, column.unit));
 }
 
-/// Returns the table without rows.
+/// Returns the table of a header, without rows.
 StepTable parse_header(const std::string& file, std::string_view line) {
   const std::vector<std::string_view> titles = split(line);
   const auto refuse = [&](std::size_t i, const std::string& expected) {
@@ -195,13 +194,12 @@ StepTable parse_header(const std::string& file, std::string_view line) {
   return table;
 }
 
-/// Returns the number of values in a row.
 std::size_t width_of(const StepTable& table) {
   return common_columns(table.groups).size() + (table.groups.ledger ? ledger_columns.size() : 0) +
          table.stage_names.size();
 }
 
-/// Returns false if the line is not a row of such a table.
+/// Returns false if the line is not a row of this table.
 bool parse_row(std::string_view line, const StepTable& table, StepMetrics& row) {
   const std::vector<std::string_view> parts = split(line);
   if (parts.size() != width_of(table)) return false;

@@ -47,8 +47,8 @@ void write_static_part(Hdf5File& file, const Scene& scene) {
 
 std::size_t at_once(std::size_t count, std::size_t bytes) { return Hdf5File::largest_size(count, bytes, count); }
 
-/// Returns the most disk space of the fixed data: bodies, two kinds of cells with connectivity and offsets, and
-/// datasets that are empty or hold one number, which is less than HDF5 stores about each.
+/// Returns the largest disk space of the fixed data: bodies, two kinds of cells with connectivity and offsets, and
+/// datasets with at most one number, which need less space than HDF5's data about each of them.
 std::size_t static_size(const Mesh& mesh) {
   constexpr std::size_t small_datasets = 16, groups = 1 << 16;
   const std::size_t cells = mesh.triangles.size() + mesh.loose_edges.size();
@@ -57,7 +57,7 @@ std::size_t static_size(const Mesh& mesh) {
          small_datasets * Hdf5File::largest_size(0, 1, 1) + groups;
 }
 
-/// Returns the same for the offsets of so many steps: ten datasets of at most four numbers each.
+/// Returns the largest disk space of the offsets of this many steps: ten datasets of at most four numbers each.
 std::size_t steps_size(std::size_t count) {
   return 10 * at_once(std::max<std::size_t>(count, 1), 4 * sizeof(std::int64_t));
 }

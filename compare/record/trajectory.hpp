@@ -1,7 +1,7 @@
 // Writes trajectory.vtkhdf: VTKHDF 2.0, temporal PolyData. Moving data (points, velocities, bounds) are appended frame
-// by frame, and each step has an offset to its rows; fixed data (cells, bodies) are there once, with offset 0 for each
-// step. The chunks of a frame are those of its own file, packed once; if its rows end within a chunk, the next frame
-// begins with the next chunk.
+// by frame, and each step has an offset to its rows. Fixed data (cells, bodies) are stored once, with offset 0 for each
+// step. The chunks of a frame are copied from its own file without packing them again. If its rows end within a chunk,
+// the next frame begins with the next chunk.
 #pragma once
 
 #include <cstdint>
@@ -15,34 +15,34 @@
 
 namespace ogc::compare {
 
-/// Makes the file frame by frame, under the name `growing` in the folder of `path` until it is finished.
+/// Writes the file frame by frame. Until it is finished it is called `growing`, in the folder of `path`.
 class TrajectoryWriter {
  public:
-  /// Begins the file. Throws ResourceError if the disk fails, as the other functions do.
+  /// Begins the file. Throws ResourceError if the disk fails; so do the other functions.
   TrajectoryWriter(std::filesystem::path path, std::filesystem::path growing, const Scene& scene);
   /// Removes an unfinished file.
   ~TrajectoryWriter();
   TrajectoryWriter(const TrajectoryWriter&) = delete;
   TrajectoryWriter& operator=(const TrajectoryWriter&) = delete;
-  /// Appends a frame; frames come in the order of their steps.
+  /// Appends a frame. Frames must come in the order of their steps.
   void append(const PackedFrame& frame);
   /// Returns the step of the last frame, -1 before the first one.
   std::int64_t last_step() const { return last_step_; }
-  /// Writes the times and gives the file its name; nothing may follow.
+  /// Writes the times and gives the file its name; nothing may be appended afterwards.
   void finish();
 
  private:
   void reserve(std::size_t more);
   void write_steps();
   std::filesystem::path path_, growing_;
-  std::size_t frame_rows_;               ///< rows of a frame, with those that fill up its last chunk
+  std::size_t frame_rows_;               ///< rows of a frame, including those that fill its last chunk
   std::size_t reserved_ = 0, used_ = 0;  ///< bytes of the disk; `used_` is an upper bound
   std::optional<Hdf5File> file_;
   std::vector<double> times_;  ///< [s]
   std::int64_t last_step_ = -1;
 };
 
-/// Assembles `folder`/trajectory.vtkhdf from the frames of a run, also while another program writes the run. Throws
+/// Assembles `folder`/trajectory.vtkhdf from the frames of a run; another program may be writing the run. Throws
 /// InputError if there is no frame yet or one is damaged, ResourceError if the disk fails.
 void assemble_trajectory(const std::filesystem::path& folder);
 

@@ -1,4 +1,4 @@
-// Holds what VTK's XML files share: arrays after the XML as raw bytes.
+// Defines what VTK's XML files share: arrays stored after the XML as raw bytes.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@ namespace ogc::compare {
 /// VTK's name for this machine's byte order.
 inline constexpr const char* vtk_byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 
-/// Collects the arrays after the XML: each with its length in bytes before it; the XML refers to it by its offset.
+/// Collects the arrays that follow the XML. Each has its length in bytes before it; the XML refers to it by its offset.
 class AppendedArrays {
  public:
   /// Adds an array and returns its element for the XML. `type`: VTK's type of the numbers; `name`: its name in viewers.
@@ -29,20 +29,20 @@ class AppendedArrays {
     bytes_.append(reinterpret_cast<const char*>(values.data()), size);
     return tag;
   }
-  const std::string& bytes() const { return bytes_; }  ///< all arrays so far, as they follow the XML
+  const std::string& bytes() const { return bytes_; }  ///< all arrays so far
 
  private:
   std::string bytes_;
 };
 
-/// Returns vectors as one array, rows of three doubles.
+/// Returns the vectors as one array of doubles, three for each vector.
 inline std::span<const double> as_doubles(const std::vector<Vec3>& vectors) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double), "rows of three doubles");
   return {vectors.empty() ? nullptr : &vectors.front().x, 3 * vectors.size()};
 }
 
-/// Adds the points of a frame and returns their element for the XML. The scene's points are relative to `origin`. If
-/// that is 0 they are written in single precision, otherwise in double, in the coordinates of the scene's file.
+/// Adds the points of a frame and returns their element for the XML. The scene's points are relative to `origin`. If it
+/// is 0, they are written in single precision; otherwise in double, in the coordinates of the scene's file.
 inline std::string appended_points(AppendedArrays& appended, const Vec3& origin, const std::vector<Vec3f>& positions) {
   if (origin == Vec3{}) return appended.array("Float32", "Points", as_floats(positions), 3);
   const std::vector<Vec3> points = in_file(origin, positions);

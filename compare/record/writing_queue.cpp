@@ -26,7 +26,8 @@ WritingQueue::~WritingQueue() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-/// Waits for a condition, which must also hold after a failure, and then throws the failure.
+/// Waits until a condition holds, then throws the failure of the queue if there is one. The condition must also hold
+/// after a failure.
 template <class Condition>
 void WritingQueue::wait(std::unique_lock<std::mutex>& lock, Condition condition) {
   const Clock::time_point begin = Clock::now();
@@ -155,7 +156,7 @@ void WritingQueue::write_front(std::unique_lock<std::mutex>& lock) {
   }
   lock.lock();
   busy_ = false;
-  // The queue is empty if the preparation of another job has failed meanwhile.
+  // The queue is already empty if the preparation of another job has failed.
   if (!jobs_.empty() && jobs_.front() == job) jobs_.pop_front(), bytes_ -= job->bytes;
   if (failure) fail(failure);
   changed_.notify_all();

@@ -1,6 +1,6 @@
-// Writes the files of a run beside the simulation: several threads prepare jobs at the same time, and one writes them
-// in the order in which they came. Written files are synced in groups. Memory is bounded: adding to a full queue waits,
-// so a disk that is too slow slows the simulation down.
+// Writes the files of a run beside the simulation. Several threads prepare jobs at the same time; one thread writes
+// them in the order of their arrival. Written files are synced in groups. Memory is bounded: adding to a full queue
+// waits, so a slow disk slows the simulation down.
 #pragma once
 
 #include <chrono>
@@ -18,25 +18,27 @@ namespace ogc::compare {
 
 /// Limits of a queue.
 struct QueueLimits {
-  std::size_t jobs = 64;                       ///< jobs that wait or are in progress
-  std::size_t bytes = std::size_t{256} << 20;  ///< bytes of all jobs together; a larger job waits until it is alone
-  double sync_seconds = 1;                     ///< from the first write after a sync to the next sync [s]
-  unsigned threads = 0;                        ///< threads that prepare; 0: half of the machine's, at most 8
+  std::size_t jobs = 64;  ///< jobs that wait or are in progress
+  /// bytes of all jobs together; a larger job waits until the queue is empty
+  std::size_t bytes = std::size_t{256} << 20;
+  double sync_seconds = 1;  ///< from the first write after a sync to the next sync [s]
+  unsigned threads = 0;     ///< threads that prepare; 0: half of the machine's, at most 8
 };
 
 /// Queue of jobs, filled by one thread.
 class WritingQueue {
  public:
   using Work = std::function<void()>;
-  /// Makes a queue. The writing thread calls `sync` when something was written and `sync_seconds` have passed, or when
+  /// Makes a queue. The writing thread calls `sync` if something was written and `sync_seconds` have passed, or if
   /// `drain` waits.
   explicit WritingQueue(Work sync, const QueueLimits& limits = {});
   /// Writes and syncs what was added; failures are not reported.
   ~WritingQueue();
   WritingQueue(const WritingQueue&) = delete;
   WritingQueue& operator=(const WritingQueue&) = delete;
-  /// Adds a job that holds so many bytes; waits if that is too much. `prepare` may be empty. Throws what an earlier job
-  /// or sync threw: after the first failure nothing more is written, but what was written before is synced.
+  /// Adds a job that holds `bytes` bytes of memory; waits if the queue is full. `prepare` may be empty. Throws the
+  /// failure of an earlier job or sync: after the first failure nothing more is written, but what was written is still
+  /// synced.
   void add(std::size_t bytes, Work prepare, Work write);
   /// Tells the queue that a file was written without it and must be synced with the rest. Throws as `add` does.
   void touch();
@@ -71,13 +73,13 @@ class WritingQueue {
   std::condition_variable changed_;
   std::deque<std::shared_ptr<Job>> jobs_;
   std::size_t bytes_ = 0;  ///< sum over the jobs
-  bool busy_ = false;      ///< the writing thread writes or syncs
-  bool dirty_ = false;     ///< something is written and not synced
-  bool draining_ = false;  ///< nothing was added since the last drain began
+  bool busy_ = false;      ///< whether the writing thread writes or syncs
+  bool dirty_ = false;     ///< whether something is written and not synced
+  bool draining_ = false;  ///< whether nothing was added since the last drain began
   bool stop_ = false;
   Clock::time_point dirty_since_;
   std::exception_ptr failure_;
-  double waited_seconds_ = 0;  ///< of the caller's thread
+  double waited_seconds_ = 0;  ///< time that the caller's thread waited
   std::vector<std::thread> threads_;
 };
 

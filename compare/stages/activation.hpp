@@ -1,5 +1,5 @@
-// Stage activation: contact energy over distance, slope and curvature (Eq. 18–20; Eq. 19 corrected, method.md §1.1),
-// and the variants of the ablation (method.md §4.2).
+// Stage activation: contact energy over distance, its slope and curvature (Eq. 18–20; Eq. 19 corrected, method.md
+// §1.1), and the other activations (method.md §4.2).
 #pragma once
 
 #include <vector>
@@ -9,33 +9,39 @@
 
 namespace ogc::compare {
 
-/// n cases with r [m] and k_c [N/m] within 2⁻²⁰ … 2²⁰, distance d [m] from the smaller of 2⁻²⁰ and 2⁻⁴⁰ r to 2²⁰, and
-/// the energy.
+/// n cases. r [m] and k_c [N/m] are within 2⁻²⁰ … 2²⁰; the distance d [m] is at most 2²⁰ and at least the smaller of
+/// 2⁻²⁰ and 2⁻⁴⁰ r.
 struct ActivationIn {
   std::vector<float> distance, contact_radius, stiffness;  ///< by case: d [m], r [m], k_c [N/m]
   std::vector<ContactActivation> activation;               ///< by case
 };
 
-/// g [J], g' [N], g'' [N/m]; 0 for d ≥ r. At d = τ = r/2 the quadratic stage holds. `ogc`: k_c/2 (r − d)² from τ on,
-/// below it k' (ln τ − ln d) + k_c/2 (r − τ)² with k' = τ k_c (r − τ); `ogc_as_printed`: the same with k' = τ k_c (τ −
-/// r)², numbers in metres, so that g' jumps at τ; `quadratic`: k_c/2 (r − d)²; `ipc_log`: −k_c (d − r)² ln(d/r);
-/// `cubic`: 2 k_c/(3r) (r − d)³.
+/// g [J], g' [N], g'' [N/m]; 0 for d ≥ r. At d = τ = r/2 the quadratic stage holds.
+///
+/// - `ogc`: k_c/2 (r − d)² from τ on; below τ, k' (ln τ − ln d) + k_c/2 (r − τ)² with k' = τ k_c (r − τ)
+/// - `ogc_as_printed`: the same with k' = τ k_c (τ − r)², numbers in metres, so that g' jumps at τ
+/// - `quadratic`: k_c/2 (r − d)²
+/// - `ipc_log`: −k_c (d − r)² ln(d/r)
+/// - `cubic`: 2 k_c/(3r) (r − d)³
 struct ActivationOut {
   std::vector<float> energy, slope, curvature;  ///< by case: g [J], g' [N], g'' [N/m]
 };
 
-/// Values in double from multiprecision, and the units of their errors: the sum of the moduli of the terms of each
-/// value, but at least 2⁻¹⁰² where d < r. u times that is the smallest normal number, so that underflow next to r
-/// counts little.
+/// Values computed with multiprecision and rounded to double, and the units of their errors. A unit is the sum of the
+/// moduli of the terms of the value, but at least 2⁻¹⁰² for d < r. Then u times the unit is the smallest normal number,
+/// so that underflow near r counts little.
 struct ActivationTruth {
   std::vector<double> energy, slope, curvature;
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
 };
 
-/// Largest error in units of u · scale. Quadratic stage: r − d (1), square (2), k_c/2 (1). Logarithmic stage: r − τ
-/// (1), k'_c (2), log (library, 2 ulp), product and sum (2), b (4). Cubic: 2k_c/(3r) (2), three depths (3 + 3).
-/// `ipc_log`: the depth, twice (2), ln(r/d) from the depth (three roundings of a quotient, two of a polynomial), its
-/// products (4), or with g'' instead of a second depth the sum with (d − r)/d (2 + 2) and its square (1).
+/// Largest error in units of u · scale; the numbers in parentheses count roundings.
+///
+/// - Quadratic stage: r − d (1), square (2), k_c/2 (1).
+/// - Logarithmic stage: r − τ (1), k'_c (2), log (library, 2 ulp), product and sum (2), b (4).
+/// - Cubic: 2k_c/(3r) (2), three depths (3 + 3).
+/// - `ipc_log`: the depth, twice (2), ln(r/d) from the depth (three roundings of a quotient, two of a polynomial), its
+///   products (4); g'' has the sum with (d − r)/d (2 + 2) and its square (1) in place of the second depth.
 inline constexpr double activation_tolerance = 12;
 
 }  // namespace ogc::compare

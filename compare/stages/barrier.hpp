@@ -1,5 +1,5 @@
 // Stage barrier: IPC's barrier over the squared distance, its slope and its curvature (Li et al. 2020, Eq. 6; with a
-// thickness Li et al. 2021, Eq. 10). Plug-ins may answer it; the fast path lacks it.
+// thickness Li et al. 2021, Eq. 10). Plug-ins may implement it; the fast path does not.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,18 @@
 
 namespace ogc::compare {
 
-/// D, d̂ and ξ of one case. With g = D − ξ² and H = d̂ (d̂ + 2 ξ) a case is legal if d̂ is within 2⁻²⁰ … 2²⁰, ξ is 0 or
-/// within 2⁻²⁰ … 2²⁰ and at most 2¹⁰ d̂, D ≤ 2⁴², g ≥ 2⁻⁴⁰ H, and g ≥ 2⁻¹⁸ D, a gap that single precision can tell from
-/// 0.
+/// D, d̂ and ξ of one case. With g = D − ξ² and H = d̂ (d̂ + 2 ξ) a case is legal if
+///
+/// - d̂ is within 2⁻²⁰ … 2²⁰,
+/// - ξ is 0, or within 2⁻²⁰ … 2²⁰ and at most 2¹⁰ d̂,
+/// - D ≤ 2⁴², g ≥ 2⁻⁴⁰ H, and g ≥ 2⁻¹⁸ D, a gap that single precision can tell from 0.
 struct BarrierCase {
   float squared_distance = 0;     ///< D [m²]
   float activation_distance = 0;  ///< d̂ [m]
   float thickness = 0;            ///< ξ [m]
 };
 
-/// The question: independent cases.
+/// Input of the stage.
 struct BarrierIn {
   std::vector<BarrierCase> cases;  ///< independent of each other
 };
@@ -27,16 +29,16 @@ struct BarrierOut {
   std::vector<float> energy, slope, curvature;  ///< by case [m⁴], [m²], [1]
 };
 
-/// Values in double, and the units of their errors: the sum of the moduli of the terms of each value, and of the change
-/// that a relative change of D, ξ² and H makes; at least 2⁻¹⁰² where g < H, as in the stage activation.
+/// Values in double, and the units of their errors. A unit is the sum of the moduli of the terms of the value and of
+/// the changes that relative changes of D, ξ² and H cause. It is at least 2⁻¹⁰² for g < H, as in stage activation.
 struct BarrierTruth {
   std::vector<double> energy, slope, curvature;                    ///< by case
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
 };
 
-/// Largest error in units of u · scale; the scale is a sum, so the largest of its parts' factors counts. D and ξ²:
-/// square and difference (2), the quotient g/H (1). H: sum and product (2), the difference H − g (1). Terms: the
-/// difference g − H twice (2), its square (1), the logarithm (4), product and sum (2): 9. One more for second order.
+/// Largest error in units of u · scale. The scale is a sum, so the largest factor of its parts counts. D and ξ²: square
+/// and difference (2), the quotient g/H (1). H: sum and product (2), the difference H − g (1). Terms: the difference g
+/// − H twice (2), its square (1), the logarithm (4), product and sum (2): 9. Second-order terms add 1.
 inline constexpr double barrier_tolerance = 10;
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Stage block: membership in the blocks of the offset's decomposition, as detections need it (Eq. 8–10, 14, 15).
+// Stage block: whether a point lies in a block of the offset's decomposition, as detections need it (Eq. 8–10, 14, 15).
 #pragma once
 
 #include <span>
@@ -9,25 +9,26 @@
 
 namespace ogc::compare {
 
-/// The question whether x is in U_a, apart from its distance: the distance is a decision of its own (d < r, Alg. 1 line
-/// 7). It names a face a of the mesh and the point x.
+/// Names a face a of the mesh and a point x: is x in U_a, whatever its distance? The distance is a separate decision (d
+/// < r, Alg. 1 line 7).
 struct BlockQuestion {
   /// The kind of x, and the manifold of the blocks.
   enum class Kind : std::uint8_t {
-    /// x is vertex `of`; U_a of Eq. 8, 9, 10 for a vertex, edge (between its end planes too) or triangle.
+    /// x is vertex `of`. U_a is that of Eq. 8, 9 or 10 for a vertex, edge (also between its end planes) or triangle.
     vertex_in_surface,
-    /// x is the point of edge `of` closest to a; U_a of Eq. 14, 15 for an edge or vertex of the edge-only manifold. One
-    /// point is closest to a vertex, and to an edge unless the two are parallel: nearly parallel edges (‖e×e'‖² <
-    /// 10⁻⁶‖e‖²‖e'‖²) are no legal question of this stage (their contacts: compare/stages/detect_edge_edge.hpp).
+    /// x is the point of edge `of` closest to a. U_a is that of Eq. 14 or 15 for an edge or vertex of the edge-only
+    /// manifold. x is unique unless both are parallel edges, so nearly parallel edges (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) are
+    /// illegal here; compare/stages/detect_edge_edge.hpp defines their contacts.
     edge_in_edges,
   };
-  Kind kind = Kind::vertex_in_surface;  ///< the kind that `of` counts
-  Index of = -1;                        ///< a vertex or an edge without a common vertex with a
+  Kind kind = Kind::vertex_in_surface;  ///< whether `of` numbers a vertex or an edge
+  Index of = -1;                        ///< a vertex or an edge that shares no vertex with a
   Face face;                            ///< a; never a triangle if kind is edge_in_edges
   friend bool operator==(const BlockQuestion&, const BlockQuestion&) = default;
 };
 
-/// Positions are at most 2²⁰ m in modulus, however small; collapsed triangles and edges are legal.
+/// The moduli of the coordinates are at most 2²⁰ m and may be arbitrarily small. Collapsed triangles and edges are
+/// legal.
 struct BlockIn {
   const Topology* topology = nullptr;        ///< of the mesh
   std::span<const Vec3f> positions;          ///< [m], length vertex_count
@@ -36,11 +37,11 @@ struct BlockIn {
 
 /// The answer.
 struct BlockOut {
-  std::vector<std::uint8_t> inside;  ///< by question; boundaries open and closed as printed
+  std::vector<std::uint8_t> inside;  ///< by question; boundaries are open or closed as the paper prints them
 };
 
-/// grey: a margin that decides the answer lies in its grey zone; either answer is accepted there. For edge_in_edges
-/// that includes the margins that decide which point of `of` is closest.
+/// grey: a deciding margin lies in its grey zone, so either answer is accepted. For edge_in_edges the margins that
+/// decide which point of `of` is closest count, too.
 struct BlockTruth {
   std::vector<std::uint8_t> inside, grey;  ///< exact; 1 where either answer is accepted
   std::vector<std::uint8_t> near;          ///< 1 where a margin lies within near_factor

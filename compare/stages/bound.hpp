@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// The question: smallest distances of all faces of a mesh. Views; the owner must outlive the call.
+/// Input of the stage: smallest distances of all faces of a mesh. It holds views; their owner must outlive the call.
 struct BoundIn {
   const Topology* topology = nullptr;                               ///< of the mesh
   std::span<const float> d_min_vertex, d_min_edge, d_min_triangle;  ///< [m], by vertex, edge, triangle
@@ -19,17 +19,17 @@ struct BoundIn {
 /// The answer.
 struct BoundOut {
   /// b_v [m], by vertex; never above γ_p · min(…). The largest finite number for a vertex inside a solid
-  /// (Topology::on_surface), which nothing bounds.
+  /// (Topology::on_surface), which needs no bound.
   std::vector<float> bound;
 };
 
-/// Exact: the largest single-precision number that is not above the real product.
+/// The exact bound: the largest single-precision number that is not above the real product.
 struct BoundTruth {
   BoundOut exact;  ///< rounded down
 };
 
-/// One-sided. Largest shortfall in units of u · b: one product, rounded down (2 u), in a kernel that may round to
-/// nearest and step down once more.
+/// Largest shortfall in units of u · b; any excess is an error. One product, rounded down (2 u), in a kernel that may
+/// round to nearest and then step down once more.
 inline constexpr double bound_below_tolerance = 4;
 
 }  // namespace ogc::compare

@@ -10,10 +10,10 @@
 
 namespace ogc::compare {
 
-enum class EdgeFeature : std::uint8_t { end_0, end_1, interior };  ///< of a closed edge
+enum class EdgeFeature : std::uint8_t { end_0, end_1, interior };  ///< features of a closed edge
 
-/// n independent cases; `first` is the lower-numbered edge. Edges of zero length are legal (during a run): the closest
-/// point of such an edge is its end_0.
+/// n independent cases; `first` is the lower-numbered edge. Edges of zero length, which may arise during a run, are
+/// legal; their closest point is end_0.
 struct ClosestPointsIn {
   std::vector<std::array<Vec3f, 2>> first, second;  ///< by case and end [m]
 };
@@ -24,13 +24,13 @@ struct ClosestPointsIn {
 struct ClosestPointsOut {
   std::vector<EdgeFeature> first_feature, second_feature;  ///< features that hold the closest points
   std::vector<std::uint8_t> nearly_parallel;               ///< 0 or 1
-  std::vector<std::array<float, 2>> parameters;            ///< of the contact points, in [0, 1] from end_0 to end_1
-  std::vector<float> contact_distance;                     ///< [m], between the contact points, nearest
-  std::vector<float> distance_below;                       ///< [m], never above the exact distance of the two edges
+  std::vector<std::array<float, 2>> parameters;            ///< of the contact points, from 0 at end_0 to 1 at end_1
+  std::vector<float> contact_distance;                     ///< distance of the contact points, rounded to nearest [m]
+  std::vector<float> distance_below;                       ///< never above the exact distance of the two edges [m]
 };
 
-/// Code of an answer: first_feature + 3 · second_feature + 9 · nearly_parallel; it is accepted if bit `code` of
-/// `accepted` is set.
+/// The code of an answer is first_feature + 3 · second_feature + 9 · nearly_parallel. The answer is accepted if bit
+/// `code` of `accepted` is set.
 struct ClosestPointsTruth {
   ClosestPointsOut exact;                          ///< rounded
   std::vector<std::uint32_t> accepted;             ///< bit of each accepted code
@@ -40,13 +40,13 @@ struct ClosestPointsTruth {
   std::vector<double> parameter_condition;         ///< defined as weight_condition of closest_face
 };
 
-/// Largest errors, in units as in closest_face; the interior–interior solution has two more products in its
-/// determinant.
+/// Largest errors, in the units of closest_face. The determinant of the interior–interior solution has two more
+/// products.
 inline constexpr double closest_points_distance_tolerance = 16;
 inline constexpr double closest_points_parameter_tolerance = 16;
-/// Derived as closest_face_below_tolerance: nearly parallel edges at an angle θ cost ρ S/θ by their normal, S ≤ 2 Σ|δ|,
-/// or θ ‖e‖ by their ends; 2⁸ roundings in double give √ρ = 2.9 u at the best change-over, 2 √ρ S = 12 u Σ|δ|; twice
-/// that for the kernel, and a third for the two products.
+/// Derived like closest_face_below_tolerance. For nearly parallel edges at an angle θ the normal costs ρ S/θ, S ≤ 2
+/// Σ|δ|, and the ends cost θ ‖e‖. With 2⁸ roundings in double √ρ = 2.9 u at the best change-over, and 2 √ρ S = 12 u
+/// Σ|δ|. Twice that leaves room for the kernel, and a third more for the two products.
 inline constexpr double closest_points_below_tolerance = 32;
 
 }  // namespace ogc::compare

@@ -7,7 +7,8 @@
 
 namespace ogc::compare {
 
-/// The closed faces that meet, and their vertices in ContactForceCase::vertex, first side | second side.
+/// The kinds of the closed faces in contact. Values name their vertices in ContactForceCase::vertex: first side |
+/// second side.
 enum class ContactSides : std::uint8_t {
   point_point,     ///< 0 | 1
   point_edge,      ///< 0 | 1 2
@@ -20,54 +21,57 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
   return sides == ContactSides::point_point ? 2 : sides == ContactSides::point_edge ? 3 : 4;
 }
 
-/// E = e_k g(d), g the case's activation (compare/stages/activation.hpp), d the distance of the contact points: the
-/// closest points of the closed faces, for nearly parallel edges as closest_points defines them. Force −e_k g'(d) w n
-/// on a vertex with weight w, block e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are updated together with it,
-/// itself included: mostly w² (method.md §4.2, §7.4). Slope and curvature are taken at d, clamped to 2⁻²³ r … r: beyond
-/// r there is no force, and the block is that at r (k_c with `ogc`). At d = 0, which the bounds exclude, there is no
-/// normal, and both are 0.
+/// E = e_k g(d). g is the case's activation (compare/stages/activation.hpp). d is the distance of the contact points:
+/// the closest points of the closed faces or, for nearly parallel edges, those that closest_points defines. The force
+/// on a vertex with weight w is −e_k g'(d) w n. The block is e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are
+/// updated together with the vertex, itself included; mostly this is w² (method.md §4.2, §7.4). Slope and curvature are
+/// taken at d, clamped to 2⁻²³ r … r: beyond r there is no force, and the block is that at r (k_c with `ogc`). At d =
+/// 0, which the bounds exclude, there is no normal, and both are 0.
 ///
-/// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖²; 1 for
-/// other sides and where one of the rest lengths is 0. Where both are 0, and the edges were nearly parallel at the last
-/// detection (closest_points: decided exactly), e_k is the length of their overlap along the first over the length of
-/// the shorter one.
+/// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖². e_k = 1
+/// for other sides and if a rest length is 0. Exception: if both rest lengths are 0 and the edges were nearly parallel
+/// at the last detection (closest_points: decided exactly), e_k is the length of their overlap along the first edge
+/// over the length of the shorter edge.
 ///
-/// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other one:
-/// its foot is not known to first order. The judge accepts any force and block there, too, whose moduli are at most
-/// −e_k g' and e_k g'' at the exact distance, the largest values of any point of the needle, or 2 e_k g'' if other
-/// vertices are updated with it. d is 0 or at least 2⁻⁶³ m, whose square is a normal number.
+/// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other edge;
+/// its closest point is not known to first order. For a needle the judge also accepts any force of at most −e_k g' and
+/// any block of at most e_k g'' at the exact distance, the largest values of any point of the needle. The limit of the
+/// block is 2 e_k g'' if other vertices are updated with the vertex. d is 0 or at least 2⁻⁶³ m, whose square is a
+/// normal number.
 struct ContactForceCase {
   ContactSides sides = ContactSides::point_point;  ///< the faces that meet
-  std::int32_t own = 0;           ///< the vertex whose force and block are asked for, 0 … vertex_count(sides) − 1
+  std::int32_t own = 0;           ///< the vertex whose force and block are returned, 0 … vertex_count(sides) − 1
   std::array<Vec3f, 4> vertex;    ///< x [m]; 0 for vertices that the sides lack
   std::array<Vec3f, 4> previous;  ///< X_prev, x at the last detection [m]; e_k uses it
   std::array<float, 2> rest_squared{};      ///< ‖ē‖², ‖ē'‖² [m²]; 0 for an edge without triangles
   float contact_radius = 0, stiffness = 0;  ///< r [m], k_c [N/m]
   ContactActivation activation = ContactActivation::ogc;  ///< g
-  std::uint8_t together = 0;  ///< bit k: vertex k is updated together with `own`, whose bit is ignored
+  std::uint8_t together = 0;  ///< bit k: vertex k is updated together with vertex `own`; bit `own` is ignored
 };
 
-/// The question: independent cases.
+/// Input of the stage.
 struct ContactForceIn {
   std::vector<ContactForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. On the longest way from an input to the force lie a difference (1), the first
-/// parameter of two edges (two cross products (4), their product (3) over the square of the one (2 + 3), a quotient
-/// (1)), from it the second (two products of vectors (6), a product, a difference, a quotient (3), the other square
-/// (3)), its complement (1), the vector between the contact points (a product, two sums), its length (3 + 1), the
-/// normal (2), the slope (4; of ipc_log 9), its products with weight and normal (2): 47. For e_k: a difference, a cross
-/// product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15. For e_k as a share of the
-/// overlap: a difference, two products of vectors (6), a quotient for each end, their difference, the root of a
-/// quotient of squares (6 / 2 + 2), two products: 16.
+/// Largest error in units of u · scale. The numbers count roundings on the longest way from an input to the force; the
+/// largest sum decides.
+///
+/// - Force: a difference (1); the first parameter of two edges: two cross products (4), their product (3) over a square
+///   (2 + 3), a quotient (1); the second parameter: two products of vectors (6), a product, a difference, a quotient
+///   (3), the other square (3); its complement (1); the vector between the contact points: a product, two sums (3); its
+///   length (3 + 1); the normal (2); the slope (4; of ipc_log 9); its products with weight and normal (2): 47.
+/// - e_k: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15.
+/// - e_k as a share of the overlap: a difference, two products of vectors (6), a quotient for each end, their
+///   difference, the root of a quotient of squares (6 / 2 + 2), two products: 16.
 inline constexpr double contact_force_tolerance = 47;
 /// Up to the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the curvature
 /// (2), an outer product (2).
 inline constexpr double contact_block_tolerance = 51;
 /// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a
-/// root (1), twice for weights that are not quite those of the closest points. Contacts within this of another feature,
-/// of touching or, with ogc_as_printed, of the jump at τ are grey. If a contact cannot be told from touching, neither
-/// distance nor normal is known: any answer up to the one at d = 2⁻²³ r is accepted.
+/// root (1), twice for weights that are not quite those of the closest points. A contact is grey if it is within this
+/// of another feature, of touching or, with ogc_as_printed, of the jump at τ. If it cannot be told from touching,
+/// neither distance nor normal is known, and any answer up to that at d = 2⁻²³ r is accepted.
 inline constexpr double contact_grey = 16;
 
 }  // namespace ogc::compare

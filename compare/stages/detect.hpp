@@ -1,4 +1,4 @@
-// Holds what the two detections share: their question, and lists of grey cases.
+// Defines what detect_vertex_facet and detect_edge_edge share: their input and the form of grey decisions.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// The question of detect_vertex_facet and detect_edge_edge. Views; the owner must outlive the call.
+/// Input of detect_vertex_facet and detect_edge_edge. It holds views; their owner must outlive the call.
 struct DetectIn {
   const Topology* topology = nullptr;  ///< of the mesh
   ExclusionView exclusions;            ///< groups: length vertex_count or 0 (see exclusions(Scene))
@@ -18,15 +18,15 @@ struct DetectIn {
   float query_radius = 0;              ///< r_q ≥ r [m]
 };
 
-/// A grey decision: an answer may hold any one of `contacts`, or none if `absence_accepted`.
+/// A grey decision: an answer may contain any one of `contacts`, or none if `absence_accepted`.
 template <class Contact>
 struct GreyDecision {
   std::vector<Contact> contacts;  ///< alternatives, all accepted
-  bool absence_accepted = false;  ///< whether an answer may hold none of them
+  bool absence_accepted = false;  ///< whether an answer may contain none of them
 };
 
-/// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|), as for distance_below of the pair
-/// stages.
+/// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|): the larger of the tolerances of
+/// distance_below in the stages closest_face and closest_points.
 inline constexpr double detect_below_tolerance = 32;
 
 }  // namespace ogc::compare

@@ -9,21 +9,23 @@
 namespace ogc::compare {
 
 /// Nearly parallel edges that overlap (compare/stages/closest_points.hpp) are a contact of their interiors if they are
-/// nearer than r and their closest points lie in each other's blocks; if they are exactly parallel, the closest points
-/// at either end of the overlap count. Two edges without triangles are a contact without that test.
+/// nearer than r and their closest points lie in each other's blocks. If they are exactly parallel, the closest points
+/// at either end of the overlap count. Two edges without triangles are a contact without the test of blocks.
 ///
-/// {p, q}, each a vertex or the interior of an edge, first < second as faces. `first_edge` ∋ first and `second_edge` ∋
-/// second are the lowest-numbered edges that generate the pair: lexicographically smallest (min, max) of both.
+/// A contact is an unordered pair {p, q}, each a vertex or the interior of an edge, first < second as faces.
+/// `first_edge` contains `first`, and `second_edge` contains `second`. Among the edges that generate the pair, these
+/// have the lexicographically smallest (min, max) of both numbers.
 struct EdgeEdgeContact {
   Face first, second;                       ///< each a vertex or an edge, the lower face first
   Index first_edge = -1, second_edge = -1;  ///< edges that generate the pair, in the order of the faces
   friend auto operator<=>(const EdgeEdgeContact&, const EdgeEdgeContact&) = default;
 };
 
-/// Canonical order: by (first, second).
+/// The answer. The canonical order of contacts is by (first, second).
 struct DetectEdgeEdgeOut {
   std::vector<EdgeEdgeContact> contacts;  ///< in any order
-  std::vector<float> d_min_edge;          ///< min over non-adjacent edges, at most r_q [m], never above the exact value
+  /// min over edges that share no vertex with the edge, at most r_q [m], never above the exact value
+  std::vector<float> d_min_edge;
 };
 
 /// The exact answer and each grey decision.
@@ -31,7 +33,7 @@ struct DetectEdgeEdgeTruth {
   DetectEdgeEdgeOut exact;                          ///< in canonical order, distances rounded down
   std::vector<GreyDecision<EdgeEdgeContact>> grey;  ///< all grey decisions
   std::size_t pairs = 0;                            ///< decided pairs
-  std::size_t near = 0;                             ///< edges with a decision within near_factor
+  std::size_t near = 0;                             ///< edges of which a decision lies within near_factor
 };
 
 }  // namespace ogc::compare

@@ -1,4 +1,4 @@
-// Stage detect_vertex_facet: F_OGC(v) for every vertex, and the smallest distances d_min,v and d_min,t (Alg. 1, Eq. 12,
+// Stage detect_vertex_facet: F_OGC(v) of every vertex, and the smallest distances d_min,v and d_min,t (Alg. 1, Eq. 12,
 // 22, 26).
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace ogc::compare {
 
-/// v is in contact with the face: x_v ∈ U_a and d < r. `owner` is the lowest-numbered triangle that contains the face.
+/// A contact of v with face a: x_v ∈ U_a and d < r. `owner` is the lowest-numbered triangle that contains the face.
 struct VertexFacetContact {
   Index vertex = -1;  ///< v
   Face face;          ///< the face that v touches
@@ -16,20 +16,20 @@ struct VertexFacetContact {
   friend auto operator<=>(const VertexFacetContact&, const VertexFacetContact&) = default;
 };
 
-/// Canonical order: by vertex, then face. V_OGC(t) is the same list by owner.
+/// The answer. The canonical order of contacts is by vertex, then face. V_OGC(t) is the same list by owner.
 struct DetectVertexFacetOut {
   std::vector<VertexFacetContact> contacts;  ///< in any order
   std::vector<float> d_min_vertex;    ///< min over non-adjacent triangles, at most r_q [m], never above the exact value
   std::vector<float> d_min_triangle;  ///< min over non-adjacent vertices, at most r_q [m], never above the exact value
 };
 
-/// The exact answer: contacts decided without rounding, smallest distances rounded down to single precision; and each
-/// grey decision.
+/// The exact answer and each grey decision. Contacts are decided without rounding, smallest distances are rounded down
+/// to single precision.
 struct DetectVertexFacetTruth {
   DetectVertexFacetOut exact;                          ///< in canonical order, distances rounded down
   std::vector<GreyDecision<VertexFacetContact>> grey;  ///< all grey decisions
-  std::size_t pairs = 0;                               ///< candidates within r_q, the denominator of the grey share
-  std::size_t near = 0;                                ///< vertices with a decision within near_factor
+  std::size_t pairs = 0;  ///< candidate pairs within r_q, the denominator of the grey share
+  std::size_t near = 0;   ///< vertices of which a decision lies within near_factor
 };
 
 }  // namespace ogc::compare

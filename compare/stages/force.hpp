@@ -1,7 +1,7 @@
-// Holds what the energies of a sweep share: a question is a stencil and one of its vertices. Lengths are 0 or at least
-// 2⁻⁵⁰ m (bending: 2⁻³⁰ m, whose fourth power is a normal number; springs and contacts: 2⁻⁶³ m, but the longest
-// distance of four vertices that meet is at least 2⁻³⁰ m). The reference gives the energy's derivative and the block of
-// method.md §4.
+// Defines what the stages of energies share; each returns force and block of one vertex of a stencil. Lengths are 0 or
+// at least 2⁻⁵⁰ m. Exceptions: 2⁻³⁰ m for bending, whose fourth power is a normal number; 2⁻⁶³ m for springs and
+// contacts, but the longest distance of four vertices that meet is at least 2⁻³⁰ m. The reference returns the energy's
+// derivative and the block of method.md §4.
 #pragma once
 
 #include <array>
@@ -19,9 +19,9 @@ struct ForceOut {
   std::vector<std::array<float, 6>> block;  ///< xx, xy, xz, yy, yz, zz [N/m]
 };
 
-/// Holds one accepted answer and the units of its errors. A unit is Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil,
-/// with coordinates as vectors relative to one vertex (for a hinge, the vertex that makes the sum largest, since a
-/// formula may choose any). A relative change u of each input changes the answer by up to u units, so no formula that
+/// Holds one accepted answer and the units of its errors. A unit is Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil.
+/// Coordinates count as vectors relative to one vertex; for a hinge to the vertex that makes the sum largest, since a
+/// formula may choose any. A relative change u of each input changes the answer by up to u units, so no formula that
 /// reads single-precision differences can do much better.
 struct ForceAnswer {
   Vec3 force;                               ///< [N]
@@ -33,10 +33,10 @@ struct ForceAnswer {
 /// and a sum (1).
 inline constexpr double per_vertex_additions = 5;
 
-/// accepted[i][0] is the exact answer of case i; a grey case has more than one: answers on the other side of a jump.
-/// near[i] is 1 where a decision of case i lies within near_factor: in contact_force and friction_force the features of
-/// the closest points, d = r, and d = τ of an activation with two stages. The other energies have no decisions that
-/// show in their answers.
+/// accepted[i][0] is the exact answer of case i; a grey case has more: answers on the other side of a jump. near[i] is
+/// 1 if a decision of case i lies within near_factor. contact_force and friction_force decide the features of the
+/// closest points, d = r, and d = τ of an activation with two stages. Decisions of other energies do not show in their
+/// answers.
 struct ForceTruth {
   std::vector<std::vector<ForceAnswer>> accepted;  ///< by case, the exact one first
   std::vector<std::uint8_t> near;                  ///< by case

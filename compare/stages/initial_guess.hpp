@@ -1,5 +1,5 @@
-// Stage initial_guess: one round of the guess loop for one vertex, y, and x ← y truncated about X_prev (Eq. 27, 28;
-// method.md §5.2); and the frame of one segment of a rod, turned as the segment has turned (compare/rods.md).
+// Stage initial_guess: one round of the guess loop for one vertex, which computes y and x ← y truncated about X_prev
+// (Eq. 27, 28; method.md §5.2); and the frame of one segment of a rod, turned with the segment (compare/rods.md).
 #pragma once
 
 #include <array>
@@ -11,55 +11,55 @@
 
 namespace ogc::compare {
 
-/// Coordinates of xᵗ, X_prev, vᵗ and a are at most 2²⁰ in modulus, however small, h is within 2⁻²⁰ … 1, b_v up to 2⁴⁰:
-/// nothing overflows.
+/// Coordinates of xᵗ, X_prev, vᵗ and a are at most 2²⁰ in modulus and may be arbitrarily small. h is within 2⁻²⁰ … 1,
+/// b_v at most 2⁴⁰. So nothing overflows.
 struct InitialGuessCase {
   Vec3f start, velocity, acceleration;  ///< xᵗ [m], vᵗ [m/s], a_ext [m/s²]
   float time_step = 0;                  ///< h [s]
-  Vec3f previous;                       ///< X_prev [m]; x is here, too
+  Vec3f previous;                       ///< X_prev [m], which is also x
   float bound = 0;                      ///< b_v [m]
-  std::uint8_t reserved = 0;            ///< 0: a byte of the plug-ins' structure without meaning
+  std::uint8_t reserved = 0;            ///< 0: an unused byte of the plug-ins' structure
 };
 
-/// A segment with its frame. D and Dᵗ are 0 or 2⁻⁵⁰ m … 2⁴⁰ m long, q is a unit quaternion within
-/// unit_quaternion_slack. The answer is q turned by the smallest rotation from Dᵗ to D; if these are opposite, by half
-/// a turn about its own first axis, q i; if one of them is 0, q itself.
+/// A segment with its frame. D and Dᵗ are 0 or 2⁻⁵⁰ m … 2⁴⁰ m long; q is a unit quaternion within
+/// unit_quaternion_slack. The answer is q turned by the smallest rotation from Dᵗ to D. If D and Dᵗ are opposite, it is
+/// q i, half a turn about the frame's first axis. If D or Dᵗ is 0, it is q.
 struct TurnCase {
   Vec3f before, now;                   ///< Dᵗ, D [m]
   Quaternion orientation{0, 0, 0, 1};  ///< qᵗ
 };
 
-/// The question: independent cases.
+/// Input of the stage.
 struct InitialGuessIn {
   std::vector<InitialGuessCase> cases;  ///< independent of each other
   std::vector<TurnCase> turns{};        ///< independent of each other
 };
 
-/// The position that is stored obeys ‖x − x_prev‖ ≤ b_v exactly.
+/// The answer. The stored position obeys ‖x − x_prev‖ ≤ b_v exactly.
 struct InitialGuessOut {
   std::vector<Vec3f> target, position;    ///< y, x [m]
-  std::vector<std::uint8_t> cut;          ///< 1 where ‖y − x_prev‖ > b_v, for the y that is stored
+  std::vector<std::uint8_t> cut;          ///< 1 if the stored y has ‖y − x_prev‖ > b_v
   std::vector<Quaternion> orientation{};  ///< by turn
 };
 
-/// Exact y with the sum of the moduli of its terms in each coordinate. Position and cut are those of the *given* y
-/// (stage truncate); the judge requests them.
+/// The exact y with the sum of the moduli of its terms in each coordinate. The judge gets position and cut of the
+/// answer's y from stage truncate.
 struct InitialGuessTruth {
   std::vector<Vec3> target;          ///< exact y [m]
   std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
-  std::vector<std::array<double, 4>> orientation{};  ///< exact; the sign follows from q's
-  /// 1/cos(θ/2), θ between Dᵗ and D: the factor of an error of their directions; infinite where any unit quaternion is
-  /// accepted, as an error of half a radian or more is within the tolerance
+  std::vector<std::array<double, 4>> orientation{};  ///< exact; its sign is that of the product with q
+  /// 1/cos(θ/2), θ between Dᵗ and D: the factor of an error of their directions. Infinite where any unit quaternion is
+  /// accepted, since an error of half a radian or more is within the tolerance
   std::vector<double> orientation_scale{};
 };
 
-/// Largest error of y's coordinates in units of u · target_scale: h a is rounded four times (with h, with vᵗ, with h,
-/// with xᵗ), vᵗ three times, xᵗ once.
+/// Largest error of y's coordinates in units of u · target_scale. The term h² a is rounded four times (h a, the sum
+/// with vᵗ, the product with h, the sum with xᵗ), h vᵗ three times, xᵗ once.
 inline constexpr double initial_guess_target_tolerance = 4;
 /// Largest error of a turned frame in units of u · orientation_scale. A direction's length is off by 5 u (a dot, a
-/// root, a quotient), its components by 1. (a × b, 1 + a·b) is 2 cos θ/2 long and off by twice the lengths (10) and its
-/// own roundings (a cross product 2, a dot and a sum 4): 16, half of which counts. A product of quaternions 8, unit
-/// length twice, 4 each.
+/// root, a quotient), its components by 1. (a × b, 1 + a·b) has the length 2 cos θ/2. It is off by twice the lengths
+/// (10) and its own roundings (a cross product 2, a dot and a sum 4): 16, half of which counts. A product of
+/// quaternions adds 8, and two normalisations 4 each.
 inline constexpr double initial_guess_turn_tolerance = 24;
 
 }  // namespace ogc::compare

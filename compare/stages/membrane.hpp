@@ -1,7 +1,7 @@
-// Stage membrane: force and block of one corner of one triangle, damping included (method.md §4.6, §4.9). Two models:
-// St. Venant–Kirchhoff, and stable Neo-Hookean (Smith, de Goes and Kim 2018: ψ = μ/2 (I_C − d) − μ (J − 1) + λ'/2 (J −
-// 1)²) on a membrane's F, which is 3×2: d = 2, J is the ratio of areas, and λ' = λ + μ makes its stiffness at rest that
-// of St. Venant–Kirchhoff with the same λ, μ.
+// Stage membrane: force and block of one corner of one triangle, damping included (method.md §4.6, §4.9). There are two
+// models: St. Venant–Kirchhoff, and stable Neo-Hookean (Smith, de Goes and Kim 2018: ψ = μ/2 (I_C − d) − μ (J − 1) +
+// λ'/2 (J − 1)²) on a membrane's F. F is 3×2, so d = 2 and J is the ratio of areas. λ' = λ + μ makes its stiffness at
+// rest that of St. Venant–Kirchhoff with the same λ, μ.
 #pragma once
 
 #include "compare/problem/scene.hpp"
@@ -9,8 +9,8 @@
 
 namespace ogc::compare {
 
-/// F = Σ x_k ∇N_kᵀ = (f₁ f₂), G = (FᵀF − I)/2, ϕ(G) = λ/2 tr(G)² + μ ‖G‖². The question is about corner 0; with model
-/// `none` force and block are 0.
+/// F = Σ x_k ∇N_kᵀ = (f₁ f₂), G = (FᵀF − I)/2, ϕ(G) = λ/2 tr(G)² + μ ‖G‖². Force and block of corner 0 are returned;
+/// with model `none` they are 0.
 ///
 /// E = A (ψ + k ϕ(G − Gᵗ)). St. Venant–Kirchhoff: ψ = ϕ(G). Stable Neo-Hookean: ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ +
 /// μ)/2 (J − 1)², J = ‖f₁ × f₂‖.
@@ -18,13 +18,13 @@ namespace ogc::compare {
 /// Block. Damping: A k times the second derivative of ϕ along the derivatives of G. St. Venant–Kirchhoff: the same with
 /// A for A k, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S. Stable Neo-Hookean: the exact second derivative, A
 /// (μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ) with b = ‖∇N₀‖, t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ =
-/// t × n, n = f₁ × f₂/J, of which only the eigenvalue along the normal n can be negative: it is replaced by max(0, ·).
+/// t × n, n = f₁ × f₂/J. Only its eigenvalue along n can be negative; max(0, ·) replaces that eigenvalue.
 ///
-/// With `per_vertex` damping the energy is A ψ alone. With its block B and moved = x₀ − xᵗ₀, k B moved is subtracted
+/// With `per_vertex` damping the energy is A ψ alone. Let B be its block and moved = x₀ − xᵗ₀: k B moved is subtracted
 /// from the force, and the block is (1 + k) B.
 ///
-/// A triangle that has collapsed (f₁ × f₂ = 0) has no normal: J is then taken to have no derivatives, and the block is
-/// A μ b² I. Where f₁ × f₂ cannot be told from 0, any normal is accepted.
+/// A collapsed triangle (f₁ × f₂ = 0) has no normal: the derivatives of J count as 0, and the block is A μ b² I. Any
+/// normal is accepted if f₁ × f₂ cannot be told from 0.
 struct MembraneCase {
   std::array<Vec3f, 3> corner;                     ///< x [m]; a collapsed triangle is legal
   std::array<Vec3f, 3> start;                      ///< xᵗ [m]; Gᵗ is computed from it
@@ -36,7 +36,7 @@ struct MembraneCase {
   DampingForm damping_form = DampingForm::strain;            ///< the damping
 };
 
-/// The question: independent cases.
+/// Input of the stage.
 struct MembraneIn {
   std::vector<MembraneCase> cases;  ///< independent of each other
 };
@@ -47,16 +47,16 @@ struct MembraneIn {
 inline constexpr double membrane_force_tolerance = 24;
 /// F (3), twice; with ∇N₀ (1 + 2), twice; an outer product (2), a weight (3), three sums.
 inline constexpr double membrane_block_tolerance = 20;
-/// Errors of the stable Neo-Hookean model, whose scales are multiplied by the ratio to the tolerances above. The normal
+/// Errors of the stable Neo-Hookean model; its scales are multiplied by the ratio to the tolerances above. The normal
 /// of two edges (two differences, a product, a difference: 4), its length (2 · 4 + 3 halved by the root, the root: 7),
-/// the density ∇N₁ × ∇N₂ (2), J (10), (λ + μ)(J − 1) − μ (4), and beside it g: the third edge (2), n (4 + 8 + 1), a
-/// cross product (2), the density (3); the product of both (1), two sums, the area (1): 38.
+/// the density ∇N₁ × ∇N₂ (2), J (10), (λ + μ)(J − 1) − μ (4). Beside it g: the third edge (2), n (4 + 8 + 1), a cross
+/// product (2), the density (3). The product of both (1), two sums, the area (1): 38.
 inline constexpr double neo_hookean_force_tolerance = 38;
 /// (λ + μ)(J − 1) − μ (14), ‖g‖² (2 · 20 + 3), its quotient by J and the sum (13), n twice (26), an outer product (2),
 /// area and sums (3): 101.
 inline constexpr double neo_hookean_block_tolerance = 101;
-/// f₁ × f₂, the normal times the density, is known to 7 units of u · scale; if it is not longer than twice this many,
-/// first-order errors are off by a tenth and more.
+/// f₁ × f₂, the normal times the density, is known to 7 units of u · scale. If it is at most twice this long,
+/// first-order errors are off by a tenth or more.
 inline constexpr double neo_hookean_grey = 16;
 
 }  // namespace ogc::compare

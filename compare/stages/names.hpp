@@ -1,4 +1,4 @@
-// Declares the questions, answers and truths of all stages; compare/stages/STAGE.hpp defines them.
+// Declares the inputs, outputs and truths of all stages; compare/stages/STAGE.hpp defines them.
 #pragma once
 
 namespace ogc::compare {

@@ -6,14 +6,14 @@ namespace ogc::compare {
 /// Unit roundoff of single precision, u = 2⁻²⁴: |fl(a∘b) − a∘b| ≤ u |a∘b| without underflow.
 inline constexpr double unit_roundoff = 0x1p-24;
 
-/// Grey zone (method.md §2.5): a case is grey where the exact margin m has |m| ≤ 16 u Σ|∂m/∂δᵢ||δᵢ|, δᵢ the coordinates
-/// relative to the case's first vertex. 16 u: the margins are polynomials of at most four nested factors; a
-/// single-precision evaluation from rounded differences stays within about 4 roundings per factor. It is a property of
+/// Grey zone (method.md §2.5): a case is grey if its exact margin m has |m| ≤ 16 u Σ|∂m/∂δᵢ||δᵢ|, where δᵢ are the
+/// coordinates relative to the case's first vertex. Margins are polynomials of at most four nested factors, and a
+/// single-precision evaluation from rounded differences makes about 4 roundings per factor. The zone is a property of
 /// the input; a kernel with a larger error is at fault.
 inline constexpr double grey_factor = 16 * unit_roundoff;
 
-/// Cases *near* a decision boundary: the same with 2¹⁰ ulp, an ulp being 2 u. No verdict depends on it; reports count
-/// near cases.
+/// Cases *near* a decision boundary: the same with 2¹⁰ ulp = 2¹¹ u for 16 u. Reports count near cases; no verdict
+/// depends on them.
 inline constexpr double near_factor = 0x1p11 * unit_roundoff;
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Stage plane: with bounds of planes, the region that holds each vertex until the next detection (method.md §5.6):
-// half-spaces of near pairs, and a ball for all pairs without one.
+// Stage plane: with bounds of planes, the region of each vertex until the next detection (method.md §5.6): half-spaces
+// for near pairs, and a ball for all pairs without a half-space.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@
 
 namespace ogc::compare {
 
-/// Returns the question of stage truncate for a vertex that bears these planes and has no forces but inertia; empty if
-/// it bears none. `is_prescribed`: the vertex does not slide; with bounds=dat no vertex does, and `current` is X_prev.
+/// Returns the input of stage truncate for a vertex with these planes and without forces but inertia; empty if there
+/// are no planes. `is_prescribed` means that the vertex does not slide. With bounds=dat no vertex slides, and `current`
+/// is X_prev.
 inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Vec3f& current, bool is_prescribed) {
   if (planes.empty()) return {};
   HalfSpacesIn all{.offsets = {0, static_cast<Index>(planes.size())},
@@ -26,20 +27,20 @@ inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Ve
   return all;
 }
 
-/// A state, and what decides which pairs count.
+/// Input of the stage: a state, and the data that decide which pairs count.
 struct PlaneIn {
   const Topology* topology = nullptr;      ///< of the whole scene
   ExclusionView exclusions;                ///< excluded pairs
   std::span<const Vec3f> positions;        ///< X of the detection [m]
-  std::span<const std::uint8_t> is_fixed;  ///< by vertex: 1 if it never moves; it then bears no plane
+  std::span<const std::uint8_t> is_fixed;  ///< by vertex: 1 if it never moves, so that it has no plane
   float query_radius = 0;                  ///< r_q [m]
   float bounds_relaxation = 0.45f;         ///< γ_p
-  /// w by vertex [m], 0 for fixed ones: divides the gap of each pair (bounds=dat); empty: gaps are halved
+  /// w by vertex [m], 0 for fixed vertices; it divides the gap of each pair (bounds=dat). If empty, gaps are halved
   std::span<const Vec3f> displacement{};
 };
 
 /// Returns the displacements that divide the gaps (method.md §5.6): `to` − `from` by vertex, rounded once to single
-/// precision. In the guess loop they lead from X to the target, later from X_prev of the previous detection to X.
+/// precision. In the guess loop they lead from X to the target, after it from the previous detection's X_prev to X.
 inline std::vector<Vec3f> displacements(std::span<const Vec3f> from, std::span<const Vec3f> to) {
   std::vector<Vec3f> all;
   all.reserve(from.size());
@@ -48,8 +49,8 @@ inline std::vector<Vec3f> displacements(std::span<const Vec3f> from, std::span<c
   return all;
 }
 
-/// Least share of 2γ_p d of each side of a pair, if both can move, with bounds=dat. A side without room could not go
-/// back until the next detection, and rounding could hide that it keeps its half-space at X.
+/// Least share of 2γ_p d of each side of a pair with bounds=dat, if both sides can move. A side without room could not
+/// move back until the next detection, and rounding could put it outside of its half-space at X.
 inline constexpr double least_division = 0x1p-4;
 
 /// Returns PlaneIn::is_fixed of a scene: 1 for each vertex of rigid group 0.
@@ -60,75 +61,80 @@ inline std::vector<std::uint8_t> fixed_flags(std::span<const Index> groups) {
   return flags;
 }
 
-/// The answer: K_v, the region of each vertex until the next detection, is its ball and its half-spaces (method.md
-/// §5.6).
+/// The answer: the ball and the half-spaces of each vertex, whose intersection is its region K_v until the next
+/// detection (method.md §5.6).
 struct PlaneOut {
   VertexPlanes planes;  ///< by vertex, ascending by pair
-  /// Radius of each vertex's ball [m]. The largest finite number for a vertex inside a solid, which nothing bounds;
-  /// arbitrary for fixed ones.
+  /// Radius of each vertex's ball [m]. The largest finite number for a vertex inside a solid, which needs no bound;
+  /// arbitrary for fixed vertices.
   std::vector<float> bound;
 };
 
-/// Number of planes that the method gives a vertex: those of its nearest pairs. An answer may have more.
+/// Number of planes that the method gives a vertex: those of its nearest pairs. An answer may contain more.
 inline constexpr std::size_t planes_of_vertex = 16;
 
-/// Holds whether the answer keeps every pair apart, decided exactly. A pair is *separated* if one plane of it divides
-/// its sides: each of its vertices that can move bears the plane and keeps it at X, and there is room between the two
-/// offsets (for a fixed vertex: its position). Every other pair within r_q must be *covered*: b_v ≤ γ_p d for each of
-/// its vertices that can move. Normals and offsets are free otherwise.
+/// Counts where the answer fails to keep pairs apart, decided exactly. A pair is *separated* if one of its planes
+/// divides its sides. That means that each movable vertex of the pair has the plane and is on its side at X, and that
+/// the two offsets leave a gap; for a fixed vertex its position counts. Every other pair within r_q must be *covered*:
+/// b_v ≤ γ_p d for each of its movable vertices. Normals and offsets are free otherwise.
 struct PlaneGuarantee {
-  std::size_t separated = 0;  ///< pairs within r_q
+  std::size_t separated = 0;  ///< separated pairs within r_q
   std::size_t uncovered = 0;  ///< pairs that are neither separated nor covered
   PrimitivePair worst;        ///< the first uncovered pair by kind, first and second
-  std::size_t broken = 0;     ///< half-spaces that their vertex does not keep at X
+  std::size_t broken = 0;     ///< half-spaces that do not contain their vertex at X
   std::size_t too_large = 0;  ///< vertices of the surface with b_v > γ_p r_q
   /// Returns whether the answer keeps the guarantee.
   bool kept() const { return uncovered == 0 && broken == 0 && too_large == 0; }
 };
 
-/// Holds how far the vertices may still move. Planes exist to give back the freedom that balls take; so a pair that is
-/// nearer than the 17th of each of its vertices that can move must have one (*due*), as far as single precision holds
-/// it: d ≥ 2⁻¹⁸ Σ|δ|, δ the coordinates relative to the pair's first vertex, and γ_p d, (1 − 2γ_p) d ≥ 2⁻⁴⁵ of the
-/// largest modulus of a coordinate. (n rounded turns by u, which moves a shadow of the pair by u Σ|δ| at most, and of a
-/// gap 64 times that leaves nearly all. Heights n·x and offsets err by a few 2⁻⁵³ of the coordinates.) Rounding may
-/// decide which distance is the 17th; so a pair is due only if it is nearer by `detect_below_tolerance`.
+/// Measures how far the vertices may still move. Planes exist to give back freedom that balls take. So a pair is *due*,
+/// and must have a plane, if two conditions hold:
+///
+/// - For each of its movable vertices, it is nearer than the vertex's 17th nearest pair by more than
+///   `detect_below_tolerance`, since rounding may decide which pair is the 17th.
+/// - Single precision can represent its plane: d ≥ 2⁻¹⁸ Σ|δ|, and γ_p d and (1 − 2γ_p) d are at least 2⁻⁴⁵ of the
+///   largest modulus of a coordinate. δ are the coordinates relative to the pair's first vertex.
+///
+/// Rounding turns n by u and thus moves the pair's projection on n by at most u Σ|δ|, which is at most d/64. Heights
+/// n·x and offsets err by a few 2⁻⁵³ of the coordinates.
 struct PlaneFreedom {
-  std::size_t pairs = 0;        ///< within r_q
+  std::size_t pairs = 0;        ///< pairs within r_q
   std::size_t due = 0;          ///< pairs that must have a plane
-  std::size_t missing = 0;      ///< pairs that are due and that no plane separates
+  std::size_t missing = 0;      ///< due pairs that no plane separates
   PrimitivePair first_missing;  ///< the first missing pair by kind, first and second
-  /// Both sides of a separated pair together may come 2γ_p d closer, as with balls. This is the largest shortfall from
-  /// that, in units of u · max(d, Σ|δ|).
+  /// With balls the two sides of a pair may together come 2γ_p d closer. This is the largest shortfall of a separated
+  /// pair from that, in units of u · max(d, Σ|δ|).
   double narrowing = 0;
   PrimitivePair narrowest;  ///< the pair of `narrowing`
-  /// With displacements: largest difference between the room of a separated pair's side, its offset minus its farthest
-  /// vertex along n, and 2γ_p s d, in units of u · (max(d, Σ|δ|) + d W/(a + b)). With the answer's n,
+  /// With displacements: the room of a separated pair's side is its offset minus its farthest vertex along n. This is
+  /// the largest difference between a room and 2γ_p s d, in units of u · (max(d, Σ|δ|) + d W/(a + b)). With the
+  /// answer's n,
   ///
   ///   a = max(0, largest n·w of the first side),  b = max(0, largest −n·w of the second),
-  ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 where a = b = 0,
+  ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 if a = b = 0,
   ///
-  /// and W = max ‖w‖ of the pair. Pairs with a side that cannot move are left out.
+  /// and W = max ‖w‖ of the pair. Pairs with an immovable side are left out.
   double division = 0;
   PrimitivePair worst_divided;  ///< the pair of `division`
-  /// By vertex: how much smaller b_v is than γ_p min(r_q, smallest d of its pairs that no plane separates), in units of
-  /// u γ_p · max(d, Σ|δ|) of the pair that excuses it best; 0 for vertices that cannot move and inside solids.
+  /// By vertex: shortfall of b_v below γ_p min(r_q, smallest d of its unseparated pairs), in units of u γ_p · max(d,
+  /// Σ|δ|) of the pair that gives the smallest value; 0 for immovable vertices and inside solids.
   std::vector<double> ball_shortfall;
   std::size_t needless = 0;        ///< half-spaces of pairs that are not within r_q
   std::size_t bounded_inside = 0;  ///< vertices inside solids whose ball is not the largest finite number
 };
 
-/// The truth depends on the answer: planes are judged by what they hold apart, not by how they were chosen.
+/// The truth depends on the answer: planes are judged by the pairs that they separate, not by how they were chosen.
 struct PlaneTruth {
-  PlaneGuarantee guarantee;  ///< do the regions exclude every meeting?
-  PlaneFreedom freedom;      ///< do they leave the vertices their freedom?
+  PlaneGuarantee guarantee;  ///< whether the regions exclude every meeting
+  PlaneFreedom freedom;      ///< whether they leave the vertices their freedom
 };
 
-/// Largest narrowing in units of u · max(d, Σ|δ|), twice γ_p < 1/2 of: n rounded (1), which turns it, so that other
-/// points than the closest ones face each other; its length (1); the arithmetic of the offsets and of the judge in
-/// double (less than 1 together). A direction computed in single precision exceeds this.
+/// Largest narrowing in units of u · max(d, Σ|δ|): 2γ_p < 1 times the sum of three errors, each at most 1. They are
+/// those of n, which turns so that points other than the closest ones face each other; of its length; and of the
+/// offsets and the judge in double (less than 1 together). A direction computed in single precision exceeds this.
 inline constexpr double plane_narrowing_tolerance = 3;
-/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and that of s < 1:
-/// a and b of three products in single precision are off by 4 u W, so s by 4 u W/(a + b), of 2γ_p d < d.
+/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and that of s < 1.
+/// a and b are three products in single precision, off by 4 u W; so s is off by 4 u W/(a + b) of 2γ_p d < d.
 inline constexpr double plane_division_tolerance = 4;
 /// Largest ball shortfall in units of u γ_p · max(d, Σ|δ|): a smallest distance (`detect_below_tolerance`), one
 /// product, rounded down (2), in a kernel that may round to nearest and step down once more (4).

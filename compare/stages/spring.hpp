@@ -6,41 +6,41 @@
 
 namespace ogc::compare {
 
-/// E = k_s/2 (l − l₀)² + k k_s/2 (l − lᵗ)², l = ‖Σ wᵢ xᵢ‖, w = (1, s − 1, −s): between a vertex and a point of the line
-/// between two others (a stitch), or between two vertices where s = 0; then x₂ is not read. The question is about
-/// `own`. Block: w² (k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)) + k k_s n nᵀ), with the w of `own`; with a rest length of
-/// 0 that is w² k_s I plus the damping's part. Where l = 0 there is no direction: the force is 0 and the block w² k_s I
-/// for every l₀, which majorises E as −k_s l₀ l ≤ 0.
+/// E = k_s/2 (l − l₀)² + k k_s/2 (l − lᵗ)², l = ‖Σ wᵢ xᵢ‖, w = (1, s − 1, −s). A stitch, s > 0, joins a vertex and a
+/// point between two others. A spring, s = 0, joins two vertices; then x₂ is not read. Force and block of `own` are
+/// returned. Block: w² (k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)) + k k_s n nᵀ), with the w of `own`. With a rest length
+/// of 0 that is w² k_s I plus the damping's part. At l = 0 there is no direction: the force is 0, and the block is w²
+/// k_s I for every l₀, which majorises E since −k_s l₀ l ≤ 0.
 ///
-/// With `per_vertex` damping the energy is the elastic term alone. With its block B and moved = x − xᵗ of `own`, k B
+/// With `per_vertex` damping the energy is the elastic term alone. Let B be its block and moved = x − xᵗ of `own`: k B
 /// moved is subtracted from the force, and the block is (1 + k) B.
 ///
-/// Legal are lengths of 0 and from 2⁻⁶³ m on, now and at the start, whose squares are normal numbers.
+/// Legal lengths, now and at the start, are 0 and from 2⁻⁶³ m on, whose squares are normal numbers.
 struct SpringCase {
   std::array<Vec3f, 3> vertex, start;              ///< x, xᵗ [m]
   float stiffness = 0;                             ///< k_s [N/m]
   float rest_length = 0;                           ///< l₀ [m]
   float damping = 0;                               ///< k = k_d/h [1]
   float ratio = 0;                                 ///< s [1], from 0 to 1
-  std::int32_t own = 0;                            ///< the vertex whose force and block are asked for; 2 only if s > 0
+  std::int32_t own = 0;                            ///< the vertex whose force and block are returned; 2 only if s > 0
   DampingForm damping_form = DampingForm::strain;  ///< the damping
 };
 
-/// The question: independent cases.
+/// Input of the stage.
 struct SpringIn {
   std::vector<SpringCase> cases;  ///< independent of each other
 };
 
 /// Largest error in units of u · scale. A difference (1), a length (a square: 1 + 2 more, halved with those of the
 /// difference by the root, the root: 1; together 3), l₀/l and its complement (2), k_s (1), the product with the
-/// difference (1 + 1): 9; through the damping a second length, its change (1), two products, a quotient, a sum: 12.
+/// difference (1 + 1): 9. With damping: a second length, its change (1), two products, a quotient, a sum: 12.
 inline constexpr double spring_force_tolerance = 12;
 /// Complement (6), k_s and its difference (2), n by both of its factors (2 · 5), an outer product (2), two sums: 22.
 inline constexpr double spring_block_tolerance = 22;
 
-/// The same for a stitch, s > 0. The vector between its ends is a difference (1), another (1) times s (1), and theirs
-/// (1): 4 instead of 1; a length 7 (a square: 8 + 3, halved by the root, the root: 1; 6.5 together) instead of 3; and w
-/// with its product 2 more. The force: 12 + 3 + 4, 4 of the second length, 2: 25.
+/// The same for a stitch. The vector between its ends is a difference (1), another one (1) times s (1), and the
+/// difference of both (1): 4 instead of 1. A length has 7 (a square: 8 + 3, halved by the root, the root: 1; 6.5
+/// together) instead of 3; w and its product add 2. The force: 12 + 3 + 4, 4 of the second length, 2: 25.
 inline constexpr double stitch_force_tolerance = 25;
 /// Complement (6 + 4), k_s and its difference (2), n by both of its factors (2 · (4 + 7 + 1)), an outer product (2),
 /// two sums, w² (3) and its product: 44.

@@ -1,5 +1,5 @@
-// Stage step: Algorithm 3 with the guess loop of method.md §5.2. Every part of a step is a stage with a contract of its
-// own; only their order remains. So the answer is a trace, and the judge checks each event as its stage's answer.
+// Stage step: Algorithm 3 with the guess loop of method.md §5.2. Every part of a step is a stage with its own contract,
+// so only their order is left to check. The answer is a trace, and the judge checks each event as its stage's answer.
 #pragma once
 
 #include <vector>
@@ -18,26 +18,26 @@ enum class StepEventKind : std::uint8_t {
 /// One event of a step, and its results.
 struct StepEvent {
   StepEventKind kind = StepEventKind::detection;  ///< kind of the event
-  std::vector<Vec3f> position;  ///< x after the event [m]; for a detection X_prev as later events read it
-  Index cut = 0;                ///< guess, sweep: number of vertices that it cut, prescribed ones included
+  std::vector<Vec3f> position;  ///< x after the event [m]; for a detection X_prev as read by later events
+  Index cut = 0;                ///< number of vertices that a guess round or sweep cut, prescribed ones included
   // only for a detection
   DetectVertexFacetOut vertex_facet;
   DetectEdgeEdgeOut edge_edge;
   std::vector<float> bound;  ///< b_v [m]
-  VertexPlanes planes{};     ///< with bounds of planes; smallest distances are not needed then
-  /// The answer of stage volume_depth for volume_askers (compare/problem/volumes.hpp) at X_prev about all volumes:
-  /// `point` is the vertex, `triangle` and `face` are numbers of the scene; `unresolved` are vertices.
+  VertexPlanes planes{};     ///< only if bounds are planes; smallest distances are not needed then
+  /// Contacts of all volumes with volume_askers (compare/problem/volumes.hpp) at X_prev, as stage volume_depth returns
+  /// them. `point` is the vertex, `triangle` and `face` are numbers of the scene; `unresolved` are vertices.
   VolumeDepthOut volumes{};
-  std::vector<Quaternion> orientation{};  ///< after a sweep: q of the segments of rods
+  std::vector<Quaternion> orientation{};  ///< after a sweep: q of the rods' segments
 };
 
-/// A step from X⁰, V⁰ of a rounded scene to its first targets of prescribed vertices.
+/// Input of the stage: a step from X⁰, V⁰ of a rounded scene to the first targets of its prescribed vertices.
 struct StepIn {
-  const Scene* scene = nullptr;        ///< rounded; the step begins at its start
+  const Scene* scene = nullptr;        ///< rounded; its start is the start of the step
   const Topology* topology = nullptr;  ///< of the scene's mesh
 };
 
-/// The answer: the step as the contestant made it, event by event.
+/// The answer: the contestant's step, event by event.
 struct StepOut {
   std::vector<Index> colour;              ///< colour of each vertex in the sweeps
   RestStateOut rest;                      ///< rest state of the sweeps
@@ -46,7 +46,7 @@ struct StepOut {
   std::vector<StepEvent> events;          ///< in order
   std::vector<Vec3f> position, velocity;  ///< xᵗ⁺¹ [m], vᵗ⁺¹ = (xᵗ⁺¹ − xᵗ)/h [m/s]
   std::vector<Index> segment_colour{};    ///< colour of each segment in the sweeps
-  /// By segment: at the start, turned after the guess loop, at the end of the step
+  /// By segment: at the start; turned after the guess loop; at the end of the step
   std::vector<Quaternion> orientation_start{}, turned{}, orientation{};
 };
 
@@ -54,28 +54,28 @@ struct StepOut {
 struct HeldMove {
   Vec3 move;            ///< m, what is left of y − X_prev [m]
   double accepted = 0;  ///< largest error of m in a right answer [m]
-  /// 1: the vertex has a contact; a prescribed one then stays after round 1; 0: it goes to y
+  /// 1: the vertex has a contact and, if it is prescribed, stays where it is after round 1; 0: it goes to y
   std::uint8_t touches = 0;
   std::uint8_t grey = 0;  ///< 1: a decision of a contact may go either way; `accepted` covers both
 };
 
-/// What follows from the answer's own positions and counts.
+/// Results that follow from the answer's own positions and counts.
 struct StepTruth {
-  /// min(r + max ‖y − xᵗ‖, cap), in double; the scale is the radius itself [m]
+  /// min(r + max ‖y − xᵗ‖, cap), in double; the scale of its error is the radius itself [m]
   double query_radius = 0, query_radius_scale = 0;
   std::vector<Vec3f> prescribed_target;  ///< by vertex; 0 for vertices that are not prescribed
-  /// in the order of Algorithm 3, given each event's count of cut vertices (0 for events that the answer lacks)
+  /// events in the order of Algorithm 3, given each event's count of cut vertices (0 for events that the answer lacks)
   std::vector<StepEventKind> events;
-  /// By event, then by vertex; empty for events that are no rounds. What contacts took in earlier rounds is carried on
-  /// as the exact value with its error, since an answer shows only truncated positions.
+  /// By event, then by vertex; empty for events other than guess rounds. The part that contacts took in earlier rounds
+  /// enters as the exact value with its error, since an answer shows only truncated positions.
   std::vector<std::vector<HeldMove>> moves{};
   std::vector<Vec3> velocity;          ///< [m/s]
   std::vector<double> velocity_scale;  ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]
 };
 
 /// Largest error in units of u r_q: the rounded difference y − xᵗ (1), products and sums of its square (3, both halved
-/// by the root), the root (1), the addition of r (1); or the one rounding of cap · r. Together 4; one more for second
-/// order and for the vertex whose length is largest after rounding only.
+/// by the root), the root (1), the addition of r (1); or the one rounding of cap · r. Together 4. One more covers
+/// second order and a vertex whose length is the largest only after rounding.
 inline constexpr double step_query_radius_tolerance = 5;
 /// Largest error in units of u ‖xᵗ⁺¹ − xᵗ‖/h: difference (1), quotient (1), a quarter for second order.
 inline constexpr double step_velocity_tolerance = 2.25;

@@ -1,5 +1,5 @@
-// Stage tetrahedron: force and block of one corner of one tetrahedron, damping included (method.md §4.9, §8). Stable
-// Neo-Hookean (Smith, de Goes and Kim 2018, without the logarithm).
+// Stage tetrahedron: force and block of one corner of one tetrahedron, damping included (method.md §4.9, §8). The model
+// is stable Neo-Hookean (Smith, de Goes and Kim 2018, without the logarithm).
 #pragma once
 
 #include "compare/problem/settings.hpp"
@@ -7,25 +7,25 @@
 
 namespace ogc::compare {
 
-/// F = Σ x_k ∇N_kᵀ, J = det F, G = (FᵀF − I)/2, ϕ(G) = λ/2 tr(G)² + μ ‖G‖². The question is about corner 0; the others
-/// are ordered so that at rest det(x₁ − x₀, x₂ − x₀, x₃ − x₀) > 0. An inverted or flat tetrahedron is legal, and so are
-/// corners that coincide.
+/// F = Σ x_k ∇N_kᵀ, J = det F, G = (FᵀF − I)/2, ϕ(G) = λ/2 tr(G)² + μ ‖G‖². Force and block of corner 0 are returned.
+/// The other corners are ordered so that det(x₁ − x₀, x₂ − x₀, x₃ − x₀) > 0 at rest. Inverted and flat tetrahedra and
+/// coinciding corners are legal.
 ///
-/// E = V [μ/2 (‖F‖² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)² + k ϕ(G − Gᵗ)]. The rest shape is given by numbers that are
-/// each rounded once: the elastic part is defined by w_k = V ∇N_k·∇N₀ and i = 1/(6V),
+/// E = V [μ/2 (‖F‖² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)² + k ϕ(G − Gᵗ)]. Each number of the rest shape is rounded
+/// once. w_k = V ∇N_k·∇N₀ and i = 1/(6V) define the elastic part:
 ///   V ‖F‖²/2 = −½ Σ_k w_k ‖x_k − x₀‖² + what does not depend on x₀,   J = i det(x₁ − x₀, x₂ − x₀, x₃ − x₀),
 /// with V = 1/(6i); the damping's F is that of ∇N₁, ∇N₂, ∇N₃, with ∇N₀ = −∇N₁ − ∇N₂ − ∇N₃.
 ///
-/// Block: the exact second derivative of the elastic part, V (μ ‖∇N₀‖² I + (λ + μ) g gᵀ) with g = ∂J/∂x₀: J is affine
-/// in one vertex, so nothing is left out and nothing clamped. Damping: V k times the second derivative of ϕ along the
+/// Block of the elastic part: the exact second derivative V (μ ‖∇N₀‖² I + (λ + μ) g gᵀ) with g = ∂J/∂x₀. J is affine in
+/// one vertex, so no term is dropped or clamped. Block of the damping: V k times the second derivative of ϕ along the
 /// derivatives of G, V k ((λ + μ)(F∇N₀)(F∇N₀)ᵀ + μ ‖∇N₀‖² F Fᵀ).
 ///
-/// With `per_vertex` damping the energy is the elastic part alone. With its block B and moved = x₀ − xᵗ₀, k B moved is
-/// subtracted from the force, and the block is (1 + k) B.
+/// With `per_vertex` damping the energy is the elastic part alone. Let B be its block and moved = x₀ − xᵗ₀: k B moved
+/// is subtracted from the force, and the block is (1 + k) B.
 ///
-/// Lengths are 0 or at least 2⁻³⁰ m; |w_k| ≤ 2⁶⁰ m, 2⁻⁷⁰ ≤ i ≤ 2⁸⁰ /m³, which validation of a scene keeps, and Σ w_k <
-/// 0, as of a shape with volume. No tetrahedron has grown so far that a product of these overflows: i L³ ≤ 2³⁰, L the
-/// longest length now and at the start, and with damping of strain no component of a gradient times L is above 2²⁰.
+/// Lengths are 0 or at least 2⁻³⁰ m. |w_k| ≤ 2⁶⁰ m, 2⁻⁷⁰ ≤ i ≤ 2⁸⁰ /m³, as validation of a scene guarantees. Σ w_k < 0,
+/// as for any shape with volume. So that products do not overflow, i L³ ≤ 2³⁰, where L is the longest length now and at
+/// the start; with damping of strain no component of a gradient times L is above 2²⁰.
 struct TetrahedronCase {
   std::array<Vec3f, 4> corner;                     ///< x [m]
   std::array<Vec3f, 4> start;                      ///< xᵗ [m]; Gᵗ is computed from it
@@ -38,7 +38,7 @@ struct TetrahedronCase {
   DampingForm damping_form = DampingForm::strain;  ///< the damping
 };
 
-/// The question: independent cases.
+/// Input of the stage.
 struct TetrahedronIn {
   std::vector<TetrahedronCase> cases;  ///< independent of each other
 };
@@ -46,12 +46,12 @@ struct TetrahedronIn {
 /// Largest error in units of u · scale. On the longest way from an input to the elastic force lie a difference (1), a
 /// normal of two edges (another difference, twice: 4; a product and a difference: 2), J (a difference, a product, two
 /// sums, i: 5), minus one (1), λ + μ (2), minus μ (1), the normal once more (6), its product and the sixth (2), the sum
-/// (1): 25. The normal's part of the scale includes the lengths of its two edges, each rounded by itself, beside the
-/// part of the inputs: a far corner and two near ones need that much.
+/// (1): 25. Besides the part of the inputs, the normal's scale contains the lengths of its two edges, which are rounded
+/// separately; a far corner and two near ones need that.
 inline constexpr double tetrahedron_force_tolerance = 25;
 /// The normal twice (12), an outer product (2), (λ + μ) i/6 (3), Σ w_k and its product (1 + 1 + 1), the sum (1): 21.
 inline constexpr double tetrahedron_block_tolerance = 21;
-/// Errors of the damping, whose scales are multiplied by the ratio to the tolerances above. F (a difference, a product,
+/// Errors of the damping; its scales are multiplied by the ratio to the tolerances above. F (a difference, a product,
 /// two sums: 4), G (twice F, a product, two sums, minus one and the half: 13), a change of strain (1), a stress (a
 /// trace: 2, two products, a sum: 5), its product with ∇N₀ (2 + 3) and with F (4 + 3), V k (2), the sum (1): 33.
 inline constexpr double tetrahedron_damping_force_tolerance = 33;

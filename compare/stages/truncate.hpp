@@ -1,5 +1,5 @@
-// Stage truncate: keeps a vertex's position in its feasible region until the next detection: the ball of its
-// conservative bound about X_prev (Eq. 27, Alg. 3 lines 24–27), and half-spaces where bounds are planes (method.md
+// Stage truncate: keeps a vertex in its feasible region until the next detection. The region is the ball of its
+// conservative bound about X_prev (Eq. 27, Alg. 3 lines 24–27) and, if bounds are planes, its half-spaces (method.md
 // §5.6).
 #pragma once
 
@@ -13,13 +13,13 @@
 
 namespace ogc::compare {
 
-/// n·x ≤ o; n need not be a unit vector.
+/// A half-space n·x ≤ o; n need not be a unit vector.
 struct HalfSpace {
   Vec3f normal;       ///< n
   double offset = 0;  ///< o [m] times the length of n
 };
 
-/// H of a vertex without forces but inertia: it slides by the shortest way.
+/// H of a vertex without forces but inertia: it slides along the shortest way.
 inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
 
 /// Half-spaces, and how a vertex slides along them. All arrays are empty if no case has any.
@@ -28,7 +28,8 @@ struct HalfSpacesIn {
   std::vector<HalfSpace> items;
   std::vector<Vec3f> current;               ///< current position, in its region [m]
   std::vector<std::array<float, 6>> block;  ///< H: xx, xy, xz, yy, yz, zz [N/m], positive definite
-  /// 1: the vertex does not slide, and H is not read: a prescribed vertex, or, with bounds=dat, any vertex, from X_prev
+  /// 1: the vertex does not slide, and H is not read. This holds for a prescribed vertex and, with bounds=dat, for any
+  /// vertex, which then starts from X_prev
   std::vector<std::uint8_t> is_prescribed;
 
   /// Returns the half-spaces of case i.
@@ -39,50 +40,51 @@ struct HalfSpacesIn {
   }
 };
 
-/// The question: independent vertices. X_prev and the current position keep each half-space with 2⁻⁵⁰ (Σ|n_k x_k| +
-/// |o|) to spare, and the ball.
+/// Input of the stage: independent vertices. X_prev and the current position lie in the ball, and in each half-space
+/// with 2⁻⁵⁰ (Σ|n_k x_k| + |o|) to spare.
 struct TruncateIn {
   std::vector<Vec3f> previous, position;  ///< X_prev and x [m]
   std::vector<float> bound;               ///< b_v ≥ 0 [m]
   HalfSpacesIn half_spaces{};
 };
 
-/// The position that is *stored* obeys ‖x − x_prev‖ ≤ b_v and each half-space exactly. A position that obeys all of
-/// them comes back bit for bit.
+/// The answer. The *stored* position obeys ‖x − x_prev‖ ≤ b_v and each half-space exactly. A position that obeys all of
+/// them is returned bit for bit.
 ///
-/// A vertex that violates two or more half-spaces has to satisfy only that. One that violates a single one slides along
-/// it, x − H⁻¹n (n·x − o)/(nᵀH⁻¹n), then goes into the ball, towards X_prev; if no other half-space interferes, this is
-/// its position. A prescribed vertex goes as far along the straight way from its current position to x as the region
-/// allows; if two half-spaces lie along that way, nearer than storing moves a position, any point on it is right.
+/// A vertex that violates two or more half-spaces may end anywhere in its region. A vertex that violates one half-space
+/// slides along it, x − H⁻¹n (n·x − o)/(nᵀH⁻¹n), and then moves towards X_prev into the ball; this is its position if
+/// no other half-space interferes. A prescribed vertex goes as far along the straight way from its current position to
+/// x as the region allows. If two half-spaces on that way are nearer to each other than storing moves a position, any
+/// point on it is right.
 struct TruncateOut {
   std::vector<Vec3f> position;    ///< x [m]
-  std::vector<std::uint8_t> cut;  ///< 1 where x lay outside its region
+  std::vector<std::uint8_t> cut;  ///< 1 if x lay outside its region
 };
 
 /// The exact answer.
 struct TruncateTruth {
-  /// grey: the exact margin of the ball lies in the grey zone, or that of a half-space is at most `half_space_slack`
-  /// (Σ|n_k x_k| + |o|), and nothing else decides: either flag is accepted
+  /// grey: either flag is accepted, because the only deciding margin is too small: that of the ball is in the grey
+  /// zone, or that of a half-space is at most `half_space_slack` (Σ|n_k x_k| + |o|)
   std::vector<std::uint8_t> cut, grey;
   std::vector<std::uint8_t> near;  ///< 1 where a margin lies within near_factor
   std::vector<Vec3> position;      ///< exact result, rounded to double
-  /// For cases with half-spaces: largest distance of a right answer from `position` [m]; infinite where the answer is
-  /// free. Empty if no case has any.
+  /// For cases with half-spaces: largest distance of a right answer from `position` [m]; infinite if any answer in the
+  /// region is right. Empty if no case has half-spaces.
   std::vector<double> accepted{};
 };
 
-/// A kernel may keep this share away from a half-space, for its own arithmetic in double: a few roundings of 2⁻⁵³.
-/// Products of single-precision numbers are exact there; nothing is decided in single precision.
+/// Relative distance that a kernel may keep from a half-space, because its arithmetic in double makes a few roundings
+/// of 2⁻⁵³. Products of single-precision numbers are exact in double; nothing is decided in single precision.
 inline constexpr double half_space_slack = 0x1p-48;
 
 /// Largest distance of the stored position from the exact one, in units of u · (‖x_prev‖_∞ + b): storing three
-/// coordinates (√3 half ulps), a step towards x_prev where rounding went outwards (as much again), and the relative
-/// error of the scale (4 u b).
+/// coordinates (√3 half ulps), a step towards x_prev if rounding went outwards (the same again), and the relative error
+/// of the scale (4 u b).
 inline constexpr double truncate_position_tolerance = 8;
 /// The same with half-spaces: a step may be needed in each of three coordinates (2 u each).
 inline constexpr double truncate_region_tolerance = truncate_position_tolerance + 6;
 /// A kernel may stop this far short of a half-space, in units of u Σ|n_k x_k|, since storing can move a position across
-/// it: one for storing, twice, since the ball can bring it back; rounded up to a power of two.
+/// it. Storing counts 1, twice, since the ball can bring the vertex back; the sum is rounded up to a power of two.
 inline constexpr double truncate_standoff = 4;
 /// Backward error of the solve H⁻¹n in units of u ‖H‖₂, as in a sweep (compare/stages/sweep.hpp).
 inline constexpr double truncate_solve_tolerance = 36;

@@ -1,4 +1,4 @@
-// Holds the half-spaces of pairs that vertices bear, in answers of stage plane and in snapshots of a simulation.
+// Defines the half-spaces of vertices, as stage plane returns them and snapshots of a simulation contain them.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@ namespace ogc::compare {
 /// A pair of primitives that share no vertex: a vertex and a triangle, or two edges, the lower-numbered first.
 struct PrimitivePair {
   enum class Kind : std::uint8_t { vertex_triangle, edge_edge };  ///< what the pair consists of
-  Kind kind = Kind::vertex_triangle;                              ///< the kinds that `first` and `second` count
+  Kind kind = Kind::vertex_triangle;                              ///< which primitives `first` and `second` number
   Index first = -1, second = -1;  ///< numbers of the vertex and the triangle, or of the edges
   friend bool operator==(const PrimitivePair&, const PrimitivePair&) = default;
 };
 
-/// n·x ≤ o: one side of the plane of a pair, as one of its vertices bears it. The vertices of the pair's first side
-/// have the normal n, those of its second −n, bit by bit; n need not be a unit vector.
+/// A half-space n·x ≤ o of a vertex: one side of the plane of a pair. The vertices of the pair's first side have the
+/// normal n, those of its second side −n, bit by bit; n need not be a unit vector.
 struct VertexPlane {
-  PrimitivePair pair;  ///< the pair that the plane holds apart
+  PrimitivePair pair;  ///< the pair that the plane separates
   Vec3f normal;        ///< n, away from the vertex's side
   double offset = 0;   ///< [m] times the length of n
 };
 
-/// Row v, items[offsets[v] … offsets[v + 1]), holds the planes of vertex v. Empty without planes.
+/// Row v, items[offsets[v] … offsets[v + 1]), holds the planes of vertex v. Both arrays are empty without planes.
 struct VertexPlanes {
   std::vector<Index> offsets;      ///< [vertices + 1], or empty
   std::vector<VertexPlane> items;  ///< of all vertices, one after the other

@@ -6,45 +6,47 @@
 
 namespace ogc::compare {
 
-/// A point x₀ and the triangle (x₁, x₂, x₃) of a volume that pushes it out, with numbers that the detection froze:
-/// weights w₁, w₂, w₃ of the point c of the triangle, and the unit direction n. w₀ = 1, the corners act with −wᵢ.
+/// A point x₀ and the triangle (x₁, x₂, x₃) of a volume that pushes it out. The detection froze the weights w₁, w₂, w₃
+/// of the triangle's point c and the unit direction n. w₀ = 1; the corners act with −wᵢ.
 ///
-/// φ = n·Σ wᵢ (x₀ − xᵢ), E = k/2 max(0, r − φ)²: force k (r − φ) n on x₀, −wᵢ of it on xᵢ, block k w² n nᵀ, the exact
-/// second derivative. φ is negative inside. A contact acts while φ < r.
+/// φ = n·Σ wᵢ (x₀ − xᵢ), E = k/2 max(0, r − φ)². The force is k (r − φ) n on x₀ and −wᵢ of it on xᵢ. The block is k w²
+/// n nᵀ, the exact second derivative. φ is negative inside. A contact acts while φ < r.
 ///
-/// Friction as in friction_force, with λ = k (r − φ): u = (I − n nᵀ)(x₀ − x₀ᵗ − Σ wᵢ (xᵢ − xᵢᵗ)), force −μ λ
-/// f₁(‖u‖)/‖u‖ w u, block μ λ f₁(‖u‖)/‖u‖ w² (I − n nᵀ). The answer is the sum of both.
+/// Friction is that of friction_force, with λ = k (r − φ): u = (I − n nᵀ)(x₀ − x₀ᵗ − Σ wᵢ (xᵢ − xᵢᵗ)), force −μ λ
+/// f₁(‖u‖)/‖u‖ w u, block μ λ f₁(‖u‖)/‖u‖ w² (I − n nᵀ). The answer is the sum of normal part and friction.
 ///
-/// Legal: weights are 0 or at least 2⁻⁴⁰, at most 1, and add up to 1 within 2⁻²⁰; ‖n‖² is 1 within 2⁻²² (components
-/// that were rounded to single precision make it 1 within 2⁻²³); ε_v h is at least 2⁻³⁸ m: where squares of a slip are
-/// no normal numbers, below 2⁻⁶³ m, f₁(y)/y is then 2/ε within 2⁻²⁵. Coordinates are any, two of them may coincide.
+/// Legal: weights of 0 or 2⁻⁴⁰ … 1 that add up to 1 within 2⁻²⁰; ‖n‖² within 2⁻²² of 1 (a unit vector rounded to single
+/// precision is within 2⁻²³); ε_v h of at least 2⁻³⁸ m. Squares of slips below 2⁻⁶³ m are not normal numbers, but there
+/// f₁(y)/y is 2/ε within 2⁻²⁵. Coordinates are arbitrary; vertices may coincide.
 struct VolumeForceCase {
-  std::int32_t own = 0;  ///< the vertex whose force and block are asked for: 0 the point, 1, 2, 3 the corners
-  std::array<Vec3f, 4> vertex, start;       ///< x, xᵗ [m]: the point, then the corners of the triangle
-  std::array<float, 3> weights{};           ///< w of c, by corner [1]
-  std::array<float, 3> direction{};         ///< n, out of the volume [1]
+  std::int32_t own = 0;                ///< vertex whose force and block are returned: 0 the point, 1, 2, 3 the corners
+  std::array<Vec3f, 4> vertex, start;  ///< x, xᵗ [m]: the point, then the corners of the triangle
+  std::array<float, 3> weights{};      ///< w of c, by corner [1]
+  std::array<float, 3> direction{};    ///< n, out of the volume [1]
   float contact_radius = 0, stiffness = 0;  ///< r [m], k [N/m]
   float friction = 0;                       ///< μ [1]
   float slip_limit = 0;                     ///< ε_v h [m]
 };
 
-/// The question: independent cases.
+/// Input of the stage.
 struct VolumeForceIn {
   std::vector<VolumeForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. The slip: a difference (1), its product with a weight and three sums (4), the
-/// product of vectors with n (3), a product, a difference: 10; its length (a square: 10 + 3, halved with those of the
-/// slip by the root, the root: 1; together 12.5, of which 10 are the slip's own), so 4 more; f₁/y (a quotient, a
-/// difference, a quotient): 3; μ λ and its product with f₁/y (2); the products with weight and slip (2); the sum with
-/// the normal force (1): 22. Through λ: a difference, a product and two sums (4), the product with n (3), r − φ and k
-/// (2), then 7: 16. If ‖n‖² is off by 2⁻²², u keeps a part along n that the energy's slope lacks: 4.
+/// Largest error in units of u · scale; the largest sum plus the last item decides:
+///
+/// - The slip: a difference (1), its product with a weight and three sums (4), the product of vectors with n (3), a
+///   product, a difference: 10. Its length (a square: 10 + 3, halved with those of the slip by the root, the root: 1;
+///   together 12.5, of which 10 are the slip's own): 4 more. f₁/y (a quotient, a difference, a quotient): 3; μ λ and
+///   its product with f₁/y (2); the products with weight and slip (2); the sum with the normal force (1): 22 in all.
+/// - Through λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2), then 7: 16.
+/// - If ‖n‖² is off by 2⁻²², u keeps a part along n that the energy's slope lacks: 4.
 inline constexpr double volume_force_tolerance = 26;
 /// Up to the strength 19; w² and its product (2), an outer product (2), the difference from I (1), the sum with the
 /// normal block (1).
 inline constexpr double volume_block_tolerance = 25;
 /// r − φ is known to this many units of u · scale: 8 by the count above, and half as many again for other orders of
-/// evaluation. If |r − φ| is not above that, the contact may act or not.
+/// evaluation. If |r − φ| is at most that, the contact may act or not.
 inline constexpr double volume_force_grey = 12;
 
 }  // namespace ogc::compare

@@ -12,7 +12,7 @@ namespace {
 /// Bytes of an array that are read at once.
 constexpr std::uint64_t chunk_bytes = 1 << 20;
 
-/// Returns `topology` without positions. Throws if a face names no vertex of the array.
+/// Returns `topology` without positions. Throws InputError if a face refers to a vertex that the array lacks.
 Mesh checked_faces(Mesh topology, const FrameLayout& layout, const std::string& where) {
   const auto check = [&](const char* kind, const auto& faces) {
     for (std::size_t i = 0; i < faces.size(); ++i)
@@ -65,7 +65,7 @@ class FrameArray : public MeshSequence {
     source_(bytes_, frame);
   }
 
-  /// Sets `begin_` to the current frame in C order; makes another pass if the last one did not gather it.
+  /// Sets `begin_` to the current frame, in C order. Makes another pass unless the last pass gathered this frame.
   void gather(const std::string& frame) {
     if (next_ >= gathered_end_) {
       gathered_ = next_;
@@ -78,7 +78,7 @@ class FrameArray : public MeshSequence {
   }
 
   /// Reads the whole array once and gathers frames. Number e of the array is coordinate e / (frames · vertices) of
-  /// vertex e / frames mod vertices of frame e mod frames.
+  /// vertex e / frames mod vertices in frame e mod frames.
   void pass(const std::string& frame) {
     const std::size_t width = size_of(layout_.type);
     const std::uint64_t numbers = layout_.frames * layout_.vertices * 3;

@@ -1,4 +1,5 @@
-// Reads sequences whose frames are arrays: NumPy's, all in one or one each, and point caches.
+// Reads sequences whose frames are arrays: NumPy arrays, with all frames in one array or one array for each frame, and
+// point caches.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
 
-/// Memory for the frames of a pass over an array in Fortran order: the size of its file, within these bounds [bytes].
+/// Memory for the frames of one pass over an array in Fortran order: the size of its file, within these limits [bytes].
 constexpr std::uint64_t least_room = 1 << 26, most_room = 1 << 30;
 
 std::uint64_t room_of(const std::filesystem::path& file) {
@@ -42,7 +43,7 @@ FrameLayout layout_of(const NpyHeader& header, std::uint64_t bytes, const std::s
                      std::to_string(most_vertices) + " are the most");
   if (layout.vertices == 0)
     throw InputError(where + ": is an array " + shape_text(shape) + ", whose frames have no vertex");
-  // Divides, as the product of announced extents may be beyond 64 bits.
+  // Divides, because the product of the given extents may exceed 64 bits.
   if (layout.frames > bytes / layout.frame_bytes())
     throw InputError(where + ": is an array " + shape_text(shape) + ", but only " +
                      std::to_string(bytes / layout.frame_bytes()) + " frames fit into its " + std::to_string(bytes) +
@@ -50,14 +51,14 @@ FrameLayout layout_of(const NpyHeader& header, std::uint64_t bytes, const std::s
   return layout;
 }
 
-/// Names of positions and of triangles; the first that exists counts. `v_template` is SMPL's body at rest.
+/// Names of arrays of positions and of triangles; the first that exists counts. `v_template` is the rest shape of SMPL.
 constexpr std::array<std::string_view, 8> position_names{"positions", "x", "vertices", "points",
                                                          "verts",     "v", "V",        "v_template"};
 constexpr std::array<std::string_view, 4> triangle_names{"triangles", "faces", "f", "F"};
-/// Stems before the number of a frame with an array of its own: numpy.savez calls them arr_0, arr_1, ….
+/// Text before the number in the names of arrays of single frames: numpy.savez calls them arr_0, arr_1, ….
 constexpr std::array<std::string_view, 3> frame_names{"frame", "arr", ""};
 
-/// Returns the first member that has one of the names, without ".npy".
+/// Returns the first member NAME.npy whose NAME is in the list.
 std::optional<std::string> member_named(const ZipFile& zip, std::span<const std::string_view> names) {
   for (const std::string_view name : names)
     for (const std::string& member : zip.members())
@@ -73,7 +74,7 @@ bool is_numbered(std::string_view member, std::string_view stem) {
   return !member.empty() && std::ranges::all_of(member, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Returns the numbered members of the first stem that has any, in natural order.
+/// Returns the numbered members of the first stem that has some, in natural order.
 std::vector<std::string> numbered_members(const ZipFile& zip) {
   std::vector<std::string> found;
   const auto look = [&](std::span<const std::string_view> stems) {
@@ -88,13 +89,13 @@ std::vector<std::string> numbered_members(const ZipFile& zip) {
   return found;
 }
 
-/// An array, with its header and how to open it at its first number.
+/// An array, with its header and a function that opens it at its first number.
 struct FoundArray {
   std::string where;  ///< begins messages
   NpyHeader header;
-  std::uint64_t bytes = 0;  ///< size of the numbers, or more
+  std::uint64_t bytes = 0;  ///< size of the numbers or of more
   ArrayOpener open;
-  std::uint64_t room = least_room;  ///< bytes for frames of a pass
+  std::uint64_t room = least_room;  ///< memory for the frames of one pass [bytes]
 };
 
 FoundArray array_in(const std::shared_ptr<ZipFile>& zip, const std::string& member, const std::filesystem::path& file) {
@@ -156,7 +157,7 @@ std::vector<std::array<Index, Corners>> read_faces(const FoundArray& array) {
   return faces;
 }
 
-/// Returns triangles and edges of an archive; nothing if it has neither.
+/// Returns triangles and edges of an archive; nothing if it has neither of them.
 std::optional<Mesh> faces_of(const std::shared_ptr<ZipFile>& zip, const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 1> edge_names{"edges"};
   const auto triangles = member_named(*zip, triangle_names), edges = member_named(*zip, edge_names);
@@ -174,14 +175,14 @@ const Mesh& needed(const Mesh* topology, const std::string& name) {
   return *topology;
 }
 
-/// Checks the number of vertices; a mesh without positions, from an array of faces, fits any number.
+/// Checks the number of vertices. A mesh without positions, from an array of faces, fits any number.
 void check_count(const Mesh& topology, std::uint64_t vertices, const std::string& name) {
   if (!topology.positions.empty() && topology.positions.size() != vertices)
     throw InputError(name + ": a frame has " + std::to_string(vertices) + " vertices, the mesh of --mesh " +
                      std::to_string(topology.positions.size()) + "; give the mesh that was simulated");
 }
 
-/// Returns the frames of arrays, one array after another; a single array numbers its frames itself.
+/// Returns the frames of all arrays, one array after another. Frames of a single array are numbered by the array.
 std::unique_ptr<MeshSequence> frames_of(const std::vector<FoundArray>& arrays, const std::vector<std::string>& names,
                                         const Mesh& faces) {
   const auto kept = std::make_shared<const Mesh>(faces);
@@ -198,7 +199,8 @@ std::unique_ptr<MeshSequence> frames_of(const std::vector<FoundArray>& arrays, c
   return chained(std::move(parts));
 }
 
-/// Returns whether it looks like triangles: numpy.savez(file, vertices, triangles) gives both arrays numbers for names.
+/// Returns whether the array may be one of triangles. numpy.savez(file, vertices, triangles) gives both arrays numbers
+/// as names.
 bool are_faces(const FoundArray& array) {
   const NpyHeader& header = array.header;
   return !is_floating(header.type) && header.shape.size() == 2 && header.shape[1] == 3;
@@ -212,7 +214,7 @@ std::string held_by(const ZipFile& zip) {
          (is_body ? "; poses are parameters of a body model: let it compute the vertices, and store those" : "");
 }
 
-/// Takes the one array of faces out of the arrays, unless there are other faces.
+/// Moves the one array of faces from the arrays to `faces`, unless `faces` is set.
 void take_faces(std::vector<FoundArray>& arrays, std::vector<std::string>& names, std::optional<Mesh>& faces) {
   for (std::size_t i = 0; i < arrays.size() && !faces; ++i) {
     if (!are_faces(arrays[i])) continue;

@@ -1,4 +1,5 @@
-// Reads a large binary file piece by piece: caches of frames are gigabytes, and an audit needs one frame at a time.
+// Reads a large binary file piece by piece, because caches of frames have gigabytes and an audit needs one frame at a
+// time.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ class InputFile {
   const std::string& name() const { return name_; }     ///< its name in messages
   std::uint64_t size() const { return size_; }          ///< size when it was opened [bytes]
   std::uint64_t position() const { return position_; }  ///< position of the next byte
-  /// Fills `bytes` from the position on. Throws InputError that names `what` and the byte if the file ends before that.
+  /// Fills `bytes` from the current position. If the file ends before that, throws InputError that names `what` and the
+  /// byte.
   void read(std::span<char> bytes, const std::string& what);
 
  private:

@@ -1,4 +1,4 @@
-// Reads frames of a simulation by any program, one mesh at a time.
+// Reads the frames of a simulation by any program, one mesh at a time.
 #pragma once
 
 #include <filesystem>
@@ -11,35 +11,37 @@
 
 namespace ogc::compare {
 
-/// Holds the frames of a simulation, read one after another.
+/// The frames of a simulation, read one after another.
 class MeshSequence {
  public:
   virtual ~MeshSequence() = default;
   virtual std::size_t size() const = 0;  ///< number of frames
   /// Returns the name of the i-th frame: its file, or "frame 3", counted from 0 as arrays are.
   virtual std::string name(std::size_t i) const = 0;
-  /// Returns the next frame, frame 0 first; at most size() calls are allowed. Every index names a vertex, every
-  /// coordinate is finite. A frame of an array has no source: its elements are counted from 0. Throws InputError that
-  /// names file, frame, and byte or element.
+  /// Returns the next frame, frame 0 first; at most size() calls are allowed. Indices are valid and coordinates are
+  /// finite. Frames of arrays have no source; their elements count from 0. Throws InputError that names file, frame,
+  /// and byte or element.
   virtual LoadedMesh next() = 0;
 };
 
 using MeshReader = std::function<LoadedMesh(const std::filesystem::path&)>;
 
-/// Reads one mesh from each file, with triangles of its own, in the order given.
+/// Reads one mesh from each file in the given order; each mesh has its own triangles.
 std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::path> files, MeshReader read);
 
-/// Reads the frames of an archive of NumPy arrays (numpy.savez, compressed or not), in C or Fortran order: `positions`
-/// [frames, vertices, 3], or [vertices, 3] for one frame, or one numbered array for each frame (`frame_0`, `frame_1`;
-/// `arr_0`, …); `triangles` [n, 3] and `edges` [n, 2] (those without a triangle) of whole numbers. Other accepted
-/// names: x, vertices, points, verts, v, V, and SMPL's v_template; faces, f, F. Without such a name one numbered array
-/// of whole numbers [n, 3] holds the triangles. If the archive has neither faces nor edges, those of `topology` are
-/// used; the positions of `topology` are only counted.
+/// Reads the frames of an archive of NumPy arrays (numpy.savez, compressed or not), in C or Fortran order.
+///
+/// - Positions: `positions` [frames, vertices, 3], or [vertices, 3] for one frame, or one numbered array for each frame
+///   (`frame_0`, `frame_1`; `arr_0`, …). Other names: x, vertices, points, verts, v, V, and SMPL's v_template.
+/// - Faces, whole numbers: `triangles` [n, 3] and `edges` [n, 2] (edges without a triangle). Other names of triangles:
+///   faces, f, F. Without any such name one numbered array of whole numbers [n, 3] has the triangles.
+///
+/// If the archive has neither faces nor edges, those of `topology` are used; of its positions only the number counts.
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// Reads the frames of arrays of positions (numpy.save), one file after another, with shapes and orders as in an
-/// archive. There must be at least one file. If `topology` is null, there must be several files, and one of them must
-/// hold the triangles.
+/// Reads the frames of arrays of positions (numpy.save), one file after another, with the shapes and orders of
+/// npz_sequence. There must be at least one file. If `topology` is null, there must be several files, and one of them
+/// must contain the triangles.
 std::unique_ptr<MeshSequence> npy_sequence(const std::vector<std::filesystem::path>& files, const Mesh* topology);
 
 /// Reads a mesh without positions: the triangles of a .npy, triangles and edges of a .npz. Throws InputError.
@@ -49,8 +51,8 @@ Mesh faces_in_arrays(const std::filesystem::path& file);
 /// little-endian).
 std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// Returns the files of a folder that have one of these extensions (".obj"; capitals or not), in natural order. Throws
-/// InputError if there are several kinds of them or none.
+/// Returns the files of a folder that have one of these extensions (".obj"; in any case), in natural order. Throws
+/// InputError if there are several kinds of such files, or none.
 std::vector<std::filesystem::path> mesh_files_in(const std::filesystem::path& folder,
                                                  const std::vector<std::string>& extensions);
 

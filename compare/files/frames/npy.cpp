@@ -9,10 +9,10 @@
 namespace ogc::compare {
 namespace {
 
-/// Longest header that is read: a shape is a few numbers, but structured types, which are refused, may be long.
+/// Longest header that is read. A shape has a few numbers; structured types, which are rejected, may be long.
 constexpr std::size_t longest_header = 1 << 16;
 
-/// Returns the text after 'key': in the header's dictionary.
+/// Returns the text after "'key':" in the header's dictionary.
 std::string_view value_of(std::string_view header, const std::string& key, const std::string& where) {
   const std::size_t quoted = header.find("'" + key + "'");
   const std::size_t colon = quoted == std::string_view::npos ? quoted : header.find(':', quoted);

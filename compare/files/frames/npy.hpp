@@ -11,7 +11,7 @@
 
 namespace ogc::compare {
 
-/// Holds the contents of the header of a .npy file.
+/// The header of a .npy file.
 struct NpyHeader {
   ScalarType type = ScalarType::float64;    ///< type of the elements
   std::endian order = std::endian::little;  ///< their byte order
@@ -19,11 +19,11 @@ struct NpyHeader {
   bool fortran_order = false;               ///< whether the first dimension varies fastest; otherwise the last
 };
 
-/// Fills a span with the next bytes, or throws InputError; the text names what is read.
+/// Fills a span with the next bytes or throws InputError. The text names what is read.
 using ByteSource = std::function<void(std::span<char>, const std::string&)>;
 
-/// Reads the header from `source` and stops at the first number. Throws InputError that begins with `where`: no .npy
-/// file, an unknown version, a type that is no number.
+/// Reads the header from `source` up to the first number. Throws InputError that begins with `where` if this is no .npy
+/// file, its version is unknown, or its type is no number.
 NpyHeader read_npy_header(const ByteSource& source, const std::string& where);
 
 /// Returns "[100, 64, 3]".

@@ -15,12 +15,12 @@
 namespace ogc::compare {
 namespace {
 
-/// Numbers with 16 digits distinguish nearly all doubles, so they are not rounded.
+/// 16 digits distinguish nearly all doubles, so such numbers do not count as rounded.
 constexpr std::size_t all_digits = 16;
 /// Numbers with fewer digits are typed by people, or exact: a rounded number has all digits of its format.
 constexpr std::size_t least_significant = 6, least_decimals = 4;
-/// Shares of the numbers that a format must explain: all have its decimals; nine in ten have its significant digits,
-/// and most of those that end in 0 have one less, but two coordinates of three may be exact.
+/// Least shares of the numbers that must have the digits of a format. All numbers have its decimals. Nine in ten have
+/// its significant digits, and most numbers that end in 0 have one less; but two coordinates of three may be exact.
 constexpr double share_of_decimals = 0.9, share_of_significant = 0.25;
 
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
@@ -36,7 +36,7 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// Collects the digits that coordinates have in common.
+/// Finds the number of digits that coordinates have in common.
 class Digits {
  public:
   void look_at(std::string_view word) {
@@ -82,7 +82,7 @@ class Digits {
     return {static_cast<int>(digits), are_decimals, unit};
   }
 
-  Histogram decimals_{}, significant_{};  // numbers by their count of digits
+  Histogram decimals_{}, significant_{};  // number of coordinates for each number of digits
   std::size_t numbers_ = 0;
   double largest_ = 0;
 };
@@ -91,7 +91,7 @@ void look_at_all(const std::vector<std::string_view>& words, std::size_t first, 
   for (std::size_t k = first; k < std::min(end, words.size()); ++k) digits.look_at(words[k]);
 }
 
-/// Reads lines that begin with a word: `v` of OBJ, `vertex` of STL.
+/// Reads the numbers of lines that begin with `keyword`: `v` in OBJ, `vertex` in STL.
 void after_keyword(std::string_view text, std::string_view keyword, Digits& digits) {
   while (!text.empty()) {
     const auto words = words_of(next_line(text), 4);
@@ -99,13 +99,12 @@ void after_keyword(std::string_view text, std::string_view keyword, Digits& digi
   }
 }
 
-/// The vertices in a PLY header.
 struct PlyVertices {
-  std::size_t before = 0, count = 0;  ///< lines of elements before the vertices, and number of vertices
+  std::size_t before = 0, count = 0;  ///< number of lines of elements before the vertices, and of vertices
   std::vector<std::size_t> places{};  ///< places of x, y and z in a line
 };
 
-/// Moves `text` past the header; returns nothing if vertices are not lines of scalars.
+/// Moves `text` to the end of the header. Returns nothing if vertices are not lines of scalars.
 std::optional<PlyVertices> ply_header(std::string_view& text) {
   PlyVertices found;
   bool is_ascii = false, is_vertex = false;
@@ -148,7 +147,7 @@ void of_ply(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads counts after the keyword, then the vertices.
+/// Reads the counts after the keyword, then the vertices.
 void of_off(std::string_view text, Digits& digits) {
   std::size_t vertices = 0;
   bool counted = false;
@@ -181,7 +180,7 @@ void of_vtk_xml(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads nodes: those of version 2 begin with a number, those of version 4 are lines of three.
+/// Reads nodes: in version 2 their lines begin with a number, in version 4 they are lines of three numbers.
 void of_msh(std::string_view text, Digits& digits) {
   const std::size_t format = text.find("$MeshFormat"), nodes = text.find("$Nodes"), end = text.find("$EndNodes");
   if (format == std::string_view::npos || nodes == std::string_view::npos || end == std::string_view::npos) return;
@@ -195,7 +194,7 @@ void of_msh(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads as many vertices as the number after `keyword`, each of `each` words; the first three are its coordinates.
+/// Reads the number after `keyword`, then that many vertices of `each` words, the first three of which are coordinates.
 void of_counted(std::string_view text, std::string_view keyword, std::size_t each, Digits& digits) {
   std::size_t count = 0;
   for (std::string_view word = next_word(text); !word.empty() && word != keyword;) word = next_word(text);

@@ -1,4 +1,4 @@
-// Finds how finely a text file prints its coordinates. Two points that are nearer to each other than that may be one
+// Finds the precision to which a text file prints its coordinates. Points that are nearer to each other may be the same
 // point of the file.
 #pragma once
 
@@ -16,8 +16,9 @@ struct PrintedDigits {
 };
 
 /// Returns the digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU, VTK, Gmsh or Medit file. Returns nothing for
-/// binary numbers, for numbers with all digits of a double, and for typed numbers: those have fewer than 6 significant
-/// digits or 4 decimals, and no common number of them. Throws InputError if the file can't be opened.
+/// binary numbers and for numbers with all digits of a double. Also returns nothing for typed numbers, which have fewer
+/// than 6 significant digits or 4 decimals, and no common number of digits. Throws InputError if the file can't be
+/// opened.
 std::optional<PrintedDigits> printed_digits(const std::filesystem::path& file);
 
 }  // namespace ogc::compare

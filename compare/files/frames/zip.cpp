@@ -14,8 +14,8 @@ namespace ogc::compare {
 
 #ifdef OGC_HAS_MINIZIP
 
-/// Deflate packs at most 258 bytes into two bits, so only a damaged file announces more; it is refused before memory is
-/// allocated.
+/// Deflate packs at most 258 bytes into two bits. Only a damaged file announces more, and it is rejected before memory
+/// is allocated.
 constexpr std::uint64_t most_deflated = 258 * 8 / 2;
 
 struct ZipFile::Handle {
@@ -64,7 +64,7 @@ void ZipFile::read(std::span<char> bytes, const std::string& what) {
                      std::to_string(bytes.size()) + " bytes from byte " + std::to_string(position_) +
                      " on were announced; it is truncated");
   while (!bytes.empty()) {
-    constexpr std::size_t most = 1 << 30;  // minizip counts in int
+    constexpr std::size_t most = 1 << 30;  // minizip counts bytes in int
     const int got = unzReadCurrentFile(handle_->file, bytes.data(),
                                        static_cast<unsigned>(std::min(bytes.size(), most)));
     if (got <= 0)
@@ -76,7 +76,7 @@ void ZipFile::read(std::span<char> bytes, const std::string& what) {
   if (position_ == size_) check_end(what);
 }
 
-/// Checks the checksum, which minizip compares when a member that was read to its end is closed.
+/// Checks the checksum of a member that was read to its end: minizip compares it when the member is closed.
 void ZipFile::check_end(const std::string& what) {
   if (unzCloseCurrentFile(handle_->file) == UNZ_CRCERROR)
     throw InputError(name_ + ": '" + member_ + "', " + what + ": its checksum is wrong; the archive is damaged");

@@ -10,19 +10,20 @@
 
 namespace ogc::compare {
 
-/// An open archive, of which one member at a time can be read.
+/// An open archive. One member at a time can be read.
 class ZipFile {
  public:
-  /// Opens the archive. Throws InputError if it is none, ResourceError if this program was built without minizip.
+  /// Opens the archive. Throws InputError if the file is no archive, ResourceError if this program was built without
+  /// minizip.
   explicit ZipFile(const std::filesystem::path& path);
   ~ZipFile();
   ZipFile(const ZipFile&) = delete;
   ZipFile& operator=(const ZipFile&) = delete;
   const std::vector<std::string>& members() const { return members_; }  ///< names in the archive's order
-  /// Goes to the beginning of a member; only the member opened last can be read. Throws InputError.
+  /// Opens a member at its beginning; only the last opened member can be read. Throws InputError.
   void open(const std::string& member);
-  /// Fills `bytes` from the open member. Throws InputError that names the archive, the member, `what` and the byte if
-  /// the member ends before that or is damaged (its checksum is compared where it ends).
+  /// Fills `bytes` from the open member. If the member ends before that or is damaged, throws InputError that names the
+  /// archive, the member, `what` and the byte. The checksum is compared at the member's end.
   void read(std::span<char> bytes, const std::string& what);
   /// Returns the size of the open member, unpacked [bytes].
   std::uint64_t size() const { return size_; }

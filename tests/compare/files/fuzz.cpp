@@ -1,6 +1,6 @@
-// Damages files of states and scenes at random: point caches, scene files and cases in text. Each must be read or be
-// refused by name, within 100 MB beyond what the program has (tests/compare/files/fuzzing.hpp). Files of HDF5 are left
-// out, because its library itself crashes on one damaged file in some ten thousand.
+// Damages files of states and scenes at random: point caches, scene files and cases in text. Each must be read, or
+// rejected with an error that names it, within 100 MB beyond the program's memory (tests/compare/files/fuzzing.hpp).
+// HDF5 files are left out, because the HDF5 library itself crashes on about one damaged file in ten thousand.
 #include "tests/compare/files/fuzzing.hpp"
 
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ namespace {
 
 const Mesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5}}, {{0, 1, 2}, {0, 2, 3}}, {}};
 
-/// Returns a place in memory if there is a file system for that; a disk takes a hundred times as long.
+/// Returns a path in memory if there is a file system in memory, since a disk is a hundred times slower.
 std::filesystem::path place_for(const std::string& name) {
   static const Scratch folder(std::filesystem::exists("/dev/shm") ? "/dev/shm"
                                                                   : std::filesystem::temp_directory_path());

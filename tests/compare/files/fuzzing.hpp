@@ -1,6 +1,6 @@
-// Damages files at random and gives each to a reader. The reader must not take more than 100 MB beyond what the program
-// has and twice the file's size, die, hang, or refuse a file without its name. Cases run in separate processes under a
-// limit on memory.
+// Damages files at random and gives each to a reader. The reader must not die or hang, must name the file in its error,
+// and must not take more than 100 MB plus twice the file's size beyond the program's memory. Cases run in separate
+// processes under a limit on memory.
 #pragma once
 
 #include <sys/resource.h>
@@ -24,13 +24,12 @@
 namespace ogc::tests {
 
 #if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool limits_memory = false;  // its shadow memory is reserved address space
+inline constexpr bool limits_memory = false;  // the sanitizer's shadow memory is reserved address space
 #else
 inline constexpr bool limits_memory = true;
 #endif
-inline constexpr std::size_t most_memory = 100'000'000;  ///< [bytes] beyond what the program has
+inline constexpr std::size_t most_memory = 100'000'000;  ///< limit beyond the program's memory [bytes]
 
-/// A whole file.
 struct Sample {
   std::string name, bytes;
 };
@@ -39,7 +38,7 @@ class Mutator {
  public:
   Mutator(std::string whole, std::mt19937_64& random) : bytes_(std::move(whole)), random_(random) {}
 
-  /// Returns the file after one to four changes, each applied to the result of the one before.
+  /// Returns the file after one to four changes, each applied to the result of the last one.
   std::string mutated() {
     for (std::size_t k = 1 + below(4); k-- > 0 && !bytes_.empty();) change();
     return bytes_;
@@ -88,7 +87,7 @@ class Mutator {
   std::mt19937_64& random_;
 };
 
-/// Returns "" or what a reader did with a damaged file and must not do.
+/// Returns "", or a description of what a reader did with a damaged file and must not do.
 using Judge = std::string (*)(const std::string& bytes, const std::string& name);
 
 inline std::size_t address_space() {
@@ -98,13 +97,13 @@ inline std::size_t address_space() {
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Runs the cases in a separate process. Writes to `out` the number of each case, and the reason of the first that
-/// fails. Never returns.
+/// Runs the cases in this process, which must be separate. Writes to `out` the number of each case and the error of the
+/// first that fails. Never returns.
 [[noreturn]] inline void run_cases(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases, int out) {
   const auto say = [&](const std::string& text) {
     if (write(out, text.data(), text.size()) < 0) _exit(3);
   };
-  // Catch's handlers are for the parent
+  // Catch's signal handlers are for the parent
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGALRM}) std::signal(signal, SIG_DFL);
   if (limits_memory) {
     const std::size_t most = address_space() + most_memory + 2 * sample.bytes.size();
@@ -124,7 +123,7 @@ inline std::size_t address_space() {
   _exit(0);
 }
 
-/// Returns "" if every case ends well, else the case that failed and why.
+/// Returns "" if every case passes, else the first case that failed and its error.
 inline std::string failure(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);
@@ -147,7 +146,7 @@ inline std::string failure(const Sample& sample, Judge judge, std::uint64_t seed
   return sample.name + ", seed " + std::to_string(seed) + ", case " + last + how;
 }
 
-/// Runs `read` and returns "" or what it did wrong (see Judge).
+/// Runs `read` and returns "" or a description of its fault (see Judge).
 template <class Read>
 std::string fault_of_reading(const std::string& name, Read read) {
   try {
@@ -162,7 +161,7 @@ std::string fault_of_reading(const std::string& name, Read read) {
   return "";
 }
 
-/// Checks `cases` damaged files of each sample, or OGC_FUZZ_CASES of them; the sample itself must be readable.
+/// Checks `cases` (or OGC_FUZZ_CASES) damaged files of each sample; the sample itself must be readable.
 inline void fuzz(const std::vector<Sample>& samples, Judge judge, std::uint64_t seed, std::size_t cases) {
   if (const char* given = std::getenv("OGC_FUZZ_CASES")) cases = std::strtoull(given, nullptr, 10);
   for (const Sample& sample : samples) {

@@ -8,7 +8,6 @@
 
 namespace ogc::tests {
 
-/// Appends a number's bytes.
 template <class Number>
 void append_number(std::string& bytes, Number value, std::endian order = std::endian::little) {
   auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(value);

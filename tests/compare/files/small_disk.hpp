@@ -1,4 +1,4 @@
-// Imitates a full disk within one process, by its limit on the length of files.
+// Imitates a full disk within one process by a limit on the size of files.
 #pragma once
 
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 
 namespace ogc::tests {
 
-/// Lets this process write no file longer than `bytes` as long as the object lives.
+/// Limits files that this process writes to `bytes` bytes while the object exists.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -12,7 +12,7 @@ using law_measures::elastic;
 
 namespace {
 
-// Returns two right triangles on either side of an edge of length 1 along z, each 1 wide.
+// Returns two right triangles on either side of an edge of length 1 along z; each is 1 wide.
 Scene flap() {
   Scene scene;
   Material material;
@@ -34,7 +34,8 @@ TEST_CASE("laws' elastic energy: a stretched triangle, a bent hinge, both by han
   std::vector<Vec3> x = scene.rest_positions;
   const std::vector<Vec3> none(4);
   CHECK(elastic(scene, x, none).energy == 0);
-  // The second triangle is stretched to s across the edge: G has (s² − 1)/2 alone, ψ = (λ/2 + μ) G², A = 1/2.
+  // The second triangle is stretched to s across the edge: the only entry of G is (s² − 1)/2, ψ = (λ/2 + μ) G², A =
+  // 1/2.
   const double s = 1.2, strain = (s * s - 1) / 2;
   x[3] = {s, 0, 0};
   CHECK(elastic(scene, x, none).energy == Approx(4 * strain * strain / 2));
@@ -46,9 +47,9 @@ TEST_CASE("laws' elastic energy: a stretched triangle, a bent hinge, both by han
   CHECK(elastic(scene, x, turning).change == Approx(0.75 * angle));
 }
 
-// U varies over the length of a cell, 0.03 m. Along a d of 1 m its third derivative is about 10³ = 1/0.03² times the
-// first. So a central difference with t = 10⁻⁵ has an error of t²/6 · 10³ = 2 · 10⁻⁸, and less from rounding; 10⁻⁶
-// leaves a factor of fifty.
+// U varies over the length of a cell, 0.03 m, so along a d of 1 m its third derivative is about 10³ = 1/0.03² times the
+// first. A central difference with t = 10⁻⁵ thus has an error of t²/6 · 10³ = 2 · 10⁻⁸, and rounding adds less. The
+// tolerance is fifty times as large.
 TEST_CASE("laws' elastic energy: its change is that of the energy, on the pinned sheet", "[unit]") {
   const Scene scene = find_law("pinned_sheet").scenes(LawSize::least).at(0);
   std::vector<Vec3> x = scene.rest_positions, along(x.size());

@@ -1,5 +1,5 @@
-// Tests that laws can fail. A converged solve, by Newton's method, obeys each law; a solve of the same scene with
-// another constant, given to the law as if it were right, breaks it.
+// Tests that laws can fail. A converged solve by Newton's method obeys each law. A solve of the same scene with another
+// constant breaks the law, which judges it with the original constant.
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -89,7 +89,7 @@ const std::map<std::string_view, Change> changes{
     {"pendulum", gravity_times(1.05)},
     {"pinned_sheet",
      [](Scene& scene) {
-       scene.motions[0].velocity = {1, 0, 0};  // whatever carries the corner along does work on the sheet
+       scene.motions[0].velocity = {1, 0, 0};  // the force that moves the corner does work on the sheet
      }},
 };
 
@@ -126,9 +126,9 @@ TEST_CASE("laws of rods hold of their closed answers, and of nothing a tenth off
   }
 }
 
-// The last step pulls an outer corner out by s. All else is at rest, so the step leaves f = M Δ/h² + ∇U − M a at that
-// corner alone. Equation (5) of beams.cpp derives a limit from f, which a solver of few sweeps may reach and one of
-// many may not.
+// The last step pulls an outer corner out by s. Everything else is at rest, so the step leaves f = M Δ/h² + ∇U − M a at
+// that corner only. Equation (5) of beams.cpp derives a limit from f, which a solver of few sweeps may reach, but not
+// one of many sweeps.
 TEST_CASE("laws: energy is gained by what few sweeps leave, and by nothing else", "[unit]") {
   const Law& pinned = find_law("pinned_sheet");
   const std::vector<Scene> scenes = pinned.scenes(LawSize::least);

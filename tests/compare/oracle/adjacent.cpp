@@ -1,4 +1,4 @@
-// Checks the audit of primitives with common vertices. They intersect where they meet beyond the face that the common
+// Checks the audit of primitives with common vertices, which intersect if they meet outside of the face that the common
 // vertices span. Two triangles that share an edge or a vertex, a triangle and a loose edge, and two loose edges are
 // compared with brute force in rational numbers, in all orders.
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace {
 
 using Simplex = std::vector<Index>;
 
-/// Returns the solution of the columns in `set` if it is unique and non-negative, else an empty list. The last entry of
-/// a row is its right side.
+/// Returns the solution for the columns in `set` if it is unique and non-negative, else an empty list. The last entry
+/// of a row is its right side.
 std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t columns, unsigned set) {
   std::vector<Row> chosen(rows.size());
   std::vector<std::size_t> place;
@@ -54,8 +54,9 @@ std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t c
   return solution;
 }
 
-/// Returns whether two proper simplices share a point beyond the hull of their common vertices. At that point a vertex
-/// of the first that is not common has a positive weight. If any solution has one, a basic solution has one.
+/// Returns whether two proper simplices share a point outside of the hull of their common vertices. At that point a
+/// vertex of the first simplex that is not common has a positive weight. If any solution has such a weight, a basic
+/// solution has one.
 bool meet_beyond(const Simplex& first, const Simplex& second, const std::vector<Vec3>& x) {
   std::vector<Row> rows(5);
   const std::size_t columns = first.size() + second.size();
@@ -93,7 +94,7 @@ std::size_t audited(const Simplex& first, const Simplex& second, const std::vect
   return audit(build_topology(static_cast<Index>(x.size()), triangles, edges), x).count;
 }
 
-/// Checks both in every order of their corners, and each of the two first.
+/// Checks both simplices in every order of their corners, with either of them first.
 void check_in_all_orders(Simplex first, Simplex second, const std::vector<Vec3>& x, bool expected) {
   std::ranges::sort(first);
   do {
@@ -118,14 +119,14 @@ TEST_CASE("two triangles on an edge, a vertex, and beside a loose edge, as they 
   const std::vector<Known> cases{
       // They cross in their plane, with no corner of one in the other.
       {{{0, 0.2, 0}, {2, 0.2, 0}, {0.5, 0.2, 2}, {1.5, 0.2, 2}}, {0, 1, 2}, {0, 1, 3}, true},
-      // They are folded flat, with a corner in the other; onto the same place; nearly flat.
+      // They are folded flat with a corner in the other; folded onto the same place; folded nearly flat.
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, 1}}, {0, 1, 2}, {0, 1, 3}, true},
       {{o, {2, 0, 0}, {1, 0, 2}, {1, 0, 2}}, {0, 1, 2}, {0, 1, 3}, true},
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 1e-7, 1}}, {0, 1, 2}, {0, 1, 3}, false},
       // They are flat and open.
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, -1}}, {0, 1, 2}, {0, 1, 3}, false},
-      // They share a vertex: one cuts the other; they overlap in their plane; an edge lies on the other; no more is
-      // common.
+      // They share a vertex: one cuts the other; they overlap in their plane; an edge lies on the other; they have no
+      // other common point.
       {{o, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {3, 0, 1.5}}, {0, 1, 2}, {0, 3, 4}, true},
       {{o, {2, 0, 0}, {0, 0, 2}, {2, 0, 0.5}, {0.5, 0, 2}}, {0, 1, 2}, {0, 3, 4}, true},
       {{o, {2, 0, 0}, {0, 0, 2}, {1, 0, 0}, {0, 0, -2}}, {0, 1, 2}, {0, 3, 4}, true},
@@ -165,7 +166,7 @@ TEST_CASE("adjacent primitives meet where rational numbers say so, on lattices w
     for (int round = 0; round < 600; ++round)
       for (const auto& [first, second] : kinds) {
         std::vector<Vec3> x;
-        const std::uint64_t flat = draw() % 3;  // 0: in a plane, where most cases are degenerate
+        const std::uint64_t flat = draw() % 3;  // 0: all vertices are in a plane, so most cases are degenerate
         while (x.size() < 5) x.push_back({double(draw() % 4), double(draw() % 4), flat == 0 ? 0. : double(draw() % 3)});
         if (!is_proper(first, x) || !is_proper(second, x)) continue;
         const bool expected = meet_beyond(first, second, x);

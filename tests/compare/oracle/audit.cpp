@@ -49,7 +49,7 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
     test(Kind::edge_triangle, static_cast<Index>(e), topology.edges[e]);
   for (Index v = 0; v < topology.vertex_count; ++v)
     if (topology.vertex_edges[static_cast<std::size_t>(v)].size() > 0) test(Kind::vertex_triangle, v, {v, v});
-  // Pairs of an edge and the side of a triangle opposite to their only common vertex.
+  // Adds pairs of an edge and the side of a triangle opposite to their only common vertex.
   std::vector<Intersection> sides;
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
     for (const Triangle& t : topology.triangles) {
@@ -66,7 +66,7 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
   return found;
 }
 
-/// An n × n grid on the unit square, rolled up to a spiral whose layers do not touch; `shear` turns it out of the
+/// An n × n grid on the unit square, rolled up to a spiral whose layers do not touch. `shear` turns it out of the
 /// coordinate planes.
 struct RolledSheet {
   std::vector<Vec3> positions;
@@ -156,8 +156,7 @@ TEST_CASE("triangles that are folded onto each other along an edge are listed by
 }
 
 TEST_CASE("curves that touch or cross in a point are listed, by the edges of no triangle alone", "[unit]") {
-  // The scene is a triangle 0 1 2, a chain 3 4 5 that crosses an edge 6 7, and an edge 8 9 whose end lies on the
-  // latter.
+  // The scene is a triangle 0 1 2, a chain 3 4 5 that crosses edge 6 7, and an edge 8 9 that ends on edge 6 7.
   const std::vector<Vec3> positions{{5, 5, 5}, {6, 5, 5},  {5, 6, 5}, {-1, 0, 0},  {1, 0, 0},
                                     {2, 1, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0.5, 0}, {0, 0.5, 3}};
   const Topology topology = build_topology(10, std::vector<Triangle>{{0, 1, 2}},
@@ -172,7 +171,7 @@ TEST_CASE("curves that touch or cross in a point are listed, by the edges of no 
   apart[6].z = apart[7].z = 0x1p-60;
   apart[8].y = 2;
   CHECK(audit(topology, apart).count == 0);
-  // Two crossing edges of triangles in one plane are found through their triangles, once each.
+  // Two crossing edges of triangles in one plane are found once each, through their triangles.
   const std::vector<Vec3> flat{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, -1, 0}, {1, 5, 0}, {9, 9, 0}};
   const AuditResult plane = audit(build_topology(6, std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}), flat);
   CHECK(std::none_of(plane.intersections.begin(), plane.intersections.end(),
@@ -207,7 +206,8 @@ TEST_CASE("collapsed triangles and loose edges are audited like the rest", "[uni
   const std::vector<Vec3> positions{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, -1}, {1, 1, 1}, {5, 5, 5}};
   const Topology topology = build_topology(6, std::vector<Triangle>{{0, 1, 2}}, std::array{Edge{3, 4}, Edge{4, 5}});
   CHECK(audit(topology, positions).intersections == std::vector{edge_meets(topology, 3, 4, 0)});
-  // All lies in one point: two edges and three vertices on the triangle, and the end of an edge on the next one.
+  // All vertices are at one point: two edges and three vertices lie on the triangle, and an end of one edge on the
+  // other.
   CHECK(audit(topology, std::vector<Vec3>(6, Vec3{1, 1, 1})).count == 6);
   CHECK(audit(build_topology(0, {}), {}).count == 0);
 }

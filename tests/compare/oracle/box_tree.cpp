@@ -12,7 +12,7 @@ using namespace ogc::compare;
 namespace {
 
 std::vector<Box> random_boxes(std::mt19937& random, std::size_t count) {
-  std::uniform_int_distribution<int> coordinate(0, 20), side(0, 3);  // integers make boxes touch often
+  std::uniform_int_distribution<int> coordinate(0, 20), side(0, 3);  // with integers boxes often touch
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 low{double(coordinate(random)), double(coordinate(random)), double(coordinate(random))};
@@ -32,7 +32,7 @@ std::vector<Index> meeting(const BoxTree& tree, const Box& query) {
 
 TEST_CASE("a box tree visits each box that meets the query once, and no other", "[property]") {
   std::mt19937 random(3);
-  for (const std::size_t count : {0, 1, 2, 3, 5, 10, 50, 1000, 20'000}) {  // several tasks build the last
+  for (const std::size_t count : {0, 1, 2, 3, 5, 10, 50, 1000, 20'000}) {  // several tasks build the last tree
     const std::vector<Box> boxes = random_boxes(random, count);
     const BoxTree tree(boxes);
     for (const Box& query : random_boxes(random, 100)) {

@@ -14,7 +14,7 @@ namespace {
 using Segment = std::array<Vec3, 2>;
 using Corners = std::array<Vec3, 3>;
 
-/// Returns the answer and checks that every order of points and of axes, and brute force, give the same.
+/// Returns the answer, and checks that it does not depend on the order of points and axes and is that of brute force.
 bool answer(const Segment& s, const Corners& t) {
   const bool expected = hulls_meet(s, t);
   constexpr std::array<std::array<std::size_t, 3>, 6> orders{
@@ -88,8 +88,8 @@ TEST_CASE("a segment of length zero is a point", "[unit]") {
 }
 
 TEST_CASE("one unit in the last place decides, where a computation in double does not see it", "[unit]") {
-  // A point (1/2 + i 2⁻⁵³, 1/2 + j 2⁻⁵³, 0) lies in the plane x = y only if i = j, but subtracting a corner rounds i
-  // and j away.
+  // A point (1/2 + i 2⁻⁵³, 1/2 + j 2⁻⁵³, 0) lies in the plane x = y only if i = j. Subtracting a corner in double
+  // rounds i and j away.
   const Corners plane{Vec3{-24, -24, -8}, Vec3{24, 24, -8}, Vec3{1, 1, 40}};
   int wrong_in_double = 0;
   for (int i = 0; i < 8; ++i) {

@@ -27,7 +27,7 @@ constexpr MeetingKind vertex = MeetingKind::vertex_triangle, edges = MeetingKind
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Rounds to a coordinate that the integers of the brute force hold exactly.
+/// Rounds a coordinate so that the integers of the brute force represent it exactly.
 double coarse(double x) { return std::ldexp(std::nearbyint(std::ldexp(x, 20)), -20); }
 
 /// Random triangles and loose edges in the unit cube; every vertex moves by up to `reach`.
@@ -106,7 +106,7 @@ TEST_CASE("meetings: a state without intersections and a motion without meetings
   int clean = 0, passed = 0;
   for (unsigned seed = 100; seed < 400; ++seed) {
     Heap heap(seed, 0.3);
-    for (std::size_t v = 0; v < heap.from.size(); ++v) {  // each face lies in its own slice, apart from neighbours
+    for (std::size_t v = 0; v < heap.from.size(); ++v) {  // each face is in its own slice, apart from its neighbours
       heap.from[v].z = coarse(heap.from[v].z * 0.02 + 0.1 * double(v / 4));
       heap.to[v].z = coarse(heap.from[v].z + (heap.to[v].x - heap.from[v].x) * (seed % 2 == 0 ? 0.1 : 1));
     }
@@ -157,13 +157,14 @@ TEST_CASE(
   CHECK(result.count % 2 == 1);
   int change = 0;
   for (const Meeting& m : result.meetings) {
-    // The motion is a translation, so the edges meet once: one lies on different sides of the other before and after.
+    // The motion is a translation, so the edges meet once: before and after it, one edge is on different sides of the
+    // other.
     std::vector<Vec3> before = from, after = from;
     const auto place = [&](std::vector<Vec3>& x, double t) {
       for (std::size_t v = at(n); v < x.size(); ++v) x[v].x = from[v].x + 3 * t;
     };
     place(before, m.time - 1e-6), place(after, m.time + 1e-6);
-    // Edges point along the ring, not as they are sorted.
+    // These edges point along the ring; stored edges have the smaller vertex first.
     const auto along = [&](Index e) {
       const Edge& edge = topology.edges[at(e)];
       return edge[1] - edge[0] == 1 ? edge : Edge{edge[1], edge[0]};
@@ -171,7 +172,7 @@ TEST_CASE(
     change += (sense(after, along(m.first), along(m.second)) - sense(before, along(m.first), along(m.second))) / 2;
   }
   CHECK(std::abs(change) == std::abs(linking_number(to, n) - linking_number(from, n)));
-  // A common motion, and one that leaves the rings hooked, have no meetings.
+  // A common motion has no meetings, and neither has a motion after which the rings are still linked.
   for (std::size_t v = 0; v < to.size(); ++v) to[v] = {from[v].x + 3, from[v].y - 2, from[v].z + 7};
   CHECK(meetings(topology, from, to).count == 0);
   to = from;

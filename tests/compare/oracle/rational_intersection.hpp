@@ -1,7 +1,7 @@
-// Decides intersections by brute force, to check the oracle by another idea in another number type. Points of segment
-// and triangle are convex combinations, so the two meet exactly if the linear system Σλ = 1, Σμ = 1, Σλᵢ sᵢ = Σμⱼ tⱼ
-// has a solution λ, μ ≥ 0, and then one of its basic solutions is non-negative. All 31 sets of columns are tried in
-// rational arithmetic. There are no orientations and no case distinctions that a degenerate configuration could upset.
+// Decides intersections by brute force, to check the oracle with another method and another type of numbers. Points of
+// a segment and of a triangle are convex combinations. So the two meet exactly if the linear system Σλ = 1, Σμ = 1, Σλᵢ
+// sᵢ = Σμⱼ tⱼ has a solution λ, μ ≥ 0; then one of its basic solutions is non-negative. All 31 sets of columns are
+// tried in rational arithmetic. There are no orientations and no cases, so degenerate configurations need no care.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -16,8 +16,8 @@ namespace ogc::tests {
 using Rational = boost::multiprecision::cpp_rational;
 using Row = std::vector<Rational>;
 
-/// Returns whether the system of five equations has exactly one solution and that is non-negative. It has one unknown
-/// for each column; the last entry of a row is its right side.
+/// Returns whether the system of five equations has exactly one solution, and the solution is non-negative. The system
+/// has one unknown for each column; the last entry of a row is its right side.
 inline bool solved_by_non_negative(std::vector<Row> rows, std::size_t unknowns) {
   for (std::size_t pivot = 0; pivot < unknowns; ++pivot) {
     std::size_t row = pivot;

@@ -15,7 +15,7 @@ using compare::Vec3;
 
 inline std::size_t ring_place(Index i) { return static_cast<std::size_t>(i); }
 
-/// Adds a closed polygon of n loose edges about `centre`, spanned by u and v.
+/// Adds a closed polygon of n loose edges about `centre` in the plane of u and v.
 inline void add_ring(std::vector<Vec3>& positions, std::vector<Edge>& loose, Index n, Vec3 centre, Vec3 u, Vec3 v) {
   const auto first = static_cast<Index>(positions.size());
   for (Index k = 0; k < n; ++k) {
@@ -27,7 +27,7 @@ inline void add_ring(std::vector<Vec3>& positions, std::vector<Edge>& loose, Ind
 }
 
 /// Returns the linking number of two rings whose projections along z are in general position: the sum of the signed
-/// crossings of the first ring's edges over the second's.
+/// crossings of the first ring's edges over the second ring's.
 inline int linking_number(const std::vector<Vec3>& x, Index n) {
   const auto side = [&](Index a, Index b, Index c) {
     const Vec3 &p = x[ring_place(a)], &q = x[ring_place(b)], &r = x[ring_place(c)];
@@ -50,8 +50,7 @@ inline int linking_number(const std::vector<Vec3>& x, Index n) {
   return sum;
 }
 
-/// Returns 1 or -1: the side of ab on which cd lies, by the sign of the determinant of ab, cd and the vector from a to
-/// c.
+/// Returns 1 or −1, the side of ab on which cd lies: the sign of the determinant of ab, cd and the vector from a to c.
 inline int sense(const std::vector<Vec3>& x, const Edge& ab, const Edge& cd) {
   const auto minus = [&](Index i, Index j) {
     return Vec3{x[ring_place(i)].x - x[ring_place(j)].x, x[ring_place(i)].y - x[ring_place(j)].y,

@@ -20,8 +20,8 @@ using Point = std::array<Rational, 3>;
 Rational dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Returns the squared distance from the origin to the nearest point of span(directions) + offset. Returns nothing if
-/// its coefficients are not all ≥ 0, if those of one of the two groups of directions add up to more than 1, or if the
+/// Returns the squared distance from the origin to the nearest point of span(directions) + offset. Returns nothing if a
+/// coefficient is negative, if the coefficients of one of the two groups of directions add up to more than 1, or if the
 /// directions are dependent.
 std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std::size_t first_group,
                                        const Point& offset) {
@@ -51,7 +51,7 @@ std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std
   return dot(nearest, nearest);
 }
 
-/// Returns the squared distance of two convex hulls: the least over all pairs of faces, without case distinctions.
+/// Returns the squared distance of two convex hulls: the least over all pairs of faces, without distinguishing cases.
 Rational hull_distance(const std::vector<Point>& first, const std::vector<Point>& second) {
   std::optional<Rational> least;
   for (unsigned a = 1; a < 1u << first.size(); ++a) {

@@ -9,7 +9,8 @@ using namespace ogc::compare;
 
 namespace {
 
-/// Returns the surface of a cube of 1 m from `corner` on, facing outward; vertex (i, j, k) has number 4i + 2j + k.
+/// Returns the surface of a cube of 1 m whose lowest corner is `corner`, facing outward. Vertex (i, j, k) has number 4i
+/// + 2j + k.
 Mesh cube(const Vec3& corner) {
   Mesh mesh;
   for (int v = 0; v < 8; ++v) mesh.positions.push_back({corner.x + v / 4, corner.y + v / 2 % 2, corner.z + v % 2});
@@ -19,14 +20,14 @@ Mesh cube(const Vec3& corner) {
   return mesh;
 }
 
-/// Returns the cube without its last two triangles, those at z = 1.
+/// Returns the cube without its last two triangles, which are at z = 1.
 Mesh open_box(const Vec3& corner) {
   Mesh mesh = cube(corner);
   mesh.triangles.resize(mesh.triangles.size() - 2);
   return mesh;
 }
 
-/// Returns a scene of a cloth of one triangle followed by volumes with these surfaces.
+/// Returns a scene of a cloth of one triangle, then volumes with these surfaces.
 Scene scene_of(const std::array<Vec3, 3>& cloth, const std::vector<Mesh>& volumes) {
   Scene scene;
   scene.name = "volumes";
@@ -57,7 +58,7 @@ TEST_CASE("a vertex on the surface is outside, whichever face, edge or corner it
 }
 
 TEST_CASE("a ray through edges and corners counts as one beside them", "[unit]") {
-  // Towards +x the ray meets the far face's diagonal, or passes over corners of a second cube.
+  // Along +x the ray meets the far face's diagonal, or passes corners of a second cube.
   for (const Vec3& x : {Vec3{0.5, 0.5, 0.5}, {0.25, 0.25, 0.75}, {0.5, 0.75, 0.25}}) {
     CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({})})).vertices_inside == 1);
     CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({3, 0.5, 0.5}), cube({})})).vertices_inside == 1);
@@ -109,8 +110,8 @@ TEST_CASE("a scene without volumes lets nothing in, and positions must be the sc
 
 namespace {
 
-/// Returns two cubes of 1 m, six tetrahedra each, as one free volume or, if `apart`, as two. The second reaches `back`
-/// into the first.
+/// Returns two cubes of 1 m with six tetrahedra each, as one free volume, or as two if `apart`. The second cube reaches
+/// `back` into the first.
 Scene free_cubes(double back, bool apart) {
   Mesh mesh = ogc::tests::block_mesh(2, 1);
   const Mesh other = ogc::tests::block_mesh(2, 1, {1 - back, 0.25, 0.25});
@@ -133,8 +134,7 @@ Scene free_cubes(double back, bool apart) {
 TEST_CASE("vertices of free volumes inside each other, and inside their own body, are counted", "[unit]") {
   for (const bool apart : {true, false}) {
     const VolumePenetration found = audited(free_cubes(0.125, apart));
-    // Inside are (0.875, 0.25, 0.25) of the second cube and (1, 1, 1) of the first: 0.125 from x = 1 and from x =
-    // 0.875.
+    // Inside are (0.875, 0.25, 0.25) of the second cube and (1, 1, 1) of the first: 0.125 from x = 1 and x = 0.875.
     CHECK(found.vertices_inside == 2);
     CHECK(found.deepest == 0.125);
     CHECK(found.edges_meeting > 0);

@@ -1,5 +1,5 @@
-// Tests that differences from a local origin are exact, that single precision keeps them, and that printed coordinates
-// equal those of the file.
+// Tests that differences from a local origin are exact, that single precision represents them, and that printed
+// coordinates equal those of the file.
 #include "compare/problem/local_origin.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Tests the whole topology against definitions, by brute force, because both contestants use edge numbers as names.
+// Tests the whole topology against its definitions by brute force, because both contestants use edge numbers as names.
 #include "compare/problem/mesh.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Names that settings had before, each with the one that it has now.
+// Lists former names of settings, each with the present name.
 #pragma once
 
 #include <array>

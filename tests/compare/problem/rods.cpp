@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Returns vertices 1 m apart along x on a zigzag, with edges between neighbours.
+/// Returns vertices on a zigzag, 1 m apart along x, with edges between neighbours.
 Mesh chain(int count, double height = 0.5) {
   Mesh mesh;
   for (int v = 0; v < count; ++v) mesh.positions.push_back({double(v), v % 2 * height, 0});
@@ -108,12 +108,12 @@ TEST_CASE("what no rod can be is named with what to do", "[unit]") {
                                            Contains("loose edge 1 of body 'yarn'"));
     folded.positions[3].y = 0x1p-149;
     CHECK(said(scene_of(folded)).empty());
-    // A branch has no frame that turns.
+    // Segments at a branch are no neighbours, so that they may be folded.
     folded.positions[3].y = 0;
     folded.positions.push_back({2, 1, 0});
     folded.loose_edges.push_back({2, 4});
     CHECK(said(scene_of(folded)).empty());
-    // The start may be folded, the rest shape may not.
+    // The start may be folded; the rest shape must not be.
     Scene scene = scene_of(chain(4, 0));
     scene.mesh.positions[6] = {1.5, 0, 0};
     CHECK(said(scene).empty());

@@ -1,6 +1,6 @@
-// Tests the compiler's own rounding. g++ 12.2 at -O2 takes neighbouring conversions to single precision and back for
-// the identity (its vectoriser of straight-line code). Then every comparison "as single precision stores it" is
-// vacuous. The build switches that pass off, and this test checks that it did.
+// Tests the compiler's rounding. g++ 12.2 at -O2 removes adjacent conversions to single precision and back (its
+// vectoriser of straight-line code). Then every comparison "as single precision stores it" is without effect. The build
+// disables that pass, and this test checks that it did.
 #include "tests/catch.hpp"
 
 #include "compare/problem/vector.hpp"

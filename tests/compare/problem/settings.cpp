@@ -1,4 +1,4 @@
-// Tests the table of settings. Only the table knows ranges, so all code that reads it inherits these checks.
+// Tests the table of settings. Only the table defines ranges, so these checks hold for all code that reads it.
 #include "compare/problem/settings.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ TEST_CASE("every setting has a name of its own and a default within its range", 
     CHECK(names.insert(info.name).second);
     CHECK(in_range(info, get_setting(defaults, info)));
     CHECK(info.minimum < info.maximum);
-    CHECK(std::ranges::count(info.meaning, ' ') >= 3);  // words, not a symbol
+    CHECK(std::ranges::count(info.meaning, ' ') >= 3);  // words, not only a symbol
     CHECK(!info.unit.empty());
   }
 }
@@ -117,7 +117,8 @@ TEST_CASE("a name that a setting had before is refused with the one that it has 
   for (const ogc::tests::Renamed& setting : ogc::tests::renamed_settings) {
     Settings settings;
     CHECK_THROWS_WITH(set_setting(settings, setting.before, "1"), Equals(setting.refusal()));
-    if (setting.now != "body_contact") CHECK_NOTHROW(get_setting(settings, setting.now));  // that one is a body's
+    // body_contact is a property of bodies
+    if (setting.now != "body_contact") CHECK_NOTHROW(get_setting(settings, setting.now));
   }
 }
 

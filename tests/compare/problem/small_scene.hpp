@@ -1,4 +1,4 @@
-// Makes a valid scene with a free body, a fixed one and two motions, small enough to write its answers down.
+// Makes a valid scene with a free body, a fixed body and two motions, small enough to write down its answers.
 #pragma once
 
 #include "compare/problem/scene.hpp"

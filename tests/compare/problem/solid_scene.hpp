@@ -1,4 +1,4 @@
-// Makes a block of tetrahedra, small enough to write its answers down.
+// Makes a block of tetrahedra, small enough to write down its answers.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace ogc::tests {
 
-/// Returns (n − 1)³ cubes of side `spacing` from `corner` on. Each cube has six tetrahedra about the diagonal from its
-/// lowest to its highest corner; vertex (i, j, k) has number (i n + j) n + k.
+/// Returns (n − 1)³ cubes of side `spacing`; `corner` is the lowest corner. Each cube has six tetrahedra about the
+/// diagonal from its lowest to its highest corner. Vertex (i, j, k) has number (i n + j) n + k.
 inline compare::Mesh block_mesh(compare::Index n, double spacing, const compare::Vec3& corner = {}) {
   compare::Mesh mesh;
   for (compare::Index i = 0; i < n; ++i)
@@ -29,7 +29,7 @@ inline compare::Mesh block_mesh(compare::Index n, double spacing, const compare:
   return mesh;
 }
 
-/// Returns one free body "block" of 3³ vertices 0.1 m apart, of which the middle one lies inside.
+/// Returns one free body "block" of 3³ vertices 0.1 m apart; the middle vertex lies inside.
 inline compare::Scene solid_scene() {
   compare::Scene scene;
   scene.name = "solid";

@@ -14,7 +14,7 @@ using ogc::tests::solid_scene;
 
 namespace {
 
-/// Returns two tetrahedra with edges of 1 and √2 on the common face 1, 2, 3.
+/// Returns two tetrahedra on both sides of the common face 1 2 3, with edges of length 1 and √2.
 Mesh pair_of_tetrahedra() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, {}, {}, {{0, 1, 2, 3}, {4, 1, 3, 2}}};
 }

@@ -1,4 +1,4 @@
-// Tests each kind of problem by one small change to a valid mesh or scene: it is found and named, and nothing else is.
+// Tests each kind of problem by one small change to a valid mesh or scene: only this problem must be found and named.
 #include "compare/problem/validate.hpp"
 
 #include <limits>

@@ -15,7 +15,8 @@ using ogc::tests::block_mesh;
 
 namespace {
 
-/// Returns the surface of a cube of 1 m from `corner` on, facing outward; vertex (i, j, k) has number 4i + 2j + k.
+/// Returns the surface of a cube of 1 m whose lowest corner is `corner`, facing outward. Vertex (i, j, k) has number 4i
+/// + 2j + k.
 Mesh cube(const Vec3& corner = {}) {
   Mesh mesh;
   for (int v = 0; v < 8; ++v) mesh.positions.push_back({corner.x + v / 4, corner.y + v / 2 % 2, corner.z + v % 2});
@@ -25,7 +26,6 @@ Mesh cube(const Vec3& corner = {}) {
   return mesh;
 }
 
-/// Returns both in one mesh.
 Mesh joined(Mesh mesh, const Mesh& more) {
   const auto first = static_cast<Index>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
@@ -45,7 +45,7 @@ Mesh open_box(const Vec3& corner = {}) {
   return mesh;
 }
 
-/// Returns a scene of a surface of one triangle, then a volume, fixed if `fixed`.
+/// Returns a scene of a surface of one triangle, then a volume.
 Scene scene_of(const Mesh& mesh, bool fixed = true) {
   Scene scene;
   scene.name = "volumes";
@@ -69,7 +69,7 @@ TEST_CASE("a volume's parts are its connected surfaces, with the edges that have
   CHECK(parts[0].triangles.size() == 12);
   CHECK(parts[0].rims.empty());
   CHECK(parts[1].triangles.size() == 10);
-  // The rim is the lid 1, 5, 7, 3 of the second cube, whose vertices begin at 3 + 8, in the sense of the box.
+  // The rim is 1, 5, 7, 3 of the second cube in the direction of the box; the cube's vertices begin at 3 + 8.
   std::vector<Edge> rims = parts[1].rims;
   std::ranges::sort(rims);
   CHECK(rims == std::vector<Edge>{{12, 14}, {14, 18}, {16, 12}, {18, 16}});
@@ -115,13 +115,13 @@ TEST_CASE("a closed sheet that faces inward within a part is a cavity of it, and
   REQUIRE(volume_parts(hollow).size() == 1);
   CHECK(volume_parts(hollow)[0].triangles.size() == 24);
   CHECK(std::ranges::is_sorted(volume_parts(hollow)[0].triangles));
-  // In the scene the sheet before the body has three vertices, the outer cube eight.
+  // In the scene the sheet has the first three vertices, and the outer cube the next eight.
   const std::vector<Edge> cavities = volume_cavities(hollow);
   REQUIRE(cavities.size() == 1);
   CHECK((cavities[0][0] >= 11 && cavities[0][0] < 19));
   CHECK((cavities[0][1] >= 3 && cavities[0][1] < 11));
   CHECK(volume_surface(hollow).cavities == cavities);
-  // Neither the order of the two nor their place matters.
+  // Neither the order of both shells nor their place matters.
   CHECK(said(scene_of(joined(void_of(2), cube_of(4)))) == "");
   CHECK(said(scene_of(shifted(joined(cube_of(4), void_of(2)), 1000))) == "");
   CHECK(volume_parts(scene_of(joined(joined(cube_of(4), shifted(void_of(1), -1)), shifted(void_of(1), 1)))).size() ==
@@ -136,7 +136,7 @@ TEST_CASE("an island in a void is a part of its own, and a cavity belongs to the
   CHECK(parts[0].triangles.front() == 1);
   CHECK(parts[0].triangles.back() == 24);
   CHECK(parts[1].triangles.front() == 25);
-  // A part that overlaps a cavity but does not hold it leaves it to the other part.
+  // A part that overlaps a cavity without containing it does not take it from the other part.
   CHECK(volume_parts(scene_of(joined(joined(cube_of(4), void_of(2)), shifted(cube_of(1), 1)))).size() == 2);
 }
 
@@ -151,7 +151,6 @@ TEST_CASE("a sheet that faces inward in nothing, across a part, in a void or in 
   Mesh open = cube_of(4);
   open.triangles.resize(open.triangles.size() - 2);
   CHECK_THAT(said(scene_of(joined(open, void_of(2)))), Contains(inside_out));
-  // The cavity belongs to another body.
   Scene two = scene_of(cube_of(4));
   append_body(two, {.name = "void", .fixed = true, .material = {}, .contact = BodyContact::volume}, void_of(2));
   CHECK_THAT(said(two), Contains("triangle 0 of body 'void'") && Contains(inside_out));

@@ -1,4 +1,4 @@
-// Tests points on one line, and one ulp beside it, where rounded arithmetic decides wrongly.
+// Tests points on one line, and points one ulp beside it, for which rounded arithmetic decides wrongly.
 #include "compare/problem/zero_area.hpp"
 
 #include <cmath>
@@ -10,7 +10,7 @@ using namespace ogc::compare;
 
 namespace {
 
-// Returns a multiple of 2⁻²⁰ below 1 in modulus, of which sums and products with small integers are exact.
+// Returns a multiple of 2⁻²⁰ below 1 in modulus; its sums and products with small integers are exact.
 double dyadic(std::mt19937& random) {
   return std::uniform_int_distribution<int>(-(1 << 19), 1 << 19)(random) * 0x1p-20;
 }

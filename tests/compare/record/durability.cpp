@@ -1,4 +1,4 @@
-// Tests what a run folder holds after its writer was ended by kill -9 at any moment, or by a full disk.
+// Tests what a run folder contains after kill -9 ended its writer at any moment, or after the disk became full.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +19,6 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a strip of `vertices` vertices.
 Scene strip_scene(Index vertices) {
   Scene scene;
   scene.name = "strip";
@@ -47,7 +46,7 @@ struct Report {
   std::int64_t frames = 0, last_step = -1, rows = 0;
 };
 
-/// Writes frames and rows for ever, and after each reports what is written.
+/// Writes frames and rows without end, and reports after each what is written.
 [[noreturn]] void write_for_ever(const std::filesystem::path& folder, Index vertices, int pipe) {
   RunWriter run(folder, strip_scene(vertices), recorded_provenance(), {});
   for (std::int64_t step = 0;; ++step) {
@@ -60,7 +59,7 @@ struct Report {
   }
 }
 
-/// Returns the last report that came within so many milliseconds; then it kills the writer.
+/// Returns the last report within this many milliseconds, after which it kills the writer.
 Report killed_after(int milliseconds, const std::filesystem::path& folder, Index vertices) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);
@@ -87,7 +86,7 @@ std::vector<float> points_of_step(const Hdf5File& file, std::size_t step, std::s
   return {first, first + static_cast<std::ptrdiff_t>(3 * vertices)};
 }
 
-/// Checks that every frame of the folder stands in the trajectory, in order and bit for bit.
+/// Checks that the trajectory contains every frame of the folder, in order and bit for bit.
 void check_trajectory(const std::filesystem::path& folder) {
   const RunReader run(folder);
   const Hdf5File file = Hdf5File::open(folder / "trajectory.vtkhdf");
@@ -153,7 +152,7 @@ TEST_CASE("frames are reported as written once they have their names, within sec
 TEST_CASE(
     "the trajectory grows with the frames, and is that which is assembled from them, whatever the size of a frame",
     "[property]") {
-  // The sizes are below and above the least that is packed, and one that fills one chunk and part of a second.
+  // Sizes: below and above the smallest that is packed, and one that fills a chunk and part of a second chunk.
   const Index vertices = GENERATE(10, 1500, 70001);
   const Scratch folder;
   RunWriter run(folder / "run", strip_scene(vertices), recorded_provenance(), {});
@@ -165,7 +164,7 @@ TEST_CASE(
     CHECK(std::filesystem::file_size(growing) > before);
     before = std::filesystem::file_size(growing);
   }
-  assemble_trajectory(folder / "run");  // Assembling it from another program does not disturb the writer.
+  assemble_trajectory(folder / "run");  // Assembling it in another program does not disturb the writer.
   check_trajectory(folder / "run");
   run.finish("finished");
   CHECK_FALSE(std::filesystem::exists(growing));
@@ -179,7 +178,7 @@ TEST_CASE(
   const Scratch folder;
   {
     RunWriter run(folder / "run", strip_scene(vertices), recorded_provenance(), {});
-    const SmallDisk disk(2500000);  // limit of a file, which the trajectory exceeds after some frames
+    const SmallDisk disk(2500000);  // size limit of files, which the trajectory exceeds after some frames
     const auto write_many = [&] {
       for (std::int64_t step = 0; step < 100; ++step) run.add_frame(strip_frame(step, vertices));
       run.flush();

@@ -30,7 +30,7 @@ failures = []
 
 
 def expect(what, found, expected):
-    """Same shape and same bits; not-a-number equals itself."""
+    """Records a failure unless shape and bits are equal; not-a-number equals itself."""
     found, expected = np.asarray(found), np.asarray(expected)
     if found.shape != expected.shape or not np.array_equal(found, expected, equal_nan=found.dtype.kind == "f"):
         failures.append(f"{what}: found {found.ravel()[:6]} … {found.shape}, expected {expected.ravel()[:6]} … "
@@ -58,7 +58,7 @@ def check_step(step, data, path, scene):
 
 
 def check_triangles(data, folder, scene):
-    """Against the meshes of the stored scene, one a body, read by VTK's PLY reader."""
+    """Compares with the meshes of the stored scene, one for each body, which VTK's PLY reader reads."""
     bodies = json.loads((folder / scene["file"]).read_text())["bodies"]
     expected = []
     for place, body in zip(scene["bodies"], bodies):

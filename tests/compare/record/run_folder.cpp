@@ -52,7 +52,7 @@ TEST_CASE("a finished run comes back: scene, provenance, steps, frames in the or
   CHECK(run.provenance().status == "finished");
   CHECK(run.provenance().command == "ogc run \"small\"");
   CHECK(run.provenance().dirty);
-  CHECK(run.provenance().started.size() == 20);  // 2026-01-31T23:59:59Z
+  CHECK(run.provenance().started.size() == 20);  // as in 2026-01-31T23:59:59Z
   CHECK(run.provenance().ended >= run.provenance().started);
   CHECK(run.provenance().extra == std::map<std::string, std::string>{{"guarantee_kept", "yes"}, {"scale", "smoke"}});
   CHECK(run.stage_names() == std::vector<std::string>{"detect"});

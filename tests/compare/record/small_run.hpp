@@ -1,5 +1,4 @@
-// Makes a run of few vertices with all parts of a run: three bodies, of which one is fixed and one a yarn, and a
-// motion.
+// Makes a run of few vertices with all parts of a run: a free body, a fixed body, a yarn, and a motion.
 #pragma once
 
 #include <cmath>

@@ -78,7 +78,7 @@ TEST_CASE("a ledger's columns come back, each in a field of its own, behind all 
   CHECK(
       header.starts_with(step_header({}, common).substr(0, step_header({}, common).size() - 1) + ",energy_start [J],"));
   CHECK(header.ends_with(",vertices_held [1],stage_sweep [ms]\n"));
-  std::string line = "1";  // holds 1, 2, 3, …
+  std::string line = "1";
   const auto count = std::ranges::count(header, ',') + 1;
   for (std::ptrdiff_t k = 2; k <= count; ++k) line += "," + std::to_string(k);
   const StepTable table = read_text(folder, header + line + "\n");

@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// A disk that blocks until it is opened.
+/// Blocks like a slow disk until it is opened.
 class Gate {
  public:
   void open() { opened_.set_value(); }
@@ -27,7 +27,7 @@ class Gate {
 
 QueueLimits limits(std::size_t jobs, std::size_t bytes) { return {.jobs = jobs, .bytes = bytes, .threads = 3}; }
 
-/// Returns whether the condition becomes true soon enough for a busy machine, within 10 s.
+/// Returns whether the condition becomes true within 10 s, which is enough on a busy machine.
 template <class Condition>
 bool soon(Condition condition) {
   for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(10ms);
@@ -98,8 +98,8 @@ TEST_CASE("what is written is synced within the time of a group, also what was w
   CHECK(syncs == 2);  // nothing new has to be synced
   const Clock::time_point begin = Clock::now();
   while (Clock::now() - begin < 500ms) queue.add(1, {}, [] { std::this_thread::sleep_for(1ms); });
-  CHECK(syncs >= 4);   // syncs go on while there is always a next job
-  CHECK(syncs <= 13);  // but there are fewer than one a job
+  CHECK(syncs >= 4);   // syncs continue although there is always a next job
+  CHECK(syncs <= 13);  // but there are fewer syncs than jobs
 }
 
 TEST_CASE(

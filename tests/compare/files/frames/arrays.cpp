@@ -1,5 +1,5 @@
-// Tests frames in NumPy's arrays: both orders of the numbers, the names that people give the arrays, one array a frame,
-// and damage. What NumPy itself writes is tested in tests/experiments/program/commands/audit_frames.py.
+// Tests frames in NumPy's arrays: both orders of the numbers, the accepted names of arrays, one array for each frame,
+// and damage. tests/experiments/program/commands/audit_frames.py tests files that NumPy itself writes.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace {
 
 constexpr int frames = 5, vertices = 4;
 
-/// Returns coordinate k of vertex v in frame f, different for each.
+/// Returns a number that differs for each coordinate k of each vertex v in each frame f.
 double coordinate(int f, int v, int k) { return 100 * f + 10 * v + k; }
 
-/// Returns the array of `count` frames from `first` on, in either order.
+/// Returns the array of `count` frames from `first` on, in Fortran or C order.
 std::string positions(bool fortran, int first = 0, int count = frames) {
   std::vector<double> numbers(static_cast<std::size_t>(count * vertices * 3));
   for (int f = 0; f < count; ++f)
@@ -115,7 +115,7 @@ TEST_CASE("arrays are read by the names that people give them", "[unit]") {
                                      {name + ".npy", x}});
       check_frames(*npz_sequence(written(scratch / "named.npz", bytes), nullptr));
     }
-  // SMPL's file holds the body at rest among other arrays.
+  // SMPL's file contains the rest shape among other arrays.
   const std::string smpl = zip({{"J_regressor.npy", one}, {"v_template.npy", one}, {"f.npy", f}});
   check_frames(*npz_sequence(written(scratch / "smpl.npz", smpl), nullptr), 1);
 }
@@ -142,7 +142,7 @@ TEST_CASE("frames of one array each are read in natural order", "[unit]") {
   check_frames(*npy_sequence(alone, &mesh));
   const Mesh faces = faces_in_arrays(files.front());
   check_frames(*npy_sequence(alone, &faces));
-  // Frames may come from several arrays, some of which hold several.
+  // Some arrays may hold one frame and others several.
   const auto parts = npy_sequence({files[1], written(scratch / "rest.npy", positions(true, 1, 4))}, &mesh);
   CHECK(parts->name(4) == (scratch / "rest.npy").string() + ": frame 3");
   check_frames(*parts);
@@ -163,7 +163,7 @@ TEST_CASE("arrays that hold no frames are refused with what to do", "[unit]") {
   CHECK_THAT(refused({{"frame_0.npy", positions(false)},
                       {"frame_1.npy", npy("<f8", "3, 3", false, raw(std::vector<double>(9)))},
                       {"f.npy", triangles(false)}}),
-             ContainsSubstring("accepted"));  // faces of the second are checked when it is read
+             ContainsSubstring("accepted"));  // faces of the second array are checked when it is read
   std::string undecided = positions(false);
   undecided.replace(undecided.find("False"), 5, "Maybe");
   CHECK_THAT(refused({{"v.npy", undecided}, {"f.npy", triangles(false)}}), ContainsSubstring("Fortran order"));
@@ -184,12 +184,12 @@ TEST_CASE("an archive that announces more than deflate can pack is refused befor
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool has_limit = false;  // the sanitizers' own memory exceeds any limit
+constexpr bool has_limit = false;  // the sanitizers' own memory would exceed any limit
 #else
 constexpr bool has_limit = true;
 #endif
 
-/// Limits this process to `more` bytes beyond what it has, as long as the object lives.
+/// Limits this process to `more` bytes beyond its present memory while the object exists.
 class MemoryLimit {
  public:
   explicit MemoryLimit(std::uint64_t more) {
@@ -208,7 +208,8 @@ class MemoryLimit {
   rlimit before_{};
 };
 
-/// Returns the bytes with one to four damages: changed bytes, repeated runs, other digits in the header, a missing end.
+/// Returns the bytes after one to four changes: other bytes, repeated runs, other digits in the header, or a missing
+/// end.
 std::string damaged(Random& random, std::string bytes) {
   for (int k = 1 + random.below(4); k > 0 && !bytes.empty(); --k) {
     const std::size_t at = random.bits() % bytes.size();
@@ -226,8 +227,8 @@ std::string damaged(Random& random, std::string bytes) {
   return bytes;
 }
 
-/// Returns a damaged file: an array alone, a damaged archive, or a whole archive, with right checksums, of damaged
-/// arrays.
+/// Returns a damaged file: a single array, a damaged archive, or a whole archive of damaged arrays with right
+/// checksums.
 std::string damaged_file(Random& random, bool archive) {
   const bool fortran = random.one_in(2);
   if (!archive) return damaged(random, positions(fortran));
@@ -239,9 +240,9 @@ std::string damaged_file(Random& random, bool archive) {
   return zip(members);
 }
 
-/// Reads every frame of `cases` damaged files. Each must end in frames or in a refusal that names the file.
+/// Reads every frame of `cases` damaged files. Each file must give frames or an error that names the file.
 void fuzz(std::uint64_t seed, int cases) {
-  const std::filesystem::path memory = "/dev/shm";  // a disk takes a hundred times as long
+  const std::filesystem::path memory = "/dev/shm";  // a disk is a hundred times slower
   const Scratch scratch(std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path());
   const Mesh mesh = tied();
   std::map<bool, int> read;
@@ -279,5 +280,5 @@ TEST_CASE("damaged arrays of the day's seed end likewise", "[unit]") {
   fuzz(ogc::tests::daily_seed("damaged arrays"), 10'000);
 }
 
-// Run once when a reader changes: tests_compare "a million damaged arrays".
+// Run by hand when a reader changes: tests_compare "a million damaged arrays".
 TEST_CASE("a million damaged arrays", "[.once]") { fuzz(1, 1'000'000); }

@@ -1,4 +1,5 @@
-// Tests how many digits text files print: in each file format, in each format of numbers, and where digits say nothing.
+// Tests how many digits of text files are found: in each file format, in each format of numbers, and where digits mean
+// nothing.
 #include "compare/files/frames/printed_digits.hpp"
 
 #include <cmath>
@@ -25,7 +26,7 @@ std::string text(const char* format, double x) {
   return buffer;
 }
 
-/// Returns a line for each point: `before`, its coordinates, `behind`.
+/// Returns a line for each point: `before`, its coordinates, and `behind`.
 std::string lines(const char* format, const std::string& before = "", const std::string& behind = "") {
   std::string all;
   for (int i = 0; i < points; ++i) {
@@ -43,7 +44,7 @@ struct Kind {
 
 const std::string ply_begins = "ply\nformat ascii 1.0\nelement info 1\nproperty float key\nelement vertex 12\n";
 
-/// Each format also holds numbers other than coordinates, with other digits.
+/// Each file also contains other numbers than coordinates, with other digits.
 const std::vector<Kind> kinds{
     {"a.obj", [](const char* f) { return "vn 0.1234 0.5678 0.9999\n" + lines(f, "v ") + "f 1 2 3\n"; }},
     {"a.stl",

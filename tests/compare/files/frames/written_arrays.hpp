@@ -1,4 +1,4 @@
-// Writes NumPy's files by hand, so that tests need no Python and can damage each byte.
+// Writes NumPy's files without NumPy, so that tests need no Python and can damage each byte.
 #pragma once
 
 #include <zlib.h>

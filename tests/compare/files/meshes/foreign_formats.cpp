@@ -1,4 +1,4 @@
-// Tests OFF, STL and glTF: their contents are read, and errors are named with line, face, facet, accessor or byte.
+// Tests OFF, STL and glTF: their contents are read, and errors name the line, face, facet, accessor or byte.
 #include <algorithm>
 #include <bit>
 

@@ -1,7 +1,6 @@
-// Damages files of every format at random. Each must end in a mesh or in a refusal that names it, within 100 MB beyond
-// what the program has. Cases run in separate processes under a limit on memory. A frozen seed shows what a change
-// breaks; another seed, new each day and printed, finds errors that nobody thought of. OGC_FUZZ_CASES sets the number
-// of cases of each file.
+// Damages files of every format at random. Each must give a mesh, or an error that names it, within 100 MB beyond the
+// program's memory. Cases run in separate processes under a limit on memory. A fixed seed shows what a change breaks. A
+// second seed, new each day and printed, finds unexpected errors. OGC_FUZZ_CASES sets the number of cases of each file.
 #include <zlib.h>
 
 #include "compare/files/meshes/mesh_files.hpp"
@@ -71,7 +70,7 @@ std::vector<Sample> samples() {
           {"m.mesh", cube_medit()}};
 }
 
-/// Makes a mesh of the file and validates it. Returns "" or what the program must not have done.
+/// Makes a mesh of the file and validates it. Returns "" or a description of the program's fault.
 std::string fault_of(const std::string& bytes, const std::string& name) {
   try {
     for (const MeshOptions& options : {MeshOptions{.rounded = true}, MeshOptions{.weld = true}}) {
@@ -105,7 +104,7 @@ TEST_CASE("a reader that takes too much memory, dies or complains about somethin
   if (limits_memory) CHECK(failure(sample, greedy, 7, 3) == "m.off, seed 7, case 0 m.off takes too much");
   CHECK_THAT(failure(sample, dying, 7, 3), Catch::Matchers::Contains("m.off, seed 7, case 0 signal"));
   CHECK(failure(sample, fault_of, 7, 3) == "");
-  CHECK(fault_of("gone", "m.max") == "");  // the name alone is refused
+  CHECK(fault_of("gone", "m.max") == "");  // the name alone is rejected
 }
 
 TEST_CASE("damaged mesh files end in an answer or a named refusal, within 100 MB: a frozen seed", "[property]") {

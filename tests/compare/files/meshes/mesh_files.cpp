@@ -1,4 +1,4 @@
-// Tests round trips bit for bit, files in the forms of other programs, and every way to break a mesh file.
+// Tests round trips bit for bit, files as other programs write them, and errors in mesh files.
 #include "compare/files/meshes/mesh_files.hpp"
 
 #include <algorithm>
@@ -58,8 +58,8 @@ void append(std::string& bytes, Number value, bool big_endian) {
   bytes.append(raw.data(), raw.size());
 }
 
-// Returns a square in the form of a scanner's file: single precision, colours, a confidence list, a user element before
-// the faces, quality after each face.
+// Returns a square as a scanner's file has it: single precision, colours, a list of confidences, a user element before
+// the faces, a quality after each face.
 std::string foreign_ply(bool big_endian) {
   std::string bytes = std::string("ply\r\nformat binary_") + (big_endian ? "big" : "little") +
                       "_endian 1.0\r\ncomment made by hand\r\nobj_info nothing\r\nelement vertex 4\r\nproperty float "

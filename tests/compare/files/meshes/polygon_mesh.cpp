@@ -1,5 +1,5 @@
-// Tests that cutting keeps area, orientation and corners, and that leaving out and merging keep the rest in place and
-// report what they changed.
+// Tests that triangulation keeps area, orientation and corners. Tests that removed and merged elements are reported and
+// leave the other elements in place.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
@@ -37,7 +37,8 @@ double area(const std::vector<Vec3>& positions, std::span<const Index> corners) 
   return sum;
 }
 
-/// Checks that the cut has n − 2 triangles of the polygon's orientation and total area, and each side once.
+/// Checks that the cut has n − 2 triangles with the polygon's orientation and total area, and has each side of the
+/// polygon once.
 void check_cut(const std::vector<Vec3>& positions) {
   const std::vector<Index> corners = in_order(positions.size());
   const std::vector<Triangle> triangles = triangulate(corners, positions);
@@ -104,7 +105,7 @@ TEST_CASE("a quad is cut from its first corner to its third, a concave one from 
   CHECK(cut({{0, 0, 0.3}, {1, 0, 0}, {1, 1, 0.3}, {0, 1, 0}}) == usual);  // not in a plane
   CHECK(cut({{0, 0, 0}, {1, 0, 6e-17}, {1 - 1e-16, 1, 0}, {0, 1 + 1e-16, 0}}) == usual);
   CHECK(cut({{0, 0, 0}, {2, 0, 0}, {0.2, 0.2, 0}, {0, 2, 0}}) == usual);   // points inwards at its third corner
-  CHECK(cut({{2, 0, 0}, {0.2, 0.2, 0}, {0, 2, 0}, {0, 0, 0}}) == turned);  // at its second
+  CHECK(cut({{2, 0, 0}, {0.2, 0.2, 0}, {0, 2, 0}, {0, 0, 0}}) == turned);  // points inwards at its second corner
   CHECK(cut({{0, 0, 0}, {1, 0, 0}, {2, 1e-17, 0}, {1, 1, 0}}) == turned);  // its second corner lies on a straight side
   CHECK(cut({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).empty());        // crosses itself
   CHECK(cut({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}}).empty());        // no area

@@ -8,8 +8,8 @@
 namespace ogc::tests {
 namespace {
 
-/// The bits of v are the coordinates x, y, z of corner v of the unit cube. All tetrahedra have the diagonal 0 7 and
-/// positive volume.
+/// Tetrahedra of the unit cube; bits of v are the coordinates x, y, z of corner v. All tetrahedra have the diagonal 0 7
+/// and positive volume.
 constexpr std::array<std::array<int, 4>, 6> cube{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 

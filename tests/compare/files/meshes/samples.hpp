@@ -1,4 +1,4 @@
-// Holds a square and a cube in formats that this program reads and does not write; tests change them.
+// Provides a square and a cube in formats that this program reads but does not write; tests change them.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 
 namespace ogc::tests {
 
-/// Returns `text` with the first `from` replaced by `to`. Throws std::logic_error if there is none.
+/// Returns `text` with the first `from` replaced by `to`. Throws std::logic_error if `from` is missing.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos) throw std::logic_error("nothing to replace: " + from);
   return text.replace(at, from.size(), to);
 }
 
-/// Returns the error of the reader, "" if it makes a mesh of the file.
+/// Returns the error of the reader; "" if it makes a mesh of the file.
 std::string error_of(const std::string& bytes, const std::string& name);
 
 inline const std::string square_off = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
@@ -44,8 +44,8 @@ std::string square_glb();
 
 /// Returns a cube of six tetrahedra in Gmsh's binary formats, 4.1 if `is_new`, else 2.2.
 std::string binary_msh(bool is_new, std::endian order = std::endian::little);
-/// The same cube in Medit's and VTK's formats. VTK's is text or binary; cells are those of version 5 if `is_new`, else
-/// the older ones.
+/// The same cube in Medit's and VTK's formats. VTK's file is binary or text; its cells are those of version 5 if
+/// `is_new`, else of older versions.
 std::string cube_medit();
 std::string cube_vtk(bool is_binary, bool is_new);
 std::string cube_vtu();

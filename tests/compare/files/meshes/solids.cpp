@@ -1,4 +1,4 @@
-// Tests the formats in which tetrahedra are exchanged: each holds the same cube, and each error is named.
+// Tests the formats of tetrahedral meshes: each file contains the same cube, and each error is named.
 #include <algorithm>
 
 #include "compare/files/meshes/mesh_files.hpp"
@@ -107,7 +107,8 @@ TEST_CASE("tetrahedra that are inverted, all of them, are turned with a word; st
   }
   CHECK_THROWS_WITH(make_mesh(turned, {.strict = true}),
                     Contains("m.mesh: all 6 tetrahedra are inverted; leave --strict"));
-  std::swap(turned.tetrahedra[2][0], turned.tetrahedra[2][1]);  // only five of six are inverted, so they stay
+  // only five of six tetrahedra are inverted, so they are not turned
+  std::swap(turned.tetrahedra[2][0], turned.tetrahedra[2][1]);
   CHECK(make_mesh(turned).mesh.tetrahedra == turned.tetrahedra);
 }
 

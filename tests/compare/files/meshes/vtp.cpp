@@ -1,5 +1,5 @@
-// Tests what this program writes as VTP, every section that it reads, and broken files. Files of VTK itself are tested
-// in tests/experiments/program/commands/audit_frames.py.
+// Tests the VTP files that this program writes, every section that it reads, and broken files.
+// tests/experiments/program/commands/audit_frames.py tests files of VTK itself.
 #include <algorithm>
 #include <string>
 

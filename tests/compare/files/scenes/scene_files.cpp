@@ -1,4 +1,5 @@
-// Tests that a scene comes back bit for bit, that exactly the keys of the schema are read, and that bad input is named.
+// Tests that a scene is read back bit for bit, that exactly the keys of the schema are read, and that bad input is
+// named.
 #include "compare/files/scenes/scene_files.hpp"
 
 #include <cmath>
@@ -29,7 +30,7 @@ using ogc::tests::solid_scene;
 
 namespace {
 
-// Returns a scene that has everything a scene file can hold, in values other than defaults.
+// Returns a scene with everything that a scene file can contain, and no default values.
 Scene full_scene() {
   Scene scene = small_scene();
   scene.rest_positions[1].y = 0.02;
