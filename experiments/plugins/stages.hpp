@@ -64,7 +64,7 @@ constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info
 std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);
 /// Returns the room for the lists at the first call.
 ListSizes first_capacities(const QuestionSizes& sizes);
-/// Returns limits that no right answer exceeds; never below first_capacities.
+/// Returns upper limits for every correct answer; never below first_capacities.
 ListSizes most_entries(const QuestionSizes& sizes);
 /// Returns the name of the list's entries, in the plural.
 std::string_view list_name(List list);

@@ -94,7 +94,7 @@ class Call {
   ~Call() {
     try {
       memory_.release();
-    } catch (const std::runtime_error&) {  // a device that has given up, as was reported before
+    } catch (const std::runtime_error&) {  // a device that has failed, which was reported before
     }
   }
   Call(const Call&) = delete;
